@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* cli.h - what every command shares: one-line errors, options described by a table, progress. */
+#ifndef LAMPION_CLI_H
+#define LAMPION_CLI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Exit statuses of the program. */
+enum { CLI_OK = 0, CLI_FAILURE = 1, CLI_USAGE = 2 };
+
+/* One line for a person: "FILE: what is wrong (what to do)". Empty text means no error. */
+typedef struct cli_error {
+    char text[1024];
+} cli_error;
+
+/* Writes "subject: message" (subject NULL: message alone), control characters replaced, and returns
+ * false, so that a function can end in `return cli_fail(error, path, "is empty");`. */
+bool cli_fail(cli_error *error, const char *subject, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Prints "lampion: text" to stderr and returns CLI_FAILURE. */
+int cli_report(const cli_error *error);
+
+typedef enum cli_kind {
+    CLI_FLAG,   /* bool */
+    CLI_INT,    /* int, minimum … maximum */
+    CLI_SEED,   /* uint64_t */
+    CLI_FLOAT,  /* float, minimum … maximum, finite */
+    CLI_VEC3,   /* float[3] as X,Y,Z, finite */
+    CLI_SIZE,   /* int[2] as WIDTHxHEIGHT, minimum … maximum each */
+    CLI_TEXT,   /* const char * */
+    CLI_CHOICE, /* int: index into choices */
+    CLI_LIST    /* cli_list: a text option that may be repeated */
+} cli_kind;
+
+/* The values of a CLI_LIST option, in order; items points into argv. */
+typedef struct cli_list {
+    const char *items[64];
+    int count;
+} cli_list;
+
+/* One row of a command's option table; also the source of its --help. */
+typedef struct cli_option {
+    const char *name; /* "bands" for --bands; NULL ends the table */
+    char letter;      /* 'o' for -o, or 0 */
+    cli_kind kind;
+    void *target;         /* left alone when the option is absent: initialise it to the default */
+    const char *argument; /* "N" in the help */
+    const char *help;
+    double minimum, maximum;    /* of numbers; both 0 = no limits */
+    const char *const *choices; /* of CLI_CHOICE, NULL-terminated */
+    bool *given;                /* set to true if the option was there; may be NULL */
+} cli_option;
+
+/* A command: `lampion NAME …`. */
+typedef struct cli_command {
+    const char *name;
+    const char *operands; /* "SCENE" in the usage line, or "" */
+    const char *summary;  /* one line */
+    const char *examples; /* lines for --help */
+    int (*run)(const struct cli_command *command, int argc, char **argv);
+} cli_command;
+
+/* Parses argv by the table, operands and options in any order. Returns true to go on: then
+ * *operands points at the *operand_count operands (argv is permuted). Otherwise *status is the exit
+ * status: 0 after --help, CLI_USAGE after a message that names the nearest option. */
+bool cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
+               int *operand_count, char ***operands, int *status);
+
+/* Prints "lampion COMMAND: message" and where to find help; returns CLI_USAGE. */
+int cli_usage(const cli_command *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* The entry of `names` (NULL-terminated) nearest to `word`, or NULL if none is near. */
+const char *cli_nearest(const char *word, const char *const *names);
+
+/* A progress bar on stderr if that is a terminal, else silence. done in 0 … 1; call it as often as
+ * you like, it draws a few times a second. cli_progress_end clears the line. */
+void cli_progress(const char *what, double done);
+void cli_progress_end(void);
+
+#endif

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+/* command.h - the subcommands: app/command/NAME.c defines command_NAME. */
+#ifndef LAMPION_COMMAND_H
+#define LAMPION_COMMAND_H
+
+#include "app/cli/cli.h"
+
+/* All commands in the order of the help, NULL-terminated. */
+extern const cli_command *const command_table[];
+
+#endif

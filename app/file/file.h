@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT */
+/* file.h - whole files in and out: reading with limits, writing that is all or nothing, the cache.
+ */
+#ifndef LAMPION_FILE_H
+#define LAMPION_FILE_H
+
+#include "app/cli/cli.h"
+
+#include <stdio.h>
+
+/* Reads a whole regular file; "-" is standard input. Fails above `limit` bytes. The buffer has a
+ * NUL past its end; free() it. */
+bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error);
+
+/* A file that appears under its name only when complete: written beside it, then renamed. */
+typedef struct file_writer {
+    FILE *stream; /* write here */
+    char path[4096], temporary[4096];
+} file_writer;
+
+bool file_write_begin(file_writer *writer, const char *path, cli_error *error);
+/* Flushes, syncs errors, renames; on failure removes the temporary and reports. */
+bool file_write_commit(file_writer *writer, cli_error *error);
+/* Removes the temporary; does nothing after a commit. */
+void file_write_abort(file_writer *writer);
+
+/* The directory of cached files ($XDG_CACHE_HOME/lampion or ~/.cache/lampion), created on demand;
+ * false without a home (then go on without a cache). */
+bool file_cache_directory(char *path, size_t size);
+
+/* 128-bit content hash for cache keys (not cryptographic); chain calls with the same state. */
+typedef struct file_hash {
+    uint64_t low, high;
+} file_hash;
+void file_hash_add(file_hash *hash, const void *data, size_t size);
+void file_hash_text(const file_hash *hash, char text[33]);
+
+#endif

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/* scene.h - a scene, however it came to be: triangles in world space, materials, textures, cameras
+ * and the lights it brings along. */
+#ifndef LAMPION_SCENE_H
+#define LAMPION_SCENE_H
+
+#include "app/cli/cli.h"
+
+#include <lampion/lampion.h>
+
+#define SCENE_LIGHTS_MAX 1024 /* sphere lights, from all sources together */
+#define SCENE_NAME_SIZE  64   /* bytes of a name, NUL included, valid UTF-8 */
+
+/* 48 bytes, as the vertex shader reads them. */
+typedef struct scene_vertex {
+    float position[3]; /* world space, y up */
+    float normal[3];   /* unit */
+    float uv[2];       /* glTF convention: v down */
+    float tangent[4];  /* unit; w = ±1, the sign of the bitangent */
+} scene_vertex;
+
+/* A run of triangles with one material. */
+typedef struct scene_mesh {
+    char name[SCENE_NAME_SIZE];
+    uint32_t first_index, index_count; /* a multiple of 3 */
+    uint32_t material;
+    float minimum[3], maximum[3];
+} scene_mesh;
+
+typedef enum scene_flags {
+    SCENE_DOUBLE_SIDED = 1,
+    SCENE_ALPHA_MASK = 2, /* discard where alpha < alpha_cutoff */
+} scene_flags;
+
+/* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */
+typedef struct scene_texture_use {
+    int32_t texture; /* index, or -1 */
+    float matrix[4]; /* row-major 2x2 */
+    float offset[2];
+} scene_texture_use;
+
+/* glTF metallic-roughness. */
+typedef struct scene_material {
+    char name[SCENE_NAME_SIZE];
+    float base_color[4]; /* linear, with alpha */
+    float metallic, roughness, normal_scale, alpha_cutoff;
+    float emission[3]; /* radiance, linear */
+    uint32_t flags;    /* scene_flags */
+    scene_texture_use base_color_map, metallic_roughness_map, normal_map, emission_map;
+} scene_material;
+
+typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR } scene_wrap;
+
+/* RGBA, 8 bits a channel, rows from the top. */
+typedef struct scene_texture {
+    char name[SCENE_NAME_SIZE];
+    uint32_t width, height;
+    uint32_t srgb; /* 1: colour, to be linearised */
+    uint32_t wrap_u, wrap_v;
+    uint64_t first_byte; /* into texels: 4 * width * height bytes */
+} scene_texture;
+
+typedef struct scene_camera {
+    char name[SCENE_NAME_SIZE];
+    float eye[3], target[3], up[3];
+    float fov; /* vertical field of view, radians */
+} scene_camera;
+
+/* A glowing sphere. */
+typedef struct scene_light {
+    float center[3], radius;
+    float radiance[3];
+} scene_light;
+
+/* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
+ * after loading but for the lights. */
+typedef struct scene {
+    const scene_vertex *vertices;
+    const uint32_t *indices;
+    const scene_mesh *meshes;
+    const scene_material *materials;
+    const scene_texture *textures;
+    const unsigned char *texels;
+    const scene_camera *cameras;
+    size_t vertex_count, index_count, mesh_count, material_count, texture_count, texel_bytes;
+    size_t camera_count;
+    scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
+    size_t light_count;
+    float minimum[3], maximum[3]; /* bounds; of a scene without triangles: a unit box */
+    double area;                  /* of all triangles */
+    void *block;                  /* owned by the scene */
+    size_t block_size;
+    const char *origin; /* the name it was loaded by, for messages */
+} scene;
+
+typedef struct scene_options {
+    bool no_cache;
+
+} scene_options;
+
+/* Loads "builtin:NAME[:PARAMETER]" or a scene file. Files are parsed in a sandboxed child process
+ * and cached by content. False with one line in *error; *scene is then zero. */
+bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);
+void scene_free(scene *scene);
+
+/* Adds the lights of a JSON file (docs/formats.md). */
+bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);
+
+/* Adds `count` seeded random lights inside the bounds, sized to the scene: the same on any machine.
+ */
+bool scene_add_random_lights(scene *scene, int count, uint64_t seed, cli_error *error);
+
+/* The scene's first camera, or one that frames its bounds. */
+scene_camera scene_default_camera(const scene *scene, float aspect);
+
+/* The light as the library knows it. */
+lmp_light scene_light_as_sphere(const scene_light *light);
+
+/* `lights` at time `seconds`: each on its own closed orbit round its place, in closed form. */
+void scene_move_lights(const scene *scene, double seconds, scene_light *moved);
+
+#endif

@@ -1,0 +1,18 @@
+# lampion_flags: what every target of this tree is compiled with.
+add_library(lampion_flags INTERFACE)
+target_compile_options(lampion_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-conversion
+  -Wshadow -Wundef -Wvla -Wcast-qual -Wwrite-strings -Wstrict-prototypes -Wmissing-prototypes
+  -Wold-style-definition -Wformat=2)
+if(LAMPION_WERROR)
+  target_compile_options(lampion_flags INTERFACE -Werror)
+endif()
+if(LAMPION_SANITIZE)
+  target_compile_options(lampion_flags INTERFACE
+    -fsanitize=${LAMPION_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(lampion_flags INTERFACE -fsanitize=${LAMPION_SANITIZE})
+endif()
+if(LAMPION_COVERAGE)
+  target_compile_options(lampion_flags INTERFACE --coverage)
+  target_link_options(lampion_flags INTERFACE --coverage)
+endif()

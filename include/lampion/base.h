@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion/base.h - what every other header needs: version, results, vectors, the allocator.
+ *
+ * Conventions of the whole library
+ *   - A function `lmp_<topic>_<verb>` lives in `<topic>.h`. Inputs first, destination last.
+ *   - Pure mathematics returns void or a value, allocates nothing and asserts its preconditions.
+ *     What touches the heap or untrusted bytes returns lmp_result and sets its out-parameter to
+ *     NULL on failure. Nothing prints, nothing exits.
+ *   - Degenerate geometry (a light that contains the point, d = 0, a zero radius) is no error: its
+ *     result is documented, finite and continuous.
+ *   - Every function is re-entrant; the library starts no thread and keeps no state but the table
+ *     of kernels. Split the points among your own threads.
+ *
+ * lampion DOES NOT read files, compute visibility, or call a graphics API. */
+#ifndef LAMPION_BASE_H
+#define LAMPION_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define LMP_API
+#elif defined(__GNUC__)
+#define LMP_API __attribute__((visibility("default")))
+#else
+#define LMP_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The one home of the version: CMake parses these three lines. */
+#define LMP_VERSION_MAJOR 0
+#define LMP_VERSION_MINOR 1
+#define LMP_VERSION_PATCH 0
+
+/* Every function takes 1 to LMP_BANDS_MAX bands. */
+#define LMP_BANDS_MAX 128
+
+/* A point or a direction, right-handed. Directions are unit and point away from the shaded point.
+ */
+typedef struct lmp_vec3 {
+    float x, y, z;
+} lmp_vec3;
+
+/* Linear red, green, blue; the unit is stated where it is used. */
+typedef struct lmp_rgb {
+    float r, g, b;
+} lmp_rgb;
+
+/* A unit quaternion, w the real part. */
+typedef struct lmp_quat {
+    float x, y, z, w;
+} lmp_quat;
+
+typedef enum lmp_result {
+    LMP_OK = 0,
+    LMP_ERROR_ARGUMENT, /* a value outside its documented range */
+    LMP_ERROR_MEMORY,   /* the allocator returned NULL */
+    LMP_ERROR_FORMAT,   /* bytes that are not what they claim to be */
+    LMP_ERROR_VERSION,  /* a format version this library does not know */
+    LMP_ERROR_CHECKSUM  /* bytes damaged since they were written */
+} lmp_result;
+
+/* Heap hooks of an object. Set both functions or neither (neither = malloc and free).
+ *
+ * allocate: `size` bytes aligned for any type, or NULL; release: accepts NULL. */
+typedef struct lmp_allocator {
+    void *(*allocate)(size_t size, void *user);
+    void (*release)(void *memory, void *user);
+    void *user;
+} lmp_allocator;
+
+/* The version the library was built as: major << 16 | minor << 8 | patch. */
+LMP_API uint32_t lmp_version(void);
+
+/* A short English text for a result, never NULL; static storage. */
+LMP_API const char *lmp_result_text(lmp_result result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion/light.h - lights, and their exact projection onto spherical harmonics.
+ *
+ * Seen from a point, a sphere of radius r at distance d covers a spherical cap of half angle a,
+ * sin a = r/d, round the direction w to its centre. Uniform radiance L makes its coefficients
+ *
+ *     Z_l  = (sqrt(pi (2l+1)) / 2) L sin²a R_l(cos a)      in the frame whose z is w  (paper Eq.
+ * 12) L_lm = pi L sin²a R_l(cos a) Y_lm(w)                  in any frame              (paper Eq.
+ * 13)
+ *
+ * with R_l the Jacobi polynomial P^(1,1)_(l-1) scaled to R_l(1) = 1, and R_0 = 2 / (1 + cos a). R_l
+ * is evaluated by its differences, which keeps float32 exact for lights however small or far; paper
+ * Eq. 12 as printed loses them below r/d = 0.01 (docs/accuracy.md).
+ *
+ * On or inside the sphere (d <= r) the cap goes on growing, from the hemisphere at the surface to
+ * the full sphere at the centre: sin²a = d²/r², cos a = -sqrt(1 - sin²a). Values are continuous
+ * everywhere, at the surface and at the centre too. */
+#ifndef LAMPION_LIGHT_H
+#define LAMPION_LIGHT_H
+
+#include <lampion/sh.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lmp_light_kind {
+    LMP_LIGHT_SPHERE = 0,  /* position, radius, radiance */
+    LMP_LIGHT_POINT,       /* position, intensity */
+    LMP_LIGHT_SPOT,        /* position, direction (axis, from the light), inner, outer, intensity */
+    LMP_LIGHT_DIRECTIONAL, /* direction (to the light), irradiance */
+    LMP_LIGHT_CAP,         /* direction (to the light), angle, radiance: a sun */
+    LMP_LIGHT_HEMISPHERE   /* direction (up), radiance above, ground below: a sky */
+} lmp_light_kind;
+
+/* A light; zero-initialise it and set the members its kind names. Unused members are ignored. */
+typedef struct lmp_light {
+    lmp_light_kind kind;
+    lmp_vec3 position;
+    lmp_vec3 direction; /* unit */
+    float radius;       /* >= 0, in the unit of position */
+    float angle;        /* half angle of a cap, radians, 0 … pi */
+    float inner, outer; /* half angles of a spot, radians, 0 <= inner <= outer <= pi */
+    union {
+        lmp_rgb radiance;   /* W·sr⁻¹·m⁻² */
+        lmp_rgb intensity;  /* W·sr⁻¹ */
+        lmp_rgb irradiance; /* W·m⁻², on a surface that faces the light */
+    };
+    lmp_rgb ground; /* radiance of a hemisphere light's lower half */
+} lmp_light;
+
+/* What a light is from one point: coefficients L_lm = zonal factor of band l times Y_lm(axis).
+ * See lmp_light_cap. */
+typedef struct lmp_cap {
+    lmp_vec3 axis;    /* unit, from the point to the light */
+    float sin2;       /* sin²a, exact however small; 0 for a Dirac */
+    float one_minus;  /* 1 - |cos a|, exact however small */
+    float obtuse;     /* 1 if cos a < 0 (the point is inside), else 0 */
+    lmp_rgb strength; /* pi L sin²a, or the intensity/d² or irradiance of a Dirac */
+} lmp_cap;
+
+/* --- one sphere --------------------------------------------------------------------------------
+ */
+
+/* Zonal coefficients Z_l of a sphere of unit radiance (paper Eq. 12).
+ *
+ * radius >= 0, distance >= 0, finite, not both 0; zonal receives `bands` values */
+LMP_API void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal);
+
+/* Coefficients at `point` of a sphere of unit radiance (paper Eq. 12 and 13 in one).
+ *
+ * radius >= 0; sh receives LMP_SH_COUNT(bands) values */
+LMP_API void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
+                                float *sh);
+
+/* The same, with the derivatives of every coefficient by the point's position.
+ *
+ * gradient receives three planes of LMP_SH_COUNT(bands) values: d/dx, d/dy, d/dz. The derivative
+ * is infinite on the sphere's surface; there |cos a| is held at 0.05 and up. */
+LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
+                                         float *sh, float *gradient);
+
+/* --- any light ---------------------------------------------------------------------------------
+ */
+
+/* Zonal coefficients at `point` of a light of unit strength, and the axis they are round.
+ *
+ * zonal receives `bands` values for radiance, intensity or irradiance 1 (a hemisphere light: for
+ * radiance 1 above and 0 below); multiply by the light's colour */
+LMP_API void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *zonal,
+                             lmp_vec3 *axis);
+
+/* RGB coefficients at `point` of the sum of `count` lights.
+ *
+ * sh receives three planes, red green blue, of LMP_SH_COUNT(bands) values; count may be 0 */
+LMP_API void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, int bands,
+                               float *sh);
+
+/* --- units -------------------------------------------------------------------------------------
+ */
+
+/* Of a sphere with uniform radiance L: power 4 pi² r² L, intensity pi r² L, both exact at any
+ * distance. radius > 0. */
+LMP_API float lmp_sphere_power_from_radiance(float radiance, float radius);
+LMP_API float lmp_sphere_radiance_from_power(float power, float radius);
+LMP_API float lmp_sphere_intensity_from_radiance(float radiance, float radius);
+LMP_API float lmp_sphere_radiance_from_intensity(float intensity, float radius);
+
+/* Of a cap of half angle `angle` <= pi/2: normal irradiance pi sin²a L. angle > 0. */
+LMP_API float lmp_cap_irradiance_from_radiance(float radiance, float angle);
+LMP_API float lmp_cap_radiance_from_irradiance(float irradiance, float angle);
+
+/* --- alternatives, kept for comparison (docs/accuracy.md) ----------------------------------------
+ */
+
+/* Paper Eq. 12 exactly as printed, from cos a; float32 cancels for small lights. */
+LMP_API void lmp_zonal_printed(int bands, float cos_a, float *zonal);
+
+/* Sloan's closed forms (2008), factored; bands <= LMP_ZONAL_SLOAN_BANDS. */
+#define LMP_ZONAL_SLOAN_BANDS 6
+LMP_API void lmp_zonal_sloan(int bands, float cos_a, float *zonal);
+
+/* The paper's tabulation of Z_l against cos a (§4.2), linear between `size` entries. Immutable. */
+typedef struct lmp_zonal_table lmp_zonal_table;
+LMP_API lmp_result lmp_zonal_table_create(const lmp_allocator *allocator, int bands, int size,
+                                          lmp_zonal_table **table);
+LMP_API void lmp_zonal_table_destroy(lmp_zonal_table *table);
+LMP_API void lmp_zonal_table_eval(const lmp_zonal_table *table, float cos_a, float *zonal);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

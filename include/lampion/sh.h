@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion/sh.h - real spherical harmonics: evaluation, rotation, windows, projection, products.
+ *
+ * Words and conventions
+ *   bands       n: degrees l = 0 … n-1, n*n coefficients. Never "order": libraries disagree on it.
+ *   index       l*l + l + m, m from -l to l: (0,0) (1,-1) (1,0) (1,1) (2,-2) …
+ *   basis       real, orthonormal, paper Eq. 1-2 with the Condon-Shortley sign, as Sloan,
+ * DirectXMath and Google: Y_1 = 0.4886 * (-y, z, -x). Files without that sign differ by (-1)^m.
+ *   directions  unit vectors
+ *   projection  f_lm = ∫ f(w) Y_lm(w) dw (paper Eq. 5);  ∫ f g dw = Σ f_lm g_lm (paper Eq. 4)
+ *
+ * bands is in 1 … LMP_BANDS_MAX everywhere. Arrays must not overlap unless a function says so. */
+#ifndef LAMPION_SH_H
+#define LAMPION_SH_H
+
+#include <lampion/base.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Number of coefficients of `bands` bands, and the place of (l, m) among them. */
+#define LMP_SH_COUNT(bands) ((size_t)(bands) * (size_t)(bands))
+#define LMP_SH_INDEX(l, m)  ((size_t)((l) * (l) + (l) + (m)))
+
+/* Floats of a rotation: the (2l+1)^2 matrices of l = 0 … bands-1, one after the other. */
+#define LMP_SH_ROTATION_COUNT(bands) ((4 * LMP_SH_COUNT(bands) - 1) * (size_t)(bands) / 3)
+
+/* Y_lm(direction) for all l < bands (paper Eq. 1), in Cartesian form: no angles, no poles.
+ *
+ * direction must be unit; sh receives LMP_SH_COUNT(bands) values */
+LMP_API void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh);
+
+/* Σ a_i b_i: the integral of the product of the two functions (paper Eq. 4).
+ *
+ * a and b hold LMP_SH_COUNT(bands) values */
+LMP_API float lmp_sh_dot(int bands, const float *a, const float *b);
+
+/* The value at `direction` of the function with coefficients sh (paper Eq. 6).
+ *
+ * direction must be unit; sh holds LMP_SH_COUNT(bands) values */
+LMP_API float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction);
+
+/* Coefficients of a function symmetric round `axis` from its zonal coefficients (paper Eq. 3, 13).
+ *
+ * zonal[l], l < bands, are the coefficients of Y_l0 in the frame whose z is the axis
+ * axis must be unit; sh receives LMP_SH_COUNT(bands) values */
+LMP_API void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh);
+
+/* The matrices M^l of f'(w) = f(R^-1 w): c'_l = M^l c_l, so that M^l Y_l(w) = Y_l(R w).
+ *
+ * rotation need not be exactly unit, it is normalised; it must not be zero
+ * matrices receives LMP_SH_ROTATION_COUNT(bands) values, each matrix row-major */
+LMP_API void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices);
+
+/* Rotates coefficients by the matrices of lmp_sh_rotation.
+ *
+ * sh and rotated hold LMP_SH_COUNT(bands) values and must not overlap */
+LMP_API void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated);
+
+/* Windows damp the ringing of a cut series by scaling band l by a weight (Sloan 2008). Apply one
+ * once, to the material, never to light and material both. */
+typedef enum lmp_window {
+    LMP_WINDOW_NONE = 0,
+    LMP_WINDOW_HANNING, /* (1 + cos(pi l / size)) / 2 */
+    LMP_WINDOW_LANCZOS  /* sin(pi l / size) / (pi l / size) */
+} lmp_window;
+
+/* Weights of a window.
+ *
+ * size > 0 is the band whose weight falls to 0; 0 means bands, as in the paper (§4.2). Bands at and
+ * past size get weight 0. weights receives `bands` values */
+LMP_API void lmp_sh_window(lmp_window window, int bands, float size, float *weights);
+
+/* Weights that minimise the squared Laplacian of the function sh (Sloan 2008): the window
+ * 1 / (1 + mu l^2 (l+1)^2) whose mu leaves the fraction `keep` of the squared Laplacian.
+ *
+ * keep is in (0, 1]; 1 gives weights of 1; sh holds LMP_SH_COUNT(bands), weights receives bands */
+LMP_API void lmp_sh_window_laplacian(int bands, const float *sh, float keep, float *weights);
+
+/* Scales band l of sh by weights[l]; in and out may be the same array. */
+LMP_API void lmp_sh_window_apply(int bands, const float *weights, const float *sh, float *windowed);
+
+/* A function on the sphere, for projection. */
+typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
+
+/* Coefficients of any function (paper Eq. 5) by Gauss-Legendre nodes in z times uniform nodes in
+ * azimuth: exact, up to rounding, for functions band-limited to degree 2*nodes - bands.
+ *
+ * nodes >= 1 Gauss-Legendre nodes and 2*nodes azimuths: function is called 2*nodes*nodes times;
+ * nodes = bands suffices for a function of `bands` bands. 0 means bands.
+ * sh receives LMP_SH_COUNT(bands) values */
+LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *user, int nodes,
+                                     float *sh);
+
+/* Coefficients of a latitude-longitude picture. Row 0 touches +y (up), column 0 starts at azimuth
+ * -pi round y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
+ * angles.
+ *
+ * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, 0 = tight
+ * sh receives channels planes of LMP_SH_COUNT(bands) values */
+LMP_API void lmp_sh_project_latlong(int bands, const float *pixels, int width, int height,
+                                    int channels, size_t row_stride, float *sh);
+
+/* The product of two functions, cut to `bands` bands: a table of triple products
+ * Γ_ijk = ∫ Y_i Y_j Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
+typedef struct lmp_sh_product lmp_sh_product;
+
+/* allocator may be NULL; *product is NULL on failure. Free with lmp_sh_product_destroy. */
+LMP_API lmp_result lmp_sh_product_create(const lmp_allocator *allocator, int bands,
+                                         lmp_sh_product **product);
+LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
+
+/* c = the coefficients of the pointwise product of a and b; c must not overlap a or b. */
+LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b,
+                             float *c);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion/shade.h - the radiance a surface reflects to the viewer under many lights.
+ *
+ * Every shading method computes the same sum, of two lobes a material (paper §4.1):
+ *
+ *     L_o = diffuse/pi ∫ L(w) max(n·w, 0) dw  +  specular (e+1)/(2 pi) ∫ L(w) max(r·w, 0)^e dw
+ *
+ * n the normal, r the mirror direction of the view. Lobes are cut to `bands` bands and windowed;
+ * the sum over all lights is then clamped at 0, for a cut series rings. No visibility. */
+#ifndef LAMPION_SHADE_H
+#define LAMPION_SHADE_H
+
+#include <lampion/lobe.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The paper's two lobes. */
+typedef struct lmp_material {
+    lmp_rgb diffuse;  /* albedo of the diffuse lobe */
+    lmp_rgb specular; /* reflectance of the Phong lobe */
+    float exponent;   /* of the Phong lobe, >= 0 */
+} lmp_material;
+
+/* glTF's metallic-roughness as two lobes: diffuse = base (1 - metallic), specular = Schlick's F0 =
+ * mix(0.04, base, metallic), exponent = 2/α² - 2 with α = roughness², held to LMP_ALPHA_MIN and up.
+ *
+ * metallic and roughness are clamped to 0 … 1 */
+#define LMP_ALPHA_MIN 0.01f
+LMP_API lmp_material lmp_material_from_metallic_roughness(lmp_rgb base, float metallic,
+                                                          float roughness);
+
+/* How to cut the lobes; zero-initialised: 10 bands, no window. */
+typedef struct lmp_shade_settings {
+    int bands; /* 1 … LMP_BANDS_MAX, 0 means LMP_SHADE_BANDS_DEFAULT */
+    lmp_window window;
+    float window_size; /* as in lmp_sh_window */
+} lmp_shade_settings;
+#define LMP_SHADE_BANDS_DEFAULT 10
+
+/* A shaded point. */
+typedef struct lmp_surface {
+    lmp_vec3 position;
+    lmp_vec3 normal; /* unit */
+    lmp_vec3 view;   /* unit, to the viewer */
+} lmp_surface;
+
+/* Reflected radiance, W·sr⁻¹·m⁻²: the meaning that every method and device is held to.
+ *
+ * settings may be NULL (defaults); count may be 0 */
+LMP_API lmp_rgb lmp_shade(const lmp_shade_settings *settings, const lmp_material *material,
+                          const lmp_surface *surface, const lmp_light *lights, size_t count);
+
+/* The two methods for lobes. `coefficients` is the paper's: all the lights' n² coefficients summed,
+ * then a dot product with the material's. `zonal` uses the addition theorem: O(n) a light. They
+ * differ by rounding; lmp_shade is `zonal`. */
+LMP_API lmp_rgb lmp_shade_coefficients(const lmp_shade_settings *settings,
+                                       const lmp_material *material, const lmp_surface *surface,
+                                       const lmp_light *lights, size_t count);
+LMP_API lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_material *material,
+                                const lmp_surface *surface, const lmp_light *lights, size_t count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
