@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT */
+/* Writes src/base/tables.c to standard output. Only +, -, *, / and sqrt, all rounded correctly by
+ * IEEE 754, so every machine writes the same bytes. */
+#include "src/base/tables.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* --- triangular ------------------------------------------------------------------------------- */
+
+static double recurrence_a(int l, int m) {
+    return l == m ? 0 : sqrt((4.0 * l * l - 1) / ((double)(l - m) * (l + m)));
+}
+
+static double recurrence_b(int l, int m) {
+    if (l <= m + 1)
+        return 0;
+    const double numerator = (2.0 * l + 1) * (l - 1 - m) * (l - 1 + m);
+    return -sqrt(numerator / ((2.0 * l - 3) * (l - m) * (l + m)));
+}
+
+static double diagonal(int m) {
+    double q = sqrt(1 / (4 * pi));
+    for (int k = 1; k <= m; k++)
+        q *= k == 1 ? -sqrt(3) : -sqrt((2.0 * k + 1) / (2.0 * k));
+    return q;
+}
+
+static double monic(int l, int m) {
+    const double k = l - 1;
+    return l <= m + 1 ? 0 : (k - m) * (k + m) / (4 * k * k - 1);
+}
+
+static double norm(int l, int m) {
+    double n = diagonal(m);
+    for (int k = m + 1; k <= l; k++)
+        n *= recurrence_a(k, m);
+    return n;
+}
+
+static double slope(int l, int m) {
+    return -(m == 0 ? sqrt(0.5) : 1) * sqrt((double)(l - m) * (l + m + 1));
+}
+
+/* --- by band ---------------------------------------------------------------------------------- */
+
+static double cap_d(int l) {
+    return l < 2 ? 0 : (l - 2.0) / (l + 1.0);
+}
+
+static double cap_t(int l) {
+    return l < 2 ? 0 : (2.0 * l - 1) / (l + 1.0);
+}
+
+static double legendre_d(int l) {
+    return l < 1 ? 0 : (l - 1.0) / l;
+}
+
+static double legendre_t(int l) {
+    return l < 1 ? 0 : (2.0 * l - 1) / l;
+}
+
+static double pole(int l) {
+    return sqrt((2.0 * l + 1) / (4 * pi));
+}
+
+/* --- output ----------------------------------------------------------------------------------- */
+
+static void print_value(int place, double value) {
+    const float rounded = (float)value;
+    if (!isfinite(rounded))
+        fprintf(stderr, "generate_tables: a value overflows float32\n");
+    char text[32];
+    snprintf(text, sizeof text, "%.9g", (double)rounded);
+    /* the suffix f needs a point or an exponent before it */
+    const char *point = strpbrk(text, ".e") ? "" : ".";
+    printf("%s%s%sf,", place % 8 == 0 ? "\n" : "", text, point);
+}
+
+static void print_triangle(const char *name, double (*entry)(int l, int m)) {
+    printf("\nconst float lmp_table_%s[LMP_TABLE_COUNT] = {", name);
+    int place = 0;
+    for (int m = 0; m < LMP_BANDS_MAX; m++)
+        for (int l = m; l < LMP_BANDS_MAX; l++)
+            print_value(place++, entry(l, m));
+    printf("\n};\n");
+}
+
+static void print_bands(const char *name, double (*entry)(int l)) {
+    printf("\nconst float lmp_table_%s[LMP_BANDS_MAX] = {", name);
+    for (int l = 0; l < LMP_BANDS_MAX; l++)
+        print_value(l, entry(l));
+    printf("\n};\n");
+}
+
+int main(void) {
+    printf("/* SPDX-License-Identifier: MIT */\n"
+           "/* Written by src/base/generate/tables.c; do not edit. */\n"
+           "/* clang-format off */\n"
+           "#include \"src/base/tables.h\"\n");
+    print_triangle("a", recurrence_a);
+    print_triangle("b", recurrence_b);
+    print_bands("diagonal", diagonal);
+    print_triangle("monic", monic);
+    print_triangle("norm", norm);
+    print_triangle("slope", slope);
+    print_bands("cap_d", cap_d);
+    print_bands("cap_t", cap_t);
+    print_bands("legendre_d", legendre_d);
+    print_bands("legendre_t", legendre_t);
+    print_bands("pole", pole);
+    return 0;
+}

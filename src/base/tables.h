@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+/* tables.h - the constants of every recurrence, computed in double and rounded once to float.
+ *
+ * tables.c is written by generate/tables.c; a test holds the two together.
+ *
+ * Triangular tables go by m: for each m the entries l = m … LMP_BANDS_MAX-1 follow one another, in
+ * the order the recurrences run, so a kernel walks them with one pointer. */
+#ifndef LAMPION_BASE_TABLES_H
+#define LAMPION_BASE_TABLES_H
+
+#include <lampion/base.h>
+
+#define LMP_TABLE_COUNT (LMP_BANDS_MAX * (LMP_BANDS_MAX + 1) / 2)
+
+/* The place of (l, m), 0 <= m <= l < LMP_BANDS_MAX, in a triangular table. */
+static inline size_t lmp_table_index(int l, int m) {
+    return (size_t)(m * LMP_BANDS_MAX - m * (m - 1) / 2 + l - m);
+}
+
+/* q_l^m = A_lm z q_(l-1)^m + B_lm q_(l-2)^m for l > m, from q_m^m = lmp_table_diagonal[m]; then
+ * Y_l,±m = q_l^m {C_m, S_m}, C_m + i S_m = (x + iy)^m. B = 0 at l = m+1, A = B = 0 at l = m. */
+extern const float lmp_table_a[LMP_TABLE_COUNT];
+extern const float lmp_table_b[LMP_TABLE_COUNT];
+extern const float lmp_table_diagonal[LMP_BANDS_MAX];
+
+/* The monic form, one fused step a coefficient: q_m = 1, q_l = z q_(l-1) - b_lm q_(l-2), then
+ * Y_l,±m = N_lm q_l {C_m, S_m}. N is finite throughout, but q turns denormal near 128 bands: use it
+ * to LMP_TABLE_MONIC_BANDS. b = 0 at l = m and m+1. */
+#define LMP_TABLE_MONIC_BANDS 64
+extern const float lmp_table_monic[LMP_TABLE_COUNT];
+extern const float lmp_table_norm[LMP_TABLE_COUNT];
+
+/* dq_l^m/dz = G_lm q_l^(m+1): G_lm = -e_m sqrt((l-m)(l+m+1)), e_0 = 1/sqrt(2), else 1. */
+extern const float lmp_table_slope[LMP_TABLE_COUNT];
+
+/* The difference form of R_l (light.h), t = 1 - cos a, from D_1 = 0, R_1 = 1, for l >= 2:
+ * D_l = d_l D_(l-1) - t_l t R_(l-1), R_l = R_(l-1) + D_l; d_l = (l-2)/(l+1), t_l = (2l-1)/(l+1). */
+extern const float lmp_table_cap_d[LMP_BANDS_MAX];
+extern const float lmp_table_cap_t[LMP_BANDS_MAX];
+
+/* The same for Legendre's P_l, from E_0 = 0, P_0 = 1, for l >= 1:
+ * E_l = d_l E_(l-1) - t_l t P_(l-1), P_l = P_(l-1) + E_l; d_l = (l-1)/l, t_l = (2l-1)/l. The same
+ * factors make the plain form P_l = t_l u P_(l-1) - d_l P_(l-2). Entry 0 is 0. */
+extern const float lmp_table_legendre_d[LMP_BANDS_MAX];
+extern const float lmp_table_legendre_t[LMP_BANDS_MAX];
+
+/* Y_l0(z) = sqrt((2l+1)/(4 pi)). */
+extern const float lmp_table_pole[LMP_BANDS_MAX];
+
+#endif
