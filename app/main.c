@@ -1,12 +1,109 @@
 /* SPDX-License-Identifier: MIT */
+/* The program: finds the command, runs it, and makes sure that what it printed arrived. */
 #include "app/command/command.h"
 
+#include <lampion/base.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define COMMANDS_MAX 32
+
+static const cli_command *find_command(const char *name) {
+    for (const cli_command *const *command = command_table; *command; command++)
+        if (strcmp((*command)->name, name) == 0)
+            return *command;
+    return NULL;
+}
+
+static int print_help(void) {
+    printf("lampion: lights scenes with glowing spheres through spherical harmonics\n\n"
+           "Usage: lampion COMMAND [OPTION…]\n\nCommands:\n");
+    for (const cli_command *const *command = command_table; *command; command++)
+        printf("  %-12s%s\n", (*command)->name, (*command)->summary);
+    printf("\nlampion COMMAND --help shows a command's options and examples;"
+           " lampion --version the version.\n");
+    return CLI_OK;
+}
+
+static int print_version(void) {
+    const uint32_t version = lmp_version();
+    printf("lampion %u.%u.%u\n", version >> 16, version >> 8 & 0xFF, version & 0xFF);
+    return CLI_OK;
+}
+
+static int unknown_command(const char *name) {
+    const char *names[COMMANDS_MAX + 2] = { "help" };
+    for (int i = 0; command_table[i] && i < COMMANDS_MAX; i++)
+        names[i + 1] = command_table[i]->name;
+    const char *const nearest = cli_nearest(name, names);
+    cli_error error;
+    if (nearest)
+        cli_fail(&error, NULL, "unknown command %s (did you mean %s?); see lampion --help", name,
+                 nearest);
+    else
+        cli_fail(&error, NULL, "unknown command %s; see lampion --help", name);
+    cli_report(&error);
+    return CLI_USAGE;
+}
+
+static int run_command(int argc, char **argv) {
+    const cli_command *const command = find_command(argv[0]);
+    return command ? command->run(command, argc, argv) : unknown_command(argv[0]);
+}
+
+static int run(int argc, char **argv) {
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
+        return print_help();
+    if (strcmp(argv[1], "--version") == 0)
+        return print_version();
+    if (strcmp(argv[1], "help") != 0)
+        return run_command(argc - 1, argv + 1);
+    if (argc < 3)
+        return print_help();
+    char help[] = "--help";
+    char *arguments[] = { argv[2], help, NULL };
+    return run_command(2, arguments);
+}
+
+/* A file opened later must not become stdout or stderr because the caller closed those. Opened for
+ * reading, so that printing to a closed stdout still fails. */
+static void hold_standard_descriptors(void) {
+    int descriptor;
+    do
+        descriptor = open("/dev/null", O_RDONLY);
+    while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+    if (descriptor >= 0)
+        close(descriptor);
+}
+
+static bool reader_is_gone(void) {
+    struct pollfd output = { .fd = STDOUT_FILENO };
+    return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+/* A reader that has gone away (`| head`) is no news; a full disk is. */
+static int close_output(int status) {
+    const bool failed = ferror(stdout) != 0, gone = reader_is_gone();
+    errno = 0;
+    if (fclose(stdout) == 0 && !failed)
+        return status;
+    if (!gone && errno != EPIPE) {
+        cli_error error;
+        cli_fail(&error, "standard output", "cannot write%s%s", errno ? ": " : "",
+                 errno ? strerror(errno) : "");
+        cli_report(&error);
+    }
+    return status == CLI_OK ? CLI_FAILURE : status;
+}
 
 int main(int argc, char **argv) {
-    (void)argc;
-    (void)argv;
-    for (size_t i = 0; command_table[i]; i++)
-        printf("%s  %s\n", command_table[i]->name, command_table[i]->summary);
-    return CLI_OK;
+    hold_standard_descriptors();
+    signal(SIGPIPE, SIG_IGN);
+    return close_output(run(argc, argv));
 }

@@ -51,15 +51,15 @@ typedef struct cli_option {
     const char *help;
     double minimum, maximum;    /* of numbers; both 0 = no limits */
     const char *const *choices; /* of CLI_CHOICE, NULL-terminated */
-    bool *given;                /* set to true if the option was there; may be NULL */
+    bool *given; /* set to true if the option was there; may be NULL (then --help shows *target) */
 } cli_option;
 
-/* A command: `lampion NAME …`. */
+/* A command: `lampion NAME …`. run gets argv[0] = NAME and returns the exit status. */
 typedef struct cli_command {
     const char *name;
     const char *operands; /* "SCENE" in the usage line, or "" */
     const char *summary;  /* one line */
-    const char *examples; /* lines for --help */
+    const char *examples; /* lines for --help, e.g. "lampion info builtin:atrium" */
     int (*run)(const struct cli_command *command, int argc, char **argv);
 } cli_command;
 

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/cli/option.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define NAMES_MAX 64
+
+/* The rest of a command line. */
+typedef struct arguments {
+    char **next, **end;
+} arguments;
+
+static bool wants_help(int argc, char **argv) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
+            return true;
+    return false;
+}
+
+/* The option that `word` names, and where its value begins inside the word (or NULL). */
+static const cli_option *find_option(const cli_option *options, char *word, char **value) {
+    const bool is_long = word[1] == '-';
+    const size_t length = is_long ? strcspn(word + 2, "=") : 1;
+    for (; options->name; options++) {
+        if (is_long ? strncmp(word + 2, options->name, length) != 0 || options->name[length] != '\0'
+                    : word[1] != options->letter)
+            continue;
+        *value = is_long ? word + 2 + length : word + 2;
+        if (**value == '\0')
+            *value = NULL;
+        else if (is_long)
+            (*value)++;
+        return options;
+    }
+    return NULL;
+}
+
+static int unknown_option(const cli_command *command, const cli_option *options, const char *word) {
+    const char *names[NAMES_MAX] = { "help" };
+    for (int i = 0; options[i].name && i < NAMES_MAX - 2; i++)
+        names[i + 1] = options[i].name;
+    const int length = (int)strcspn(word, "=");
+    char name[64] = "";
+    if (word[1] == '-')
+        snprintf(name, sizeof name, "%.*s", length - 2, word + 2);
+    const char *const nearest = cli_nearest(name, names);
+    if (nearest)
+        return cli_usage(command, "unknown option %.*s (did you mean --%s?)", length, word,
+                         nearest);
+    return cli_usage(command, "unknown option %.*s", length, word);
+}
+
+/* Takes one option, and its value from the next word if need be; CLI_OK or CLI_USAGE. */
+static int take_option(const cli_command *command, const cli_option *options, char *word,
+                       arguments *rest) {
+    char *value = NULL;
+    const cli_option *const option = find_option(options, word, &value);
+    if (!option)
+        return unknown_option(command, options, word);
+    if (option->kind == CLI_FLAG && value)
+        return cli_usage(command, "--%s takes no value", option->name);
+    if (option->kind != CLI_FLAG && !value) {
+        /* `-o --bands 3` forgot the file; a value that begins so is written --output=--bands */
+        if (rest->next == rest->end || strncmp(*rest->next, "--", 2) == 0)
+            return cli_usage(command, "--%s needs a value: --%s %s", option->name, option->name,
+                             option->argument);
+        value = *rest->next++;
+    }
+    cli_error error;
+    if (!option_store(option, value, &error))
+        return cli_usage(command, "%s", error.text);
+    if (option->given)
+        *option->given = true;
+    return CLI_OK;
+}
+
+bool cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
+               int *operand_count, char ***operands, int *status) {
+    *status = CLI_OK;
+    *operand_count = 0;
+    *operands = argv + 1;
+    if (wants_help(argc, argv)) {
+        option_help(command, options);
+        return false;
+    }
+    arguments rest = { argv + 1, argv + argc };
+    bool options_end = false;
+    while (rest.next < rest.end) {
+        char *const word = *rest.next++;
+        if (options_end || word[0] != '-' || word[1] == '\0') {
+            (*operands)[(*operand_count)++] = word;
+        } else if (strcmp(word, "--") == 0) {
+            options_end = true;
+        } else if ((*status = take_option(command, options, word, &rest)) != CLI_OK) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/cli/cli.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Names of files are untrusted: a terminal must not obey what is in them. */
+static void replace_controls(char *text) {
+    for (unsigned char *c = (unsigned char *)text; *c; c++) {
+        const bool c1 = c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0;
+        if (c1)
+            c[1] = '?';
+        if (*c < 0x20 || *c == 0x7F || c1)
+            *c = '?';
+    }
+}
+
+static void write_text(cli_error *error, const char *subject, const char *format, va_list arguments)
+    __attribute__((format(printf, 3, 0)));
+
+static void write_text(cli_error *error, const char *subject, const char *format,
+                       va_list arguments) {
+    const size_t size = sizeof error->text;
+    /* a name may take at most half of the line, so that what is wrong is always said */
+    int length = subject ? snprintf(error->text, size, "%.*s: ", (int)size / 2, subject) : 0;
+    length += vsnprintf(error->text + length, size - (size_t)length, format, arguments);
+    if (length >= (int)size)
+        memcpy(error->text + size - 4, "...", 4);
+    replace_controls(error->text);
+}
+
+bool cli_fail(cli_error *error, const char *subject, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    write_text(error, subject, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+int cli_report(const cli_error *error) {
+    cli_progress_end();
+    fprintf(stderr, "lampion: %s\n", error->text);
+    return CLI_FAILURE;
+}
+
+int cli_usage(const cli_command *command, const char *format, ...) {
+    cli_error error;
+    va_list arguments;
+    va_start(arguments, format);
+    write_text(&error, NULL, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "lampion %s: %s; see lampion %s --help\n", command->name, error.text,
+            command->name);
+    return CLI_USAGE;
+}

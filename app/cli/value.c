@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+/* Values are read strictly: the whole token, decimal, finite and in range, or not at all. */
+#include "app/cli/option.h"
+
+#include <errno.h>
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DIGITS "0123456789"
+
+void option_limits(const cli_option *option, double *minimum, double *maximum) {
+    *minimum = option->minimum;
+    *maximum = option->maximum;
+    if (*minimum != 0.0 || *maximum != 0.0)
+        return;
+    switch (option->kind) {
+    case CLI_INT:
+        *minimum = INT_MIN;
+        *maximum = INT_MAX;
+        break;
+    case CLI_SIZE:
+        *minimum = 1;
+        *maximum = INT_MAX;
+        break;
+    default:
+        *minimum = -(double)FLT_MAX;
+        *maximum = (double)FLT_MAX;
+    }
+}
+
+/* Reads a number made of `characters`, up to the character `end`. */
+static bool read_number(const char **text, const char *characters, char end, double *value) {
+    const size_t length = strspn(*text, characters);
+    if (length == 0 || (*text)[length] != end)
+        return false;
+    char *stop;
+    *value = strtod(*text, &stop);
+    const bool whole = stop == *text + length;
+    *text += length + (end != '\0');
+    return whole && isfinite(*value);
+}
+
+static bool out_of_range(const cli_option *option, const char *text, cli_error *error) {
+    double minimum, maximum;
+    option_limits(option, &minimum, &maximum);
+    return cli_fail(error, NULL, "--%s: %s is out of range (%.7g to %.7g)", option->name, text,
+                    minimum, maximum);
+}
+
+static bool in_range(const cli_option *option, double value) {
+    double minimum, maximum;
+    option_limits(option, &minimum, &maximum);
+    return value >= minimum && value <= maximum;
+}
+
+static bool store_numbers(const cli_option *option, const char *text, cli_error *error) {
+    const bool whole = option->kind != CLI_FLOAT && option->kind != CLI_VEC3;
+    const char *const characters = option->kind == CLI_INT    ? "+-" DIGITS
+                                   : option->kind == CLI_SIZE ? DIGITS
+                                                              : "+-.eE" DIGITS;
+    const int count = option->kind == CLI_VEC3 ? 3 : option->kind == CLI_SIZE ? 2 : 1;
+    double values[3];
+    const char *rest = text;
+    for (int i = 0; i < count; i++) {
+        const char end = i == count - 1 ? '\0' : option->kind == CLI_SIZE ? 'x' : ',';
+        if (!read_number(&rest, characters, end, &values[i]))
+            return cli_fail(error, NULL, "--%s: \"%s\" is not %s", option->name, text,
+                            option->kind == CLI_INT    ? "a whole number"
+                            : option->kind == CLI_SIZE ? "a size such as 1920x1080"
+                            : option->kind == CLI_VEC3 ? "three numbers such as 0,1.5,-2"
+                                                       : "a number");
+        if (!in_range(option, values[i]))
+            return out_of_range(option, text, error);
+    }
+    for (int i = 0; i < count; i++) {
+        if (whole)
+            ((int *)option->target)[i] = (int)values[i];
+        else
+            ((float *)option->target)[i] = (float)values[i];
+    }
+    return true;
+}
+
+static bool store_seed(const cli_option *option, const char *text, cli_error *error) {
+    errno = 0;
+    const unsigned long long value = strtoull(text, NULL, 10);
+    if (text[0] == '\0' || text[strspn(text, DIGITS)] != '\0' || errno == ERANGE)
+        return cli_fail(error, NULL, "--%s: \"%s\" is not a whole number from 0 to 2^64 - 1",
+                        option->name, text);
+    *(uint64_t *)option->target = value;
+    return true;
+}
+
+static bool store_choice(const cli_option *option, const char *text, cli_error *error) {
+    char known[512] = "";
+    for (int i = 0; option->choices[i]; i++) {
+        if (strcmp(text, option->choices[i]) == 0) {
+            *(int *)option->target = i;
+            return true;
+        }
+        const size_t length = strlen(known);
+        if (length + strlen(option->choices[i]) + 3 < sizeof known) {
+            strcpy(known + length, i ? ", " : "");
+            strcat(known, option->choices[i]);
+        }
+    }
+    return cli_fail(error, NULL, "--%s: \"%s\" is none of %s", option->name, text, known);
+}
+
+static bool store_item(const cli_option *option, const char *text, cli_error *error) {
+    cli_list *const list = option->target;
+    const int room = (int)(sizeof list->items / sizeof list->items[0]);
+    if (list->count == room)
+        return cli_fail(error, NULL, "--%s: given more than %d times", option->name, room);
+    list->items[list->count++] = text;
+    return true;
+}
+
+bool option_store(const cli_option *option, const char *text, cli_error *error) {
+    switch (option->kind) {
+    case CLI_FLAG:
+        *(bool *)option->target = true;
+        return true;
+    case CLI_SEED:
+        return store_seed(option, text, error);
+    case CLI_TEXT:
+        *(const char **)option->target = text;
+        return true;
+    case CLI_CHOICE:
+        return store_choice(option, text, error);
+    case CLI_LIST:
+        return store_item(option, text, error);
+    default:
+        return store_numbers(option, text, error);
+    }
+}
