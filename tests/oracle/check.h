@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* check.h - what the tests share: bounds that a NaN fails, seeded random numbers, vector files, an
+ * allocator that fails on demand. */
+#ifndef LAMPION_CHECK_H
+#define LAMPION_CHECK_H
+
+#include <lampion/base.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+/* Ends the test with both numbers unless error <= bound. */
+void check_within(double error, double bound, const char *file, int line);
+#define CHECK_WITHIN(error, bound)                                                                 \
+    check_within((double)(error), (double)(bound), __FILE__, __LINE__)
+
+/* max |actual - expected| / max |expected|; NaN if any value is. (All expected 0: the absolute
+ * error.) */
+double check_error(size_t count, const double *expected, const float *actual);
+double check_error_double(size_t count, const double *expected, const double *actual);
+
+/* --- random numbers ---------------------------------------------------------------------------
+ * One fixed seed, printed at the first use, settable by the environment variable LAMPION_SEED. */
+double check_random(void);                       /* uniform in [0, 1) */
+double check_random_between(double a, double b); /* uniform in [a, b) */
+lmp_vec3 check_random_direction(void);
+lmp_quat check_random_rotation(void);
+
+/* --- vector files -----------------------------------------------------------------------------
+ * Reads vectors/NAME below $LAMPION_DATA (default ../shared). NULL when the file is absent, after
+ * one line `skipped: …`: then return from the test. */
+typedef struct check_csv {
+    int rows, columns; /* without the header line */
+    char *text;
+    const char **cells; /* rows * columns, each a C string */
+} check_csv;
+check_csv *check_csv_open(const char *name);
+void check_csv_close(check_csv *csv);
+const char *check_csv_text(const check_csv *csv, int row, int column);
+double check_csv_number(const check_csv *csv, int row, int column);
+/* `count` numbers of a row from `column` on. */
+void check_csv_numbers(const check_csv *csv, int row, int column, int count, double *values);
+
+/* --- memory -----------------------------------------------------------------------------------
+ * An allocator that counts what is live, and refuses request number `refuse` (from 0; < 0: none).
+ */
+typedef struct check_heap {
+    int refuse, requests, live;
+} check_heap;
+lmp_allocator check_allocator(check_heap *heap);
+
+#endif
