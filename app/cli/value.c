@@ -31,16 +31,18 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
     }
 }
 
-/* Reads a number made of `characters`, up to the character `end`. */
+/* Reads a number made of `characters`, up to the character `end`. Copied, for strtod would read on:
+ * 0x480 is a size of 0 by 480, and a number in hexadecimal. */
 static bool read_number(const char **text, const char *characters, char end, double *value) {
+    char number[64], *stop;
     const size_t length = strspn(*text, characters);
-    if (length == 0 || (*text)[length] != end)
+    if (length == 0 || length >= sizeof number || (*text)[length] != end)
         return false;
-    char *stop;
-    *value = strtod(*text, &stop);
-    const bool whole = stop == *text + length;
+    memcpy(number, *text, length);
+    number[length] = '\0';
+    *value = strtod(number, &stop);
     *text += length + (end != '\0');
-    return whole && isfinite(*value);
+    return *stop == '\0' && isfinite(*value);
 }
 
 static bool out_of_range(const cli_option *option, const char *text, cli_error *error) {
