@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT */
+/* Command lines, one word a line. */
+#include "app/cli/cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define WORDS_MAX 128
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static const char *const choices[] = { "one", "two", NULL };
+    bool flag = false, given = false;
+    int count = 1, pixels[2] = { 1, 1 }, choice = 0;
+    uint64_t seed = 0;
+    float number = 0, place[3] = { 0 };
+    const char *name = NULL;
+    cli_list list = { .count = 0 };
+    const cli_option options[] = {
+        { "flag", 'f', CLI_FLAG, &flag, NULL, "help", 0, 0, NULL, &given },
+        { "count", 'c', CLI_INT, &count, "N", "help", 1, 9, NULL, NULL },
+        { "pixels", 0, CLI_SIZE, pixels, "WxH", "help", 0, 0, NULL, NULL },
+        { "choice", 0, CLI_CHOICE, &choice, "WORD", "help", 0, 0, choices, NULL },
+        { "seed", 0, CLI_SEED, &seed, "N", "help", 0, 0, NULL, NULL },
+        { "number", 'n', CLI_FLOAT, &number, "R", "help", 0, 0, NULL, NULL },
+        { "place", 0, CLI_VEC3, place, "X,Y,Z", "help", 0, 0, NULL, NULL },
+        { "name", 0, CLI_TEXT, &name, "NAME", "help", 0, 0, NULL, NULL },
+        { "list", 'l', CLI_LIST, &list, "NAME", "help", 0, 0, NULL, NULL },
+        { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
+    };
+    const cli_command command = { "fuzz", "", "fuzzes", "", NULL };
+    char command_name[] = "fuzz";
+    char *const text = malloc(size + 1);
+    if (!text)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    char *words[WORDS_MAX] = { command_name };
+    int word_count = 1;
+    for (char *word = strtok(text, "\n"); word && word_count < WORDS_MAX; word = strtok(NULL, "\n"))
+        words[word_count++] = word;
+    char **operands;
+    int operand_count, status;
+    if (cli_parse(&command, options, word_count, words, &operand_count, &operands, &status) &&
+        (count < 1 || count > 9 || choice < 0 || choice > 1 || operand_count > word_count - 1))
+        abort();
+    free(text);
+    return 0;
+}
