@@ -70,6 +70,7 @@ typedef struct scene_camera {
 typedef struct scene_light {
     float center[3], radius;
     float radiance[3];
+    uint32_t hidden; /* 1: it stands for an emissive mesh, which is drawn instead of the sphere */
 } scene_light;
 
 /* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
@@ -90,12 +91,13 @@ typedef struct scene {
     double area;                  /* of all triangles */
     void *block;                  /* owned by the scene */
     size_t block_size;
-    const char *origin; /* the name it was loaded by, for messages */
+    bool mapped;        /* the block is a mapping, not from malloc */
+    bool cached;        /* it came from the cache */
+    const char *origin; /* the name it was loaded by, for messages; the caller's string */
 } scene;
 
 typedef struct scene_options {
-    bool no_cache;
-
+    bool no_cache; /* neither read nor write the cache */
 } scene_options;
 
 /* Loads "builtin:NAME[:PARAMETER]" or a scene file. Files are parsed in a sandboxed child process
@@ -103,12 +105,49 @@ typedef struct scene_options {
 bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);
 void scene_free(scene *scene);
 
-/* Adds the lights of a JSON file (docs/formats.md). */
+void scene_clear_lights(scene *scene);
+
+/* Adds the lights of a JSON file (docs/formats.md); none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);
 
 /* Adds `count` seeded random lights inside the bounds, sized to the scene: the same on any machine.
  */
 bool scene_add_random_lights(scene *scene, int count, uint64_t seed, cli_error *error);
+
+/* The lights a command line asks for. Zero is the default: the scene's own. */
+typedef struct scene_lights_options {
+    const char *file; /* a lights file, or NULL */
+    int random_count; /* random lights */
+    uint64_t seed;
+    bool keep; /* keep the scene's own lights beside these, which otherwise replace them */
+} scene_lights_options;
+
+/* The rows of a command's option table that fill a scene_lights_options variable. */
+#define SCENE_LIGHTS_OPTION_ROWS(variable)                                                         \
+    { .name = "lights",                                                                            \
+      .kind = CLI_TEXT,                                                                            \
+      .target = &(variable).file,                                                                  \
+      .argument = "FILE",                                                                          \
+      .help = "sphere lights from a JSON file, instead of the scene's own" },                      \
+        { .name = "random-lights",                                                                 \
+          .kind = CLI_INT,                                                                         \
+          .target = &(variable).random_count,                                                      \
+          .argument = "N",                                                                         \
+          .help = "seeded random lights, instead of the scene's own",                              \
+          .minimum = 0,                                                                            \
+          .maximum = SCENE_LIGHTS_MAX },                                                           \
+        { .name = "seed",                                                                          \
+          .kind = CLI_SEED,                                                                        \
+          .target = &(variable).seed,                                                              \
+          .argument = "SEED",                                                                      \
+          .help = "seed of the random lights" },                                                   \
+    {                                                                                              \
+        .name = "keep-lights", .kind = CLI_FLAG, .target = &(variable).keep,                       \
+        .help = "keep the scene's own lights beside --lights and --random-lights"                  \
+    }
+
+/* Gives the scene the lights that the command line asks for. */
+bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_error *error);
 
 /* The scene's first camera, or one that frames its bounds. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
@@ -116,7 +155,8 @@ scene_camera scene_default_camera(const scene *scene, float aspect);
 /* The light as the library knows it. */
 lmp_light scene_light_as_sphere(const scene_light *light);
 
-/* `lights` at time `seconds`: each on its own closed orbit round its place, in closed form. */
+/* The scene's lights at time `seconds`, each on its own closed orbit round its place: a function of
+ * the time alone. moved receives light_count lights. */
 void scene_move_lights(const scene *scene, double seconds, scene_light *moved);
 
 #endif

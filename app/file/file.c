@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/file/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool fail_too_large(const char *path, size_t limit, cli_error *error) {
+    return cli_fail(error, path, "is too large (limit: %zu MiB)", limit >> 20);
+}
+
+/* Reads to the end of fd; `expected` is a guess of the size. */
+static bool read_all(int fd, const char *path, size_t expected, size_t limit, void **data,
+                     size_t *size, cli_error *error) {
+    size_t capacity = expected + 1, used = 0;
+    char *bytes = malloc(capacity + 1);
+    while (bytes) {
+        const ssize_t got = read(fd, bytes + used, capacity - used);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            free(bytes);
+            return cli_fail(error, path, "cannot be read: %s", strerror(errno));
+        }
+        if (got == 0) {
+            bytes[used] = 0;
+            *data = bytes;
+            *size = used;
+            return true;
+        }
+        used += (size_t)got;
+        if (used > limit) {
+            free(bytes);
+            return fail_too_large(path, limit, error);
+        }
+        if (used == capacity) {
+            capacity *= 2;
+            char *larger = realloc(bytes, capacity + 1);
+            if (!larger)
+                free(bytes);
+            bytes = larger;
+        }
+    }
+    return cli_fail(error, path, "is too large for the memory of this machine");
+}
+
+bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error) {
+    *data = NULL;
+    *size = 0;
+    if (strcmp(path, "-") == 0)
+        return read_all(STDIN_FILENO, "standard input", 65536, limit, data, size, error);
+    /* Non-blocking, so that opening a FIFO by mistake does not wait for a writer. */
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd < 0 && errno == ENOENT)
+        return cli_fail(error, path, "does not exist");
+    if (fd < 0)
+        return cli_fail(error, path, "cannot be opened: %s", strerror(errno));
+    struct stat status;
+    bool ok;
+    if (fstat(fd, &status) != 0)
+        ok = cli_fail(error, path, "cannot be read: %s", strerror(errno));
+    else if (S_ISDIR(status.st_mode))
+        ok = cli_fail(error, path, "is a directory, not a file");
+    else if (!S_ISREG(status.st_mode))
+        ok = cli_fail(error, path, "is not a regular file");
+    else if ((uint64_t)status.st_size > limit)
+        ok = fail_too_large(path, limit, error);
+    else
+        ok = read_all(fd, path, (size_t)status.st_size, limit, data, size, error);
+    close(fd);
+    return ok;
+}
+
+bool file_cache_directory(char *path, size_t size) {
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    int length;
+    if (cache && cache[0] == '/')
+        length = snprintf(path, size, "%s", cache);
+    else if (home && home[0] == '/')
+        length = snprintf(path, size, "%s/.cache", home);
+    else
+        return false;
+    if (length < 0 || (size_t)length + sizeof "/lampion" > size)
+        return false;
+    mkdir(path, 0700);
+    strcpy(path + length, "/lampion");
+    struct stat status;
+    return (mkdir(path, 0700) == 0 || errno == EEXIST) && stat(path, &status) == 0 &&
+           S_ISDIR(status.st_mode) && access(path, R_OK | W_OK | X_OK) == 0;
+}
+
+/* --- content hash: two multiply-rotate lanes over blocks of 16 bytes ----------------------------
+ */
+
+static uint64_t rotate(uint64_t x, int bits) {
+    return x << bits | x >> (64 - bits);
+}
+
+static uint64_t finish(uint64_t x) {
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+}
+
+static void add_block(file_hash *hash, const unsigned char *bytes) {
+    uint64_t words[2];
+    memcpy(words, bytes, sizeof words);
+    hash->low = rotate(hash->low ^ words[0] * 0x87c37b91114253d5u, 31) * 5 + hash->high;
+    hash->high = rotate(hash->high ^ words[1] * 0x4cf5ad432745937fu, 27) * 9 + hash->low;
+}
+
+void file_hash_add(file_hash *hash, const void *data, size_t size) {
+    const unsigned char *bytes = data;
+    size_t left = size;
+    for (; left >= 16; left -= 16, bytes += 16)
+        add_block(hash, bytes);
+    unsigned char tail[16] = { 0 };
+    if (left)
+        memcpy(tail, bytes, left);
+    add_block(hash, tail);
+    hash->low = finish(hash->low ^ (uint64_t)size);
+    hash->high = finish(hash->high + hash->low);
+}
+
+void file_hash_text(const file_hash *hash, char text[33]) {
+    snprintf(text, 33, "%016llx%016llx", (unsigned long long)hash->high,
+             (unsigned long long)hash->low);
+}

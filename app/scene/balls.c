@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT */
+/* balls.c - builtin:balls, a row of spheres from matt to glossy, and builtin:ball, a preview. */
+#include "app/scene/builtin.h"
+#include "app/scene/shape.h"
+#include "app/scene/vector.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define PI 3.14159265f
+
+static uint32_t add_material(scene_builder *builder, const char *name, float r, float g, float b,
+                             float roughness, float metallic) {
+    const uint32_t index = (uint32_t)builder_count(builder, BLOB_MATERIALS);
+    scene_material *material = builder_material(builder, name);
+    if (material) {
+        material->base_color[0] = r;
+        material->base_color[1] = g;
+        material->base_color[2] = b;
+        material->roughness = roughness;
+        material->metallic = metallic;
+    }
+    return index;
+}
+
+static void add_light(scene_builder *builder, lmp_vec3 center, float radius, lmp_vec3 color,
+                      float power) {
+    scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
+    if (!light)
+        return;
+    vec_store(center, light->center);
+    light->radius = radius;
+    vec_store(vec_scale(color, lmp_sphere_radiance_from_power(power, radius)), light->radiance);
+}
+
+static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, float fov) {
+    scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
+    if (!camera)
+        return;
+    builder_name(camera->name, "default");
+    vec_store(eye, camera->eye);
+    vec_store(target, camera->target);
+    camera->up[1] = 1.0f;
+    camera->fov = fov;
+}
+
+static void turn_sphere(scene_shaper *shaper, lmp_vec3 center, float radius, int segments) {
+    shape_point profile[65];
+    const int rings = 64;
+    for (int i = 0; i <= rings; i++) {
+        const float angle = PI * (float)i / (float)rings;
+        profile[i] = (shape_point) { radius * sinf(angle), -radius * cosf(angle) };
+    }
+    profile[0].r = profile[rings].r = 0.0f;
+    shape_turn(shaper, &(shape_turning) { .profile = profile,
+                                          .point_count = rings + 1,
+                                          .origin = center,
+                                          .axis = 'y',
+                                          .segments = segments });
+}
+
+/* A floor that bends up into a wall behind, as photographers use. */
+static void sweep_backdrop(scene_shaper *shaper, float front, float back, float bend, float height,
+                           float half_width) {
+    shape_point profile[20];
+    int count = 0;
+    profile[count++] = (shape_point) { front, 0.0f };
+    for (int i = 0; i <= 16; i++) {
+        const float angle = 0.5f * PI * (float)i / 16.0f;
+        profile[count++] =
+            (shape_point) { back + bend - bend * sinf(angle), bend - bend * cosf(angle) };
+    }
+    profile[count++] = (shape_point) { back, height };
+    shape_sweep(shaper, profile, count, vec(0.0f, 0.0f, 0.0f), -half_width, half_width);
+}
+
+void builtin_balls(const builtin_parameters *parameters, scene_builder *builder) {
+    (void)parameters;
+    enum { BALLS = 7 };
+    scene_shaper shaper = { .builder = builder };
+    shaper.material = add_material(builder, "backdrop", 0.42f, 0.40f, 0.38f, 0.85f, 0.0f);
+    sweep_backdrop(&shaper, 9.0f, -5.0f, 2.0f, 6.0f, 14.0f);
+    for (int i = 0; i < BALLS; i++) {
+        const float step = (float)i / (float)(BALLS - 1), x = 1.25f * ((float)i - 3.0f);
+        char name[32];
+        snprintf(name, sizeof name, "plastic %.2f", (double)(1.0f - 0.85f * step));
+        shaper.material =
+            add_material(builder, name, 0.55f, 0.10f, 0.06f, 1.0f - 0.85f * step, 0.0f);
+        turn_sphere(&shaper, vec(x, 0.55f, 0.0f), 0.55f, 96);
+        snprintf(name, sizeof name, "gold %.2f", (double)(1.0f - 0.85f * step));
+        shaper.material =
+            add_material(builder, name, 0.95f, 0.70f, 0.32f, 1.0f - 0.85f * step, 1.0f);
+        turn_sphere(&shaper, vec(x + 0.62f, 0.36f, 1.35f), 0.36f, 96);
+    }
+    shaper_finish(&shaper);
+    add_light(builder, vec(-4.2f, 3.4f, 2.4f), 0.30f, vec(1.0f, 0.72f, 0.42f), 260.0f);
+    add_light(builder, vec(0.6f, 4.2f, 1.2f), 0.36f, vec(1.0f, 0.93f, 0.82f), 300.0f);
+    add_light(builder, vec(4.6f, 2.6f, 2.8f), 0.22f, vec(0.25f, 0.55f, 1.0f), 200.0f);
+    add_light(builder, vec(-1.9f, 1.9f, -1.9f), 0.16f, vec(1.0f, 0.25f, 0.45f), 70.0f);
+    add_light(builder, vec(2.4f, 1.7f, -2.1f), 0.16f, vec(0.25f, 1.0f, 0.65f), 60.0f);
+    add_camera(builder, vec(0.0f, 2.1f, 8.4f), vec(0.1f, 0.72f, 0.0f), 0.56f);
+}
+
+void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) {
+    (void)parameters;
+    static const shape_point foot[] = { { 0.0f, 0.0f },   { 0.52f, 0.0f },  { 0.52f, 0.06f },
+                                        { 0.47f, 0.10f }, { 0.36f, 0.12f }, { 0.32f, 0.16f },
+                                        { 0.34f, 0.24f }, { 0.42f, 0.30f }, { 0.0f, 0.30f } };
+    scene_shaper shaper = { .builder = builder };
+    shaper.material = add_material(builder, "backdrop", 0.30f, 0.30f, 0.31f, 0.9f, 0.0f);
+    sweep_backdrop(&shaper, 5.0f, -2.6f, 1.6f, 6.0f, 8.0f);
+    shaper.material = add_material(builder, "stand", 0.08f, 0.08f, 0.09f, 0.5f, 0.0f);
+    shape_turn(&shaper, &(shape_turning) { .profile = foot,
+                                           .point_count = sizeof foot / sizeof *foot,
+                                           .axis = 'y',
+                                           .segments = 96 });
+    shaper.material = add_material(builder, "test_material", 0.70f, 0.36f, 0.12f, 0.35f, 0.0f);
+    turn_sphere(&shaper, vec(0.0f, 1.18f, 0.0f), 1.0f, 192);
+    shaper_finish(&shaper);
+    /* Ten lights on two rings round the ball, warm on the left and cold on the right. */
+    for (int i = 0; i < 10; i++) {
+        const float angle = 2.0f * PI * ((float)(i / 2) + 0.25f) / 5.0f;
+        const float height = i % 2 ? 3.3f : 1.7f, ring = i % 2 ? 1.9f : 2.5f;
+        const lmp_vec3 center = vec(ring * sinf(angle), height, 0.9f + ring * cosf(angle) * 0.8f);
+        const float warm = 0.5f - 0.5f * center.x / ring;
+        const lmp_vec3 color = vec(0.45f + 0.55f * warm, 0.62f + 0.06f * warm, 1.0f - 0.62f * warm);
+        add_light(builder, center, 0.13f, color, 34.0f);
+    }
+    add_camera(builder, vec(0.0f, 1.75f, 6.6f), vec(0.0f, 1.12f, 0.0f), 0.50f);
+}

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/blob.h"
+
+#include "app/scene/builder.h"
+#include "app/scene/vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const size_t blob_item_size[BLOB_SECTIONS] = {
+    [BLOB_VERTICES] = sizeof(scene_vertex),  [BLOB_INDICES] = sizeof(uint32_t),
+    [BLOB_MESHES] = sizeof(scene_mesh),      [BLOB_MATERIALS] = sizeof(scene_material),
+    [BLOB_TEXTURES] = sizeof(scene_texture), [BLOB_TEXELS] = 1,
+    [BLOB_CAMERAS] = sizeof(scene_camera),   [BLOB_LIGHTS] = sizeof(scene_light),
+    [BLOB_SOURCES] = sizeof(blob_source),
+};
+
+static uint32_t digest_item_sizes(void) {
+    uint32_t digest = 0;
+    for (int i = 0; i < BLOB_SECTIONS; i++)
+        digest = digest * 1021u + (uint32_t)blob_item_size[i];
+    return digest;
+}
+
+void blob_layout(blob_header *header, const size_t counts[BLOB_SECTIONS]) {
+    memset(header, 0, sizeof *header);
+    memcpy(header->magic, BLOB_MAGIC, sizeof header->magic);
+    header->version = BLOB_VERSION;
+    header->item_sizes = digest_item_sizes();
+    uint64_t offset = sizeof *header;
+    for (int i = 0; i < BLOB_SECTIONS; i++) {
+        offset = (offset + 15) & ~(uint64_t)15;
+        header->sections[i].offset = offset;
+        header->sections[i].count = counts[i];
+        offset += counts[i] * blob_item_size[i];
+    }
+    header->size = offset;
+}
+
+const void *blob_items(const void *block, blob_section section) {
+    const blob_header *header = block;
+    return (const char *)block + header->sections[section].offset;
+}
+
+/* --- validation ---------------------------------------------------------------------------------
+ */
+
+static bool all_finite(const float *numbers, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(numbers[i]))
+            return false;
+    return true;
+}
+
+static bool header_fits(const blob_header *header, size_t size) {
+    if (size < sizeof *header || memcmp(header->magic, BLOB_MAGIC, sizeof header->magic) != 0 ||
+        header->version != BLOB_VERSION || header->item_sizes != digest_item_sizes() ||
+        header->size != size)
+        return false;
+    for (int i = 0; i < BLOB_SECTIONS; i++) {
+        const uint64_t offset = header->sections[i].offset, count = header->sections[i].count;
+        if (offset % 16 != 0 || offset < sizeof *header || offset > size ||
+            count > (size - offset) / blob_item_size[i])
+            return false;
+    }
+    return header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
+           header->sections[BLOB_VERTICES].count < UINT32_MAX &&
+           header->sections[BLOB_INDICES].count < UINT32_MAX;
+}
+
+/* A name is valid if cleaning it changes nothing. */
+static bool name_fits(const char name[SCENE_NAME_SIZE]) {
+    char clean[SCENE_NAME_SIZE];
+    if (name[SCENE_NAME_SIZE - 1] != 0)
+        return false;
+    builder_name(clean, name);
+    return memcmp(clean, name, SCENE_NAME_SIZE) == 0;
+}
+
+static bool geometry_fits(const blob_header *header) {
+    const scene_vertex *vertices = blob_items(header, BLOB_VERTICES);
+    const uint64_t vertex_count = header->sections[BLOB_VERTICES].count;
+    if (!all_finite(&vertices->position[0], vertex_count * sizeof *vertices / sizeof(float)))
+        return false;
+    const uint32_t *indices = blob_items(header, BLOB_INDICES);
+    const uint64_t index_count = header->sections[BLOB_INDICES].count;
+    for (uint64_t i = 0; i < index_count; i++)
+        if (indices[i] >= vertex_count)
+            return false;
+    const scene_mesh *meshes = blob_items(header, BLOB_MESHES);
+    for (uint64_t i = 0; i < header->sections[BLOB_MESHES].count; i++)
+        if (!name_fits(meshes[i].name) || meshes[i].index_count % 3 != 0 ||
+            meshes[i].first_index > index_count ||
+            meshes[i].index_count > index_count - meshes[i].first_index ||
+            meshes[i].material >= header->sections[BLOB_MATERIALS].count ||
+            !all_finite(meshes[i].minimum, 3) || !all_finite(meshes[i].maximum, 3))
+            return false;
+    return true;
+}
+
+static bool use_fits(const scene_texture_use *use, uint64_t texture_count) {
+    return use->texture >= -1 && (use->texture < 0 || (uint64_t)use->texture < texture_count) &&
+           all_finite(use->matrix, 4) && all_finite(use->offset, 2);
+}
+
+static bool materials_fit(const blob_header *header) {
+    const scene_material *materials = blob_items(header, BLOB_MATERIALS);
+    const uint64_t texture_count = header->sections[BLOB_TEXTURES].count;
+    for (uint64_t i = 0; i < header->sections[BLOB_MATERIALS].count; i++) {
+        const scene_material *m = &materials[i];
+        const float numbers[] = { m->metallic, m->roughness, m->normal_scale, m->alpha_cutoff };
+        if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 4) ||
+            !all_finite(m->emission, 3) || !use_fits(&m->base_color_map, texture_count) ||
+            !use_fits(&m->metallic_roughness_map, texture_count) ||
+            !use_fits(&m->normal_map, texture_count) || !use_fits(&m->emission_map, texture_count))
+            return false;
+    }
+    const scene_texture *textures = blob_items(header, BLOB_TEXTURES);
+    const uint64_t texel_bytes = header->sections[BLOB_TEXELS].count;
+    for (uint64_t i = 0; i < texture_count; i++) {
+        const uint64_t bytes = 4 * (uint64_t)textures[i].width * textures[i].height;
+        if (!name_fits(textures[i].name) || textures[i].width == 0 || textures[i].height == 0 ||
+            textures[i].width > 65536 || textures[i].height > 65536 || textures[i].srgb > 1 ||
+            textures[i].wrap_u > SCENE_WRAP_MIRROR || textures[i].wrap_v > SCENE_WRAP_MIRROR ||
+            textures[i].first_byte > texel_bytes || bytes > texel_bytes - textures[i].first_byte)
+            return false;
+    }
+    return true;
+}
+
+static bool views_fit(const blob_header *header) {
+    const scene_camera *cameras = blob_items(header, BLOB_CAMERAS);
+    for (uint64_t i = 0; i < header->sections[BLOB_CAMERAS].count; i++)
+        if (!name_fits(cameras[i].name) || !all_finite(cameras[i].eye, 3) ||
+            !all_finite(cameras[i].target, 3) || !all_finite(cameras[i].up, 3) ||
+            !(cameras[i].fov > 0.0f && cameras[i].fov < 3.1415f))
+            return false;
+    const scene_light *lights = blob_items(header, BLOB_LIGHTS);
+    for (uint64_t i = 0; i < header->sections[BLOB_LIGHTS].count; i++) {
+        bool fits = all_finite(lights[i].center, 3) && all_finite(&lights[i].radius, 1) &&
+                    lights[i].radius > 0.0f && lights[i].hidden <= 1;
+        for (int k = 0; k < 3; k++)
+            fits = fits && isfinite(lights[i].radiance[k]) && lights[i].radiance[k] >= 0.0f;
+        if (!fits)
+            return false;
+    }
+    const blob_source *sources = blob_items(header, BLOB_SOURCES);
+    for (uint64_t i = 0; i < header->sections[BLOB_SOURCES].count; i++)
+        if (!memchr(sources[i].path, 0, sizeof sources[i].path))
+            return false;
+    return true;
+}
+
+bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
+                   cli_error *error) {
+    const blob_header *header = block;
+    if (!header_fits(header, size))
+        return cli_fail(error, subject, "gave a scene that is damaged or of another version");
+    file_hash content = { 0 };
+    for (int i = 0; checksum && i < BLOB_SECTIONS; i++)
+        file_hash_add(&content, blob_items(block, (blob_section)i),
+                      header->sections[i].count * blob_item_size[i]);
+    if (checksum && (content.low != header->content.low || content.high != header->content.high))
+        return cli_fail(error, subject, "gave a scene whose checksum is wrong");
+    if (!geometry_fits(header))
+        return cli_fail(error, subject, "has vertices or triangles that make no sense");
+    if (!materials_fit(header))
+        return cli_fail(error, subject, "has materials or textures that make no sense");
+    if (!views_fit(header))
+        return cli_fail(error, subject, "has cameras or lights that make no sense");
+    return true;
+}
+
+/* --- opening ------------------------------------------------------------------------------------
+ */
+
+static void measure(scene *s) {
+    for (int k = 0; k < 3; k++) {
+        s->minimum[k] = s->mesh_count ? s->meshes[0].minimum[k] : -0.5f;
+        s->maximum[k] = s->mesh_count ? s->meshes[0].maximum[k] : 0.5f;
+        for (size_t i = 0; i < s->mesh_count; i++) {
+            s->minimum[k] = fminf(s->minimum[k], s->meshes[i].minimum[k]);
+            s->maximum[k] = fmaxf(s->maximum[k], s->meshes[i].maximum[k]);
+        }
+    }
+    for (size_t i = 0; i + 2 < s->index_count; i += 3) {
+        const float *p = s->vertices[s->indices[i]].position;
+        const float *q = s->vertices[s->indices[i + 1]].position;
+        const float *r = s->vertices[s->indices[i + 2]].position;
+        double a[3], b[3];
+        for (int k = 0; k < 3; k++) {
+            a[k] = (double)q[k] - (double)p[k];
+            b[k] = (double)r[k] - (double)p[k];
+        }
+        const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
+        const double z = a[0] * b[1] - a[1] * b[0];
+        s->area += 0.5 * sqrt(x * x + y * y + z * z);
+    }
+}
+
+bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_error *error) {
+    const blob_header *header = block;
+    scene_light *lights = calloc(SCENE_LIGHTS_MAX, sizeof *lights);
+    if (!lights)
+        return cli_fail(error, subject, "does not fit into memory");
+    memcpy(lights, blob_items(block, BLOB_LIGHTS),
+           header->sections[BLOB_LIGHTS].count * sizeof *lights);
+    memset(s, 0, sizeof *s);
+    s->vertices = blob_items(block, BLOB_VERTICES);
+    s->indices = blob_items(block, BLOB_INDICES);
+    s->meshes = blob_items(block, BLOB_MESHES);
+    s->materials = blob_items(block, BLOB_MATERIALS);
+    s->textures = blob_items(block, BLOB_TEXTURES);
+    s->texels = blob_items(block, BLOB_TEXELS);
+    s->cameras = blob_items(block, BLOB_CAMERAS);
+    s->vertex_count = header->sections[BLOB_VERTICES].count;
+    s->index_count = header->sections[BLOB_INDICES].count;
+    s->mesh_count = header->sections[BLOB_MESHES].count;
+    s->material_count = header->sections[BLOB_MATERIALS].count;
+    s->texture_count = header->sections[BLOB_TEXTURES].count;
+    s->texel_bytes = header->sections[BLOB_TEXELS].count;
+    s->camera_count = header->sections[BLOB_CAMERAS].count;
+    s->lights = lights;
+    s->light_count = header->sections[BLOB_LIGHTS].count;
+    s->block = block;
+    s->block_size = size;
+    s->origin = subject;
+    measure(s);
+    return true;
+}

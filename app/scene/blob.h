@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* blob.h - a scene as one flat relocatable block: header, then arrays at offsets. It is what the
+ * importing child hands back, and the file of the cache; both are validated before use. */
+#ifndef LAMPION_SCENE_BLOB_H
+#define LAMPION_SCENE_BLOB_H
+
+#include "app/file/file.h"
+#include "app/scene/scene.h"
+
+#define BLOB_MAGIC   "LAMPSCN"
+#define BLOB_VERSION 1u /* raise with any change of the layout or of what the importer makes */
+
+typedef enum blob_section {
+    BLOB_VERTICES,
+    BLOB_INDICES,
+    BLOB_MESHES,
+    BLOB_MATERIALS,
+    BLOB_TEXTURES,
+    BLOB_TEXELS,
+    BLOB_CAMERAS,
+    BLOB_LIGHTS,
+    BLOB_SOURCES,
+    BLOB_SECTIONS
+} blob_section;
+
+/* A file the scene was made from, for the cache; the scene file itself is not among them. */
+typedef struct blob_source {
+    char path[512]; /* relative to the scene's folder */
+    uint64_t size;
+    file_hash hash;
+} blob_source;
+
+typedef struct blob_header {
+    char magic[8];
+    uint32_t version, item_sizes; /* item_sizes: a digest of the structs' sizes */
+    uint64_t size;                /* of the whole blob */
+    file_hash content;            /* of all that follows the header; zero if not computed */
+    struct {
+        uint64_t offset, count;
+    } sections[BLOB_SECTIONS];
+} blob_header;
+
+/* Size of one item of each section. */
+extern const size_t blob_item_size[BLOB_SECTIONS];
+
+/* The header of a blob with these numbers of items: offsets laid out, aligned to 16 bytes. */
+void blob_layout(blob_header *header, const size_t counts[BLOB_SECTIONS]);
+
+/* The array of a section of a blob whose header has been validated. */
+const void *blob_items(const void *block, blob_section section);
+
+/* Checks every offset, count, index, number and name of the blob, and with `checksum` its content
+ * hash. `subject` is named in the error. */
+bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
+                   cli_error *error);
+
+/* Points *scene into a validated block and copies its lights; bounds and area are computed. */
+bool blob_open(void *block, size_t size, const char *subject, scene *scene, cli_error *error);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* builder.h - growing arrays a scene is made in, then packed into one blob. */
+#ifndef LAMPION_SCENE_BUILDER_H
+#define LAMPION_SCENE_BUILDER_H
+
+#include "app/scene/blob.h"
+
+typedef struct builder_array {
+    void *items;
+    size_t count, capacity;
+} builder_array;
+
+/* Zero-initialise; the arrays are those of the blob, texels in bytes. */
+typedef struct scene_builder {
+    builder_array arrays[BLOB_SECTIONS];
+    bool out_of_memory; /* sticky: the functions below then do nothing */
+} scene_builder;
+
+void builder_free(scene_builder *builder);
+
+/* Appends `count` zeroed items to a section and returns the first, or NULL without memory. */
+void *builder_append(scene_builder *builder, blob_section section, size_t count);
+
+size_t builder_count(const scene_builder *builder, blob_section section);
+void *builder_items(const scene_builder *builder, blob_section section);
+
+/* Appends a material of glTF's defaults (white, rough, opaque, no textures). */
+scene_material *builder_material(scene_builder *builder, const char *name);
+
+/* Appends the mesh of all indices from first_index on, its bounds computed; nothing if there are
+ * none. */
+void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index);
+
+/* Copies a name cut to whole UTF-8 characters; what is not UTF-8 or is a control character becomes
+ * '?'. */
+void builder_name(char name[SCENE_NAME_SIZE], const char *text);
+
+/* Fills the header of the packed blob; with `checksum` its content hash too. */
+void builder_header(const scene_builder *builder, bool checksum, blob_header *header);
+
+/* Packs into one malloc'ed block. */
+bool builder_pack(const scene_builder *builder, void **block, size_t *size);
+
+#endif

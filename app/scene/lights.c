@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/builtin.h"
+#include "app/scene/random.h"
+#include "app/scene/scene.h"
+#include "app/scene/vector.h"
+
+#include <string.h>
+
+#define PI 3.14159265f
+
+/* Random lights: radii relative to the scene's size, and the mean irradiance (a white light spread
+ * over the scene's bounding sphere) that their powers add up to. */
+#define RANDOM_RADIUS_SMALL 0.008f
+#define RANDOM_RADIUS_LARGE 0.020f
+#define RANDOM_IRRADIANCE   12.0f
+#define RANDOM_MARGIN       0.08f /* kept free at the sides of the bounds */
+#define RANDOM_WARM_SHARE   0.5f
+
+/* Moving lights: the size of an orbit relative to the scene's, and the slowest period. */
+#define ORBIT_SIZE   0.04f
+#define ORBIT_PERIOD 8.0
+
+void scene_clear_lights(scene *s) {
+    s->light_count = 0;
+}
+
+lmp_light scene_light_as_sphere(const scene_light *light) {
+    return (lmp_light) {
+        .kind = LMP_LIGHT_SPHERE,
+        .position = vec_load(light->center),
+        .radius = light->radius,
+        .radiance = { light->radiance[0], light->radiance[1], light->radiance[2] },
+    };
+}
+
+static float scene_size(const scene *s) {
+    return vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
+}
+
+void builtin_light_color(uint64_t *random, float warm_share, float color[3]) {
+    static const float saturated[][3] = {
+        { 0.08f, 0.55f, 1.0f }, { 1.0f, 0.10f, 0.32f }, { 0.10f, 1.0f, 0.55f },
+        { 0.62f, 0.16f, 1.0f }, { 1.0f, 0.32f, 0.05f }, { 0.05f, 0.90f, 1.0f },
+    };
+    const float pick = random_unit(random), shade = random_unit(random);
+    if (pick < warm_share) {
+        color[0] = 1.0f;
+        color[1] = 0.52f + 0.16f * shade;
+        color[2] = 0.20f + 0.22f * shade;
+        return;
+    }
+    const int count = (int)(sizeof saturated / sizeof *saturated);
+    int hue = (int)((pick - warm_share) / (1.0f - warm_share) * (float)count);
+    hue = hue < count ? hue : count - 1;
+    for (int k = 0; k < 3; k++)
+        color[k] = saturated[hue][k] + (1.0f - saturated[hue][k]) * 0.12f * shade;
+}
+
+bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *error) {
+    if (count < 0 || (size_t)count > SCENE_LIGHTS_MAX - s->light_count)
+        return cli_fail(error, s->origin, "would have %zu lights (at most %d)",
+                        s->light_count + (size_t)count, SCENE_LIGHTS_MAX);
+    const float size = scene_size(s);
+    uint64_t random = seed;
+    for (int i = 0; i < count; i++) {
+        scene_light light = { 0 };
+        /* Many lights are smaller ones, so that a thousand of them still leave room. */
+        const float crowd = fminf(1.0f, sqrtf(30.0f / (float)count));
+        light.radius =
+            size * crowd * random_between(&random, RANDOM_RADIUS_SMALL, RANDOM_RADIUS_LARGE);
+        for (int k = 0; k < 3; k++) {
+            const float extent = s->maximum[k] - s->minimum[k];
+            light.center[k] = s->minimum[k] +
+                              extent * random_between(&random, RANDOM_MARGIN, 1.0f - RANDOM_MARGIN);
+        }
+        float color[3];
+        builtin_light_color(&random, RANDOM_WARM_SHARE, color);
+        /* Power that gives the bounding sphere its irradiance, divided among the lights. */
+        const float power = RANDOM_IRRADIANCE * PI * size * size / (float)count;
+        for (int k = 0; k < 3; k++)
+            light.radiance[k] = color[k] * lmp_sphere_radiance_from_power(power, light.radius);
+        s->lights[s->light_count++] = light;
+    }
+    return true;
+}
+
+bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error *error) {
+    if ((options->file || options->random_count > 0) && !options->keep)
+        scene_clear_lights(s);
+    if (options->file && !scene_add_lights_file(s, options->file, error))
+        return false;
+    return options->random_count <= 0 ||
+           scene_add_random_lights(s, options->random_count, options->seed, error);
+}
+
+void scene_move_lights(const scene *s, double seconds, scene_light *moved) {
+    const float size = scene_size(s);
+    for (size_t i = 0; i < s->light_count; i++) {
+        moved[i] = s->lights[i];
+        uint64_t random = 0x6c616d70 + i;
+        for (int k = 0; k < 3; k++) {
+            /* Whole multiples of one frequency: every orbit closes after ORBIT_PERIOD. */
+            const double cycles = 1.0 + (double)(random_bits(&random) % 3);
+            const double phase = 2.0 * (double)PI * (double)random_unit(&random);
+            const double angle = 2.0 * (double)PI * cycles * seconds / ORBIT_PERIOD;
+            const float place = moved[i].center[k];
+            /* Inside the bounds where the light was inside. */
+            const float room = fminf(place - s->minimum[k], s->maximum[k] - place);
+            const float reach = fmaxf(0.0f, fminf(ORBIT_SIZE * size, room - moved[i].radius));
+            moved[i].center[k] = place + 0.5f * reach * (float)(sin(angle + phase) - sin(phase));
+        }
+    }
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT */
+/* shape.h - the solids that the built-in scenes are made of: boxes, turned and swept mouldings. */
+#ifndef LAMPION_SCENE_SHAPE_H
+#define LAMPION_SCENE_SHAPE_H
+
+#include "app/scene/builder.h"
+
+#define SHAPE_MATERIALS_MAX 32
+
+/* Where shapes go: triangles are sorted by material, and one mesh a material comes out. Shapes are
+ * given in a local frame: turned by `quarters` of 90° round y, then moved to `origin`. */
+typedef struct scene_shaper {
+    scene_builder *builder;
+    builder_array triangles[SHAPE_MATERIALS_MAX]; /* uint32_t indices */
+    uint32_t material;                            /* of the shapes that follow */
+    int quarters;
+    lmp_vec3 origin;
+} scene_shaper;
+
+/* Appends the meshes to the builder, named as their materials, and frees the shaper. */
+void shaper_finish(scene_shaper *shaper);
+
+/* A point of a profile: distance from the axis (or depth), and place along it (or height). */
+typedef struct shape_point {
+    float r, a;
+} shape_point;
+
+/* A quad a b c d, counter-clockwise seen from its front. */
+void shape_quad(scene_shaper *shaper, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c, lmp_vec3 d);
+
+void shape_box(scene_shaper *shaper, lmp_vec3 minimum, lmp_vec3 maximum);
+
+/* A surface of revolution, or part of one. */
+typedef struct shape_turning {
+    const shape_point *profile; /* edges bending by less than 50° are smooth */
+    int point_count;
+    lmp_vec3 origin;
+    char axis;      /* 'x', 'y' or 'z' */
+    float from, to; /* angles; both 0: all round */
+    int segments;   /* round the axis */
+    int flutes;     /* 0, or the number of hollows round the axis */
+    float depth;    /* of a flute, relative to the radius */
+} shape_turning;
+
+/* The outside is to the right of the profile's direction in the (r, a) plane. */
+void shape_turn(scene_shaper *shaper, const shape_turning *turning);
+
+/* Sweeps a profile of (depth towards +z, height) along x. Its outside as for shape_turn. */
+void shape_sweep(scene_shaper *shaper, const shape_point *profile, int point_count, lmp_vec3 origin,
+                 float from_x, float to_x);
+
+#endif

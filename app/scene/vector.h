@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* vector.h - arithmetic on lmp_vec3 by value. */
+#ifndef LAMPION_SCENE_VECTOR_H
+#define LAMPION_SCENE_VECTOR_H
+
+#include <lampion/base.h>
+
+#include <math.h>
+
+static inline lmp_vec3 vec(float x, float y, float z) {
+    return (lmp_vec3) { x, y, z };
+}
+
+static inline lmp_vec3 vec_load(const float *p) {
+    return (lmp_vec3) { p[0], p[1], p[2] };
+}
+
+static inline void vec_store(lmp_vec3 a, float *p) {
+    p[0] = a.x;
+    p[1] = a.y;
+    p[2] = a.z;
+}
+
+static inline lmp_vec3 vec_add(lmp_vec3 a, lmp_vec3 b) {
+    return (lmp_vec3) { a.x + b.x, a.y + b.y, a.z + b.z };
+}
+
+static inline lmp_vec3 vec_sub(lmp_vec3 a, lmp_vec3 b) {
+    return (lmp_vec3) { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+static inline lmp_vec3 vec_scale(lmp_vec3 a, float s) {
+    return (lmp_vec3) { a.x * s, a.y * s, a.z * s };
+}
+
+static inline float vec_dot(lmp_vec3 a, lmp_vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline lmp_vec3 vec_cross(lmp_vec3 a, lmp_vec3 b) {
+    return (lmp_vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+static inline float vec_length(lmp_vec3 a) {
+    return sqrtf(vec_dot(a, a));
+}
+
+/* `fallback` where a has no direction. */
+static inline lmp_vec3 vec_normalize(lmp_vec3 a, lmp_vec3 fallback) {
+    const float length = vec_length(a);
+    return length > 0.0f && isfinite(length) ? vec_scale(a, 1.0f / length) : fallback;
+}
+
+/* A unit vector across the unit vector n. */
+static inline lmp_vec3 vec_across(lmp_vec3 n) {
+    const lmp_vec3 axis = fabsf(n.x) < 0.6f ? vec(1.0f, 0.0f, 0.0f) : vec(0.0f, 0.0f, 1.0f);
+    return vec_normalize(vec_cross(axis, n), vec(1.0f, 0.0f, 0.0f));
+}
+
+#endif
