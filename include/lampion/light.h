@@ -4,17 +4,18 @@
  * Seen from a point, a sphere of radius r at distance d covers a spherical cap of half angle a,
  * sin a = r/d, round the direction w to its centre. Uniform radiance L makes its coefficients
  *
- *     Z_l  = (sqrt(pi (2l+1)) / 2) L sin²a R_l(cos a)      in the frame whose z is w  (paper Eq.
- * 12) L_lm = pi L sin²a R_l(cos a) Y_lm(w)                  in any frame              (paper Eq.
- * 13)
+ *     Z_l  = sqrt(pi (2l+1)) / 2 L sin²a R_l(cos a)   where z is w       (paper Eq. 12)
+ *     L_lm = pi L sin²a R_l(cos a) Y_lm(w)            in any frame       (paper Eq. 13)
  *
- * with R_l the Jacobi polynomial P^(1,1)_(l-1) scaled to R_l(1) = 1, and R_0 = 2 / (1 + cos a). R_l
- * is evaluated by its differences, which keeps float32 exact for lights however small or far; paper
- * Eq. 12 as printed loses them below r/d = 0.01 (docs/accuracy.md).
+ * with R_l the Jacobi polynomial P^(1,1)_(l-1) scaled to R_l(1) = 1, and R_0 = 2 / (1 + cos a).
+ * R_l is evaluated by its differences, which keeps float32 exact for lights however small or far;
+ * paper Eq. 12 as printed loses them below r/d = 0.01 (docs/accuracy.md).
  *
- * On or inside the sphere (d <= r) the cap goes on growing, from the hemisphere at the surface to
- * the full sphere at the centre: sin²a = d²/r², cos a = -sqrt(1 - sin²a). Values are continuous
- * everywhere, at the surface and at the centre too. */
+ * Inside the sphere (d < r) the cap goes on growing, from the hemisphere at the surface to the full
+ * sphere at the centre: sin²a = d²/r², cos a = -sqrt(1 - sin²a). That is a convention, not physics;
+ * values are continuous everywhere, at the surface and at the centre too.
+ *
+ * Positions and radii must be finite, d and r below 1e18. */
 #ifndef LAMPION_LIGHT_H
 #define LAMPION_LIGHT_H
 
@@ -49,22 +50,39 @@ typedef struct lmp_light {
     lmp_rgb ground; /* radiance of a hemisphere light's lower half */
 } lmp_light;
 
-/* What a light is from one point: coefficients L_lm = zonal factor of band l times Y_lm(axis).
- * See lmp_light_cap. */
+/* What any light is from one point: a cap of at most a hemisphere, plus light from everywhere,
+ *
+ *     L_lm = strength R_l(1 - one_minus) Y_lm(axis)  +  2 sqrt(pi) ambient  for l = m = 0
+ *
+ *   sphere, cap      strength pi L sin²a. Seen as more than a hemisphere (from inside a sphere, or
+ *                    angle > pi/2): ambient L less the complementary cap, so strength is negative
+ *                    and the axis points away from the light
+ *   point            a Dirac (one_minus 0) of strength intensity / d²
+ *   spot             the same, times saturate((cos - cos outer) / (cos inner - cos outer))² of the
+ *                    angle off its axis (as glTF's KHR_lights_punctual; the difference is held to
+ *                    1e-3 and up)
+ *   directional      a Dirac of strength irradiance
+ *   hemisphere       one_minus 1, strength pi (radiance - ground), ambient ground
+ *
+ * A point or spot light closer than LMP_POINT_DISTANCE_MIN counts as that far; at d = 0 the axis is
+ * z. */
+#define LMP_POINT_DISTANCE_MIN 1e-6f
 typedef struct lmp_cap {
-    lmp_vec3 axis;    /* unit, from the point to the light */
+    lmp_vec3 axis;    /* unit */
     float sin2;       /* sin²a, exact however small; 0 for a Dirac */
-    float one_minus;  /* 1 - |cos a|, exact however small */
-    float obtuse;     /* 1 if cos a < 0 (the point is inside), else 0 */
-    lmp_rgb strength; /* pi L sin²a, or the intensity/d² or irradiance of a Dirac */
+    float one_minus;  /* 1 - cos a in 0 … 1, exact however small; 0 for a Dirac */
+    lmp_rgb strength; /* see above */
+    lmp_rgb ambient;  /* radiance from every direction */
 } lmp_cap;
 
-/* --- one sphere --------------------------------------------------------------------------------
- */
+LMP_API void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap);
+
+/* --- one sphere ------------------------------------------------------------------------------- */
 
 /* Zonal coefficients Z_l of a sphere of unit radiance (paper Eq. 12).
  *
- * radius >= 0, distance >= 0, finite, not both 0; zonal receives `bands` values */
+ * radius >= 0, distance >= 0; zonal receives `bands` values, in the frame whose z points to the
+ * centre (inside as well) */
 LMP_API void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal);
 
 /* Coefficients at `point` of a sphere of unit radiance (paper Eq. 12 and 13 in one).
@@ -76,14 +94,16 @@ LMP_API void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_ve
 /* The same, with the derivatives of every coefficient by the point's position.
  *
  * gradient receives three planes of LMP_SH_COUNT(bands) values: d/dx, d/dy, d/dz. The derivative
- * is infinite on the sphere's surface; there |cos a| is held at 0.05 and up. */
+ * is infinite on the sphere's surface: its 1/|cos a| is held to 1/LMP_COS_MIN. At the centre the
+ * direction is taken as z. radius and distance not both 0 */
+#define LMP_COS_MIN 0.05f
 LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
                                          float *sh, float *gradient);
 
-/* --- any light ---------------------------------------------------------------------------------
- */
+/* --- any light -------------------------------------------------------------------------------- */
 
-/* Zonal coefficients at `point` of a light of unit strength, and the axis they are round.
+/* Zonal coefficients at `point` of a light of unit strength, and the axis they are round: towards
+ * the light (a hemisphere light: up).
  *
  * zonal receives `bands` values for radiance, intensity or irradiance 1 (a hemisphere light: for
  * radiance 1 above and 0 below); multiply by the light's colour */
@@ -96,8 +116,7 @@ LMP_API void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, 
 LMP_API void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, int bands,
                                float *sh);
 
-/* --- units -------------------------------------------------------------------------------------
- */
+/* --- units ------------------------------------------------------------------------------------ */
 
 /* Of a sphere with uniform radiance L: power 4 pi² r² L, intensity pi r² L, both exact at any
  * distance. radius > 0. */
@@ -110,17 +129,18 @@ LMP_API float lmp_sphere_radiance_from_intensity(float intensity, float radius);
 LMP_API float lmp_cap_irradiance_from_radiance(float radiance, float angle);
 LMP_API float lmp_cap_radiance_from_irradiance(float irradiance, float angle);
 
-/* --- alternatives, kept for comparison (docs/accuracy.md) ----------------------------------------
- */
+/* --- alternatives, kept for comparison (docs/accuracy.md) ------------------------------------- */
 
-/* Paper Eq. 12 exactly as printed, from cos a; float32 cancels for small lights. */
+/* Paper Eq. 12 exactly as printed, from cos a in -1 … 1, radiance 1; float32 cancels for small
+ * lights. zonal receives `bands` values, here and below. */
 LMP_API void lmp_zonal_printed(int bands, float cos_a, float *zonal);
 
 /* Sloan's closed forms (2008), factored; bands <= LMP_ZONAL_SLOAN_BANDS. */
 #define LMP_ZONAL_SLOAN_BANDS 6
 LMP_API void lmp_zonal_sloan(int bands, float cos_a, float *zonal);
 
-/* The paper's tabulation of Z_l against cos a (§4.2), linear between `size` entries. Immutable. */
+/* The paper's tabulation of Z_l against cos a (§4.2), linear between `size` >= 2 entries that span
+ * -1 … 1. Immutable. allocator may be NULL; *table is NULL on failure; destroy accepts NULL. */
 typedef struct lmp_zonal_table lmp_zonal_table;
 LMP_API lmp_result lmp_zonal_table_create(const lmp_allocator *allocator, int bands, int size,
                                           lmp_zonal_table **table);

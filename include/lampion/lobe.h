@@ -20,7 +20,7 @@ extern "C" {
  * lambda receives `bands` values, here and below. */
 LMP_API void lmp_lobe_diffuse(int bands, float *lambda);
 
-/* (e+1)/(2 pi) max(t, 0)^e, Phong's lobe scaled to integrate to 1; any real exponent e >= 0. */
+/* (e+1)/(2 pi) max(t, 0)^e, Phong's lobe scaled to integrate to 1; any finite e >= 0. */
 LMP_API void lmp_lobe_phong(int bands, float exponent, float *lambda);
 
 /* von Mises-Fisher: k/(2 pi (1 - exp(-2k))) exp(k (t - 1)); concentration k > 0. */

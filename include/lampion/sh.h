@@ -5,7 +5,8 @@
  *   bands       n: degrees l = 0 … n-1, n*n coefficients. Never "order": libraries disagree on it.
  *   index       l*l + l + m, m from -l to l: (0,0) (1,-1) (1,0) (1,1) (2,-2) …
  *   basis       real, orthonormal, paper Eq. 1-2 with the Condon-Shortley sign, as Sloan,
- * DirectXMath and Google: Y_1 = 0.4886 * (-y, z, -x). Files without that sign differ by (-1)^m.
+ *               DirectXMath and Google: Y_1 = 0.4886 * (-y, z, -x). Files without that sign differ
+ *               by (-1)^m
  *   directions  unit vectors
  *   projection  f_lm = ∫ f(w) Y_lm(w) dw (paper Eq. 5);  ∫ f g dw = Σ f_lm g_lm (paper Eq. 4)
  *
@@ -69,7 +70,8 @@ typedef enum lmp_window {
 /* Weights of a window.
  *
  * size > 0 is the band whose weight falls to 0; 0 means bands, as in the paper (§4.2). Bands at and
- * past size get weight 0. weights receives `bands` values */
+ * past size get weight 0. LMP_WINDOW_NONE gives 1 to every band, whatever the size.
+ * weights receives `bands` values */
 LMP_API void lmp_sh_window(lmp_window window, int bands, float size, float *weights);
 
 /* Weights that minimise the squared Laplacian of the function sh (Sloan 2008): the window
@@ -81,7 +83,7 @@ LMP_API void lmp_sh_window_laplacian(int bands, const float *sh, float keep, flo
 /* Scales band l of sh by weights[l]; in and out may be the same array. */
 LMP_API void lmp_sh_window_apply(int bands, const float *weights, const float *sh, float *windowed);
 
-/* A function on the sphere, for projection. */
+/* A function on the sphere, for projection; direction is unit. */
 typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
 
 /* Coefficients of any function (paper Eq. 5) by Gauss-Legendre nodes in z times uniform nodes in
@@ -95,7 +97,8 @@ LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *
 
 /* Coefficients of a latitude-longitude picture. Row 0 touches +y (up), column 0 starts at azimuth
  * -pi round y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
- * angles.
+ * angles. A pixel counts as a constant seen at its centre: take pictures of at least 4 * bands
+ * rows. The cost is width * height * bands².
  *
  * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, 0 = tight
  * sh receives channels planes of LMP_SH_COUNT(bands) values */
@@ -106,12 +109,15 @@ LMP_API void lmp_sh_project_latlong(int bands, const float *pixels, int width, i
  * Γ_ijk = ∫ Y_i Y_j Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
 typedef struct lmp_sh_product lmp_sh_product;
 
-/* allocator may be NULL; *product is NULL on failure. Free with lmp_sh_product_destroy. */
+/* allocator may be NULL; *product is NULL on failure. Free with lmp_sh_product_destroy, which
+ * accepts NULL. */
 LMP_API lmp_result lmp_sh_product_create(const lmp_allocator *allocator, int bands,
                                          lmp_sh_product **product);
 LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
 
-/* c = the coefficients of the pointwise product of a and b; c must not overlap a or b. */
+/* c = the first `bands` bands of the pointwise product of a and b, exact up to rounding.
+ *
+ * a, b and c hold LMP_SH_COUNT(bands) values; c must not overlap a or b */
 LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b,
                              float *c);
 

@@ -5,8 +5,9 @@
  *
  *     L_o = diffuse/pi ∫ L(w) max(n·w, 0) dw  +  specular (e+1)/(2 pi) ∫ L(w) max(r·w, 0)^e dw
  *
- * n the normal, r the mirror direction of the view. Lobes are cut to `bands` bands and windowed;
- * the sum over all lights is then clamped at 0, for a cut series rings. No visibility. */
+ * n the normal, r = 2 (n·v) n - v the mirror direction of the view v. Both lobes are cut to `bands`
+ * bands and windowed, the light is not. The sum of both lobes over all lights is then clamped at 0,
+ * channel by channel, for a cut series rings. No visibility. */
 #ifndef LAMPION_SHADE_H
 #define LAMPION_SHADE_H
 
@@ -53,8 +54,8 @@ LMP_API lmp_rgb lmp_shade(const lmp_shade_settings *settings, const lmp_material
                           const lmp_surface *surface, const lmp_light *lights, size_t count);
 
 /* The two methods for lobes. `coefficients` is the paper's: all the lights' n² coefficients summed,
- * then a dot product with the material's. `zonal` uses the addition theorem: O(n) a light. They
- * differ by rounding; lmp_shade is `zonal`. */
+ * then a dot product with the material's; it needs 200 KB of stack. `zonal` uses the addition
+ * theorem: O(n) a light. They differ by rounding; lmp_shade is `zonal`. */
 LMP_API lmp_rgb lmp_shade_coefficients(const lmp_shade_settings *settings,
                                        const lmp_material *material, const lmp_surface *surface,
                                        const lmp_light *lights, size_t count);

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/light/cap.h"
+#include "src/sh/column.h"
+
+#include <lampion/light.h>
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+static const float pi = 3.14159265f;
+
+static lmp_rgb scaled(lmp_rgb color, float factor) {
+    return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
+}
+
+static lmp_vec3 opposite(lmp_vec3 v) {
+    return (lmp_vec3) { -v.x, -v.y, -v.z };
+}
+
+/* --- each kind as a cap ----------------------------------------------------------------------- */
+
+/* A cap of cos a = ±(1 - one_minus); obtuse: all directions less the complementary cap. */
+static void set_cap(lmp_vec3 axis, bool obtuse, float sin2, float one_minus, lmp_rgb radiance,
+                    lmp_cap *cap) {
+    cap->axis = obtuse ? opposite(axis) : axis;
+    cap->sin2 = sin2;
+    cap->one_minus = one_minus;
+    cap->strength = scaled(radiance, obtuse ? -pi * sin2 : pi * sin2);
+    cap->ambient = obtuse ? radiance : (lmp_rgb) { 0, 0, 0 };
+}
+
+static void set_sphere(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
+    lmp_sight sight;
+    lmp_sight_sphere(light->position, light->radius, point, &sight);
+    set_cap(sight.axis, sight.inside, sight.sin2, sight.one_minus, light->radiance, cap);
+}
+
+static void set_angle(const lmp_light *light, lmp_cap *cap) {
+    assert(light->angle >= 0 && light->angle <= pi);
+    const bool obtuse = light->angle > pi / 2;
+    const float half = sinf((obtuse ? pi - light->angle : light->angle) / 2);
+    const float one_minus = 2 * half * half;
+    set_cap(light->direction, obtuse, one_minus * (2 - one_minus), one_minus, light->radiance, cap);
+}
+
+/* 1 inside the inner cone, 0 outside the outer one, of the direction from the light. */
+static float spot_falloff(const lmp_light *light, lmp_vec3 from_light) {
+    const lmp_vec3 d = light->direction;
+    const float inner = cosf(light->inner), outer = cosf(light->outer);
+    const float cosine = d.x * from_light.x + d.y * from_light.y + d.z * from_light.z;
+    const float place = (cosine - outer) / fmaxf(inner - outer, 1e-3f);
+    const float held = fminf(fmaxf(place, 0), 1);
+    return held * held;
+}
+
+static void set_point(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
+    lmp_sight sight;
+    lmp_sight_sphere(light->position, 0, point, &sight);
+    const float distance = fmaxf(sight.distance, LMP_POINT_DISTANCE_MIN);
+    const float falloff =
+        light->kind == LMP_LIGHT_SPOT ? spot_falloff(light, opposite(sight.axis)) : 1;
+    cap->axis = sight.axis;
+    cap->strength = scaled(light->intensity, falloff / (distance * distance));
+}
+
+static void set_hemisphere(const lmp_light *light, lmp_cap *cap) {
+    const lmp_rgb sky = light->radiance, ground = light->ground;
+    const lmp_rgb difference = { sky.r - ground.r, sky.g - ground.g, sky.b - ground.b };
+    set_cap(light->direction, false, 1, 1, difference, cap);
+    cap->ambient = ground;
+}
+
+void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
+    *cap = (lmp_cap) { .axis = light->direction };
+    switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+        set_sphere(light, point, cap);
+        break;
+    case LMP_LIGHT_POINT:
+    case LMP_LIGHT_SPOT:
+        set_point(light, point, cap);
+        break;
+    case LMP_LIGHT_DIRECTIONAL:
+        cap->strength = light->irradiance;
+        break;
+    case LMP_LIGHT_CAP:
+        set_angle(light, cap);
+        break;
+    case LMP_LIGHT_HEMISPHERE:
+        set_hemisphere(light, cap);
+        break;
+    }
+}
+
+/* --- coefficients ----------------------------------------------------------------------------- */
+
+void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *zonal,
+                     lmp_vec3 *axis) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    lmp_light unit = *light;
+    lmp_cap cap;
+    unit.radiance = (lmp_rgb) { 1, 1, 1 };
+    unit.ground = (lmp_rgb) { 0, 0, 0 };
+    lmp_light_cap(&unit, point, &cap);
+    const bool away = cap.ambient.r > 0;
+    lmp_cap_polynomials(bands, cap.one_minus, zonal);
+    for (int l = 0; l < bands; l++)
+        zonal[l] *= lmp_table_pole[l] * (away && l % 2 != 0 ? -cap.strength.r : cap.strength.r);
+    zonal[0] += cap.ambient.r / lmp_table_pole[0];
+    *axis = away ? opposite(cap.axis) : cap.axis;
+}
+
+static void add_cap(int bands, const lmp_cap *cap, float *sh) {
+    float *red = sh, *green = red + LMP_SH_COUNT(bands), *blue = green + LMP_SH_COUNT(bands);
+    float r[LMP_BANDS_MAX], q[LMP_BANDS_MAX];
+    lmp_cap_polynomials(bands, cap->one_minus, r);
+    red[0] += cap->ambient.r / lmp_table_pole[0];
+    green[0] += cap->ambient.g / lmp_table_pole[0];
+    blue[0] += cap->ambient.b / lmp_table_pole[0];
+    lmp_azimuth a = { 1, 0 };
+    for (int m = 0; m < bands; m++) {
+        lmp_sh_column(bands, m, cap->axis.z, q);
+        for (int l = m; l < bands; l++) {
+            const float cosine = q[l] * r[l] * a.c, sine = q[l] * r[l] * a.s;
+            const size_t plus = LMP_SH_INDEX(l, m), minus = LMP_SH_INDEX(l, -m);
+            red[plus] += cap->strength.r * cosine;
+            green[plus] += cap->strength.g * cosine;
+            blue[plus] += cap->strength.b * cosine;
+            if (m > 0) {
+                red[minus] += cap->strength.r * sine;
+                green[minus] += cap->strength.g * sine;
+                blue[minus] += cap->strength.b * sine;
+            }
+        }
+        a = lmp_azimuth_next(a, cap->axis);
+    }
+}
+
+void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, int bands,
+                       float *sh) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    memset(sh, 0, 3 * LMP_SH_COUNT(bands) * sizeof *sh);
+    for (size_t i = 0; i < count; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], point, &cap);
+        add_cap(bands, &cap, sh);
+    }
+}

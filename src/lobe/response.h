@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* response.h - the addition theorem: a lobe's answer to a cap in one sum over l. */
+#ifndef LAMPION_LOBE_RESPONSE_H
+#define LAMPION_LOBE_RESPONSE_H
+
+#include <lampion/lobe.h>
+
+/* weights[l] = (2l+1) lambda_l / (4 pi). */
+void lmp_response_weights(int bands, const float *lambda, float *weights);
+
+/* Σ_l weights[l] r[l] P_l(q·w), r the polynomials of the cap (src/light/cap.h). */
+float lmp_response(int bands, const float *weights, const float *r, lmp_vec3 q, lmp_vec3 w);
+
+/* Adds what a lobe gathers from a cap, of which `response` is the part for strength 1. */
+void lmp_response_add(const lmp_cap *cap, float response, float lambda_0, lmp_rgb *sum);
+
+#endif

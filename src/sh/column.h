@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* column.h - the recurrence all of sh and light share: one m at a time, l upward. */
+#ifndef LAMPION_SH_COLUMN_H
+#define LAMPION_SH_COLUMN_H
+
+#include "src/base/tables.h"
+
+/* C_m + i S_m = (x + iy)^m, the azimuthal part of Y_l,±m: no angles and no poles. */
+typedef struct lmp_azimuth {
+    float c, s;
+} lmp_azimuth;
+
+static inline lmp_azimuth lmp_azimuth_next(lmp_azimuth a, lmp_vec3 direction) {
+    return (lmp_azimuth) { direction.x * a.c - direction.y * a.s,
+                           direction.x * a.s + direction.y * a.c };
+}
+
+/* q[l] = q_l^m(z) for l = m … bands-1; Y_l,±m = q_l^m {C_m, S_m}. */
+static inline void lmp_sh_column(int bands, int m, float z, float *q) {
+    const float *a = lmp_table_a + lmp_table_index(m, m);
+    const float *b = lmp_table_b + lmp_table_index(m, m);
+    float before = 0;
+    q[m] = lmp_table_diagonal[m];
+    for (int l = m + 1; l < bands; l++) {
+        q[l] = a[l - m] * z * q[l - 1] + b[l - m] * before;
+        before = q[l - 1];
+    }
+}
+
+/* Σ_l factors[l] Σ_m sh_lm Y_lm(direction); factors NULL means 1. */
+float lmp_sh_filtered(int bands, const float *sh, const float *factors, lmp_vec3 direction);
+
+#endif

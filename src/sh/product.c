@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT */
+/* Products of functions. The number of non-zero Γ_ijk grows as n^5, so beyond a few bands the two
+ * functions are evaluated on a grid that integrates three harmonics exactly, multiplied there, and
+ * projected back: O(n^3), azimuth and height apart. */
+#include "src/base/heap.h"
+#include "src/sh/quadrature.h"
+
+#include <lampion/sh.h>
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+enum {
+    TABLE_BANDS = 5, /* up to here the table takes fewer operations */
+    TABLE_COUNT = TABLE_BANDS * TABLE_BANDS
+};
+
+/* Γ_ijk with i <= j. */
+typedef struct triple {
+    int i, j, k;
+    float value;
+} triple;
+
+struct lmp_sh_product {
+    lmp_allocator heap;
+    int bands;
+    /* the table */
+    size_t triple_count;
+    triple *triples;
+    /* the grid: per height, weight and q_l^m(z) r^m by m then l; per azimuth cos and sin of m phi
+     */
+    int heights, azimuths;
+    float *weights, *columns, *cosines, *sines;
+};
+
+/* --- the grid --------------------------------------------------------------------------------- */
+
+static size_t triangle(int bands) {
+    return (size_t)bands * (size_t)(bands + 1) / 2;
+}
+
+/* Y_l,m of azimuth 0 for m = 0 … bands-1, l = m … bands-1: the recurrence of tables.h in double,
+ * with the power of the radius in it. */
+static void fill_columns(int bands, double z, double *column) {
+    const double radius = sqrt((1 - z) * (1 + z));
+    double diagonal = sqrt(1 / (4 * pi));
+    for (int m = 0; m < bands; m++) {
+        double before = 0, now = diagonal;
+        for (int l = m; l < bands; l++) {
+            *column++ = now;
+            const double span = (double)(l + 1 - m) * (l + 1 + m);
+            double next = sqrt((4.0 * (l + 1) * (l + 1) - 1) / span) * z * now;
+            if (l > m)
+                next -= sqrt((2 * l + 3.0) * (l - m) * (l + m) / ((2 * l - 1.0) * span)) * before;
+            before = now;
+            now = next;
+        }
+        diagonal *= -radius * (m == 0 ? sqrt(3) : sqrt((2 * m + 3.0) / (2 * m + 2.0)));
+    }
+}
+
+static int height_count(int bands) {
+    return (3 * bands - 1) / 2;
+}
+
+static int azimuth_count(int bands) {
+    return bands == 1 ? 1 : 3 * bands - 2;
+}
+
+static lmp_result create_grid(lmp_sh_product *product) {
+    const int bands = product->bands;
+    product->heights = height_count(bands);
+    product->azimuths = azimuth_count(bands);
+    const size_t columns = (size_t)product->heights * triangle(bands);
+    const size_t waves = (size_t)product->azimuths * (size_t)bands;
+    const size_t total = (size_t)product->heights + columns + 2 * waves;
+    product->weights = lmp_heap_allocate(&product->heap, total * sizeof(float));
+    double *column = lmp_heap_allocate(&product->heap, triangle(bands) * sizeof(double));
+    if (!product->weights || !column) {
+        lmp_heap_release(&product->heap, column);
+        return LMP_ERROR_MEMORY;
+    }
+    product->columns = product->weights + product->heights;
+    product->cosines = product->columns + columns;
+    product->sines = product->cosines + waves;
+    for (int i = 0; i < product->heights; i++) {
+        double z, weight;
+        lmp_gauss_legendre(product->heights, i, &z, &weight);
+        product->weights[i] = (float)(weight * 2 * pi / product->azimuths);
+        fill_columns(bands, z, column);
+        for (size_t k = 0; k < triangle(bands); k++)
+            product->columns[(size_t)i * triangle(bands) + k] = (float)column[k];
+    }
+    for (int j = 0; j < product->azimuths; j++) {
+        for (int m = 0; m < bands; m++) {
+            const double phi = 2 * pi * ((double)j * m / product->azimuths);
+            product->cosines[j * bands + m] = (float)cos(phi);
+            product->sines[j * bands + m] = (float)sin(phi);
+        }
+    }
+    lmp_heap_release(&product->heap, column);
+    return LMP_OK;
+}
+
+/* A function along one circle of height: Σ_m cosine[m] cos(m phi) + sine[m] sin(m phi). */
+typedef struct fourier {
+    float cosine[LMP_BANDS_MAX], sine[LMP_BANDS_MAX];
+} fourier;
+
+static void circle_of(int bands, const float *column, const float *sh, fourier *circle) {
+    for (int m = 0; m < bands; m++) {
+        float cosine = 0, sine = 0;
+        for (int l = m; l < bands; l++) {
+            const float q = *column++;
+            cosine += q * sh[LMP_SH_INDEX(l, m)];
+            sine += q * sh[LMP_SH_INDEX(l, -m)];
+        }
+        circle->cosine[m] = cosine;
+        circle->sine[m] = m > 0 ? sine : 0;
+    }
+}
+
+static float circle_value(int bands, const fourier *circle, const float *c, const float *s) {
+    float value = 0;
+    for (int m = 0; m < bands; m++)
+        value += circle->cosine[m] * c[m] + circle->sine[m] * s[m];
+    return value;
+}
+
+static void multiply_on_grid(const lmp_sh_product *product, const float *a, const float *b,
+                             float *c) {
+    const int bands = product->bands;
+    memset(c, 0, LMP_SH_COUNT(bands) * sizeof *c);
+    for (int i = 0; i < product->heights; i++) {
+        const float *column = product->columns + (size_t)i * triangle(bands);
+        fourier of_a, of_b, of_c = { { 0 }, { 0 } };
+        circle_of(bands, column, a, &of_a);
+        circle_of(bands, column, b, &of_b);
+        for (int j = 0; j < product->azimuths; j++) {
+            const float *cosine = product->cosines + j * bands, *sine = product->sines + j * bands;
+            const float value = product->weights[i] * circle_value(bands, &of_a, cosine, sine) *
+                                circle_value(bands, &of_b, cosine, sine);
+            for (int m = 0; m < bands; m++) {
+                of_c.cosine[m] += value * cosine[m];
+                of_c.sine[m] += value * sine[m];
+            }
+        }
+        for (int m = 0; m < bands; m++) {
+            for (int l = m; l < bands; l++) {
+                const float q = *column++;
+                c[LMP_SH_INDEX(l, m)] += q * of_c.cosine[m];
+                if (m > 0)
+                    c[LMP_SH_INDEX(l, -m)] += q * of_c.sine[m];
+            }
+        }
+    }
+}
+
+/* --- the table -------------------------------------------------------------------------------- */
+
+/* All Y_i at one node of the grid, in double. */
+static void eval_node(int bands, double z, double phi, double *y) {
+    double column[TABLE_COUNT];
+    fill_columns(bands, z, column);
+    const double *q = column;
+    for (int m = 0; m < bands; m++) {
+        for (int l = m; l < bands; l++, q++) {
+            y[LMP_SH_INDEX(l, -m)] = *q * sin(m * phi);
+            y[LMP_SH_INDEX(l, m)] = *q * cos(m * phi);
+        }
+    }
+}
+
+static void integrate_triples(int bands, double gamma[TABLE_COUNT][TABLE_COUNT][TABLE_COUNT]) {
+    const int count = bands * bands;
+    for (int node = 0; node < height_count(bands) * azimuth_count(bands); node++) {
+        double z, weight, y[TABLE_COUNT];
+        lmp_gauss_legendre(height_count(bands), node / azimuth_count(bands), &z, &weight);
+        const double step = 2 * pi / azimuth_count(bands);
+        eval_node(bands, z, step * (node % azimuth_count(bands)), y);
+        for (int i = 0; i < count; i++)
+            for (int j = i; j < count; j++)
+                for (int k = 0; k < count; k++)
+                    gamma[i][j][k] += weight * step * y[i] * y[j] * y[k];
+    }
+}
+
+/* The smallest true Γ of these bands is above 1e-2, the noise of the quadrature below 1e-14. */
+static int is_zero(double gamma) {
+    return fabs(gamma) < 1e-9;
+}
+
+static lmp_result create_table(lmp_sh_product *product) {
+    const int count = product->bands * product->bands;
+    const size_t size = sizeof(double) * TABLE_COUNT * TABLE_COUNT * TABLE_COUNT;
+    double(*gamma)[TABLE_COUNT][TABLE_COUNT] = lmp_heap_allocate(&product->heap, size);
+    if (!gamma)
+        return LMP_ERROR_MEMORY;
+    memset(gamma, 0, size);
+    integrate_triples(product->bands, gamma);
+    for (int i = 0; i < count; i++)
+        for (int j = i; j < count; j++)
+            for (int k = 0; k < count; k++)
+                product->triple_count += !is_zero(gamma[i][j][k]);
+    product->triples =
+        lmp_heap_allocate(&product->heap, product->triple_count * sizeof *product->triples);
+    triple *next = product->triples;
+    for (int i = 0; next && i < count; i++)
+        for (int j = i; j < count; j++)
+            for (int k = 0; k < count; k++)
+                if (!is_zero(gamma[i][j][k]))
+                    *next++ = (triple) { i, j, k, (float)gamma[i][j][k] };
+    lmp_heap_release(&product->heap, gamma);
+    return product->triples ? LMP_OK : LMP_ERROR_MEMORY;
+}
+
+static void multiply_by_table(const lmp_sh_product *product, const float *a, const float *b,
+                              float *c) {
+    memset(c, 0, LMP_SH_COUNT(product->bands) * sizeof *c);
+    for (size_t n = 0; n < product->triple_count; n++) {
+        const triple *t = &product->triples[n];
+        const float pair = t->i == t->j ? a[t->i] * b[t->i] : a[t->i] * b[t->j] + a[t->j] * b[t->i];
+        c[t->k] += t->value * pair;
+    }
+}
+
+/* --- the object ------------------------------------------------------------------------------- */
+
+lmp_result lmp_sh_product_create(const lmp_allocator *allocator, int bands,
+                                 lmp_sh_product **product) {
+    *product = NULL;
+    if (bands < 1 || bands > LMP_BANDS_MAX)
+        return LMP_ERROR_ARGUMENT;
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    lmp_sh_product *created = lmp_heap_allocate(&heap, sizeof *created);
+    if (!created)
+        return LMP_ERROR_MEMORY;
+    *created = (lmp_sh_product) { .heap = heap, .bands = bands };
+    const lmp_result result = bands <= TABLE_BANDS ? create_table(created) : create_grid(created);
+    if (result != LMP_OK) {
+        lmp_sh_product_destroy(created);
+        return result;
+    }
+    *product = created;
+    return LMP_OK;
+}
+
+void lmp_sh_product_destroy(lmp_sh_product *product) {
+    if (!product)
+        return;
+    const lmp_allocator heap = product->heap;
+    lmp_heap_release(&heap, product->triples);
+    lmp_heap_release(&heap, product->weights);
+    lmp_heap_release(&heap, product);
+}
+
+void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b, float *c) {
+    if (product->triples)
+        multiply_by_table(product, a, b, c);
+    else
+        multiply_on_grid(product, a, b, c);
+}

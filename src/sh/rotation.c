@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+/* Rotation by Wigner's d, R = Rz(alpha) Ry(beta) Rz(gamma). For each (m, k) the three-term
+ * recurrence in l starts from a closed form at l = max(|m|, |k|) and runs upward, its stable
+ * direction; so float32 orthogonality holds to 128 bands, where the recurrence of Ivanic and
+ * Ruedenberg has lost it. All in double: the entries, not the path to them, are float. */
+#include <lampion/sh.h>
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { POWERS = 2 * LMP_BANDS_MAX };
+
+/* What the entries are made of, for one rotation. */
+typedef struct euler {
+    double cos_beta;
+    double cos_half[POWERS], sin_half[POWERS]; /* powers of cos and sin of beta/2 */
+    double log_factorial[POWERS];
+    double alpha_cos[LMP_BANDS_MAX], alpha_sin[LMP_BANDS_MAX]; /* of m alpha */
+    double gamma_cos[LMP_BANDS_MAX], gamma_sin[LMP_BANDS_MAX]; /* of k gamma */
+} euler;
+
+static void turn_prepare(euler *turn, int bands, lmp_quat q) {
+    const double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
+    const double c = hypot(z, w), s = hypot(x, y), length = hypot(c, s);
+    assert(length > 0);
+    /* q = qz(alpha) qy(beta) qz(gamma): the half angles come from q itself, without cancellation */
+    const double half_sum = atan2(z, w), half_difference = atan2(-x, y);
+    turn->cos_beta = (c - s) * (c + s) / (length * length);
+    turn->cos_half[0] = turn->sin_half[0] = 1;
+    turn->log_factorial[0] = 0;
+    for (int i = 1; i < 2 * bands; i++) {
+        turn->cos_half[i] = turn->cos_half[i - 1] * (c / length);
+        turn->sin_half[i] = turn->sin_half[i - 1] * (s / length);
+        turn->log_factorial[i] = turn->log_factorial[i - 1] + log(i);
+    }
+    for (int m = 0; m < bands; m++) {
+        turn->alpha_cos[m] = cos(m * (half_sum + half_difference));
+        turn->alpha_sin[m] = sin(m * (half_sum + half_difference));
+        turn->gamma_cos[m] = cos(m * (half_sum - half_difference));
+        turn->gamma_sin[m] = sin(m * (half_sum - half_difference));
+    }
+}
+
+/* d^l_mk at l = max(m, |k|), m >= 0. An underflow to 0 is harmless: the recurrence multiplies it by
+ * less than 1e80 up to 128 bands. */
+static double wigner_first(const euler *turn, int m, int k) {
+    const int l = m > abs(k) ? m : abs(k), other = m > abs(k) ? k : k < 0 ? -m : m;
+    const double *f = turn->log_factorial;
+    const double root = exp((f[2 * l] - f[l + other] - f[l - other]) / 2);
+    const double size = root * turn->cos_half[l + other] * turn->sin_half[l - other];
+    /* d^l_lk carries (-sin)^(l-k); d^l_ml = (-1)^(l-m) d^l_lm carries sin^(l-m) */
+    const int odd = (l - other) % 2 != 0;
+    return odd && (k <= m) ? -size : size;
+}
+
+/* d[l] = d^l_mk for l = max(m, |k|) … bands-1. */
+static void wigner(const euler *turn, int bands, int m, int k, double *d) {
+    const int first = m > abs(k) ? m : abs(k);
+    const double mm = (double)m * m, kk = (double)k * k;
+    double root = 0; /* sqrt((l²-m²)(l²-k²)) */
+    d[first] = wigner_first(turn, m, k);
+    for (int l = first; l + 1 < bands; l++) {
+        const double up = (double)(l + 1) * (l + 1), tilt = l > 0 ? (double)m * k / l : 0;
+        const double next = sqrt((up - mm) * (up - kk));
+        double value = (2 * l + 1) * ((l + 1) * turn->cos_beta - tilt) * d[l];
+        if (l > first)
+            value -= (l + 1) * root / l * d[l - 1];
+        d[l + 1] = value / next;
+        root = next;
+    }
+}
+
+static float *entry(float *matrices, int l, int m, int k) {
+    return matrices + LMP_SH_ROTATION_COUNT(l) + (size_t)((l + m) * (2 * l + 1) + l + k);
+}
+
+/* The entries (±m, ±k) of all bands. From Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w)
+ * for the complex harmonics, and Y_l,±m = sqrt(2) {Re, Im} Y^m. */
+static void fill(const euler *turn, int bands, int m, int k, float *matrices) {
+    double plus[LMP_BANDS_MAX], minus[LMP_BANDS_MAX];
+    wigner(turn, bands, m, k, plus);
+    wigner(turn, bands, m, -k, minus);
+    const double ca = turn->alpha_cos[m], sa = turn->alpha_sin[m];
+    const double cg = turn->gamma_cos[k], sg = turn->gamma_sin[k];
+    const double sum_c = ca * cg - sa * sg, sum_s = sa * cg + ca * sg;
+    const double difference_c = ca * cg + sa * sg, difference_s = sa * cg - ca * sg;
+    const double sign = k % 2 ? -1 : 1;
+    for (int l = m > k ? m : k; l < bands; l++) {
+        const double p = plus[l], s = sign * minus[l];
+        if (m == 0 || k == 0) {
+            /* one of ±m, ±k is one entry, where p = s */
+            const double scale = m == 0 && k == 0 ? 1 : sqrt(2);
+            *entry(matrices, l, -m, k) = (float)(scale * p * sum_s);
+            *entry(matrices, l, m, -k) = (float)(scale * p * -sum_s);
+            *entry(matrices, l, m, k) = (float)(scale * p * sum_c);
+        } else {
+            *entry(matrices, l, m, k) = (float)(p * sum_c + s * difference_c);
+            *entry(matrices, l, m, -k) = (float)(s * difference_s - p * sum_s);
+            *entry(matrices, l, -m, k) = (float)(p * sum_s + s * difference_s);
+            *entry(matrices, l, -m, -k) = (float)(p * sum_c - s * difference_c);
+        }
+    }
+}
+
+void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    euler turn;
+    turn_prepare(&turn, bands, rotation);
+    for (int m = 0; m < bands; m++)
+        for (int k = 0; k < bands; k++)
+            fill(&turn, bands, m, k, matrices);
+}
+
+void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    for (int l = 0; l < bands; l++) {
+        const float *in = sh + LMP_SH_COUNT(l);
+        for (int m = 0; m <= 2 * l; m++) {
+            float sum = 0;
+            for (int k = 0; k <= 2 * l; k++)
+                sum += *matrices++ * in[k];
+            *rotated++ = sum;
+        }
+    }
+}

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/sh.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MOST = LMP_BANDS_MAX * LMP_BANDS_MAX };
+
+static float *allocate_matrices(int bands) {
+    float *matrices = malloc(LMP_SH_ROTATION_COUNT(bands) * sizeof *matrices);
+    assert_non_null(matrices);
+    return matrices;
+}
+
+/* The quaternion of a rotation matrix, by its largest component. */
+static lmp_quat quaternion_of(const double r[9]) {
+    const double four[4] = { 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8], 1 - r[0] - r[4] + r[8],
+                             1 + r[0] + r[4] + r[8] };
+    const double q[4][4] = {
+        { four[0], r[1] + r[3], r[2] + r[6], r[7] - r[5] },
+        { r[1] + r[3], four[1], r[5] + r[7], r[2] - r[6] },
+        { r[2] + r[6], r[5] + r[7], four[2], r[3] - r[1] },
+        { r[7] - r[5], r[2] - r[6], r[3] - r[1], four[3] },
+    };
+    int best = 0;
+    for (int k = 1; k < 4; k++)
+        best = four[k] > four[best] ? k : best;
+    return (lmp_quat) { (float)q[best][0], (float)q[best][1], (float)q[best][2],
+                        (float)q[best][3] };
+}
+
+static void matrix_of(lmp_quat q, double rotation[9]) {
+    const double wide[4] = { (double)q.x, (double)q.y, (double)q.z, (double)q.w };
+    oracle_quaternion_matrix(wide, rotation);
+}
+
+static void rotates_the_vector_file(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("rotation.csv");
+    if (!csv)
+        return;
+    float matrices[LMP_SH_ROTATION_COUNT(8)];
+    for (int row = 0; row < csv->rows; row++) {
+        double rotation[9], in[64], expected[64];
+        float sh[64], rotated[64];
+        check_csv_numbers(csv, row, 0, 9, rotation);
+        check_csv_numbers(csv, row, 9, 64, in);
+        check_csv_numbers(csv, row, 73, 64, expected);
+        for (int k = 0; k < 64; k++)
+            sh[k] = (float)in[k];
+        lmp_sh_rotation(8, quaternion_of(rotation), matrices);
+        lmp_sh_rotate(8, matrices, sh, rotated);
+        CHECK_WITHIN(check_error(64, expected, rotated), 3e-6);
+    }
+    check_csv_close(csv);
+}
+
+static void matches_exact_quadrature_of_every_entry(void **state) {
+    (void)state;
+    const float half = sqrtf(0.5f);
+    const lmp_quat rotations[] = {
+        { 0, 0, 0, 1 },       { 1, 0, 0, 0 },          { 0, 1, 0, 0 },
+        { 0, 0, 1, 0 },       { half, 0, 0, half },    { 0, half, 0, half },
+        { half, half, 0, 0 }, { 1e-12f, 0, 0, 1 },     { 1, 2, 3, 4 },
+        { 0, 1, 0, 1e-7f },   check_random_rotation(), check_random_rotation(),
+    };
+    float matrices[LMP_SH_ROTATION_COUNT(7)];
+    double expected[LMP_SH_ROTATION_COUNT(7)], rotation[9];
+    for (size_t i = 0; i < sizeof rotations / sizeof *rotations; i++) {
+        matrix_of(rotations[i], rotation);
+        oracle_rotation(7, rotation, expected);
+        lmp_sh_rotation(7, rotations[i], matrices);
+        CHECK_WITHIN(check_error(LMP_SH_ROTATION_COUNT(7), expected, matrices), 2e-7);
+    }
+}
+
+/* The matrices hold to float32 rounding; the bounds are those of sums of 2l+1 rounded products. */
+static void takes_harmonics_to_the_rotated_direction_at_any_bands(void **state) {
+    (void)state;
+    const int counts[] = { 1, 2, 10, 30, 60, LMP_BANDS_MAX };
+    static float sh[MOST], rotated[MOST];
+    static double before[MOST], after[MOST];
+    for (int i = 0; i < 6; i++) {
+        const int bands = counts[i];
+        float *matrices = allocate_matrices(bands);
+        for (int trial = 0; trial < 2; trial++) {
+            const lmp_quat q = check_random_rotation();
+            const lmp_vec3 v = check_random_direction();
+            const double w[3] = { (double)v.x, (double)v.y, (double)v.z };
+            double rotation[9], turned[3];
+            matrix_of(q, rotation);
+            for (int k = 0; k < 3; k++)
+                turned[k] = rotation[3 * k] * w[0] + rotation[3 * k + 1] * w[1] +
+                            rotation[3 * k + 2] * w[2];
+            oracle_sh_eval(bands, w, before);
+            oracle_sh_eval(bands, turned, after);
+            for (size_t k = 0; k < LMP_SH_COUNT(bands); k++)
+                sh[k] = (float)before[k];
+            lmp_sh_rotation(bands, q, matrices);
+            lmp_sh_rotate(bands, matrices, sh, rotated);
+            CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), after, rotated), 2e-6);
+        }
+        free(matrices);
+    }
+}
+
+static void is_orthogonal_at_128_bands(void **state) {
+    (void)state;
+    float *matrices = allocate_matrices(LMP_BANDS_MAX);
+    const lmp_quat rotations[] = { { 0, 1e-3f, 0, 1 },
+                                   { 0.7f, 0.7f, 1e-4f, 0 },
+                                   check_random_rotation() };
+    for (int i = 0; i < 3; i++) {
+        lmp_sh_rotation(LMP_BANDS_MAX, rotations[i], matrices);
+        const int bands[] = { 1, 20, 64, 127 };
+        for (int b = 0; b < 4; b++) {
+            const int l = bands[b], size = 2 * l + 1;
+            const float *matrix = matrices + LMP_SH_ROTATION_COUNT(l);
+            for (int row = 0; row < size; row++) {
+                for (int other = 0; other <= row; other++) {
+                    double sum = 0;
+                    for (int k = 0; k < size; k++)
+                        sum += (double)matrix[row * size + k] * (double)matrix[other * size + k];
+                    CHECK_WITHIN(fabs(sum - (row == other)), 5e-7);
+                }
+            }
+        }
+    }
+    free(matrices);
+}
+
+static void of_no_rotation_is_the_identity(void **state) {
+    (void)state;
+    float *matrices = allocate_matrices(LMP_BANDS_MAX);
+    lmp_sh_rotation(LMP_BANDS_MAX, (lmp_quat) { 0, 0, 0, -3 }, matrices);
+    const float *entry = matrices;
+    for (int l = 0; l < LMP_BANDS_MAX; l++)
+        for (int m = 0; m <= 2 * l; m++)
+            for (int k = 0; k <= 2 * l; k++)
+                CHECK_WITHIN(fabsf(*entry++ - (float)(m == k)), 1e-6);
+    free(matrices);
+}
+
+static void undoes_itself(void **state) {
+    (void)state;
+    const lmp_quat q = check_random_rotation(), back = { -q.x, -q.y, -q.z, q.w };
+    float *there = allocate_matrices(40), *again = allocate_matrices(40);
+    float sh[1600], rotated[1600], returned[1600];
+    double expected[1600];
+    for (int k = 0; k < 1600; k++) {
+        sh[k] = (float)check_random_between(-1, 1);
+        expected[k] = (double)sh[k];
+    }
+    lmp_sh_rotation(40, q, there);
+    lmp_sh_rotation(40, back, again);
+    lmp_sh_rotate(40, there, sh, rotated);
+    lmp_sh_rotate(40, again, rotated, returned);
+    CHECK_WITHIN(check_error(1600, expected, returned), 5e-6);
+    free(there);
+    free(again);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rotates_the_vector_file),
+        cmocka_unit_test(matches_exact_quadrature_of_every_entry),
+        cmocka_unit_test(takes_harmonics_to_the_rotated_direction_at_any_bands),
+        cmocka_unit_test(is_orthogonal_at_128_bands),
+        cmocka_unit_test(of_no_rotation_is_the_identity),
+        cmocka_unit_test(undoes_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/sh.h>
+
+#include <math.h>
+
+enum { MOST = LMP_BANDS_MAX * LMP_BANDS_MAX };
+
+static void wide(lmp_vec3 v, double w[3]) {
+    w[0] = (double)v.x, w[1] = (double)v.y, w[2] = (double)v.z;
+}
+
+static void evaluates_the_vector_file(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("sh_eval.csv");
+    if (!csv)
+        return;
+    for (int row = 0; row < csv->rows; row++) {
+        double w[3], expected[169];
+        float sh[169];
+        check_csv_numbers(csv, row, 0, 3, w);
+        check_csv_numbers(csv, row, 3, 169, expected);
+        const double length = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+        lmp_sh_eval(
+            13,
+            (lmp_vec3) { (float)(w[0] / length), (float)(w[1] / length), (float)(w[2] / length) },
+            sh);
+        CHECK_WITHIN(check_error(169, expected, sh), 3e-5);
+    }
+    check_csv_close(csv);
+}
+
+/* Bounds: ten times the errors that MATH's table of float32 gives, against the unit direction. */
+static void evaluates_any_number_of_bands(void **state) {
+    (void)state;
+    const struct {
+        int bands;
+        double bound;
+    } cases[] = { { 1, 1e-6 },  { 2, 1e-6 },    { 3, 1.3e-6 },
+                  { 10, 3e-5 }, { 30, 4.1e-4 }, { 128, 1e-2 } };
+    static double expected[MOST];
+    static float sh[MOST];
+    for (int i = 0; i < 6; i++) {
+        for (int trial = 0; trial < 4; trial++) {
+            double w[3];
+            const lmp_vec3 direction = check_random_direction();
+            wide(direction, w);
+            const size_t count = LMP_SH_COUNT(cases[i].bands);
+            oracle_sh_eval(cases[i].bands, w, expected);
+            lmp_sh_eval(cases[i].bands, direction, sh);
+            CHECK_WITHIN(check_error(count, expected, sh), cases[i].bound);
+        }
+    }
+}
+
+static void sums_squares_to_the_addition_theorem_at_128_bands(void **state) {
+    (void)state;
+    static float sh[MOST];
+    const lmp_vec3 directions[] = { { 0, 0, 1 },
+                                    { 0, 0, -1 },
+                                    { 1, 0, 0 },
+                                    { 0, -1, 0 },
+                                    check_random_direction(),
+                                    check_random_direction() };
+    for (int i = 0; i < 6; i++) {
+        lmp_sh_eval(LMP_BANDS_MAX, directions[i], sh);
+        double sum = 0;
+        for (int k = 0; k < MOST; k++)
+            sum += (double)sh[k] * (double)sh[k];
+        CHECK_WITHIN(fabs(sum / (MOST / (4 * ORACLE_PI)) - 1), 1e-4);
+        CHECK_WITHIN(fabs((double)lmp_sh_dot(LMP_BANDS_MAX, sh, sh) / sum - 1), 1e-5);
+    }
+}
+
+static void stays_finite_next_to_the_poles(void **state) {
+    (void)state;
+    static float sh[MOST];
+    static double expected[MOST];
+    for (int power = 1; power <= 40; power++) {
+        const float tiny = powf(10, (float)-power);
+        const lmp_vec3 direction = { tiny, -tiny, power % 2 ? 1.f : -1.f };
+        double w[3];
+        wide(direction, w);
+        if (power < 4)
+            continue; /* not unit in float32 */
+        oracle_sh_eval(LMP_BANDS_MAX, w, expected);
+        lmp_sh_eval(LMP_BANDS_MAX, direction, sh);
+        CHECK_WITHIN(check_error(MOST, expected, sh), 1e-2);
+    }
+}
+
+static void reconstructs_what_the_coefficients_say(void **state) {
+    (void)state;
+    for (int bands = 1; bands <= 12; bands++) {
+        float sh[144], y[144];
+        for (int k = 0; k < bands * bands; k++)
+            sh[k] = (float)check_random_between(-1, 1);
+        const lmp_vec3 direction = check_random_direction();
+        lmp_sh_eval(bands, direction, y);
+        double expected = 0;
+        for (int k = 0; k < bands * bands; k++)
+            expected += (double)sh[k] * (double)y[k];
+        CHECK_WITHIN(fabs((double)lmp_sh_reconstruct(bands, sh, direction) - expected),
+                     3e-6 * bands);
+        CHECK_WITHIN(fabs((double)lmp_sh_dot(bands, sh, y) - expected), 3e-6 * bands);
+    }
+}
+
+static void turns_zonal_coefficients_to_any_axis(void **state) {
+    (void)state;
+    float zonal[20], sh[400], along[400];
+    double cap[20];
+    oracle_cap_zonal(20, 0.3, cap);
+    for (int l = 0; l < 20; l++)
+        zonal[l] = (float)cap[l];
+    const lmp_vec3 axis = check_random_direction();
+    double w[3], expected[400];
+    wide(axis, w);
+    oracle_cap(20, w, 0.3, expected);
+    lmp_sh_from_zonal(20, zonal, axis, sh);
+    CHECK_WITHIN(check_error(400, expected, sh), 1e-5);
+    lmp_sh_from_zonal(20, zonal, (lmp_vec3) { 0, 0, 1 }, along);
+    for (int l = 0; l < 20; l++)
+        CHECK_WITHIN(fabs((double)along[LMP_SH_INDEX(l, 0)] - cap[l]), 1e-5);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(evaluates_the_vector_file),
+        cmocka_unit_test(evaluates_any_number_of_bands),
+        cmocka_unit_test(sums_squares_to_the_addition_theorem_at_128_bands),
+        cmocka_unit_test(stays_finite_next_to_the_poles),
+        cmocka_unit_test(reconstructs_what_the_coefficients_say),
+        cmocka_unit_test(turns_zonal_coefficients_to_any_axis),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/light.h>
+
+#include <math.h>
+
+enum { MOST = LMP_BANDS_MAX * LMP_BANDS_MAX };
+
+static lmp_vec3 narrow(const double v[3]) {
+    return (lmp_vec3) { (float)v[0], (float)v[1], (float)v[2] };
+}
+
+static void project_file(const char *name, int bands, double bound) {
+    check_csv *csv = check_csv_open(name);
+    if (!csv)
+        return;
+    for (int row = 0; row < csv->rows; row++) {
+        double in[7], expected[100];
+        float sh[100];
+        check_csv_numbers(csv, row, 0, 7, in);
+        check_csv_numbers(csv, row, 7, bands * bands, expected);
+        lmp_sphere_project(bands, narrow(in), (float)in[3], narrow(in + 4), sh);
+        CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), expected, sh), bound);
+    }
+    check_csv_close(csv);
+}
+
+static void projects_the_vector_file(void **state) {
+    (void)state;
+    project_file("sphere_light.csv", 10, 2e-5);
+}
+
+static void projects_the_vector_file_of_points_inside(void **state) {
+    (void)state;
+    project_file("sphere_light_inside.csv", 6, 1e-5);
+}
+
+static void derives_the_vector_file(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("sphere_light_gradient.csv");
+    if (!csv)
+        return;
+    for (int row = 0; row < csv->rows; row++) {
+        double in[7], expected[108];
+        float sh[36], gradient[108];
+        check_csv_numbers(csv, row, 0, 7, in);
+        check_csv_numbers(csv, row, 7, 108, expected);
+        const double v[3] = { in[0] - in[4], in[1] - in[5], in[2] - in[6] };
+        const double ratio = in[3] / sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        /* nearer than this to the surface the library holds the derivative down */
+        if (sqrt(1 - ratio * ratio) < (double)LMP_COS_MIN)
+            continue;
+        lmp_sphere_project_gradient(6, narrow(in), (float)in[3], narrow(in + 4), sh, gradient);
+        CHECK_WITHIN(check_error(108, expected, gradient), 7e-6);
+    }
+    check_csv_close(csv);
+}
+
+static void gives_zonal_coefficients_of_100_bands(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("zonal_high_bands.csv");
+    if (!csv)
+        return;
+    for (int row = 0; row < csv->rows; row++) {
+        double expected[100];
+        float zonal[100];
+        check_csv_numbers(csv, row, 1, 100, expected);
+        lmp_sphere_zonal(100, (float)check_csv_number(csv, row, 0), 1, zonal);
+        CHECK_WITHIN(check_error(100, expected, zonal), 4e-6);
+    }
+    check_csv_close(csv);
+}
+
+static void projects_as_its_zonal_coefficients_turned(void **state) {
+    (void)state;
+    const float radii[] = { 1e-6f, 0.01f, 0.5f, 0.999f, 1, 1.001f, 3, 1e4f };
+    static float zonal[LMP_BANDS_MAX], expected[MOST], sh[MOST];
+    static double wide[MOST];
+    for (int i = 0; i < 8; i++) {
+        const lmp_vec3 w = check_random_direction();
+        lmp_sphere_zonal(LMP_BANDS_MAX, radii[i], 1, zonal);
+        lmp_sh_from_zonal(LMP_BANDS_MAX, zonal, w, expected);
+        lmp_sphere_project(LMP_BANDS_MAX, w, radii[i], (lmp_vec3) { 0, 0, 0 }, sh);
+        for (int k = 0; k < MOST; k++)
+            wide[k] = (double)expected[k];
+        CHECK_WITHIN(check_error(MOST, wide, sh), 1e-3);
+    }
+}
+
+static void is_continuous_across_the_surface(void **state) {
+    (void)state;
+    float outside[100], on[100], inside[100];
+    double expected[100];
+    const lmp_vec3 origin = { 0, 0, 0 };
+    for (int trial = 0; trial < 5; trial++) {
+        const lmp_vec3 w = check_random_direction();
+        const float length = sqrtf(w.x * w.x + w.y * w.y + w.z * w.z);
+        lmp_sphere_project(10, w, length * (1 - 1e-6f), origin, outside);
+        lmp_sphere_project(10, w, length, origin, on);
+        lmp_sphere_project(10, w, length * (1 + 1e-6f), origin, inside);
+        for (int k = 0; k < 100; k++)
+            expected[k] = (double)on[k];
+        /* the cap's edge moves as the square root of the step */
+        CHECK_WITHIN(check_error(100, expected, outside), 5e-3);
+        CHECK_WITHIN(check_error(100, expected, inside), 5e-3);
+    }
+}
+
+static void is_continuous_across_the_centre(void **state) {
+    (void)state;
+    float one[100], other[100];
+    double expected[100];
+    const lmp_vec3 origin = { 0, 0, 0 };
+    for (int power = 3; power <= 30; power += 3) {
+        const float step = powf(10, (float)-power);
+        lmp_sphere_project(10, (lmp_vec3) { step, 0, 0 }, 1, origin, one);
+        lmp_sphere_project(10, (lmp_vec3) { -step, step, 0 }, 1, origin, other);
+        for (int k = 0; k < 100; k++)
+            expected[k] = (double)one[k];
+        CHECK_WITHIN(check_error(100, expected, other), 3e-6 + 10 * (double)step);
+    }
+    lmp_sphere_project(10, origin, 1, origin, one);
+    CHECK_WITHIN(fabs((double)one[0] - 2 * sqrt(ORACLE_PI)), 1e-6);
+    for (int k = 1; k < 100; k++)
+        assert_true(one[k] == 0);
+}
+
+static void of_no_size_is_dark_even_where_it_is(void **state) {
+    (void)state;
+    float sh[100], zonal[10];
+    const lmp_vec3 origin = { 0, 0, 0 };
+    lmp_sphere_project(10, origin, 0, origin, sh);
+    for (int k = 0; k < 100; k++)
+        assert_true(sh[k] == 0);
+    lmp_sphere_project(10, (lmp_vec3) { 1, 2, 3 }, 0, origin, sh);
+    for (int k = 0; k < 100; k++)
+        assert_true(sh[k] == 0);
+    lmp_sphere_zonal(10, 0, 0, zonal);
+    for (int l = 0; l < 10; l++)
+        assert_true(zonal[l] == 0);
+}
+
+static void derives_as_the_oracle_does_outside_and_inside(void **state) {
+    (void)state;
+    const double ratios[] = { 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.99, 1.02, 1.5, 10, 1e3 };
+    for (int i = 0; i < 10; i++) {
+        const lmp_vec3 w = check_random_direction();
+        const lmp_vec3 point = { 0.25f, -0.5f, 0.125f };
+        const lmp_vec3 center = { point.x + 2 * w.x, point.y + 2 * w.y, point.z + 2 * w.z };
+        const double c[3] = { (double)center.x, (double)center.y, (double)center.z };
+        const double p[3] = { (double)point.x, (double)point.y, (double)point.z };
+        const float radius = (float)(2 * ratios[i]);
+        double expected[100], slopes[300];
+        float sh[100], gradient[300];
+        oracle_sphere(10, c, (double)radius, p, expected, slopes);
+        lmp_sphere_project_gradient(10, center, radius, point, sh, gradient);
+        CHECK_WITHIN(check_error(100, expected, sh), 2e-5);
+        CHECK_WITHIN(check_error(300, slopes, gradient), 3e-5);
+    }
+}
+
+static void derives_finitely_on_the_surface_and_at_the_centre(void **state) {
+    (void)state;
+    const lmp_vec3 origin = { 0, 0, 0 };
+    const float xs[] = { 0, 1e-30f, 0.5f, 0.9999999f, 1, 1.0000001f };
+    for (int i = 0; i < 6; i++) {
+        float sh[100], gradient[300];
+        lmp_sphere_project_gradient(10, (lmp_vec3) { xs[i], 0, 0 }, 1, origin, sh, gradient);
+        for (int k = 0; k < 300; k++)
+            CHECK_WITHIN(fabsf(gradient[k]), 1e3);
+    }
+}
+
+static void derives_128_bands(void **state) {
+    (void)state;
+    static double expected[MOST], slopes[3 * MOST];
+    static float sh[MOST], gradient[3 * MOST];
+    const double c[3] = { 1, 2, -3 }, p[3] = { 0, 0.5, 0 };
+    oracle_sphere(LMP_BANDS_MAX, c, 1, p, expected, slopes);
+    lmp_sphere_project_gradient(LMP_BANDS_MAX, narrow(c), 1, narrow(p), sh, gradient);
+    CHECK_WITHIN(check_error(MOST, expected, sh), 1e-3);
+    CHECK_WITHIN(check_error(3 * MOST, slopes, gradient), 1e-2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(projects_the_vector_file),
+        cmocka_unit_test(projects_the_vector_file_of_points_inside),
+        cmocka_unit_test(derives_the_vector_file),
+        cmocka_unit_test(gives_zonal_coefficients_of_100_bands),
+        cmocka_unit_test(projects_as_its_zonal_coefficients_turned),
+        cmocka_unit_test(is_continuous_across_the_surface),
+        cmocka_unit_test(is_continuous_across_the_centre),
+        cmocka_unit_test(of_no_size_is_dark_even_where_it_is),
+        cmocka_unit_test(derives_as_the_oracle_does_outside_and_inside),
+        cmocka_unit_test(derives_finitely_on_the_surface_and_at_the_centre),
+        cmocka_unit_test(derives_128_bands),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
