@@ -76,6 +76,10 @@ int cli_usage(const cli_command *command, const char *format, ...)
 /* The entry of `names` (NULL-terminated) nearest to `word`, or NULL if none is near. */
 const char *cli_nearest(const char *word, const char *const *names);
 
+/* Reads a decimal number that takes up all of `length` bytes: no blanks, hexadecimal, nan or
+ * infinity, whatever a double cannot hold. */
+bool cli_number(const char *text, size_t length, double *value);
+
 /* A progress bar on stderr if that is a terminal, else silence. done in 0 … 1; call it as often as
  * you like, it draws a few times a second. cli_progress_end clears the line. */
 void cli_progress(const char *what, double done);

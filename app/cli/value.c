@@ -31,18 +31,22 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
     }
 }
 
-/* Reads a number made of `characters`, up to the character `end`. Copied, for strtod would read on:
- * 0x480 is a size of 0 by 480, and a number in hexadecimal. */
-static bool read_number(const char **text, const char *characters, char end, double *value) {
-    char number[64], *stop;
-    const size_t length = strspn(*text, characters);
-    if (length == 0 || length >= sizeof number || (*text)[length] != end)
+bool cli_number(const char *text, size_t length, double *value) {
+    char number[64], *stop; /* copied, for strtod would read on: 0x480 is also a number */
+    if (length == 0 || length >= sizeof number || strspn(text, "+-.eE" DIGITS) < length)
         return false;
-    memcpy(number, *text, length);
+    memcpy(number, text, length);
     number[length] = '\0';
     *value = strtod(number, &stop);
-    *text += length + (end != '\0');
     return *stop == '\0' && isfinite(*value);
+}
+
+/* Reads a number made of `characters`, up to the character `end`. */
+static bool read_number(const char **text, const char *characters, char end, double *value) {
+    const char *const number = *text;
+    const size_t length = strspn(number, characters);
+    *text += length + (end != '\0');
+    return number[length] == end && cli_number(number, length, value);
 }
 
 static bool out_of_range(const cli_option *option, const char *text, cli_error *error) {

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/command.h"
 
-const cli_command *const command_table[] = { NULL };
+extern const cli_command command_project;
+
+const cli_command *const command_table[] = { &command_project, NULL };

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion project - spherical-harmonics coefficients of sphere lights, one or a table of them. */
+#include "app/command/command.h"
+#include "app/csv/csv.h"
+
+#include <lampion/light.h>
+
+#include <stdlib.h>
+
+#define COLUMNS 7
+#define HEADER  "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z"
+
+static const char *const column_names[COLUMNS] = { "light_x", "light_y", "light_z", "radius",
+                                                   "recv_x",  "recv_y",  "recv_z" };
+
+typedef enum project_format { FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON } project_format;
+static const char *const format_names[] = { "text", "csv", "json", NULL };
+
+typedef struct project_options {
+    float light[3], radius, point[3], radiance;
+    int bands, format;
+    const char *batch;
+    bool light_given, radius_given, point_given, format_given;
+} project_options;
+
+/* One row of the table: a light and the point that sees it. */
+typedef struct project_row {
+    float center[3], radius, point[3];
+} project_row;
+
+static lmp_vec3 to_vec3(const float v[3]) {
+    return (lmp_vec3) { v[0], v[1], v[2] };
+}
+
+static void project_rows(const project_row *rows, size_t count, int bands, float radiance,
+                         float *coefficients) {
+    const size_t stride = LMP_SH_COUNT(bands);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < count; i++) {
+        float *const sh = coefficients + i * stride;
+        lmp_sphere_project(bands, to_vec3(rows[i].center), rows[i].radius, to_vec3(rows[i].point),
+                           sh);
+        for (size_t k = 0; k < stride; k++)
+            sh[k] *= radiance;
+    }
+}
+
+/* --- one light ------------------------------------------------------------------------------- */
+
+static void print_header(size_t count) {
+    for (size_t i = 0; i < count; i++)
+        printf("%sc_%zu", i ? "," : "", i);
+    putchar('\n');
+}
+
+static void print_values(const float *values, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        char text[CSV_TEXT_MAX];
+        const size_t length = csv_format(values[i], text);
+        printf("%s%.*s", i ? "," : "", (int)length, text);
+    }
+}
+
+static void print_text(const float *sh, int bands) {
+    printf("%3s %4s  value\n", "l", "m");
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++) {
+            char text[CSV_TEXT_MAX];
+            const float value = sh[LMP_SH_INDEX(l, m)];
+            const size_t length = csv_format(value, text);
+            printf("%3d %4d %s%.*s\n", l, m, value < 0.0f ? "" : " ", (int)length, text);
+        }
+}
+
+static void print_json(const project_options *o, const float *sh) {
+    printf("{\"bands\":%d,\"radiance\":", o->bands);
+    print_values(&o->radiance, 1);
+    printf(",\"light\":[");
+    print_values(o->light, 3);
+    printf("],\"radius\":");
+    print_values(&o->radius, 1);
+    printf(",\"point\":[");
+    print_values(o->point, 3);
+    printf("],\"coefficients\":[");
+    print_values(sh, LMP_SH_COUNT(o->bands));
+    printf("]}\n");
+}
+
+static int project_one(const project_options *o) {
+    float sh[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    const project_row row = { { o->light[0], o->light[1], o->light[2] },
+                              o->radius,
+                              { o->point[0], o->point[1], o->point[2] } };
+    project_rows(&row, 1, o->bands, o->radiance, sh);
+    if (o->format == FORMAT_TEXT) {
+        print_text(sh, o->bands);
+    } else if (o->format == FORMAT_JSON) {
+        print_json(o, sh);
+    } else {
+        print_header(LMP_SH_COUNT(o->bands));
+        print_values(sh, LMP_SH_COUNT(o->bands));
+        putchar('\n');
+    }
+    return CLI_OK;
+}
+
+/* --- a table of them, block by block --------------------------------------------------------- */
+
+/* Room for a block of rows on its way through: read, projected, printed. */
+typedef struct block {
+    size_t room, coefficient_count;
+    project_row *rows;
+    float *coefficients;
+    char *text; /* room lines of line_size bytes */
+    size_t line_size, *line_lengths;
+} block;
+
+static bool block_create(block *b, int bands) {
+    const size_t values = 1 << 19; /* of a block, for constant memory whatever the bands */
+    b->coefficient_count = LMP_SH_COUNT(bands);
+    b->room = values / b->coefficient_count < 4096 ? values / b->coefficient_count : 4096;
+    b->line_size = b->coefficient_count * (CSV_TEXT_MAX + 1);
+    b->rows = malloc(b->room * sizeof *b->rows);
+    b->coefficients = malloc(b->room * b->coefficient_count * sizeof *b->coefficients);
+    b->text = malloc(b->room * b->line_size);
+    b->line_lengths = malloc(b->room * sizeof *b->line_lengths);
+    return b->rows && b->coefficients && b->text && b->line_lengths;
+}
+
+static void block_free(block *b) {
+    free(b->rows);
+    free(b->coefficients);
+    free(b->text);
+    free(b->line_lengths);
+}
+
+/* Reads up to b->room rows; CSV_ROW while there may be more. */
+static csv_result block_read(block *b, csv_reader *reader, size_t *count, cli_error *error) {
+    for (*count = 0; *count < b->room; (*count)++) {
+        float v[COLUMNS];
+        const csv_result result = csv_read_row(reader, column_names, COLUMNS, v, error);
+        if (result != CSV_ROW)
+            return result;
+        if (v[3] < 0.0f)
+            return csv_line_error(reader, error, "radius: %g is negative", (double)v[3]);
+        b->rows[*count] = (project_row) { { v[0], v[1], v[2] }, v[3], { v[4], v[5], v[6] } };
+    }
+    return CSV_ROW;
+}
+
+static size_t format_line(const float *values, size_t count, char *line) {
+    char *out = line;
+    for (size_t i = 0; i < count; i++) {
+        out += csv_format(values[i], out);
+        *out++ = ',';
+    }
+    out[-1] = '\n';
+    return (size_t)(out - line);
+}
+
+/* False when stdout takes no more; main reports it. */
+static bool block_print(block *b, size_t count) {
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < count; i++)
+        b->line_lengths[i] = format_line(b->coefficients + i * b->coefficient_count,
+                                         b->coefficient_count, b->text + i * b->line_size);
+    for (size_t i = 0; i < count; i++)
+        if (fwrite(b->text + i * b->line_size, 1, b->line_lengths[i], stdout) != b->line_lengths[i])
+            return false;
+    return true;
+}
+
+static int project_table(const project_options *o, csv_reader *reader, block *b) {
+    cli_error error;
+    csv_result result;
+    print_header(b->coefficient_count);
+    do {
+        size_t count;
+        result = block_read(b, reader, &count, &error);
+        project_rows(b->rows, count, o->bands, o->radiance, b->coefficients);
+        if (!block_print(b, count))
+            return CLI_FAILURE;
+    } while (result == CSV_ROW);
+    return result == CSV_END ? CLI_OK : cli_report(&error);
+}
+
+static int project_batch(const project_options *o) {
+    cli_error error;
+    csv_reader *const reader = malloc(sizeof *reader);
+    block b;
+    int status = CLI_FAILURE;
+    if (!block_create(&b, o->bands) || !reader) {
+        cli_fail(&error, NULL, "out of memory");
+        cli_report(&error);
+    } else if (!csv_open(reader, o->batch, HEADER, &error)) {
+        cli_report(&error);
+    } else {
+        status = project_table(o, reader, &b);
+        csv_close(reader);
+    }
+    block_free(&b);
+    free(reader);
+    return status;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    project_options o = { .radiance = 1.0f, .bands = 10 };
+    const cli_option options[] = {
+        { "light", 'l', CLI_VEC3, o.light, "X,Y,Z", "centre of the light", 0, 0, NULL,
+          &o.light_given },
+        { "radius", 'r', CLI_FLOAT, &o.radius, "R", "its radius, in the same unit", 0, 3e38, NULL,
+          &o.radius_given },
+        { "point", 'p', CLI_VEC3, o.point, "X,Y,Z", "the point that is lit [0,0,0]", 0, 0, NULL,
+          &o.point_given },
+        { "radiance", 0, CLI_FLOAT, &o.radiance, "L", "radiance of the light", 0, 3e38, NULL,
+          NULL },
+        { "bands", 'n', CLI_INT, &o.bands, "N", "bands: N*N coefficients", 1, LMP_BANDS_MAX, NULL,
+          NULL },
+        { "format", 'f', CLI_CHOICE, &o.format, "FORMAT", "of the output [text]", 0, 0,
+          format_names, &o.format_given },
+        { "batch", 'b', CLI_TEXT, &o.batch, "FILE",
+          "reads lights and points from a table (- is standard input) with the header " HEADER
+          " and prints a row c_0,c_1,... of coefficients for each",
+          0, 0, NULL, NULL },
+        { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
+    };
+    char **operands;
+    int operand_count, status;
+    if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
+        return status;
+    if (operand_count > 0)
+        return cli_usage(command, "\"%s\" is not an option", operands[0]);
+    if (!o.batch && !(o.light_given && o.radius_given))
+        return cli_usage(command, "needs --light X,Y,Z and --radius R, or --batch FILE");
+    if (o.batch && (o.light_given || o.radius_given || o.point_given))
+        return cli_usage(command, "--batch takes lights and points from its table alone");
+    if (o.batch && o.format_given && o.format != FORMAT_CSV)
+        return cli_usage(command, "--batch prints csv only");
+    return o.batch ? project_batch(&o) : project_one(&o);
+}
+
+const cli_command command_project = {
+    .name = "project",
+    .operands = "",
+    .summary = "prints the SH coefficients of a sphere light at a point",
+    .examples = "lampion project --light 0,3,0 --radius 0.5 --bands 4\n"
+                "lampion project --light 0,3,0 --radius 0.5 --format json\n"
+                "lampion project --batch lights.csv --bands 8 > coefficients.csv",
+    .run = run,
+};

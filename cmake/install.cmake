@@ -1,0 +1,33 @@
+# What `cmake --install` puts where: library, headers, shaders and program, found again through
+# find_package(lampion) or pkg-config, wherever the tree is moved to.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS lampion EXPORT lampionTargets)
+install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion)
+if(LAMPION_PROGRAM)
+  install(TARGETS lampion_program)
+endif()
+if(EXISTS ${PROJECT_SOURCE_DIR}/shaders)
+  install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders
+    FILES_MATCHING PATTERN "*.glsl" PATTERN "*.h")
+endif()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lampion)
+install(EXPORT lampionTargets NAMESPACE lampion:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/lampionConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/lampionConfig.cmake INSTALL_DESTINATION ${package_dir})
+# Before 1.0 a minor version may break callers.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/lampionConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/lampionConfig.cmake
+  ${PROJECT_BINARY_DIR}/lampionConfigVersion.cmake DESTINATION ${package_dir})
+
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
+  BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig OUTPUT_VARIABLE pc_prefix)
+# A static library cannot name what it needs itself.
+get_target_property(library_type lampion TYPE)
+if(library_type STREQUAL STATIC_LIBRARY)
+  set(pc_libs -lm)
+endif()
+configure_file(cmake/lampion.pc.in ${PROJECT_BINARY_DIR}/lampion.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/lampion.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+# Who may include whom: reads every #include of src/, include/ and app/ against the order of layers,
+# and shows that a violation would be found.
+set -eu
+. tests/house/common.sh
+
+standard='assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal
+stdalign stdarg stdatomic stdbool stddef stdint stdlib stdnoreturn string tgmath'
+
+# may_include MODULE: the modules below it, and itself.
+may_include() {
+    case $1 in
+    base) echo base ;;
+    kernels) echo base kernels ;;
+    sh) echo base kernels sh ;;
+    light) echo base kernels sh light ;;
+    lobe | brdf) echo base kernels sh light "$1" ;;
+    shade) echo base kernels sh light lobe brdf shade ;;
+    field) echo base kernels sh light lobe brdf shade field ;;
+    lampion) echo base sh light lobe brdf shade field kernels ;;
+    app/cli) echo app/cli ;;
+    app/csv) echo app/cli app/csv ;;
+    app/file) echo app/cli app/file ;;
+    app/image) echo app/cli app/file app/image ;;
+    app/scene) echo app/cli app/file app/image app/scene LIBRARY ;;
+    # the oracle shares no code with what it judges
+    app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
+    app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
+    app/command) echo app/cli app/csv app/file app/image app/scene app/reference app/gpu app/command LIBRARY ;;
+    esac | sed 's/LIBRARY/base kernels sh light lobe brdf shade field lampion/'
+}
+
+module_of() {
+    case $1 in
+    src/*/* | include/lampion/*) echo "$1" | sed 's,^src/\([^/]*\)/.*,\1,; s,^include/lampion/\(.*\)\.h,\1,' ;;
+    app/*/*) echo "$1" | sed 's,^\(app/[^/]*\)/.*,\1,' ;;
+    esac
+}
+
+# module_included INCLUDE: the module an include line reaches into, nothing for a system header.
+module_included() {
+    case $1 in
+    '"src/'*) echo "$1" | sed 's,"src/\([^/]*\)/.*,\1,' ;;
+    '"app/'*) echo "$1" | sed 's,"\(app/[^/]*\)/.*,\1,' ;;
+    '"shaders/'*) echo shaders ;;
+    '"'*) echo "unrooted" ;;
+    '<lampion/'*) echo "$1" | sed 's,<lampion/\(.*\)\.h>,\1,' ;;
+    esac
+}
+
+# violations ROOT: prints a line for each include that breaks the order.
+violations() (
+    cd "$1"
+    for file in src/*/*.[ch] include/lampion/*.h app/*/*.[ch]; do
+        [ -f "$file" ] || continue
+        module=$(module_of "$file")
+        allowed=$(may_include "$module")
+        [ -n "$allowed" ] || { echo "$file: unknown module $module"; continue; }
+        sed -n 's/^ *# *include *\([<"][^>"]*[>"]\).*/\1/p' "$file" | while read -r include; do
+            reached=$(module_included "$include")
+            if [ -n "$reached" ]; then
+                case " $(echo $allowed) " in
+                *" $reached "*) ;;
+                *) echo "$file: $module must not include $include" ;;
+                esac
+                continue
+            fi
+            case $file in app/*) continue ;; esac
+            name=${include#<}
+            case $module:$name in kernels:*intrin.h\> | kernels:cpuid.h\> | kernels:arm_*) continue ;; esac
+            case " $(echo $standard) " in
+            *" ${name%.h>} "*) ;;
+            *) echo "$file: the library must not need $include" ;;
+            esac
+        done
+    done
+)
+
+found=$(violations .)
+[ -z "$found" ] || fail "$found"
+
+# plant FILE INCLUDE: the violation must be seen.
+plant() {
+    mkdir -p "$WORK/$(dirname "$1")"
+    printf '#include %s\n' "$2" >"$WORK/$1"
+    [ -n "$(violations "$WORK")" ] || fail "$1 may include $2 unseen"
+    rm "$WORK/$1"
+}
+plant src/sh/planted.c '"src/light/light.h"'
+plant src/base/planted.c '<stdio.h>'
+plant src/light/planted.h '"planted.h"'
+plant include/lampion/sh.h '<lampion/light.h>'
+plant app/scene/planted.c '"app/gpu/gpu.h"'
+plant app/reference/planted.c '<lampion/shade.h>'
+plant app/reference/planted.c '"src/kernels/kernels.h"'
+plant app/cli/planted.c '"app/command/command.h"'
+plant src/novel/planted.c '<math.h>'
+mkdir -p "$WORK/src/shade"
+printf '#include "src/light/light.h"\n#include <math.h>\n' >"$WORK/src/shade/allowed.c"
+[ -z "$(violations "$WORK")" ] || fail "an include that is allowed was refused"

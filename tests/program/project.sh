@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+# lampion project against the reference vectors, one form of output against the other, and what it
+# refuses.
+set -eu
+. tests/house/common.sh
+
+header=light_x,light_y,light_z,radius,recv_x,recv_y,recv_z
+vectors=${LAMPION_DATA:-../shared}/vectors/sphere_light.csv
+if [ -f "$vectors" ]; then
+    cut -d, -f1-7 "$vectors" | "$PROGRAM" project --batch - --bands 10 >"$WORK/rows"
+    # bound: 2e-5 of the largest coefficient of the row
+    tr -d '\r' <"$vectors" | paste -d, - "$WORK/rows" | awk -F, '
+        NR == 1 { next }
+        {
+            largest = 0; error = 0
+            for (i = 8; i <= 107; i++) {
+                size = $i < 0 ? -$i : $i
+                difference = $i - $(i + 100); if (difference < 0) difference = -difference
+                if (size > largest) largest = size
+                if (!(difference <= error)) error = difference
+            }
+            if (NF != 207 || !(error <= 2e-5 * largest)) { print "row " NR ": " error " of " largest; bad = 1 }
+        }
+        END { exit bad || NR < 2 }' >"$WORK/log" || fail "$(cat "$WORK/log")"
+else
+    echo "skipped: $vectors is not there"
+fi
+
+# one light three ways, and as a row of a table
+set -- --light 1,2.5,-3 --radius 0.75 --point 0.25,0,1 --bands 4 --radiance 2.5
+printf '%s\r\n1,2.5,-3,0.75,0.25,0,1\r\n\r\n' $header |
+    "$PROGRAM" project --batch - --bands 4 --radiance 2.5 >"$WORK/table"
+"$PROGRAM" project "$@" --format csv | cmp - "$WORK/table" || fail "csv is not the table's row"
+"$PROGRAM" project "$@" | awk 'NR > 1 { row = row sep $3; sep = "," } END { print row }' >"$WORK/text"
+tail -n 1 "$WORK/table" | cmp - "$WORK/text" || fail "text is not the table's row"
+"$PROGRAM" project "$@" --format json | sed 's/.*"coefficients":\[\(.*\)\]}/\1/' |
+    cmp - "$WORK/text" || fail "json is not the table's row"
+[ "$(head -n 1 "$WORK/table")" = "$(seq -s, -f 'c_%g' 0 15)" ] || fail "the header of the table"
+
+# a table of many blocks comes out complete and in order
+awk -v header=$header 'BEGIN { print header; for (i = 1; i <= 20000; i++) print i % 7 ",0,3," i / 20000 ",0,0,0" }' \
+    </dev/null >"$WORK/many"
+"$PROGRAM" project --batch "$WORK/many" --bands 1 >"$WORK/many-rows"
+[ "$(wc -l <"$WORK/many-rows")" = 20001 ] || fail "rows are missing"
+printf '%s\n' "$header" "$(tail -n 1 "$WORK/many")" | "$PROGRAM" project --batch - --bands 1 |
+    tail -n 1 >"$WORK/last"
+tail -n 1 "$WORK/many-rows" | cmp - "$WORK/last" || fail "rows are out of order"
+
+# refuse STATUS MESSAGE ARGUMENT…: one line, as said; no coefficient on a usage error.
+refuse() {
+    expected=$1 message=$2
+    shift 2
+    status=0
+    line=$("$PROGRAM" project "$@" 2>&1 >"$WORK/out" </dev/null) || status=$?
+    [ "$status $line" = "$expected $message" ] || fail "project $*: $status $line"
+}
+see="; see lampion project --help"
+refuse 2 "lampion project: needs --light X,Y,Z and --radius R, or --batch FILE$see"
+refuse 2 "lampion project: --radius: -1 is out of range (0 to 3e+38)$see" --radius -1
+refuse 2 "lampion project: --batch prints csv only$see" --batch x --format json
+refuse 2 "lampion project: --batch takes lights and points from its table alone$see" --batch x --point 0,0,0
+refuse 2 "lampion project: \"x\" is not an option$see" x
+refuse 1 "lampion: standard input: is empty (its first line must be $header)" --batch -
+refuse 1 "lampion: $WORK/nothing: No such file or directory" --batch "$WORK/nothing"
+printf '%s\n1,2,3,-0.5,0,0,0\n' $header >"$WORK/negative"
+refuse 1 "lampion: $WORK/negative: line 2: radius: -0.5 is negative" --batch "$WORK/negative"
+printf '%s\n1,2,3,1,0,0,0\n1,2,3,1,0,0,0,9\n' $header >"$WORK/wide"
+refuse 1 "lampion: $WORK/wide: line 3: has 8 columns, not 7" --batch "$WORK/wide"
+printf '%s,c_0\n1,2,3,1,0,0,0,9\n' $header >"$WORK/header"
+refuse 1 "lampion: $WORK/header: line 1: the header must be $header" --batch "$WORK/header"
