@@ -19,7 +19,7 @@ double check_error_double(size_t count, const double *expected, const double *ac
         if (!(error <= largest))
             largest = error;
         if (isnan(error))
-            return NAN;
+            return error;
         scale = fmax(scale, fabs(expected[i]));
     }
     return scale > 0 ? largest / scale : largest;

@@ -47,7 +47,7 @@ static void legendre(int bands, long double t, double *p) {
 }
 
 void oracle_legendre(int bands, double t, double *p) {
-    legendre(bands, t, p);
+    legendre(bands, (long double)t, p);
 }
 
 /* K_l^m of paper Eq. 2. */
@@ -62,7 +62,7 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
     assert(bands >= 1 && bands <= ORACLE_BANDS_MAX);
     double w[3];
     normalize(direction, w);
-    const long double z = w[2];
+    const long double z = (long double)w[2];
     const double sine = hypot(w[0], w[1]), phi = atan2(w[1], w[0]);
     for (int m = 0; m < bands; m++) {
         /* P_m^m = (-1)^m (2m-1)!! sin^m */
@@ -133,7 +133,7 @@ void oracle_cap_zonal(int bands, double one_minus, double *zonal) {
     oracle_gauss_legendre(nodes, x, weight);
     memset(zonal, 0, (size_t)bands * sizeof *zonal);
     for (int i = 0; i < nodes; i++) {
-        legendre(bands, 1 - (long double)one_minus * (1 - x[i]) / 2, p);
+        legendre(bands, 1 - (long double)one_minus * (1 - (long double)x[i]) / 2, p);
         for (int l = 0; l < bands; l++)
             zonal[l] += sqrt((2 * l + 1) / (4 * pi)) * pi * one_minus * weight[i] * p[l];
     }
@@ -224,33 +224,46 @@ void oracle_sphere(int bands, const double center[3], double radius, const doubl
 
 /* --- lobes ------------------------------------------------------------------------------------ */
 
-/* ∫ exp(-y) P_l(t(y)) dy over 0 … limit, in panels; past y = 60 nothing is left in double. */
-static void exponential_moments(int bands, double limit, long double (*place)(double, double),
-                                double parameter, double *moment) {
+/* A point of an integral over s in 0 … 1: the weight ds carries, and the place t of P_l(t). */
+typedef struct sample {
+    long double weight, t;
+} sample;
+
+static void moments(int bands, sample (*at)(long double s, double parameter), double parameter,
+                    double *moment) {
     enum { NODES = 24, PANELS = 100 };
     double x[NODES], weight[NODES], p[ORACLE_BANDS_MAX];
-    const double step = fmin(limit, 60) / PANELS;
-    oracle_gauss_legendre(NODES, x, weight);
     long double sum[ORACLE_BANDS_MAX] = { 0 };
+    oracle_gauss_legendre(NODES, x, weight);
     for (int panel = 0; panel < PANELS; panel++) {
         for (int i = 0; i < NODES; i++) {
-            const double y = step * (panel + (1 + x[i]) / 2);
-            const long double share = (long double)step / 2 * weight[i] * expl(-(long double)y);
-            legendre(bands, place(y, parameter), p);
+            const sample here = at((panel + (1 + (long double)x[i]) / 2) / PANELS, parameter);
+            legendre(bands, here.t, p);
             for (int l = 0; l < bands; l++)
-                sum[l] += share * p[l];
+                sum[l] += here.weight * (long double)weight[i] * (long double)p[l] / (2 * PANELS);
         }
     }
     for (int l = 0; l < bands; l++)
         moment[l] = (double)sum[l];
 }
 
-static long double phong_place(double y, double exponent) {
-    return expl(-(long double)y / ((long double)exponent + 1));
+/* Past here nothing is left of exp(-y) in double. */
+static const long double depth = 60;
+
+/* With t = exp(-y/(e+1)) the kernel's (e+1) t^e dt is exp(-y) dy; y = u², for P_l oscillates evenly
+ * in u. */
+static sample phong_sample(long double s, double exponent) {
+    const long double u = s * sqrtl(depth);
+    return (sample) { 2 * u * sqrtl(depth) * expl(-u * u),
+                      expl(-u * u / ((long double)exponent + 1)) };
 }
 
-static long double vmf_place(double y, double concentration) {
-    return 1 - (long double)y / concentration;
+/* In t = cos theta, up to where exp(k (t-1)) ends. */
+static sample vmf_sample(long double s, double concentration) {
+    const long double k = (long double)concentration;
+    const long double end = 2 * asinl(sqrtl(fminl(1, depth / (2 * k)))), theta = s * end;
+    const long double half = sinl(theta / 2), y = 2 * k * half * half;
+    return (sample) { end * k * sinl(theta) * expl(-y) / -expm1l(-2 * k), 1 - 2 * half * half };
 }
 
 void oracle_lobe_diffuse(int bands, double *lambda) {
@@ -266,16 +279,12 @@ void oracle_lobe_diffuse(int bands, double *lambda) {
     }
 }
 
-/* With t = exp(-y/(e+1)) the kernel's (e+1) t^e dt is exp(-y) dy. */
 void oracle_lobe_phong(int bands, double exponent, double *lambda) {
-    exponential_moments(bands, INFINITY, phong_place, exponent, lambda);
+    moments(bands, phong_sample, exponent, lambda);
 }
 
-/* With y = k (1-t). */
 void oracle_lobe_vmf(int bands, double concentration, double *lambda) {
-    exponential_moments(bands, 2 * concentration, vmf_place, concentration, lambda);
-    for (int l = 0; l < bands; l++)
-        lambda[l] /= -expm1(-2 * concentration);
+    moments(bands, vmf_sample, concentration, lambda);
 }
 
 /* --- rotation --------------------------------------------------------------------------------- */

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/sh.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct factors {
+    int bands;
+    const float *a, *b;
+    double y[400];
+} factors;
+
+static double pair_value(const double w[3], void *user) {
+    factors *pair = user;
+    double a = 0, b = 0;
+    oracle_sh_eval(pair->bands, w, pair->y);
+    for (int k = 0; k < pair->bands * pair->bands; k++) {
+        a += pair->y[k] * (double)pair->a[k];
+        b += pair->y[k] * (double)pair->b[k];
+    }
+    return a * b;
+}
+
+static void multiplies_as_quadrature_does(void **state) {
+    (void)state;
+    for (int bands = 1; bands <= 12; bands++) {
+        float a[144], b[144], c[144];
+        double expected[144];
+        for (int k = 0; k < bands * bands; k++) {
+            a[k] = (float)check_random_between(-1, 1);
+            b[k] = (float)check_random_between(-1, 1);
+        }
+        factors pair = { .bands = bands, .a = a, .b = b };
+        oracle_project(bands, pair_value, &pair, 2 * bands, expected);
+        lmp_sh_product *product;
+        assert_int_equal(lmp_sh_product_create(NULL, bands, &product), LMP_OK);
+        lmp_sh_multiply(product, a, b, c);
+        CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), expected, c), 5e-6);
+        lmp_sh_product_destroy(product);
+    }
+}
+
+static void by_one_changes_nothing_at_128_bands(void **state) {
+    (void)state;
+    enum { COUNT = LMP_BANDS_MAX * LMP_BANDS_MAX };
+    static float one[COUNT], b[COUNT], c[COUNT];
+    static double expected[COUNT];
+    one[0] = (float)(2 * sqrt(ORACLE_PI));
+    for (int k = 0; k < COUNT; k++) {
+        b[k] = (float)check_random_between(-1, 1);
+        expected[k] = (double)b[k];
+    }
+    lmp_sh_product *product;
+    assert_int_equal(lmp_sh_product_create(NULL, LMP_BANDS_MAX, &product), LMP_OK);
+    lmp_sh_multiply(product, one, b, c);
+    CHECK_WITHIN(check_error(COUNT, expected, c), 2e-5);
+    lmp_sh_product_destroy(product);
+}
+
+static void refuses_impossible_bands(void **state) {
+    (void)state;
+    const int counts[] = { 0, -1, LMP_BANDS_MAX + 1 };
+    for (int i = 0; i < 3; i++) {
+        lmp_sh_product *product = (lmp_sh_product *)1;
+        assert_int_equal(lmp_sh_product_create(NULL, counts[i], &product), LMP_ERROR_ARGUMENT);
+        assert_null(product);
+    }
+    lmp_sh_product_destroy(NULL);
+}
+
+static void gives_back_all_memory_whichever_request_fails(void **state) {
+    (void)state;
+    const int counts[] = { 3, 9 };
+    for (int i = 0; i < 2; i++) {
+        for (int refuse = 0;; refuse++) {
+            check_heap heap = { .refuse = refuse };
+            const lmp_allocator allocator = check_allocator(&heap);
+            lmp_sh_product *product = (lmp_sh_product *)1;
+            const lmp_result result = lmp_sh_product_create(&allocator, counts[i], &product);
+            const int refused = heap.requests > refuse;
+            assert_int_equal(result, refused ? LMP_ERROR_MEMORY : LMP_OK);
+            assert_true(refused == (product == NULL));
+            lmp_sh_product_destroy(product);
+            assert_int_equal(heap.live, 0);
+            if (!refused) {
+                assert_true(refuse >= 3);
+                break;
+            }
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(multiplies_as_quadrature_does),
+        cmocka_unit_test(by_one_changes_nothing_at_128_bands),
+        cmocka_unit_test(refuses_impossible_bands),
+        cmocka_unit_test(gives_back_all_memory_whichever_request_fails),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
