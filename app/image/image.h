@@ -11,23 +11,51 @@ typedef struct image {
     float *rgb; /* 3 * width * height, malloc'ed */
 } image;
 
+#define IMAGE_SIZE_MAX    16384     /* pixels a side */
+#define IMAGE_READ_PIXELS (1 << 26) /* of a picture to read */
+
 bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
 
-/* The exposure (a factor on radiance) that maps the picture's log-average to middle grey. */
+/* The exposure (a factor on radiance) that maps the log-average of what is lit to middle grey:
+ * black pixels, and the darkest and brightest twentieth, do not count. 1 for a black picture. */
 float image_auto_exposure(const image *image);
 
-/* Filmic curve and sRGB transfer to 8 bits: rgb8 receives 3 * width * height bytes. */
+/* The factor that an exposure of `stops` EV means: 2^stops. */
+float image_exposure_of_stops(float stops);
+
+/* The filmic curve of shaders/shared.h and the sRGB transfer to 8 bits: rgb8 receives 3 * width *
+ * height bytes. */
 void image_tone_map(const image *image, float exposure, unsigned char *rgb8);
 
 /* Writes by the extension of path: .png (tone-mapped with exposure) or .exr (linear, unexposed). */
 bool image_write(const image *image, const char *path, float exposure, cli_error *error);
 
+/* By the extension of path, whatever its case. */
+typedef enum image_format { IMAGE_UNKNOWN, IMAGE_PNG, IMAGE_EXR } image_format;
+image_format image_format_of(const char *path);
+
+/* True if image_write will know what to do with path and its folder can be written: ask before the
+ * long work. */
+bool image_check_path(const char *path, cli_error *error);
+
+/* A named picture of an OpenEXR file: channels NAME.R, NAME.G, NAME.B, or R, G, B without name. */
+typedef struct image_layer {
+    const char *name; /* NULL or "": the main picture */
+    const image *image;
+} image_layer;
+
+/* Writes 1 … IMAGE_LAYERS_MAX layers of one size into one .exr, 32-bit float. */
+#define IMAGE_LAYERS_MAX 8
+bool image_write_exr_layers(const char *path, const image_layer *layers, int count,
+                            cli_error *error);
+
 /* Writes 8-bit RGB as PNG. */
 bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
                       cli_error *error);
 
-/* Reads a .exr (R, G, B channels; linear) or an 8-bit .png (sRGB, linearised). */
+/* Reads (up to IMAGE_READ_PIXELS pixels) a .exr (R, G, B channels; linear) or an 8-bit .png (sRGB,
+ * linearised). */
 bool image_read(const char *path, image *image, cli_error *error);
 
 #endif

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/file/file.h"
+#include "app/image/internal.h"
+
+#include <errno.h>
+#include <openexr.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHANNELS_MAX = 3 * IMAGE_LAYERS_MAX };
+
+/* OpenEXR prints its errors by itself unless told where they go. */
+static void on_error(exr_const_context_t context, exr_result_t code, const char *message) {
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
+/* --- writing ------------------------------------------------------------------------------------
+ */
+
+static int64_t write_at(exr_const_context_t context, void *user, const void *data, uint64_t size,
+                        uint64_t offset, exr_stream_error_func_ptr_t fail) {
+    FILE *stream = user;
+    if (fseeko(stream, (off_t)offset, SEEK_SET) || fwrite(data, 1, size, stream) != size) {
+        fail(context, EXR_ERR_WRITE_IO, "%s", strerror(errno));
+        return -1;
+    }
+    return (int64_t)size;
+}
+
+/* "R" or "name.R". */
+static void channel_name(const image_layer *layer, int channel, char *name, size_t size) {
+    const bool named = layer->name && layer->name[0];
+    snprintf(name, size, "%s%s%c", named ? layer->name : "", named ? "." : "", "RGB"[channel]);
+}
+
+static exr_result_t define_file(exr_context_t context, const image_layer *layers, int count) {
+    int part = 0;
+    char name[256];
+    exr_result_t r = exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, &part);
+    if (r == EXR_ERR_SUCCESS)
+        r = exr_initialize_required_attr_simple(context, part, layers->image->width,
+                                                layers->image->height, EXR_COMPRESSION_ZIP);
+    for (int i = 0; i < 3 * count && r == EXR_ERR_SUCCESS; i++) {
+        channel_name(&layers[i / 3], i % 3, name, sizeof name);
+        r = exr_add_channel(context, part, name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1,
+                            1);
+    }
+    return r == EXR_ERR_SUCCESS ? exr_write_header(context) : r;
+}
+
+/* Where the encoder takes the rows of its channels from; the file has them sorted by name. */
+static void aim_encoder(exr_encode_pipeline_t *encoder, const image_layer *layers, int count,
+                        int row) {
+    char name[256];
+    for (int c = 0; c < encoder->channel_count; c++)
+        for (int i = 0; i < 3 * count; i++) {
+            const image *picture = layers[i / 3].image;
+            channel_name(&layers[i / 3], i % 3, name, sizeof name);
+            if (strcmp(name, encoder->channels[c].channel_name) != 0)
+                continue;
+            const float *from =
+                picture->rgb + 3 * (size_t)row * (size_t)picture->width + (size_t)(i % 3);
+            encoder->channels[c].encode_from_ptr = (const uint8_t *)from;
+            encoder->channels[c].user_pixel_stride = 3 * sizeof(float);
+            encoder->channels[c].user_line_stride = picture->width * 3 * (int32_t)sizeof(float);
+            encoder->channels[c].user_bytes_per_element = sizeof(float);
+            encoder->channels[c].user_data_type = EXR_PIXEL_FLOAT;
+        }
+}
+
+static exr_result_t write_rows(exr_context_t context, const image_layer *layers, int count) {
+    exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_chunk_info_t chunk;
+    int32_t step = 1;
+    exr_result_t r = exr_get_scanlines_per_chunk(context, 0, &step);
+    for (int row = 0; row < layers->image->height && r == EXR_ERR_SUCCESS; row += step) {
+        r = exr_write_scanline_chunk_info(context, 0, row, &chunk);
+        if (r == EXR_ERR_SUCCESS)
+            r = row ? exr_encoding_update(context, 0, &chunk, &encoder)
+                    : exr_encoding_initialize(context, 0, &chunk, &encoder);
+        if (r != EXR_ERR_SUCCESS)
+            break;
+        aim_encoder(&encoder, layers, count, row);
+        if (row == 0)
+            r = exr_encoding_choose_default_routines(context, 0, &encoder);
+        if (r == EXR_ERR_SUCCESS)
+            r = exr_encoding_run(context, 0, &encoder);
+    }
+    exr_encoding_destroy(context, &encoder);
+    return r;
+}
+
+bool image_write_exr_layers(const char *path, const image_layer *layers, int count,
+                            cli_error *error) {
+    file_writer writer;
+    if (!file_write_begin(&writer, path, error))
+        return false;
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.user_data = writer.stream;
+    setup.write_fn = write_at;
+    setup.error_handler_fn = on_error;
+    exr_context_t context = NULL;
+    exr_result_t r = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &setup);
+    if (r == EXR_ERR_SUCCESS)
+        r = define_file(context, layers, count);
+    if (r == EXR_ERR_SUCCESS)
+        r = write_rows(context, layers, count);
+    if (context) {
+        const exr_result_t finished = exr_finish(&context);
+        r = r == EXR_ERR_SUCCESS ? finished : r;
+    }
+    if (r != EXR_ERR_SUCCESS) {
+        file_write_abort(&writer);
+        return cli_fail(error, path, "%s", exr_get_default_error_message(r));
+    }
+    return file_write_commit(&writer, error);
+}
+
+/* --- reading ------------------------------------------------------------------------------------
+ */
+
+/* Aims the R, G and B of a chunk at the picture; other channels are skipped. */
+static exr_result_t aim_decoder(exr_decode_pipeline_t *decoder, image *picture, int64_t column,
+                                int64_t row) {
+    static const char *const names[3] = { "R", "G", "B" };
+    int found = 0;
+    for (int c = 0; c < decoder->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &decoder->channels[c];
+        channel->decode_to_ptr = NULL;
+        for (int i = 0; i < 3; i++) {
+            if (strcmp(channel->channel_name, names[i]) != 0)
+                continue;
+            if (channel->x_samples != 1 || channel->y_samples != 1 ||
+                channel->data_type == EXR_PIXEL_UINT || channel->width + column > picture->width ||
+                channel->height + row > picture->height || column < 0 || row < 0)
+                return EXR_ERR_FEATURE_NOT_IMPLEMENTED;
+            float *to = picture->rgb + 3 * (row * picture->width + column) + i;
+            channel->decode_to_ptr = (uint8_t *)to;
+            channel->user_pixel_stride = 3 * sizeof(float);
+            channel->user_line_stride = picture->width * 3 * (int32_t)sizeof(float);
+            channel->user_bytes_per_element = sizeof(float);
+            channel->user_data_type = EXR_PIXEL_FLOAT;
+            found++;
+        }
+    }
+    return found == 3 ? EXR_ERR_SUCCESS : EXR_ERR_MISSING_REQ_ATTR;
+}
+
+static exr_result_t decode(exr_const_context_t context, const exr_chunk_info_t *chunk,
+                           image *picture, int64_t column, int64_t row) {
+    exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
+    exr_result_t r = exr_decoding_initialize(context, 0, chunk, &decoder);
+    if (r == EXR_ERR_SUCCESS)
+        r = aim_decoder(&decoder, picture, column, row);
+    if (r == EXR_ERR_SUCCESS)
+        r = exr_decoding_choose_default_routines(context, 0, &decoder);
+    if (r == EXR_ERR_SUCCESS)
+        r = exr_decoding_run(context, 0, &decoder);
+    exr_decoding_destroy(context, &decoder);
+    return r;
+}
+
+static exr_result_t read_scanlines(exr_const_context_t context, int top, image *picture) {
+    exr_chunk_info_t chunk;
+    int32_t step = 1;
+    exr_result_t r = exr_get_scanlines_per_chunk(context, 0, &step);
+    for (int row = 0; row < picture->height && r == EXR_ERR_SUCCESS; row += step) {
+        r = exr_read_scanline_chunk_info(context, 0, top + row, &chunk);
+        if (r == EXR_ERR_SUCCESS)
+            r = decode(context, &chunk, picture, 0, row);
+    }
+    return r;
+}
+
+static exr_result_t read_tiles(exr_const_context_t context, image *picture) {
+    exr_chunk_info_t chunk;
+    int32_t width = 0, height = 0;
+    exr_result_t r = exr_get_tile_sizes(context, 0, 0, 0, &width, &height);
+    if (r == EXR_ERR_SUCCESS && (width < 1 || height < 1))
+        r = EXR_ERR_INVALID_ATTR;
+    for (int y = 0; r == EXR_ERR_SUCCESS && y * (int64_t)height < picture->height; y++)
+        for (int x = 0; r == EXR_ERR_SUCCESS && x * (int64_t)width < picture->width; x++) {
+            r = exr_read_tile_chunk_info(context, 0, x, y, 0, 0, &chunk);
+            if (r == EXR_ERR_SUCCESS)
+                r = decode(context, &chunk, picture, x * (int64_t)width, y * (int64_t)height);
+        }
+    return r;
+}
+
+static bool read_part(exr_const_context_t context, const char *path, image *picture,
+                      cli_error *error) {
+    exr_attr_box2i_t window;
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    exr_result_t r = exr_get_data_window(context, 0, &window);
+    if (r == EXR_ERR_SUCCESS)
+        r = exr_get_storage(context, 0, &storage);
+    if (r != EXR_ERR_SUCCESS)
+        return cli_fail(error, path, "not a readable OpenEXR: %s",
+                        exr_get_default_error_message(r));
+    if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
+        return cli_fail(error, path, "deep OpenEXR pictures are not supported");
+    if (!image_create_read(path, (long long)window.max.x - window.min.x + 1,
+                           (long long)window.max.y - window.min.y + 1, picture, error))
+        return false;
+    r = storage == EXR_STORAGE_TILED ? read_tiles(context, picture)
+                                     : read_scanlines(context, window.min.y, picture);
+    if (r == EXR_ERR_SUCCESS)
+        return true;
+    image_free(picture);
+    if (r == EXR_ERR_MISSING_REQ_ATTR || r == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
+        return cli_fail(error, path, "needs channels R, G and B of half or float");
+    return cli_fail(error, path, "damaged OpenEXR: %s", exr_get_default_error_message(r));
+}
+
+bool image_read_exr(const char *path, image *picture, cli_error *error) {
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = on_error;
+    exr_context_t context = NULL;
+    const exr_result_t r = exr_start_read(&context, path, &setup);
+    if (r != EXR_ERR_SUCCESS)
+        return cli_fail(error, path, "not a readable OpenEXR: %s",
+                        exr_get_default_error_message(r));
+    const bool ok = read_part(context, path, picture, error);
+    exr_finish(&context);
+    return ok;
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/image/image.h"
+
+#include "app/file/file.h"
+#include "app/image/internal.h"
+#include "shaders/shared.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+bool image_create(image *picture, int width, int height, cli_error *error) {
+    memset(picture, 0, sizeof *picture);
+    if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX)
+        return cli_fail(error, NULL, "a picture of %d x %d (1 to %d a side)", width, height,
+                        IMAGE_SIZE_MAX);
+    picture->rgb = calloc((size_t)width * (size_t)height, 3 * sizeof *picture->rgb);
+    if (!picture->rgb)
+        return cli_fail(error, NULL, "out of memory for a picture of %d x %d", width, height);
+    picture->width = width;
+    picture->height = height;
+    return true;
+}
+
+void image_free(image *picture) {
+    free(picture->rgb);
+    memset(picture, 0, sizeof *picture);
+}
+
+/* --- exposure -----------------------------------------------------------------------------------
+ */
+
+/* Luminance in eighths of a stop, from 2^-40 to 2^40. */
+enum { BINS_A_STOP = 8, STOPS = 40, BINS = 2 * STOPS * BINS_A_STOP };
+
+static size_t fill_histogram(const image *picture, size_t histogram[BINS]) {
+    const size_t count = (size_t)picture->width * (size_t)picture->height;
+    size_t lit = 0;
+    for (size_t i = 0; i < count; i++) {
+        const float *rgb = picture->rgb + 3 * i;
+        const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+        if (!(luminance > 0) || !isfinite(luminance))
+            continue;
+        const float bin = ((float)STOPS + log2f(luminance)) * (float)BINS_A_STOP;
+        histogram[bin < 0 ? 0 : bin >= (float)BINS ? BINS - 1 : (int)bin]++;
+        lit++;
+    }
+    return lit;
+}
+
+float image_auto_exposure(const image *picture) {
+    static const double middle_grey = 0.18, trimmed = 0.05;
+    size_t histogram[BINS] = { 0 };
+    const size_t lit = fill_histogram(picture, histogram);
+    const double low = trimmed * (double)lit, high = (double)lit - low;
+    double below = 0, weight = 0, sum = 0;
+    for (int bin = 0; bin < BINS; bin++) {
+        const double above = below + (double)histogram[bin];
+        const double inside = fmin(above, high) - fmax(below, low);
+        if (inside > 0) {
+            sum += inside * ((bin + 0.5) / BINS_A_STOP - STOPS);
+            weight += inside;
+        }
+        below = above;
+    }
+    return weight > 0 ? (float)(middle_grey / exp2(sum / weight)) : 1;
+}
+
+float image_exposure_of_stops(float stops) {
+    return exp2f(stops);
+}
+
+/* --- tone ---------------------------------------------------------------------------------------
+ */
+
+static float transfer(float x) {
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+}
+
+static unsigned char to_byte(float x) {
+    x = x >= 0 ? x : 0; /* NaN too */
+    return (unsigned char)(255 * transfer(x < 1 ? x : 1) + 0.5f);
+}
+
+/* Keeps the curve's squares finite. */
+static float limit(float x) {
+    return x < 65504 ? x : 65504;
+}
+
+void image_tone_map(const image *picture, float exposure, unsigned char *rgb8) {
+    const size_t count = (size_t)picture->width * (size_t)picture->height;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < count; i++) {
+        float x[3], y[3];
+        for (int c = 0; c < 3; c++)
+            x[c] = limit(picture->rgb[3 * i + (size_t)c] * exposure);
+        for (int c = 0; c < 3; c++)
+            y[c] = shared_tone(shared_tone_in(c, x[0], x[1], x[2]));
+        for (int c = 0; c < 3; c++)
+            rgb8[3 * i + (size_t)c] = to_byte(shared_tone_out(c, y[0], y[1], y[2]));
+    }
+}
+
+/* --- files --------------------------------------------------------------------------------------
+ */
+
+image_format image_format_of(const char *path) {
+    const char *dot = strrchr(path, '.');
+    if (dot && strcasecmp(dot, ".png") == 0)
+        return IMAGE_PNG;
+    if (dot && strcasecmp(dot, ".exr") == 0)
+        return IMAGE_EXR;
+    return IMAGE_UNKNOWN;
+}
+
+static bool unknown_format(const char *path, cli_error *error) {
+    return cli_fail(error, path, "unknown kind of picture (name it .png or .exr)");
+}
+
+bool image_check_path(const char *path, cli_error *error) {
+    file_writer writer;
+    if (image_format_of(path) == IMAGE_UNKNOWN)
+        return unknown_format(path, error);
+    if (!file_write_begin(&writer, path, error))
+        return false;
+    file_write_abort(&writer);
+    return true;
+}
+
+bool image_write(const image *picture, const char *path, float exposure, cli_error *error) {
+    const image_format format = image_format_of(path);
+    if (format == IMAGE_EXR)
+        return image_write_exr_layers(path, &(image_layer) { NULL, picture }, 1, error);
+    if (format != IMAGE_PNG)
+        return unknown_format(path, error);
+    unsigned char *rgb8 = malloc(3 * (size_t)picture->width * (size_t)picture->height);
+    if (!rgb8)
+        return cli_fail(error, path, "out of memory");
+    image_tone_map(picture, exposure, rgb8);
+    const bool ok = image_write_png8(rgb8, picture->width, picture->height, path, error);
+    free(rgb8);
+    return ok;
+}
+
+bool image_read(const char *path, image *picture, cli_error *error) {
+    memset(picture, 0, sizeof *picture);
+    switch (image_format_of(path)) {
+    case IMAGE_PNG:
+        return image_read_png(path, picture, error);
+    case IMAGE_EXR:
+        return image_read_exr(path, picture, error);
+    case IMAGE_UNKNOWN:
+        break;
+    }
+    return unknown_format(path, error);
+}
+
+bool image_create_read(const char *path, long long width, long long height, image *picture,
+                       cli_error *error) {
+    if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX ||
+        width * height > IMAGE_READ_PIXELS)
+        return cli_fail(error, path, "a picture of %lld x %lld is too large (%d a side, %d pixels)",
+                        width, height, IMAGE_SIZE_MAX, IMAGE_READ_PIXELS);
+    return image_create(picture, (int)width, (int)height, error);
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/file/file.h"
+#include "app/image/internal.h"
+
+#include <errno.h>
+#include <math.h>
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
+                      cli_error *error) {
+    file_writer writer;
+    png_image png = { .version = PNG_IMAGE_VERSION,
+                      .width = (png_uint_32)width,
+                      .height = (png_uint_32)height,
+                      .format = PNG_FORMAT_RGB };
+    if (!file_write_begin(&writer, path, error))
+        return false;
+    if (!png_image_write_to_stdio(&png, writer.stream, 0, rgb8, 0, NULL)) {
+        file_write_abort(&writer);
+        return cli_fail(error, path, "%s", png.message);
+    }
+    return file_write_commit(&writer, error);
+}
+
+static float linearise(unsigned char byte) {
+    const float x = (float)byte / 255;
+    return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
+}
+
+static bool read_pixels(png_image *png, const char *path, image *picture, cli_error *error) {
+    png->format = PNG_FORMAT_RGB;
+    if (!image_create_read(path, png->width, png->height, picture, error))
+        return false;
+    const size_t count = 3 * (size_t)picture->width * (size_t)picture->height;
+    unsigned char *rgb8 = malloc(count);
+    static const png_color black = { 0, 0, 0 };
+    if (!rgb8 || !png_image_finish_read(png, &black, rgb8, 0, NULL)) {
+        free(rgb8);
+        image_free(picture);
+        return cli_fail(error, path, "%s", rgb8 ? png->message : "out of memory");
+    }
+    float linear[256];
+    for (int i = 0; i < 256; i++)
+        linear[i] = linearise((unsigned char)i);
+    for (size_t i = 0; i < count; i++)
+        picture->rgb[i] = linear[rgb8[i]];
+    free(rgb8);
+    return true;
+}
+
+bool image_read_png(const char *path, image *picture, cli_error *error) {
+    FILE *stream = fopen(path, "rb");
+    if (!stream)
+        return cli_fail(error, path, "%s", strerror(errno));
+    png_image png = { .version = PNG_IMAGE_VERSION };
+    bool ok = png_image_begin_read_from_stdio(&png, stream);
+    if (!ok)
+        cli_fail(error, path, "not a readable PNG: %s", png.message);
+    ok = ok && read_pixels(&png, path, picture, error);
+    png_image_free(&png);
+    fclose(stream);
+    return ok;
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/* shared.h - what the program's C and its shaders must agree on: blocks, bindings, the tone curve.
+ *
+ * Included by both. The blocks hold only vec4 and mat4, so std140 lays them out as C does. */
+#ifndef LAMPION_SHADERS_SHARED_H
+#define LAMPION_SHADERS_SHARED_H
+
+#ifdef LAMPION_SHADER
+#define SHARED_BLOCK(type, name, slot) layout(std140, binding = slot) uniform type
+#define SHARED_END(name)
+#define SHARED_FUNCTION
+#else
+#include <assert.h>
+#include <stddef.h>
+typedef float vec4[4];
+typedef float mat4[16]; /* column-major */
+#define SHARED_BLOCK(type, name, slot) typedef struct name
+#define SHARED_END(name)               name
+#define SHARED_FUNCTION                static inline
+#endif
+
+#define SHARED_LIGHTS_MAX 1024
+
+/* Uniform block bindings. */
+#define SHARED_FRAME    0
+#define SHARED_LIGHTS   1
+#define SHARED_MATERIAL 2
+
+/* Texture units of the materials' maps, and of the G-buffer in the passes that read it. */
+#define SHARED_BASE_COLOR         0
+#define SHARED_METALLIC_ROUGHNESS 1
+#define SHARED_NORMAL             2
+#define SHARED_EMISSION           3
+#define SHARED_DEPTH              4
+#define SHARED_HDR                5
+
+/* Fragment outputs, in the order of the G-buffer's attachments (16 bytes a pixel, and depth):
+ *   0  SRGB8_ALPHA8    base colour, metallic
+ *   1  RG16            octahedral normal; of a light, its index in r
+ *   2  RG8             roughness, kind
+ *   3  R11F_G11F_B10F  emitted radiance
+ * Roughness would fit beside metallic, but an sRGB target's alpha is its only linear channel. */
+#define SHARED_KIND_NONE    0
+#define SHARED_KIND_SURFACE 1
+#define SHARED_KIND_LIGHT   2
+
+/* Side of the square of pixels one compute group shades: 64 threads. */
+#define SHARED_GROUP 8
+
+SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
+    mat4 clip_from_world;
+    vec4 eye;         /* w: distance of the near plane */
+    vec4 forward;     /* unit */
+    vec4 right;       /* to the right edge of the view at distance 1 */
+    vec4 down;        /* to its bottom edge */
+    vec4 background;  /* radiance where nothing is */
+    vec4 size_lights; /* width, height, number of lights */
+}
+SHARED_END(shared_frame);
+
+#ifdef LAMPION_SHADER
+struct shared_light {
+#else
+typedef struct shared_light {
+#endif
+    vec4 sphere;   /* centre, radius */
+    vec4 radiance; /* w: 1 = shades, but is not drawn */
+#ifdef LAMPION_SHADER
+};
+#else
+} shared_light;
+#endif
+
+SHARED_BLOCK(lights_block, shared_lights, SHARED_LIGHTS) {
+    shared_light lights[SHARED_LIGHTS_MAX];
+}
+SHARED_END(shared_lights);
+
+/* Of a map: matrix is KHR_texture_transform's, row-major. maps: 1 where a map is bound. */
+SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
+    vec4 base_color;
+    vec4 emission;
+    vec4 factors; /* metallic, roughness, normal scale, alpha cutoff */
+    vec4 maps;    /* base colour, metallic-roughness, normal, emission */
+    vec4 matrix[4];
+    vec4 offset[4];
+}
+SHARED_END(shared_material);
+
+/* What gpu_read_surfaces brings back of a pixel: lmp_surface and lmp_material as evaluated. */
+#ifdef LAMPION_SHADER
+struct shared_pixel {
+#else
+typedef struct shared_pixel {
+#endif
+    vec4 position_kind;
+    vec4 normal_exponent;
+    vec4 view;
+    vec4 diffuse;
+    vec4 specular;
+    vec4 emission;
+#ifdef LAMPION_SHADER
+};
+#else
+} shared_pixel;
+
+static_assert(offsetof(shared_frame, eye) == 64, "std140");
+static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
+static_assert(sizeof(shared_frame) == 160, "std140");
+static_assert(sizeof(shared_light) == 32, "std140");
+static_assert(sizeof(shared_lights) == 32 * SHARED_LIGHTS_MAX, "std140");
+static_assert(offsetof(shared_material, matrix) == 64, "std140");
+static_assert(offsetof(shared_material, offset) == 128, "std140");
+static_assert(sizeof(shared_material) == 192, "std140");
+static_assert(sizeof(shared_pixel) == 96, "std430");
+#endif
+
+/* The filmic curve: Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab,
+ * 2016), scaled so that middle grey stays 0.18. Bright saturated colours drift to white, their hue
+ * holds. shared_tone_in goes to its working primaries, shared_tone is the curve, shared_tone_out
+ * comes back to linear sRGB (clamp it to 0 … 1). row: 0 red, 1 green, 2 blue. */
+#define SHARED_TONE_SCALE 1.4627f
+
+SHARED_FUNCTION float shared_tone_in(int row, float r, float g, float b) {
+    return SHARED_TONE_SCALE * (row == 0   ? 0.59719f * r + 0.35458f * g + 0.04823f * b
+                                : row == 1 ? 0.07600f * r + 0.90834f * g + 0.01566f * b
+                                           : 0.02840f * r + 0.13383f * g + 0.83777f * b);
+}
+
+SHARED_FUNCTION float shared_tone(float x) {
+    return (x * (x + 0.0245786f) - 0.000090537f) / (x * (0.983729f * x + 0.4329510f) + 0.238081f);
+}
+
+SHARED_FUNCTION float shared_tone_out(int row, float r, float g, float b) {
+    return row == 0   ? 1.60475f * r - 0.53108f * g - 0.07367f * b
+           : row == 1 ? -0.10208f * r + 1.10813f * g - 0.00605f * b
+                      : -0.00327f * r - 0.07276f * g + 1.07602f * b;
+}
+
+#endif
