@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/* gpu.h - drawing a scene with OpenGL 4.5: a small G-buffer, then one compute pass that shades
+ * every pixel through spherical harmonics.
+ *
+ * The context knows the device; the renderer knows a scene and lives in whatever context is
+ * current, be it gpu_context's own or a window's. Pictures have row 0 at the top. */
+#ifndef LAMPION_GPU_H
+#define LAMPION_GPU_H
+
+#include "app/image/image.h"
+#include "app/scene/scene.h"
+
+#define GPU_BANDS_MAX 32    /* LMP_BANDS_GLSL_MAX of lampion.glsl */
+#define GPU_SIZE_MAX  16384 /* pixels a side */
+
+/* --- the device --------------------------------------------------------------------------------
+ */
+
+typedef struct gpu_context {
+    void *display, *context; /* EGL's; NULL when adopted */
+    char device[128], driver[128];
+    bool software; /* no hardware behind it: timer queries mean nothing */
+    int size_max;  /* of a texture's side */
+} gpu_context;
+
+/* A context without a window, current on return. device: NULL takes the first hardware device, else
+ * software; "software"; a number as gpu_list_devices counts; or a part of a device's name.
+ *
+ * Errors name what was found and the Debian package that is missing. The environment variable
+ * LAMPION_GL_DEBUG=fatal makes OpenGL check every call and abort on the first complaint. */
+bool gpu_context_create(const char *device, gpu_context *context, cli_error *error);
+void gpu_context_destroy(gpu_context *context);
+
+/* Fills *context for the context that is current (a window's). */
+bool gpu_context_adopt(gpu_context *context, cli_error *error);
+
+/* --- a scene on the device ---------------------------------------------------------------------
+ */
+
+typedef enum gpu_method { GPU_METHOD_ZONAL, GPU_METHOD_COEFFICIENTS, GPU_METHODS } gpu_method;
+extern const char *const gpu_method_names[GPU_METHODS + 1]; /* NULL-terminated */
+
+/* What to draw. */
+typedef struct gpu_frame {
+    int width, height;
+    scene_camera camera;
+    gpu_method method;
+    int bands; /* 1 … GPU_BANDS_MAX */
+    lmp_window window;
+    const scene_light *lights;
+    size_t light_count; /* <= SCENE_LIGHTS_MAX */
+    float background[3];
+} gpu_frame;
+
+/* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
+typedef struct gpu_times {
+    double gbuffer, shade, tone, total;
+} gpu_times;
+
+typedef struct gpu_renderer gpu_renderer;
+
+/* Uploads the scene, which may be freed afterwards. NULL on failure. */
+gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *scene, cli_error *error);
+void gpu_renderer_destroy(gpu_renderer *renderer);
+
+/* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number
+ * of bands and a window. times may be NULL, and then nothing waits for the device. */
+bool gpu_render(gpu_renderer *renderer, const gpu_frame *frame, gpu_times *times, cli_error *error);
+
+/* Draws the HDR target, tone-mapped, into framebuffer 0's window or another of the same size. */
+void gpu_present(gpu_renderer *renderer, unsigned framebuffer, float exposure, bool rows_from_top);
+
+/* The same into 8-bit RGB of 3 * width * height bytes, rows from the top. */
+bool gpu_read_rgb8(gpu_renderer *renderer, float exposure, unsigned char *rgb8, gpu_times *times,
+                   cli_error *error);
+
+/* The HDR target, linear; *image is created. */
+bool gpu_read_image(gpu_renderer *renderer, image *image, cli_error *error);
+
+/* The GL name of the HDR target, for passes of one's own. */
+unsigned gpu_hdr_texture(const gpu_renderer *renderer);
+
+/* --- what the shaders see ----------------------------------------------------------------------
+ */
+
+typedef enum gpu_kind { GPU_KIND_NONE, GPU_KIND_SURFACE, GPU_KIND_LIGHT } gpu_kind;
+
+/* A pixel: radiance = emission + what lmp_shade gives for surface and material (kind SURFACE), or
+ * emission alone. */
+typedef struct gpu_pixel {
+    gpu_kind kind;
+    lmp_surface surface;
+    lmp_material material;
+    lmp_rgb emission;
+} gpu_pixel;
+
+/* The pixels of the last frame, positions and materials just as the shaders evaluate them.
+ *
+ * *pixels receives width * height entries, rows from the top; free() it. */
+bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *error);
+
+/* --- sources -----------------------------------------------------------------------------------
+ */
+
+typedef struct embedded_file {
+    const char *name, *text;
+} embedded_file;
+extern const embedded_file gpu_sources[]; /* the files of shaders/, ended by a NULL name */
+
+#endif

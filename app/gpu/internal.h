@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT */
+/* internal.h - what the files of this folder share. */
+#ifndef LAMPION_GPU_INTERNAL_H
+#define LAMPION_GPU_INTERNAL_H
+
+#include "app/gpu/gpu.h"
+#include "shaders/shared.h"
+
+#include <epoxy/gl.h>
+
+/* --- program.c: shaders -------------------------------------------------------------------------
+ */
+
+typedef struct gpu_stage {
+    GLenum type;
+    const char *file;
+} gpu_stage;
+
+/* Compiles and links; `defines` is text put before every stage. 0 on failure. */
+GLuint gpu_program(const gpu_stage *stages, int count, const char *defines, cli_error *error);
+
+/* --- mesh.c: the scene's triangles, materials and textures ---------------------------------------
+ */
+
+typedef struct gpu_draw {
+    GLuint first_index, index_count, material;
+    float minimum[3], maximum[3];
+} gpu_draw;
+
+typedef struct gpu_material {
+    GLuint maps[4]; /* GL textures, 0 = none */
+    bool double_sided, masked;
+} gpu_material;
+
+typedef struct gpu_mesh {
+    GLuint vertices, indices, vertex_array, material_blocks;
+    GLsizeiptr material_stride;
+    gpu_draw *draws; /* opaque ones first, then by material */
+    size_t draw_count;
+    gpu_material *materials;
+    GLuint *textures;
+    GLsizei texture_count;
+} gpu_mesh;
+
+bool gpu_mesh_create(const gpu_context *context, const scene *scene, gpu_mesh *mesh,
+                     cli_error *error);
+void gpu_mesh_destroy(gpu_mesh *mesh);
+
+/* Draws what the frustum of clip_from_world may hold, with the two variants of surface.frag. */
+void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked);
+
+/* --- renderer.c ---------------------------------------------------------------------------------
+ */
+
+enum { GPU_ATTACHMENTS = 4, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
+
+/* A compiled shading pass. */
+typedef struct gpu_variant {
+    gpu_method method;
+    int bands;
+    lmp_window window;
+    GLuint program;
+} gpu_variant;
+
+struct gpu_renderer {
+    gpu_context context;
+    gpu_mesh mesh;
+    GLuint surface, surface_masked, light, tone, surfaces; /* programs */
+    gpu_variant variants[GPU_VARIANTS];
+    int variant_count;
+    GLuint frame_block, lights_block, empty_array;
+    int width, height; /* of the targets below */
+    GLuint attachments[GPU_ATTACHMENTS], depth, hdr, framebuffer, ldr, ldr_framebuffer;
+    GLuint timestamps[GPU_TIMESTAMPS]; /* hardware */
+    double marks[GPU_TIMESTAMPS];      /* software, milliseconds */
+    float near;                        /* distance of the near plane */
+};
+
+/* Binds the G-buffer's textures and the blocks for a compute pass. */
+void gpu_bind_gbuffer(const gpu_renderer *renderer);
+
+#endif

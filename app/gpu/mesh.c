@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/gpu/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static GLuint upload(const void *data, size_t size) {
+    GLuint buffer = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, size ? (GLsizeiptr)size : 4, size ? data : NULL, 0);
+    return buffer;
+}
+
+/* --- textures -----------------------------------------------------------------------------------
+ */
+
+static GLint wrap_mode(uint32_t wrap) {
+    return wrap == SCENE_WRAP_CLAMP    ? GL_CLAMP_TO_EDGE
+           : wrap == SCENE_WRAP_MIRROR ? GL_MIRRORED_REPEAT
+                                       : GL_REPEAT;
+}
+
+static GLsizei level_count(uint32_t width, uint32_t height) {
+    GLsizei levels = 1;
+    for (uint32_t side = width > height ? width : height; side > 1; side /= 2)
+        levels++;
+    return levels;
+}
+
+static bool create_texture(const gpu_context *context, const scene *world,
+                           const scene_texture *source, GLuint *texture, cli_error *error) {
+    if (source->width > (uint32_t)context->size_max || source->height > (uint32_t)context->size_max)
+        return cli_fail(error, world->origin, "texture %s has %u x %u texels; %s takes %d a side",
+                        source->name, source->width, source->height, context->device,
+                        context->size_max);
+    glCreateTextures(GL_TEXTURE_2D, 1, texture);
+    const GLsizei width = (GLsizei)source->width, height = (GLsizei)source->height;
+    glTextureStorage2D(*texture, level_count(source->width, source->height),
+                       source->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width, height);
+    glTextureSubImage2D(*texture, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        world->texels + source->first_byte);
+    glGenerateTextureMipmap(*texture);
+    glTextureParameteri(*texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(*texture, GL_TEXTURE_WRAP_S, wrap_mode(source->wrap_u));
+    glTextureParameteri(*texture, GL_TEXTURE_WRAP_T, wrap_mode(source->wrap_v));
+    if (!context->software && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        glTextureParameterf(*texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8);
+    return true;
+}
+
+/* --- materials ----------------------------------------------------------------------------------
+ */
+
+static void fill_material(const scene_material *source, const gpu_mesh *mesh,
+                          gpu_material *material, shared_material *block) {
+    const scene_texture_use *uses[4] = { &source->base_color_map, &source->metallic_roughness_map,
+                                         &source->normal_map, &source->emission_map };
+    memset(block, 0, sizeof *block);
+    memcpy(block->base_color, source->base_color, sizeof source->base_color);
+    memcpy(block->emission, source->emission, sizeof source->emission);
+    block->factors[0] = source->metallic;
+    block->factors[1] = source->roughness;
+    block->factors[2] = source->normal_scale;
+    block->factors[3] = source->alpha_cutoff;
+    for (int i = 0; i < 4; i++) {
+        material->maps[i] = uses[i]->texture < 0 ? 0 : mesh->textures[uses[i]->texture];
+        block->maps[i] = material->maps[i] ? 1 : 0;
+        memcpy(block->matrix[i], uses[i]->matrix, sizeof uses[i]->matrix);
+        memcpy(block->offset[i], uses[i]->offset, sizeof uses[i]->offset);
+    }
+    material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
+    material->masked = source->flags & SCENE_ALPHA_MASK;
+}
+
+static bool create_materials(const scene *world, gpu_mesh *mesh) {
+    GLint alignment = 1;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    const size_t align = (size_t)alignment;
+    const size_t stride = (sizeof(shared_material) + align - 1) / align * align;
+    unsigned char *blocks = calloc(world->material_count + 1, stride);
+    mesh->materials = calloc(world->material_count + 1, sizeof *mesh->materials);
+    if (!blocks || !mesh->materials) {
+        free(blocks);
+        return false;
+    }
+    for (size_t i = 0; i < world->material_count; i++) {
+        shared_material block;
+        fill_material(&world->materials[i], mesh, &mesh->materials[i], &block);
+        memcpy(blocks + i * stride, &block, sizeof block);
+    }
+    mesh->material_blocks = upload(blocks, (world->material_count + 1) * stride);
+    mesh->material_stride = (GLsizeiptr)stride;
+    free(blocks);
+    return true;
+}
+
+/* --- triangles ----------------------------------------------------------------------------------
+ */
+
+static GLuint create_vertex_array(GLuint vertices, GLuint indices) {
+    static const struct {
+        GLint size;
+        size_t offset;
+    } attributes[4] = { { 3, offsetof(scene_vertex, position) },
+                        { 3, offsetof(scene_vertex, normal) },
+                        { 2, offsetof(scene_vertex, uv) },
+                        { 4, offsetof(scene_vertex, tangent) } };
+    GLuint array = 0;
+    glCreateVertexArrays(1, &array);
+    glVertexArrayVertexBuffer(array, 0, vertices, 0, sizeof(scene_vertex));
+    glVertexArrayElementBuffer(array, indices);
+    for (GLuint i = 0; i < 4; i++) {
+        glEnableVertexArrayAttrib(array, i);
+        glVertexArrayAttribFormat(array, i, attributes[i].size, GL_FLOAT, GL_FALSE,
+                                  (GLuint)attributes[i].offset);
+        glVertexArrayAttribBinding(array, i, 0);
+    }
+    return array;
+}
+
+static bool create_draws(const scene *world, gpu_mesh *mesh) {
+    mesh->draws = calloc(world->mesh_count + 1, sizeof *mesh->draws);
+    if (!mesh->draws)
+        return false;
+    for (int masked = 0; masked < 2; masked++)
+        for (size_t i = 0; i < world->mesh_count; i++) {
+            const scene_mesh *source = &world->meshes[i];
+            if (mesh->materials[source->material].masked != (masked == 1))
+                continue;
+            gpu_draw *draw = &mesh->draws[mesh->draw_count++];
+            draw->first_index = source->first_index;
+            draw->index_count = source->index_count;
+            draw->material = source->material;
+            memcpy(draw->minimum, source->minimum, sizeof draw->minimum);
+            memcpy(draw->maximum, source->maximum, sizeof draw->maximum);
+        }
+    return true;
+}
+
+bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *mesh,
+                     cli_error *error) {
+    memset(mesh, 0, sizeof *mesh);
+    mesh->textures = calloc(world->texture_count + 1, sizeof *mesh->textures);
+    if (!mesh->textures)
+        return cli_fail(error, world->origin, "out of memory");
+    for (size_t i = 0; i < world->texture_count; i++, mesh->texture_count++)
+        if (!create_texture(context, world, &world->textures[i], &mesh->textures[i], error))
+            return false;
+    if (!create_materials(world, mesh) || !create_draws(world, mesh))
+        return cli_fail(error, world->origin, "out of memory");
+    mesh->vertices = upload(world->vertices, world->vertex_count * sizeof *world->vertices);
+    mesh->indices = upload(world->indices, world->index_count * sizeof *world->indices);
+    mesh->vertex_array = create_vertex_array(mesh->vertices, mesh->indices);
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        return cli_fail(error, world->origin, "the scene does not fit the memory of %s",
+                        context->device);
+    return true;
+}
+
+void gpu_mesh_destroy(gpu_mesh *mesh) {
+    glDeleteVertexArrays(1, &mesh->vertex_array);
+    glDeleteBuffers(1, &mesh->vertices);
+    glDeleteBuffers(1, &mesh->indices);
+    glDeleteBuffers(1, &mesh->material_blocks);
+    if (mesh->textures)
+        glDeleteTextures(mesh->texture_count, mesh->textures);
+    free(mesh->textures);
+    free(mesh->materials);
+    free(mesh->draws);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+/* --- drawing ------------------------------------------------------------------------------------
+ */
+
+/* False if the box is wholly outside one of the planes w ± x >= 0, w ± y >= 0, w - z >= 0 (near).
+ */
+static bool may_be_seen(const mat4 m, const gpu_draw *draw) {
+    static const float planes[5][4] = {
+        { 1, 0, 0, 1 }, { -1, 0, 0, 1 }, { 0, 1, 0, 1 }, { 0, -1, 0, 1 }, { 0, 0, -1, 1 }
+    };
+    for (int p = 0; p < 5; p++) {
+        float farthest = 0;
+        for (int axis = 0; axis < 4; axis++) {
+            float along = 0;
+            for (int row = 0; row < 4; row++)
+                along += planes[p][row] * m[4 * axis + row];
+            farthest += axis == 3   ? along
+                        : along > 0 ? along * draw->maximum[axis]
+                                    : along * draw->minimum[axis];
+        }
+        if (farthest < 0)
+            return false;
+    }
+    return true;
+}
+
+void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked) {
+    glBindVertexArray(mesh->vertex_array);
+    GLuint program = 0, current = ~0u;
+    for (size_t i = 0; i < mesh->draw_count; i++) {
+        const gpu_draw *draw = &mesh->draws[i];
+        if (!may_be_seen(clip_from_world, draw))
+            continue;
+        const gpu_material *material = &mesh->materials[draw->material];
+        if (current != draw->material) {
+            current = draw->material;
+            if (program != (material->masked ? masked : opaque))
+                glUseProgram(program = material->masked ? masked : opaque);
+            glBindBufferRange(GL_UNIFORM_BUFFER, SHARED_MATERIAL, mesh->material_blocks,
+                              (GLintptr)draw->material * mesh->material_stride,
+                              sizeof(shared_material));
+            glBindTextures(SHARED_BASE_COLOR, 4, material->maps);
+            if (material->double_sided)
+                glDisable(GL_CULL_FACE);
+            else
+                glEnable(GL_CULL_FACE);
+        }
+        glDrawElements(GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT,
+                       (const char *)NULL + 4 * (size_t)draw->first_index);
+    }
+}

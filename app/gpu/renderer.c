@@ -1,0 +1,397 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/gpu/internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+const char *const gpu_method_names[GPU_METHODS + 1] = { "zonal", "coefficients", NULL };
+static const char *const method_functions[GPU_METHODS] = { "lmp_shade_zonal",
+                                                           "lmp_shade_coefficients" };
+
+/* The near plane's distance as a part of the scene's extent. Depth is reversed and in float32, so
+ * that a small one costs no precision; there is no far plane. */
+static const float near_of_extent = 1e-4f;
+
+/* --- creation -----------------------------------------------------------------------------------
+ */
+
+static bool create_programs(gpu_renderer *r, cli_error *error) {
+    const gpu_stage surface[] = { { GL_VERTEX_SHADER, "surface.vert" },
+                                  { GL_FRAGMENT_SHADER, "surface.frag" } };
+    const gpu_stage light[] = { { GL_VERTEX_SHADER, "light.vert" },
+                                { GL_FRAGMENT_SHADER, "light.frag" } };
+    const gpu_stage tone[] = { { GL_VERTEX_SHADER, "screen.vert" },
+                               { GL_FRAGMENT_SHADER, "tone.frag" } };
+    const gpu_stage surfaces[] = { { GL_COMPUTE_SHADER, "surfaces.comp" } };
+    char defines[128];
+    snprintf(defines, sizeof defines, "#define LMP_BANDS 1\n#define LMP_ALPHA_MIN %.9g\n",
+             (double)LMP_ALPHA_MIN);
+    return (r->surface = gpu_program(surface, 2, "", error)) &&
+           (r->surface_masked = gpu_program(surface, 2, "#define SURFACE_MASKED\n", error)) &&
+           (r->light = gpu_program(light, 2, "", error)) &&
+           (r->tone = gpu_program(tone, 2, "", error)) &&
+           (r->surfaces = gpu_program(surfaces, 1, defines, error));
+}
+
+gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world,
+                                  cli_error *error) {
+    gpu_renderer *r = calloc(1, sizeof *r);
+    if (!r) {
+        cli_fail(error, NULL, "out of memory");
+        return NULL;
+    }
+    r->context = *context;
+    if (!create_programs(r, error) || !gpu_mesh_create(context, world, &r->mesh, error)) {
+        gpu_renderer_destroy(r);
+        return NULL;
+    }
+    glCreateVertexArrays(1, &r->empty_array);
+    glCreateBuffers(1, &r->frame_block);
+    glNamedBufferStorage(r->frame_block, sizeof(shared_frame), NULL, GL_DYNAMIC_STORAGE_BIT);
+    glCreateBuffers(1, &r->lights_block);
+    glNamedBufferStorage(r->lights_block, sizeof(shared_lights), NULL, GL_DYNAMIC_STORAGE_BIT);
+    glCreateQueries(GL_TIMESTAMP, GPU_TIMESTAMPS, r->timestamps);
+    float extent = 0;
+    for (int i = 0; i < 3; i++)
+        extent = fmaxf(extent, world->maximum[i] - world->minimum[i]);
+    r->near = near_of_extent * (extent > 0 ? extent : 1);
+    return r;
+}
+
+static void delete_targets(gpu_renderer *r) {
+    glDeleteTextures(GPU_ATTACHMENTS, r->attachments);
+    glDeleteTextures(1, &r->depth);
+    glDeleteTextures(1, &r->hdr);
+    glDeleteTextures(1, &r->ldr);
+    glDeleteFramebuffers(1, &r->framebuffer);
+    glDeleteFramebuffers(1, &r->ldr_framebuffer);
+    r->width = r->height = 0;
+}
+
+void gpu_renderer_destroy(gpu_renderer *r) {
+    if (!r)
+        return;
+    delete_targets(r);
+    gpu_mesh_destroy(&r->mesh);
+    for (int i = 0; i < r->variant_count; i++)
+        glDeleteProgram(r->variants[i].program);
+    const GLuint programs[] = { r->surface, r->surface_masked, r->light, r->tone, r->surfaces };
+    for (size_t i = 0; i < sizeof programs / sizeof programs[0]; i++)
+        if (programs[i])
+            glDeleteProgram(programs[i]);
+    glDeleteBuffers(1, &r->frame_block);
+    glDeleteBuffers(1, &r->lights_block);
+    glDeleteVertexArrays(1, &r->empty_array);
+    glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
+    free(r);
+}
+
+/* --- targets ------------------------------------------------------------------------------------
+ */
+
+static GLuint create_target(GLenum format, int width, int height) {
+    GLuint texture = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, format, width, height);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+static bool create_targets(gpu_renderer *r, int width, int height, cli_error *error) {
+    static const GLenum formats[GPU_ATTACHMENTS] = { GL_SRGB8_ALPHA8, GL_RG16, GL_RG8,
+                                                     GL_R11F_G11F_B10F };
+    static const GLenum buffers[GPU_ATTACHMENTS] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                                     GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3 };
+    if (r->width == width && r->height == height)
+        return true;
+    if (width < 1 || height < 1 || width > r->context.size_max || height > r->context.size_max)
+        return cli_fail(error, NULL, "a picture of %d x %d is beyond %s, which takes %d a side",
+                        width, height, r->context.device, r->context.size_max);
+    delete_targets(r);
+    glCreateFramebuffers(1, &r->framebuffer);
+    for (int i = 0; i < GPU_ATTACHMENTS; i++) {
+        r->attachments[i] = create_target(formats[i], width, height);
+        glNamedFramebufferTexture(r->framebuffer, buffers[i], r->attachments[i], 0);
+    }
+    glNamedFramebufferDrawBuffers(r->framebuffer, GPU_ATTACHMENTS, buffers);
+    r->depth = create_target(GL_DEPTH_COMPONENT32F, width, height);
+    glNamedFramebufferTexture(r->framebuffer, GL_DEPTH_ATTACHMENT, r->depth, 0);
+    r->hdr = create_target(GL_RGBA32F, width, height);
+    r->ldr = create_target(GL_RGBA8, width, height);
+    glCreateFramebuffers(1, &r->ldr_framebuffer);
+    glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->ldr, 0);
+    const GLenum status = glCheckNamedFramebufferStatus(r->framebuffer, GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE || glGetError() == GL_OUT_OF_MEMORY) {
+        delete_targets(r);
+        return cli_fail(error, NULL, "%s cannot hold a picture of %d x %d", r->context.device,
+                        width, height);
+    }
+    r->width = width;
+    r->height = height;
+    return true;
+}
+
+/* --- what the shaders are told ------------------------------------------------------------------
+ */
+
+static void subtract(const float a[3], const float b[3], float difference[3]) {
+    for (int i = 0; i < 3; i++)
+        difference[i] = a[i] - b[i];
+}
+
+static void cross(const float a[3], const float b[3], float product[3]) {
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static float dot(const float a[3], const float b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool scale_to(float v[3], float length) {
+    const float current = sqrtf(dot(v, v));
+    if (!(current > 0))
+        return false;
+    for (int i = 0; i < 3; i++)
+        v[i] *= length / current;
+    return true;
+}
+
+/* Rows of the clip matrix: x right, y down (row 0 of a picture is its top), depth = near /
+ * distance, w = distance. */
+static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, shared_frame *block,
+                       cli_error *error) {
+    const scene_camera *camera = &frame->camera;
+    const float half_height = tanf(0.5f * camera->fov);
+    const float half_width = half_height * (float)frame->width / (float)frame->height;
+    memset(block, 0, sizeof *block);
+    memcpy(block->eye, camera->eye, sizeof camera->eye);
+    block->eye[3] = r->near;
+    subtract(camera->target, camera->eye, block->forward);
+    cross(block->forward, camera->up, block->right);
+    cross(block->forward, block->right, block->down);
+    if (!scale_to(block->forward, 1) || !scale_to(block->right, half_width) ||
+        !scale_to(block->down, half_height))
+        return cli_fail(error, "camera", "it looks along its up direction, or at itself");
+    memcpy(block->background, frame->background, sizeof frame->background);
+    block->size_lights[0] = (float)frame->width;
+    block->size_lights[1] = (float)frame->height;
+    block->size_lights[2] = (float)frame->light_count;
+
+    float rows[4][4] = { { 0 } };
+    for (int i = 0; i < 3; i++) {
+        rows[0][i] = block->right[i] / (half_width * half_width);
+        rows[1][i] = block->down[i] / (half_height * half_height);
+        rows[3][i] = block->forward[i];
+    }
+    for (int row = 0; row < 4; row++) {
+        rows[row][3] = row == 2 ? r->near : -dot(rows[row], block->eye);
+        for (int column = 0; column < 4; column++)
+            block->clip_from_world[4 * column + row] = rows[row][column];
+    }
+    return true;
+}
+
+static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
+    shared_lights block;
+    for (size_t i = 0; i < frame->light_count; i++) {
+        const scene_light *light = &frame->lights[i];
+        shared_light *to = &block.lights[i];
+        memcpy(to->sphere, light->center, sizeof light->center);
+        to->sphere[3] = light->radius;
+        memcpy(to->radiance, light->radiance, sizeof light->radiance);
+        to->radiance[3] = light->hidden ? 1 : 0;
+    }
+    if (frame->light_count)
+        glNamedBufferSubData(r->lights_block, 0,
+                             (GLsizeiptr)(frame->light_count * sizeof(shared_light)), &block);
+}
+
+/* --- passes -------------------------------------------------------------------------------------
+ */
+
+static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
+    for (int i = 0; i < r->variant_count; i++) {
+        const gpu_variant *v = &r->variants[i];
+        if (v->method == frame->method && v->bands == frame->bands && v->window == frame->window)
+            return v->program;
+    }
+    if (frame->bands < 1 || frame->bands > GPU_BANDS_MAX) {
+        cli_fail(error, NULL, "%d bands: the shaders take 1 to %d", frame->bands, GPU_BANDS_MAX);
+        return 0;
+    }
+    char defines[256];
+    snprintf(defines, sizeof defines,
+             "#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
+             "#define LMP_ALPHA_MIN %.9g\n",
+             method_functions[frame->method], frame->bands, (int)frame->window,
+             (double)LMP_ALPHA_MIN);
+    const gpu_stage stage = { GL_COMPUTE_SHADER, "shade.comp" };
+    const GLuint program = gpu_program(&stage, 1, defines, error);
+    if (!program)
+        return 0;
+    if (r->variant_count == GPU_VARIANTS)
+        glDeleteProgram(r->variants[--r->variant_count].program);
+    r->variants[r->variant_count++] =
+        (gpu_variant) { frame->method, frame->bands, frame->window, program };
+    return program;
+}
+
+static void draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block) {
+    static const GLfloat zero[4] = { 0 };
+    for (int i = 0; i < GPU_ATTACHMENTS; i++)
+        glClearNamedFramebufferfv(r->framebuffer, GL_COLOR, i, zero);
+    glClearNamedFramebufferfv(r->framebuffer, GL_DEPTH, 0, zero);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, r->framebuffer);
+    glViewport(0, 0, r->width, r->height);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glFrontFace(GL_CW); /* y runs down */
+    glCullFace(GL_BACK);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
+    gpu_mesh_draw(&r->mesh, block->clip_from_world, r->surface, r->surface_masked);
+    if (frame->light_count) {
+        glBindVertexArray(r->empty_array);
+        glUseProgram(r->light);
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_FRONT);
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 14, (GLsizei)frame->light_count);
+    }
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+}
+
+void gpu_bind_gbuffer(const gpu_renderer *r) {
+    static const GLuint units[GPU_ATTACHMENTS] = { SHARED_BASE_COLOR, SHARED_NORMAL,
+                                                   SHARED_METALLIC_ROUGHNESS, SHARED_EMISSION };
+    for (int i = 0; i < GPU_ATTACHMENTS; i++)
+        glBindTextureUnit(units[i], r->attachments[i]);
+    glBindTextureUnit(SHARED_DEPTH, r->depth);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
+}
+
+static GLuint groups(int pixels) {
+    return (GLuint)(pixels + SHARED_GROUP - 1) / SHARED_GROUP;
+}
+
+static void shade(const gpu_renderer *r, GLuint program) {
+    gpu_bind_gbuffer(r);
+    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+    glUseProgram(program);
+    glDispatchCompute(groups(r->width), groups(r->height), 1);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+/* --- timing -------------------------------------------------------------------------------------
+ */
+
+/* Marks an instant of the frame: a query on hardware, a finished wait on software. */
+static void mark(gpu_renderer *r, int index) {
+    if (!r->context.software) {
+        glQueryCounter(r->timestamps[index], GL_TIMESTAMP);
+        return;
+    }
+    struct timespec now;
+    glFinish();
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    r->marks[index] = 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+static double marked(const gpu_renderer *r, int index) {
+    if (r->context.software)
+        return r->marks[index];
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(r->timestamps[index], GL_QUERY_RESULT, &nanoseconds);
+    return 1e-6 * (double)nanoseconds;
+}
+
+bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_error *error) {
+    shared_frame block;
+    if (frame->light_count > SHARED_LIGHTS_MAX)
+        return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
+                        SHARED_LIGHTS_MAX);
+    const GLuint program = find_variant(r, frame, error);
+    if (!program || !create_targets(r, frame->width, frame->height, error) ||
+        !fill_frame(r, frame, &block, error))
+        return false;
+    glNamedBufferSubData(r->frame_block, 0, sizeof block, &block);
+    upload_lights(r, frame);
+    if (times)
+        mark(r, 0);
+    draw_gbuffer(r, frame, &block);
+    if (times)
+        mark(r, 1);
+    shade(r, program);
+    if (times) {
+        mark(r, 2);
+        times->gbuffer = marked(r, 1) - marked(r, 0);
+        times->shade = marked(r, 2) - marked(r, 1);
+        times->tone = 0;
+        times->total = times->gbuffer + times->shade;
+    }
+    return true;
+}
+
+/* --- the picture --------------------------------------------------------------------------------
+ */
+
+void gpu_present(gpu_renderer *r, unsigned framebuffer, float exposure, bool rows_from_top) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, r->width, r->height);
+    glBindVertexArray(r->empty_array);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
+    glBindTextureUnit(SHARED_HDR, r->hdr);
+    glUseProgram(r->tone);
+    glUniform1f(0, exposure);
+    glUniform1i(1, rows_from_top ? 0 : 1);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+bool gpu_read_rgb8(gpu_renderer *r, float exposure, unsigned char *rgb8, gpu_times *times,
+                   cli_error *error) {
+    if (times)
+        mark(r, 3);
+    gpu_present(r, r->ldr_framebuffer, exposure, true);
+    if (times) {
+        mark(r, 4);
+        times->tone = marked(r, 4) - marked(r, 3);
+        times->total = times->gbuffer + times->shade + times->tone;
+    }
+    const size_t size = 3 * (size_t)r->width * (size_t)r->height;
+    if (size > INT32_MAX)
+        return cli_fail(error, NULL, "a picture of %d x %d is too large to read back", r->width,
+                        r->height);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(r->ldr, 0, GL_RGB, GL_UNSIGNED_BYTE, (GLsizei)size, rgb8);
+    return true;
+}
+
+bool gpu_read_image(gpu_renderer *r, image *picture, cli_error *error) {
+    if (!image_create(picture, r->width, r->height, error))
+        return false;
+    const size_t size = 3 * sizeof(float) * (size_t)r->width * (size_t)r->height;
+    if (size > INT32_MAX) {
+        image_free(picture);
+        return cli_fail(error, NULL, "a picture of %d x %d is too large to read back", r->width,
+                        r->height);
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(r->hdr, 0, GL_RGB, GL_FLOAT, (GLsizei)size, picture->rgb);
+    return true;
+}
+
+unsigned gpu_hdr_texture(const gpu_renderer *r) {
+    return r->hdr;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/* gbuffer.glsl - how values are kept in the G-buffer; shared.h lists its attachments. */
+#ifndef LAMPION_GBUFFER_GLSL
+#define LAMPION_GBUFFER_GLSL
+
+vec2 gbuffer_sign(vec2 v) {
+    return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
+}
+
+/* Octahedral (Cigolle et al. 2014), in 0 … 1. */
+vec2 gbuffer_encode_normal(vec3 n) {
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    if (n.z < 0.0)
+        p = (1.0 - abs(p.yx)) * gbuffer_sign(p);
+    return p * 0.5 + 0.5;
+}
+
+vec3 gbuffer_decode_normal(vec2 stored) {
+    vec2 p = stored * 2.0 - 1.0;
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0)
+        n.xy = (1.0 - abs(n.yx)) * gbuffer_sign(n.xy);
+    return normalize(n);
+}
+
+float gbuffer_encode_kind(int kind) {
+    return float(kind) / 255.0;
+}
+
+int gbuffer_decode_kind(float stored) {
+    return int(stored * 255.0 + 0.5);
+}
+
+float gbuffer_encode_light(int index) {
+    return float(index) / 65535.0;
+}
+
+int gbuffer_decode_light(float stored) {
+    return int(stored * 65535.0 + 0.5);
+}
+
+#endif

@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion.glsl - sphere lights through spherical harmonics, in one file to include as it is.
+ *
+ * GLSL 4.50, GLSL for Vulkan, and GLSL ES 3.10 (there, say `precision highp float;` first).
+ * The same mathematics as the C library, to rounding; its headers hold the derivations.
+ *
+ * Define before including
+ *   LMP_BANDS                1 … 32, an integer literal: degrees l = 0 … LMP_BANDS-1
+ *   LMP_WINDOW               LMP_WINDOW_NONE (default), LMP_WINDOW_HANNING, LMP_WINDOW_LANCZOS:
+ *                            damps the ringing of the material's cut series
+ *   LMP_WINDOW_SIZE          the band whose weight falls to 0; default LMP_BANDS
+ *   LMP_ALPHA_MIN            floor of the squared roughness; default 0.01
+ * and, to have the two lmp_shade_… functions,
+ *   LMP_LIGHT_COUNT          int: number of lights
+ *   LMP_LIGHT_SPHERE(i)      vec4: centre and radius of light i, 0 <= i < LMP_LIGHT_COUNT
+ *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
+ *
+ * Conventions: directions are unit and point away from the shaded point; lengths are in any one
+ * unit; colours are linear. A coefficient (l, m) has the index l*l + l + m, the basis is real and
+ * orthonormal with the Condon-Shortley sign: Y_1 = 0.4886 (-y, z, -x). No visibility.
+ *
+ * A light that touches or contains the point is no special case for the caller: the cap it covers
+ * grows on from the hemisphere at its surface to the full sphere at its centre, continuously.
+ *
+ * Loops over bands are macros: every array index in them is a literal, so that a compiler keeps
+ * coefficients in registers. An index computed at run time costs ten times the arithmetic. */
+#ifndef LAMPION_GLSL
+#define LAMPION_GLSL
+
+#define LMP_BANDS_GLSL_MAX 32
+#if !defined(LMP_BANDS) || LMP_BANDS < 1 || LMP_BANDS > LMP_BANDS_GLSL_MAX
+#error lampion.glsl: define LMP_BANDS as 1 to 32
+#endif
+
+#define LMP_WINDOW_NONE    0
+#define LMP_WINDOW_HANNING 1
+#define LMP_WINDOW_LANCZOS 2
+#ifndef LMP_WINDOW
+#define LMP_WINDOW LMP_WINDOW_NONE
+#endif
+#ifndef LMP_WINDOW_SIZE
+#define LMP_WINDOW_SIZE float(LMP_BANDS)
+#endif
+#ifndef LMP_ALPHA_MIN
+#define LMP_ALPHA_MIN 0.01
+#endif
+
+#define LMP_PI       3.14159265358979
+#define LMP_SH_COUNT (LMP_BANDS * LMP_BANDS)
+
+/* A point to shade; view points to the viewer. */
+struct lmp_surface {
+    vec3 position;
+    vec3 normal;
+    vec3 view;
+};
+
+/* diffuse/pi max(n.w, 0) + specular (e+1)/(2 pi) max(r.w, 0)^e, cosine included. */
+struct lmp_material {
+    vec3 diffuse;
+    vec3 specular;
+    float exponent;
+};
+
+/* What a sphere light is from one point. Its coefficients for radiance 1 are, by paper Eq. 12 and
+ * 13 in one,
+ *     L_00 = pi base Y_00      L_lm = pi strength R_l Y_lm(axis)   (l >= 1)
+ * with R_l = 2 P'_l(a)/(l(l+1)), a = 1 - one_minus. A point inside the light has a < 0; by parity
+ * that is the mirrored axis with a negative strength. */
+struct lmp_cap {
+    vec3 axis;
+    float base;      /* 2 (1 - cos a) */
+    float strength;  /* sin²a, exact however small; negative inside */
+    float one_minus; /* 1 - |cos a|, exact however small */
+};
+
+/* X(l) for l = 2 … 31; each body starts with the constant test `if (l < LMP_BANDS)`. */
+#define LMP_FOR_BANDS(X)                                                                           \
+    X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15) X(16) X(17) X(18)  \
+    X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
+
+/* X(l, m) for l = 0 … 31 and one m; each body starts with the constant test LMP_INSIDE(l, m). */
+#define LMP_FOR_COLUMN(X, m)                                                                       \
+    X(0, m) X(1, m) X(2, m) X(3, m) X(4, m) X(5, m) X(6, m) X(7, m) X(8, m) X(9, m) X(10, m)       \
+    X(11, m) X(12, m) X(13, m) X(14, m) X(15, m) X(16, m) X(17, m) X(18, m) X(19, m) X(20, m)      \
+    X(21, m) X(22, m) X(23, m) X(24, m) X(25, m) X(26, m) X(27, m) X(28, m) X(29, m) X(30, m)      \
+    X(31, m)
+/* X(m) for m = 0 … LMP_BANDS-1: only the columns there are, or 32² dead blocks would be parsed. */
+#if LMP_BANDS <= 4
+#define LMP_FOR_COLUMNS(X) X(0) X(1) X(2) X(3)
+#elif LMP_BANDS <= 8
+#define LMP_FOR_COLUMNS(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
+#elif LMP_BANDS <= 16
+#define LMP_FOR_COLUMNS(X)                                                                         \
+    X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
+#else
+#define LMP_FOR_COLUMNS(X)                                                                         \
+    X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15) X(16)    \
+    X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
+#endif
+#define LMP_INSIDE(l, m) (l >= m && l < LMP_BANDS)
+/* Indices that stay legal in the blocks the constant tests remove. */
+#define LMP_BAND(l)     (l < LMP_BANDS ? l : 0)
+#define LMP_INDEX(l, m) (l < LMP_BANDS && l >= (m < 0 ? -(m) : m) ? l * l + l + m : 0)
+
+/* Weight of band l under LMP_WINDOW; a constant for a constant l. */
+float lmp_window_weight(int l) {
+#if LMP_WINDOW == LMP_WINDOW_NONE
+    return 1.0;
+#else
+    float x = LMP_PI * float(l) / float(LMP_WINDOW_SIZE);
+    if (l == 0)
+        return 1.0;
+    if (float(l) >= float(LMP_WINDOW_SIZE))
+        return 0.0;
+#if LMP_WINDOW == LMP_WINDOW_HANNING
+    return 0.5 + 0.5 * cos(x);
+#else
+    return sin(x) / x;
+#endif
+#endif
+}
+
+/* The cap of the sphere (centre, radius) seen from `point`. radius >= 0. */
+lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 point) {
+    vec3 v = sphere.xyz - point;
+    float d = sqrt(dot(v, v));
+    bool inside = d < sphere.w;
+    float far = max(max(d, sphere.w), 1e-30);
+    float near = min(d, sphere.w);
+    float s = near / far;
+    float a = sqrt((far - near) * (far + near)) / far;
+    float side = inside ? -1.0 : 1.0;
+    lmp_cap cap;
+    cap.axis = v * (side / max(d, 1e-30));
+    cap.one_minus = s * s / (1.0 + a);
+    cap.base = 2.0 * (inside ? 1.0 + a : cap.one_minus);
+    cap.strength = side * s * s;
+    return cap;
+}
+
+/* glTF's metallic-roughness as two lobes; metallic and roughness in 0 … 1. */
+lmp_material lmp_material_from_metallic_roughness(vec3 base, float metallic, float roughness) {
+    float alpha = max(roughness * roughness, LMP_ALPHA_MIN);
+    lmp_material material;
+    material.diffuse = base * (1.0 - metallic);
+    material.specular = mix(vec3(0.04), base, metallic);
+    material.exponent = 2.0 / (alpha * alpha) - 2.0;
+    return material;
+}
+
+/* lambda_l of max(t, 0), windowed: a diffuse lobe's coefficients are lambda_l Y_lm(normal). */
+void lmp_lobe_diffuse(out float lambda[LMP_BANDS]) {
+    float even = LMP_PI / 4.0;
+    lambda[0] = LMP_PI;
+    if (LMP_BANDS > 1)
+        lambda[LMP_BAND(1)] = lmp_window_weight(1) * LMP_PI * 2.0 / 3.0;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        lambda[LMP_BAND(l)] = l % 2 == 0 ? lmp_window_weight(l) * even : 0.0;                      \
+        if (l % 2 == 0)                                                                            \
+            even *= -float(l - 1) / float(l + 4);                                                  \
+    }
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+}
+
+/* lambda_l of (e+1)/(2 pi) max(t, 0)^e, windowed; exponent e >= 0. */
+void lmp_lobe_phong(float e, out float lambda[LMP_BANDS]) {
+    float l0 = 1.0, l1 = (e + 1.0) / (e + 2.0), l2;
+    lambda[0] = l0;
+    if (LMP_BANDS > 1)
+        lambda[LMP_BAND(1)] = lmp_window_weight(1) * l1;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        l2 = l0 * ((e - float(l - 2)) / (e + float(l + 1)));                                       \
+        l0 = l1;                                                                                   \
+        l1 = l2;                                                                                   \
+        lambda[LMP_BAND(l)] = lmp_window_weight(l) * l2;                                           \
+    }
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+}
+
+/* R_1 … R_(LMP_BANDS-1) of a cap by their differences, which keeps far lights exact; R[0] is
+ * base/strength's place and left 0. */
+void lmp_cap_zonal(lmp_cap cap, out float R[LMP_BANDS]) {
+    float r = 1.0, difference = 0.0;
+    R[0] = 0.0;
+    if (LMP_BANDS > 1)
+        R[LMP_BAND(1)] = 1.0;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        difference = float(l - 2) / float(l + 1) * difference -                                    \
+                     float(2 * l - 1) / float(l + 1) * (cap.one_minus * r);                        \
+        r += difference;                                                                           \
+        R[LMP_BAND(l)] = r;                                                                        \
+    }
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+}
+
+/* Y_lm(w) (paper Eq. 1), in Cartesian form: no angles, no poles. */
+void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {
+    float c = 1.0, s = 0.0, diagonal = sqrt(0.25 / LMP_PI), q, q1, q2, t;
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        q = l == m ? diagonal                                                                      \
+                   : sqrt(float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m)) *              \
+                         (w.z * q1 - sqrt(float(l == m ? 0 : (l - 1) * (l - 1) - m * m) /          \
+                                          float(l == 0 ? 1 : 4 * (l - 1) * (l - 1) - 1)) * q2);    \
+        q2 = q1;                                                                                   \
+        q1 = q;                                                                                    \
+        sh[LMP_INDEX(l, m)] = q * c;                                                               \
+        if (m > 0)                                                                                 \
+            sh[LMP_INDEX(l, -m)] = q * s;                                                          \
+    }
+#define LMP_COLUMN(m)                                                                              \
+    if (m < LMP_BANDS) {                                                                           \
+        q1 = q2 = 0.0;                                                                             \
+        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
+        diagonal *= m == 0 ? -sqrt(3.0) : -sqrt(float(2 * m + 3) / float(2 * m + 2));              \
+        t = w.x * c - w.y * s;                                                                     \
+        s = w.x * s + w.y * c;                                                                     \
+        c = t;                                                                                     \
+    }
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+}
+
+/* Coefficients at `point` of a sphere of radiance 1 (paper Eq. 12 and 13). */
+void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
+    lmp_cap cap = lmp_cap_of_sphere(sphere, point);
+    float R[LMP_BANDS];
+    lmp_cap_zonal(cap, R);
+    lmp_sh_eval(cap.axis, sh);
+    sh[0] *= LMP_PI * cap.base;
+#define LMP_ROW(l, m)                                                                              \
+    if (l > 0 && LMP_INSIDE(l, m)) {                                                               \
+        sh[LMP_INDEX(l, m)] *= LMP_PI * cap.strength * R[LMP_BAND(l)];                             \
+        if (m > 0)                                                                                 \
+            sh[LMP_INDEX(l, -m)] *= LMP_PI * cap.strength * R[LMP_BAND(l)];                        \
+    }
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+}
+
+#ifdef LMP_LIGHT_COUNT
+
+/* Radiance to the viewer under all lights, by the addition theorem: O(LMP_BANDS) a light.
+ *
+ *     sum_l (2l+1)/4 lambda_l R_l P_l(axis.lobe)
+ *
+ * for both lobes in one pass. P_l is carried monic (p_l = u p_(l-1) - b_l p_(l-2)) and the
+ * differences of R_l scaled, which saves four products a band; the scales are in the weights. */
+vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
+    vec3 mirror = reflect(-surface.view, surface.normal);
+    float diffuse[LMP_BANDS], glossy[LMP_BANDS];
+    lmp_lobe_diffuse(diffuse);
+    lmp_lobe_phong(material.exponent, glossy);
+    float leading = 1.0; /* coefficient of u^l in P_l */
+    diffuse[0] *= 0.25 / LMP_PI;
+    glossy[0] *= 0.25;
+    if (LMP_BANDS > 1) {
+        diffuse[LMP_BAND(1)] *= 0.75 / LMP_PI;
+        glossy[LMP_BAND(1)] *= 0.75;
+    }
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        leading *= float(2 * l - 1) / float(l);                                                    \
+        diffuse[LMP_BAND(l)] *= float(2 * l + 1) * 0.25 / LMP_PI * leading;                        \
+        glossy[LMP_BAND(l)] *= float(2 * l + 1) * 0.25 * leading;                                  \
+    }
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
+        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
+        float u = dot(cap.axis, surface.normal), v = dot(cap.axis, mirror);
+        float r = 1.0, difference = 0.0;
+        float p0 = 1.0, p1 = u, p2, q0 = 1.0, q1 = v, q2;
+        float d = 0.0, g = 0.0;
+        if (LMP_BANDS > 1) {
+            d = diffuse[LMP_BAND(1)] * u;
+            g = glossy[LMP_BAND(1)] * v;
+        }
+        /* difference holds -(l+1)/(2l-1) times R_l - R_(l-1) */
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        difference = float((l - 2) * (2 * l - 3)) / float(l * (2 * l - 1)) * difference +          \
+                     cap.one_minus * r;                                                            \
+        r -= float(2 * l - 1) / float(l + 1) * difference;                                         \
+        p2 = u * p1 - float((l - 1) * (l - 1)) / float((2 * l - 1) * (2 * l - 3)) * p0;            \
+        q2 = v * q1 - float((l - 1) * (l - 1)) / float((2 * l - 1) * (2 * l - 3)) * q0;            \
+        p0 = p1;                                                                                   \
+        p1 = p2;                                                                                   \
+        q0 = q1;                                                                                   \
+        q1 = q2;                                                                                   \
+        if (l % 2 == 0)                                                                            \
+            d += diffuse[LMP_BAND(l)] * r * p1;                                                    \
+        g += glossy[LMP_BAND(l)] * r * q1;                                                         \
+    }
+        LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+        d = diffuse[0] * cap.base + cap.strength * d;
+        g = glossy[0] * cap.base + cap.strength * g;
+        sum += LMP_LIGHT_RADIANCE(i) * (material.diffuse * d + material.specular * g);
+    }
+    return max(sum, vec3(0.0));
+}
+
+/* The same by the paper's method: the LMP_SH_COUNT coefficients of all lights are summed, then
+ * multiplied with those of the material.
+ *
+ * Y_lm is carried as q_l(z) times the real and imaginary part of (x + iy)^m, with q_l monic; the
+ * squares of its norms are applied once, to the sums. */
+vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
+    vec3 sum[LMP_SH_COUNT];
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        sum[LMP_INDEX(l, m)] = vec3(0.0);                                                          \
+        sum[LMP_INDEX(l, -m)] = vec3(0.0);                                                         \
+    }
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+
+    float q, q1, q2, c, s, t;
+    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
+        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
+        vec3 radiance = LMP_LIGHT_RADIANCE(i), rgb;
+        vec3 w = cap.axis;
+        float R[LMP_BANDS];
+        lmp_cap_zonal(cap, R);
+        R[0] = cap.base;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS)                                                                             \
+        R[LMP_BAND(l)] *= cap.strength;
+        if (LMP_BANDS > 1)
+            R[LMP_BAND(1)] *= cap.strength;
+        LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+        c = 1.0;
+        s = 0.0;
+#define LMP_MONIC(l, m, z)                                                                         \
+    q = l == m ? 1.0                                                                               \
+               : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
+    q2 = q1;                                                                                       \
+    q1 = q;
+#define LMP_POWER(m, w)                                                                            \
+    t = w.x * c - w.y * s;                                                                         \
+    s = w.x * s + w.y * c;                                                                         \
+    c = t;
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        LMP_MONIC(l, m, w.z)                                                                       \
+        rgb = radiance * (q * R[LMP_BAND(l)]);                                                     \
+        sum[LMP_INDEX(l, m)] += rgb * c;                                                           \
+        if (m > 0)                                                                                 \
+            sum[LMP_INDEX(l, -m)] += rgb * s;                                                      \
+    }
+#define LMP_COLUMN(m)                                                                              \
+    if (m < LMP_BANDS) {                                                                           \
+        q1 = q2 = 0.0;                                                                             \
+        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
+        LMP_POWER(m, w)                                                                            \
+    }
+        LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+    }
+
+    vec3 mirror = reflect(-surface.view, surface.normal), reflected = vec3(0.0);
+    float diffuse[LMP_BANDS], glossy[LMP_BANDS];
+    lmp_lobe_diffuse(diffuse);
+    lmp_lobe_phong(material.exponent, glossy);
+    float norm = 0.0, diagonal;
+    vec3 w, along, part;
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        LMP_MONIC(l, m, w.z)                                                                       \
+        norm = l == m ? diagonal                                                                   \
+                      : norm * float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m);           \
+        along = sum[LMP_INDEX(l, m)] * c;                                                          \
+        if (m > 0)                                                                                 \
+            along += sum[LMP_INDEX(l, -m)] * s;                                                    \
+        part += along * (norm * q * lambda[LMP_BAND(l)]);                                          \
+    }
+#define LMP_COLUMN(m)                                                                              \
+    if (m < LMP_BANDS) {                                                                           \
+        q1 = q2 = 0.0;                                                                             \
+        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
+        diagonal *= m == 0 ? 3.0 : float(2 * m + 3) / float(2 * m + 2);                            \
+        LMP_POWER(m, w)                                                                            \
+    }
+#define LMP_LOBE(axis, factors, color)                                                             \
+    {                                                                                              \
+        float lambda[LMP_BANDS] = factors;                                                         \
+        w = axis;                                                                                  \
+        c = 1.0;                                                                                   \
+        s = 0.0;                                                                                   \
+        diagonal = 0.25;                                                                           \
+        part = vec3(0.0);                                                                          \
+        LMP_FOR_COLUMNS(LMP_COLUMN)                                                                \
+        reflected += color * part;                                                                 \
+    }
+    LMP_LOBE(surface.normal, diffuse, material.diffuse / LMP_PI)
+    LMP_LOBE(mirror, glossy, material.specular)
+#undef LMP_LOBE
+#undef LMP_COLUMN
+#undef LMP_ROW
+#undef LMP_POWER
+#undef LMP_MONIC
+    return max(reflected, vec3(0.0));
+}
+
+#endif
+#endif

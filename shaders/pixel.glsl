@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* pixel.glsl - a pixel of the G-buffer as a surface and a material of lampion.glsl. */
+layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_metallic_texture;
+layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D roughness_kind_texture;
+layout(binding = SHARED_NORMAL) uniform sampler2D normal_texture;
+layout(binding = SHARED_EMISSION) uniform sampler2D emission_texture;
+layout(binding = SHARED_DEPTH) uniform sampler2D depth_texture;
+
+struct pixel {
+    lmp_surface surface;
+    lmp_material material;
+};
+
+int pixel_kind(ivec2 at) {
+    return gbuffer_decode_kind(texelFetch(roughness_kind_texture, at, 0).g);
+}
+
+vec3 pixel_light_radiance(ivec2 at) {
+    return lights[gbuffer_decode_light(texelFetch(normal_texture, at, 0).r)].radiance.rgb;
+}
+
+vec3 pixel_emission(ivec2 at) {
+    return texelFetch(emission_texture, at, 0).rgb;
+}
+
+pixel pixel_read(ivec2 at) {
+    vec2 screen = (vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0;
+    vec3 ray = forward.xyz + right.xyz * screen.x + down.xyz * screen.y;
+    vec4 base_metallic = texelFetch(base_metallic_texture, at, 0);
+    pixel p;
+    p.surface.position = eye.xyz + ray * (eye.w / texelFetch(depth_texture, at, 0).r);
+    p.surface.normal = gbuffer_decode_normal(texelFetch(normal_texture, at, 0).rg);
+    p.surface.view = -normalize(ray);
+    p.material = lmp_material_from_metallic_roughness(
+        base_metallic.rgb, base_metallic.a, texelFetch(roughness_kind_texture, at, 0).r);
+    return p;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* One thread a pixel: G-buffer in, radiance out. SHADE is the method; all have one signature. */
+#include "gbuffer.glsl"
+#include "shared.h"
+
+#define LMP_LIGHT_COUNT       int(size_lights.z)
+#define LMP_LIGHT_SPHERE(i)   lights[i].sphere
+#define LMP_LIGHT_RADIANCE(i) lights[i].radiance.rgb
+#include "lampion.glsl"
+
+#include "pixel.glsl"
+
+layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
+layout(binding = 0, rgba32f) uniform writeonly restrict image2D hdr;
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, ivec2(size_lights.xy))))
+        return;
+    int kind = pixel_kind(at);
+    vec3 radiance = background.rgb;
+    if (kind == SHARED_KIND_LIGHT) {
+        radiance = pixel_light_radiance(at);
+    } else if (kind == SHARED_KIND_SURFACE) {
+        pixel p = pixel_read(at);
+        radiance = SHADE(p.surface, p.material) + pixel_emission(at);
+    }
+    imageStore(hdr, at, vec4(radiance, 1.0));
+}

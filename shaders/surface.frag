@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT */
+/* Materials into the G-buffer. SURFACE_MASKED: discard by alpha (a variant, for discarding costs
+ * the early depth test). */
+#include "gbuffer.glsl"
+#include "shared.h"
+
+layout(location = 0) in vec3 world_normal;
+layout(location = 1) in vec2 world_uv;
+layout(location = 2) in vec4 world_tangent;
+
+layout(location = 0) out vec4 out_base_metallic;
+layout(location = 1) out vec2 out_normal;
+layout(location = 2) out vec2 out_roughness_kind;
+layout(location = 3) out vec3 out_emission;
+
+layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_color_map;
+layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_map;
+layout(binding = SHARED_NORMAL) uniform sampler2D normal_map;
+layout(binding = SHARED_EMISSION) uniform sampler2D emission_map;
+
+vec2 map_uv(int map) {
+    return vec2(dot(matrix[map].xy, world_uv), dot(matrix[map].zw, world_uv)) + offset[map].xy;
+}
+
+void main() {
+    vec4 base = base_color;
+    if (maps.x > 0.0)
+        base *= texture(base_color_map, map_uv(SHARED_BASE_COLOR));
+#ifdef SURFACE_MASKED
+    if (base.a < factors.w)
+        discard;
+#endif
+
+    float metallic = factors.x, roughness = factors.y;
+    if (maps.y > 0.0) {
+        vec4 texel = texture(metallic_roughness_map, map_uv(SHARED_METALLIC_ROUGHNESS));
+        metallic *= texel.b;
+        roughness *= texel.g;
+    }
+
+    /* Both sides are lit: the back of a sheet has the opposite normal. */
+    vec3 n = normalize(world_normal);
+    if (maps.z > 0.0) {
+        vec3 texel = texture(normal_map, map_uv(SHARED_NORMAL)).xyz * 2.0 - 1.0;
+        vec3 t = world_tangent.xyz * inversesqrt(max(dot(world_tangent.xyz, world_tangent.xyz), 1e-20));
+        vec3 b = cross(n, t) * world_tangent.w;
+        vec3 bent = t * (texel.x * factors.z) + b * (texel.y * factors.z) + n * texel.z;
+        n = bent * inversesqrt(max(dot(bent, bent), 1e-20));
+    }
+    if (!gl_FrontFacing)
+        n = -n;
+
+    vec3 emitted = emission.rgb;
+    if (maps.w > 0.0)
+        emitted *= texture(emission_map, map_uv(SHARED_EMISSION)).rgb;
+
+    out_base_metallic = vec4(base.rgb, metallic);
+    out_normal = gbuffer_encode_normal(n);
+    out_roughness_kind = vec2(roughness, gbuffer_encode_kind(SHARED_KIND_SURFACE));
+    out_emission = emitted;
+}

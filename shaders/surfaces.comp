@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* The surfaces that shade.comp shades, for the same evaluation elsewhere. */
+#include "gbuffer.glsl"
+#include "shared.h"
+
+#include "lampion.glsl"
+
+#include "pixel.glsl"
+
+layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
+layout(std430, binding = 0) writeonly restrict buffer pixels_block {
+    shared_pixel pixels[];
+};
+layout(location = 0) uniform int first_row;
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, first_row);
+    if (any(greaterThanEqual(at, ivec2(size_lights.xy))))
+        return;
+    int kind = pixel_kind(at);
+    pixel p = pixel_read(at);
+    shared_pixel o;
+    o.position_kind = vec4(p.surface.position, float(kind));
+    o.normal_exponent = vec4(p.surface.normal, p.material.exponent);
+    o.view = vec4(p.surface.view, 0.0);
+    o.diffuse = vec4(p.material.diffuse, 0.0);
+    o.specular = vec4(p.material.specular, 0.0);
+    o.emission = vec4(kind == SHARED_KIND_LIGHT     ? pixel_light_radiance(at)
+                      : kind == SHARED_KIND_SURFACE ? pixel_emission(at)
+                                                    : background.rgb,
+                      0.0);
+    pixels[(at.y - first_row) * int(size_lights.x) + at.x] = o;
+}

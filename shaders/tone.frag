@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* Radiance to display: exposure, the filmic curve, the sRGB transfer. The picture's rows run from
+ * the top; flip = 1 for a window, whose rows run from the bottom. */
+#include "shared.h"
+
+layout(binding = SHARED_HDR) uniform sampler2D hdr;
+layout(location = 0) uniform float exposure;
+layout(location = 1) uniform int flip;
+layout(location = 0) out vec4 color;
+
+float transfer(float x) {
+    x = clamp(x, 0.0, 1.0);
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    if (flip != 0)
+        at.y = int(size_lights.y) - 1 - at.y;
+    vec3 x = min(texelFetch(hdr, at, 0).rgb * exposure, vec3(65504.0));
+    vec3 y = vec3(shared_tone(shared_tone_in(0, x.r, x.g, x.b)),
+                  shared_tone(shared_tone_in(1, x.r, x.g, x.b)),
+                  shared_tone(shared_tone_in(2, x.r, x.g, x.b)));
+    color = vec4(transfer(shared_tone_out(0, y.r, y.g, y.b)),
+                 transfer(shared_tone_out(1, y.r, y.g, y.b)),
+                 transfer(shared_tone_out(2, y.r, y.g, y.b)), 1.0);
+}
