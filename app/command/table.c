@@ -2,5 +2,6 @@
 #include "app/command/command.h"
 
 extern const cli_command command_project;
+extern const cli_command command_render;
 
-const cli_command *const command_table[] = { &command_project, NULL };
+const cli_command *const command_table[] = { &command_render, &command_project, NULL };

@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/command/command.h"
+#include "app/gpu/gpu.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float pi = 3.14159265f;
+
+enum { PIXELS_MAX = 1 << 26, REPEAT_MAX = 1000, FRAMES_MAX = 100000, PATH_SIZE = 4096 };
+
+/* Everything the command line says. */
+typedef struct render_options {
+    const char *output, *camera, *device;
+    int size[2], bands, method, window, frames, repeat;
+    float eye[3], target[3], fov, exposure, stops, fps, background[3];
+    bool eye_given, target_given, fov_given, exposure_given, stats, compare;
+    scene_lights_options lights;
+} render_options;
+
+/* Everything that is open while rendering. */
+typedef struct job {
+    const render_options *options;
+    scene world;
+    gpu_context context;
+    gpu_renderer *renderer;
+    gpu_frame frame;
+    scene_light *moved;
+    float exposure; /* 0: not yet known */
+} job;
+
+/* --- the camera ---------------------------------------------------------------------------------
+ */
+
+static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
+                        cli_error *error) {
+    char *end = NULL;
+    const unsigned long index = strtoul(wanted, &end, 10);
+    for (size_t i = 0; i < world->camera_count; i++)
+        if (strcmp(world->cameras[i].name, wanted) == 0 || (!*end && index == i)) {
+            *camera = world->cameras[i];
+            return true;
+        }
+    return cli_fail(error, world->origin, "no camera \"%s\" (it has %zu; see lampion info)", wanted,
+                    world->camera_count);
+}
+
+/* A direction of up that the camera does not look along. */
+static void keep_upright(scene_camera *camera) {
+    float forward[3], along = 0, length2 = 0, up2 = 0;
+    for (int i = 0; i < 3; i++) {
+        forward[i] = camera->target[i] - camera->eye[i];
+        along += forward[i] * camera->up[i];
+        length2 += forward[i] * forward[i];
+        up2 += camera->up[i] * camera->up[i];
+    }
+    if (along * along < 0.999f * length2 * up2)
+        return;
+    memcpy(camera->up, (const float[3]) { 0, 0, -1 }, sizeof camera->up);
+}
+
+static bool place_camera(const render_options *o, const scene *world, scene_camera *camera,
+                         cli_error *error) {
+    *camera = scene_default_camera(world, (float)o->size[0] / (float)o->size[1]);
+    if (o->camera && !find_camera(world, o->camera, camera, error))
+        return false;
+    if (o->eye_given)
+        memcpy(camera->eye, o->eye, sizeof camera->eye);
+    if (o->target_given)
+        memcpy(camera->target, o->target, sizeof camera->target);
+    if (o->fov_given)
+        camera->fov = o->fov * pi / 180;
+    if (o->eye_given || o->target_given) {
+        memcpy(camera->up, (const float[3]) { 0, 1, 0 }, sizeof camera->up);
+        if (memcmp(camera->eye, camera->target, sizeof camera->eye) == 0)
+            return cli_fail(error, "camera", "--eye and --target are the same point");
+    }
+    keep_upright(camera);
+    return true;
+}
+
+/* --- names of the frames ------------------------------------------------------------------------
+ */
+
+/* The place of a %d or %0Nd in path, and what follows it; NULL if there is none. */
+static const char *find_number(const char *path, int *digits, const char **rest) {
+    for (const char *at = strchr(path, '%'); at; at = strchr(at + 1, '%')) {
+        const char *end = at + 1 + strspn(at + 1, "0123456789");
+        if (*end != 'd' || end - at > 3)
+            continue;
+        *digits = atoi(at + 1);
+        *rest = end + 1;
+        return at;
+    }
+    return NULL;
+}
+
+/* The file of a frame: the number takes the place of %04d, or goes before the extension. */
+static void name_frame(const render_options *o, int index, char path[PATH_SIZE]) {
+    int digits = 4;
+    const char *rest = strrchr(o->output, '.');
+    if (o->frames == 0) {
+        snprintf(path, PATH_SIZE, "%s", o->output);
+        return;
+    }
+    const char *number = find_number(o->output, &digits, &rest);
+    const char *separator = number ? "" : "_";
+    const int before = (int)((number ? number : rest) - o->output);
+    snprintf(path, PATH_SIZE, "%.*s%s%0*d%s", before, o->output, separator, digits, index, rest);
+}
+
+/* --- one picture --------------------------------------------------------------------------------
+ */
+
+static bool write_exr(const job *j, const char *path, cli_error *error) {
+    image picture;
+    if (!gpu_read_image(j->renderer, &picture, error))
+        return false;
+    const bool ok = image_write(&picture, path, j->exposure, error);
+    image_free(&picture);
+    return ok;
+}
+
+static bool write_png(const job *j, const char *path, cli_error *error) {
+    const int width = j->frame.width, height = j->frame.height;
+    unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
+    if (!rgb8)
+        return cli_fail(error, path, "out of memory");
+    const bool ok = gpu_read_rgb8(j->renderer, j->exposure, rgb8, NULL, error) &&
+                    image_write_png8(rgb8, width, height, path, error);
+    free(rgb8);
+    return ok;
+}
+
+/* The exposure of the first frame serves all: a sequence must not flicker. */
+static bool settle_exposure(job *j, cli_error *error) {
+    const render_options *o = j->options;
+    if (j->exposure > 0)
+        return true;
+    float factor = o->exposure;
+    if (!o->exposure_given) {
+        image picture;
+        if (!gpu_read_image(j->renderer, &picture, error))
+            return false;
+        factor = image_auto_exposure(&picture);
+        image_free(&picture);
+    }
+    j->exposure = factor * image_exposure_of_stops(o->stops);
+    return true;
+}
+
+static bool render_frame(job *j, int index, cli_error *error) {
+    char path[PATH_SIZE];
+    name_frame(j->options, index, path);
+    if (j->options->frames > 0) {
+        scene_move_lights(&j->world, (double)index / (double)j->options->fps, j->moved);
+        j->frame.lights = j->moved;
+    }
+    if (!gpu_render(j->renderer, &j->frame, NULL, error) || !settle_exposure(j, error))
+        return false;
+    return image_format_of(path) == IMAGE_EXR ? write_exr(j, path, error)
+                                              : write_png(j, path, error);
+}
+
+static bool render_frames(job *j, cli_error *error) {
+    const int count = j->options->frames > 0 ? j->options->frames : 1;
+    bool ok = true;
+    for (int i = 0; i < count && ok; i++) {
+        cli_progress("rendering", (double)i / (double)count);
+        ok = render_frame(j, i, error);
+    }
+    cli_progress_end();
+    return ok;
+}
+
+/* --- statistics ---------------------------------------------------------------------------------
+ */
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values, int count) {
+    qsort(values, (size_t)count, sizeof *values, by_value);
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+}
+
+/* Medians over the repetitions of one method, after a frame that warms it up. */
+static cJSON *measure(job *j, gpu_method method, cli_error *error) {
+    enum { PASSES = 4 };
+    static const char *const names[PASSES] = { "gbuffer", "shade", "tonemap", "total" };
+    static double samples[PASSES][REPEAT_MAX];
+    gpu_frame frame = j->frame;
+    frame.method = method;
+    unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
+    bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
+    ok = ok && gpu_render(j->renderer, &frame, NULL, error);
+    for (int i = 0; i < j->options->repeat && ok; i++) {
+        gpu_times times;
+        ok = gpu_render(j->renderer, &frame, &times, error) &&
+             gpu_read_rgb8(j->renderer, j->exposure, rgb8, &times, error);
+        if (ok) {
+            const double passes[PASSES] = { times.gbuffer, times.shade, times.tone, times.total };
+            for (int p = 0; p < PASSES; p++)
+                samples[p][i] = passes[p];
+        }
+    }
+    free(rgb8);
+    if (!ok)
+        return NULL;
+    cJSON *milliseconds = cJSON_CreateObject();
+    for (int p = 0; p < PASSES; p++)
+        cJSON_AddNumberToObject(milliseconds, names[p], median(samples[p], j->options->repeat));
+    return milliseconds;
+}
+
+static bool add_timings(job *j, cJSON *stats, cli_error *error) {
+    cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
+    double shade[GPU_METHODS] = { 0 };
+    for (int m = 0; m < GPU_METHODS; m++) {
+        if (!j->options->compare && m != j->options->method)
+            continue;
+        cJSON *passes = measure(j, (gpu_method)m, error);
+        if (!passes)
+            return false;
+        shade[m] = cJSON_GetObjectItem(passes, "shade")->valuedouble;
+        cJSON_AddItemToObject(timings, gpu_method_names[m], passes);
+    }
+    if (j->options->compare && shade[GPU_METHOD_ZONAL] > 0)
+        cJSON_AddNumberToObject(stats, "zonal_speedup",
+                                shade[GPU_METHOD_COEFFICIENTS] / shade[GPU_METHOD_ZONAL]);
+    return true;
+}
+
+static bool print_stats(job *j, cli_error *error) {
+    static const char *const windows[] = { "none", "hanning", "lanczos" };
+    const render_options *o = j->options;
+    cJSON *stats = cJSON_CreateObject();
+    cJSON_AddStringToObject(stats, "scene", j->world.origin);
+    cJSON_AddNumberToObject(stats, "triangles", (double)(j->world.index_count / 3));
+    cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
+    cJSON_AddNumberToObject(stats, "bands", o->bands);
+    cJSON_AddStringToObject(stats, "method", gpu_method_names[o->method]);
+    cJSON_AddStringToObject(stats, "window", windows[o->window]);
+    cJSON_AddNumberToObject(stats, "width", o->size[0]);
+    cJSON_AddNumberToObject(stats, "height", o->size[1]);
+    cJSON_AddNumberToObject(stats, "exposure", (double)j->exposure);
+    cJSON_AddStringToObject(stats, "device", j->context.device);
+    cJSON_AddStringToObject(stats, "driver", j->context.driver);
+    cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
+    cJSON_AddNumberToObject(stats, "repeat", o->repeat);
+    const bool ok = add_timings(j, stats, error);
+    char *text = ok ? cJSON_Print(stats) : NULL;
+    if (text)
+        puts(text);
+    cJSON_free(text);
+    cJSON_Delete(stats);
+    return ok;
+}
+
+/* --- the command --------------------------------------------------------------------------------
+ */
+
+static bool open_job(const char *name, job *j, cli_error *error) {
+    const render_options *o = j->options;
+    char path[PATH_SIZE];
+    name_frame(o, 0, path);
+    if (!image_check_path(path, error) ||
+        !scene_load(name, &(scene_options) { 0 }, &j->world, error) ||
+        !scene_apply_lights(&j->world, &o->lights, error) ||
+        !place_camera(o, &j->world, &j->frame.camera, error) ||
+        !gpu_context_create(o->device, &j->context, error))
+        return false;
+    j->renderer = gpu_renderer_create(&j->context, &j->world, error);
+    j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
+    j->frame.width = o->size[0];
+    j->frame.height = o->size[1];
+    j->frame.method = (gpu_method)o->method;
+    j->frame.bands = o->bands;
+    j->frame.window = (lmp_window)o->window;
+    j->frame.lights = j->world.lights;
+    j->frame.light_count = j->world.light_count;
+    memcpy(j->frame.background, o->background, sizeof j->frame.background);
+    if (j->renderer && !j->moved)
+        return cli_fail(error, NULL, "out of memory");
+    return j->renderer != NULL;
+}
+
+static void close_job(job *j) {
+    gpu_renderer_destroy(j->renderer);
+    gpu_context_destroy(&j->context);
+    scene_free(&j->world);
+    free(j->moved);
+}
+
+static int render(const cli_command *command, int argc, char **argv) {
+    static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
+    render_options o = {
+        .size = { 1280, 720 }, .bands = LMP_SHADE_BANDS_DEFAULT, .repeat = 5, .fps = 24
+    };
+    const cli_option options[] = {
+        { .name = "output",
+          .letter = 'o',
+          .kind = CLI_TEXT,
+          .target = &o.output,
+          .argument = "FILE",
+          .help = "the picture: .png (tone-mapped) or .exr (linear)" },
+        { .name = "size",
+          .kind = CLI_SIZE,
+          .target = o.size,
+          .argument = "WxH",
+          .help = "pixels",
+          .minimum = 1,
+          .maximum = IMAGE_SIZE_MAX },
+        { .name = "bands",
+          .kind = CLI_INT,
+          .target = &o.bands,
+          .argument = "N",
+          .help = "bands of spherical harmonics",
+          .minimum = 1,
+          .maximum = GPU_BANDS_MAX },
+        { .name = "method",
+          .kind = CLI_CHOICE,
+          .target = &o.method,
+          .argument = "METHOD",
+          .help = "how to shade: zonal is fast, coefficients is the paper's",
+          .choices = gpu_method_names },
+        { .name = "window",
+          .kind = CLI_CHOICE,
+          .target = &o.window,
+          .argument = "WINDOW",
+          .help = "damps the ringing of few bands",
+          .choices = windows },
+        SCENE_LIGHTS_OPTION_ROWS(o.lights),
+        { .name = "camera",
+          .kind = CLI_TEXT,
+          .target = &o.camera,
+          .argument = "NAME",
+          .help = "a camera of the scene, by name or number from 0" },
+        { .name = "eye",
+          .kind = CLI_VEC3,
+          .target = o.eye,
+          .argument = "X,Y,Z",
+          .help = "where the camera is",
+          .given = &o.eye_given },
+        { .name = "target",
+          .kind = CLI_VEC3,
+          .target = o.target,
+          .argument = "X,Y,Z",
+          .help = "where it looks",
+          .given = &o.target_given },
+        { .name = "fov",
+          .kind = CLI_FLOAT,
+          .target = &o.fov,
+          .argument = "DEGREES",
+          .help = "its vertical field of view",
+          .minimum = 1,
+          .maximum = 170,
+          .given = &o.fov_given },
+        { .name = "exposure",
+          .kind = CLI_FLOAT,
+          .target = &o.exposure,
+          .argument = "FACTOR",
+          .help = "of radiance; without it, automatic",
+          .minimum = 1e-12,
+          .maximum = 1e12,
+          .given = &o.exposure_given },
+        { .name = "ev",
+          .kind = CLI_FLOAT,
+          .target = &o.stops,
+          .argument = "STOPS",
+          .help = "brighter or darker by so many stops",
+          .minimum = -32,
+          .maximum = 32 },
+        { .name = "background",
+          .kind = CLI_VEC3,
+          .target = o.background,
+          .argument = "R,G,B",
+          .help = "radiance where nothing is" },
+        { .name = "frames",
+          .kind = CLI_INT,
+          .target = &o.frames,
+          .argument = "N",
+          .help = "numbered pictures (%04d in FILE) while the lights move",
+          .minimum = 0,
+          .maximum = FRAMES_MAX },
+        { .name = "fps",
+          .kind = CLI_FLOAT,
+          .target = &o.fps,
+          .argument = "RATE",
+          .help = "frames a second of their time",
+          .minimum = 0.01,
+          .maximum = 1000 },
+        { .name = "stats",
+          .kind = CLI_FLAG,
+          .target = &o.stats,
+          .help = "print what was drawn and the time of each pass as JSON" },
+        { .name = "repeat",
+          .kind = CLI_INT,
+          .target = &o.repeat,
+          .argument = "N",
+          .help = "frames whose median --stats takes",
+          .minimum = 1,
+          .maximum = REPEAT_MAX },
+        { .name = "compare-methods",
+          .kind = CLI_FLAG,
+          .target = &o.compare,
+          .help = "--stats times every method" },
+        { .name = "gl-device",
+          .kind = CLI_TEXT,
+          .target = &o.device,
+          .argument = "DEVICE",
+          .help = "a number, part of a name, or software" },
+        { 0 }
+    };
+    int operand_count = 0, status = CLI_OK;
+    char **operands = NULL;
+    if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
+        return status;
+    if (operand_count != 1)
+        return cli_usage(command, "one SCENE is needed, %d given", operand_count);
+    if (!o.output)
+        return cli_usage(command, "-o FILE is needed");
+    if (image_format_of(o.output) == IMAGE_UNKNOWN)
+        return cli_usage(command, "%s: unknown kind of picture (name it .png or .exr)", o.output);
+    if (strlen(o.output) > PATH_SIZE - 16)
+        return cli_usage(command, "the name of the picture is too long");
+    if ((long)o.size[0] * o.size[1] > PIXELS_MAX)
+        return cli_usage(command, "--size %dx%d: more than %d pixels", o.size[0], o.size[1],
+                         PIXELS_MAX);
+    for (int i = 0; i < 3; i++)
+        if (o.background[i] < 0)
+            return cli_usage(command, "--background: radiance is not negative");
+
+    cli_error error = { "" };
+    job all = { .options = &o };
+    const bool ok = open_job(operands[0], &all, &error) && render_frames(&all, &error) &&
+                    (!(o.stats || o.compare) || print_stats(&all, &error));
+    close_job(&all);
+    return ok ? CLI_OK : cli_report(&error);
+}
+
+const cli_command command_render = {
+    .name = "render",
+    .operands = "SCENE",
+    .summary = "draw a scene lit by sphere lights to a picture",
+    .examples =
+        "lampion render builtin:atrium --random-lights 30 --seed 7 --bands 8 -o atrium.png\n"
+        "lampion render scene.gltf --eye 0,2,5 --target 0,1,0 --size 1920x1080 -o scene.exr\n"
+        "lampion render builtin:balls --frames 48 -o balls_%04d.png\n"
+        "lampion render builtin:atrium --stats --compare-methods -o atrium.png\n",
+    .run = render,
+};
