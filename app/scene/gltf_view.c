@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT */
+/* gltf_view.c - cameras and KHR_lights_punctual, which Assimp reads without their extras. */
+#include "app/scene/gltf.h"
+#include "app/scene/vector.h"
+
+#include <string.h>
+
+#define PI 3.14159265358979
+
+/* Lights without a radius in their extras: relative to the diagonal of the scene's bounds. */
+#define DEFAULT_RADIUS 0.01
+/* A directional light becomes a sphere this many diagonals away with the sun's radius of 0.27°. */
+#define SUN_DISTANCE 20.0
+#define SUN_SINE     0.00471
+
+typedef struct scene_box {
+    double center[3], diagonal;
+} scene_box;
+
+static scene_box box_of(const scene_builder *builder) {
+    const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
+    const size_t count = builder_count(builder, BLOB_MESHES);
+    scene_box box = { .diagonal = 1.0 };
+    double square = 0.0;
+    for (int k = 0; k < 3 && count; k++) {
+        float lo = meshes[0].minimum[k], hi = meshes[0].maximum[k];
+        for (size_t i = 1; i < count; i++) {
+            lo = fminf(lo, meshes[i].minimum[k]);
+            hi = fmaxf(hi, meshes[i].maximum[k]);
+        }
+        box.center[k] = 0.5 * ((double)lo + (double)hi);
+        square += ((double)hi - (double)lo) * ((double)hi - (double)lo);
+    }
+    if (square > 0.0)
+        box.diagonal = sqrt(square);
+    return box;
+}
+
+static lmp_vec3 axis_of(const double m[16], int column, float sign) {
+    const double *a = m + 4 * column;
+    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    if (!(length > 0.0))
+        return vec(0.0f, column == 1 ? 1.0f : 0.0f, column == 2 ? sign : 0.0f);
+    const double scale = (double)sign / length;
+    return vec((float)(a[0] * scale), (float)(a[1] * scale), (float)(a[2] * scale));
+}
+
+static bool add_camera(const gltf *document, size_t node, const scene_box *box,
+                       scene_builder *builder, cli_error *error) {
+    const double *m = document->world[node];
+    bool ok = true;
+    const long index =
+        gltf_index(document->nodes.items[node], "camera", document->cameras.count, &ok);
+    const cJSON *entry = document->cameras.items[index];
+    scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
+    if (!camera)
+        return cli_fail(error, document->subject, "does not fit into memory");
+    const char *name = gltf_text(entry, "name");
+    builder_name(camera->name, name[0] ? name : gltf_text(document->nodes.items[node], "name"));
+    const lmp_vec3 eye = vec((float)m[12], (float)m[13], (float)m[14]);
+    const lmp_vec3 forward = axis_of(m, 2, -1.0f), up = axis_of(m, 1, 1.0f);
+    const lmp_vec3 center =
+        vec((float)box->center[0], (float)box->center[1], (float)box->center[2]);
+    /* The target is where the view passes the scene's middle, so that one can orbit round it. */
+    const float reach = fmaxf(vec_dot(vec_sub(center, eye), forward), 0.1f * (float)box->diagonal);
+    vec_store(eye, camera->eye);
+    vec_store(vec_add(eye, vec_scale(forward, reach)), camera->target);
+    vec_store(up, camera->up);
+    const double height = gltf_number(gltf_member(entry, "orthographic"), "ymag", 1.0);
+    const double wide = 2.0 * atan(height / (double)reach);
+    const double fov = strcmp(gltf_text(entry, "type"), "orthographic") == 0
+                           ? wide
+                           : gltf_number(gltf_member(entry, "perspective"), "yfov", 0.7854);
+    if (!(fov > 0.0 && fov < PI))
+        return cli_fail(error, document->subject,
+                        "is no valid glTF: camera %ld has an impossible field of view", index);
+    camera->fov = (float)fmin(fov, 3.1);
+    return true;
+}
+
+static bool add_light(const gltf *document, size_t node, const scene_box *box,
+                      scene_builder *builder, cli_error *error) {
+    const cJSON *holder = document->nodes.items[node];
+    const cJSON *use = gltf_member(gltf_member(holder, "extensions"), "KHR_lights_punctual");
+    bool ok = true;
+    const long index = gltf_index(use, "light", document->lights.count, &ok);
+    if (!ok || index < 0)
+        return cli_fail(error, document->subject, "is no valid glTF: node %zu has no such light",
+                        node);
+    const cJSON *entry = document->lights.items[index];
+    const double *m = document->world[node];
+    double color[3] = { 1.0, 1.0, 1.0 }, center[3] = { m[12], m[13], m[14] };
+    gltf_numbers(entry, "color", 3, color);
+    double strength = gltf_number(entry, "intensity", 1.0);
+    double radius =
+        gltf_number(gltf_member(entry, "extras"), "radius", DEFAULT_RADIUS * box->diagonal);
+    radius = gltf_number(gltf_member(holder, "extras"), "radius", radius);
+    if (strcmp(gltf_text(entry, "type"), "directional") == 0) {
+        const lmp_vec3 back = axis_of(m, 2, 1.0f);
+        const double away[3] = { (double)back.x, (double)back.y, (double)back.z };
+        for (int k = 0; k < 3; k++)
+            center[k] = box->center[k] + away[k] * SUN_DISTANCE * box->diagonal;
+        /* Irradiance E = pi sin²a L: with L = I/(pi r²) below, I = E distance². */
+        radius = SUN_SINE * SUN_DISTANCE * box->diagonal;
+        strength *= SUN_DISTANCE * SUN_DISTANCE * box->diagonal * box->diagonal;
+    }
+    if (!(radius > 0.0) || !(strength >= 0.0) || !isfinite(radius) || !isfinite(strength) ||
+        !(color[0] >= 0.0 && color[1] >= 0.0 && color[2] >= 0.0))
+        return cli_fail(error, document->subject,
+                        "has a light (%ld) whose radius or intensity makes no sense", index);
+    scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
+    if (!light)
+        return cli_fail(error, document->subject, "does not fit into memory");
+    light->radius = (float)radius;
+    for (int k = 0; k < 3; k++) {
+        light->center[k] = (float)center[k];
+        light->radiance[k] = (float)(strength * color[k] / (PI * radius * radius));
+    }
+    return true;
+}
+
+bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *error) {
+    const scene_box box = box_of(builder);
+    for (size_t i = 0; i < document->nodes.count; i++) {
+        const cJSON *node = document->nodes.items[i];
+        const bool in_scene = document->world[i][15] != 0.0;
+        const cJSON *extensions = gltf_member(node, "extensions");
+        if (in_scene && gltf_member(node, "camera") &&
+            !add_camera(document, i, &box, builder, error))
+            return false;
+        if (in_scene && gltf_member(extensions, "KHR_lights_punctual") &&
+            !add_light(document, i, &box, builder, error))
+            return false;
+    }
+    return true;
+}

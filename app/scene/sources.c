@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/sources.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static int hex_digit(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+/* Decodes percent-escapes and turns backslashes into slashes; false if it does not fit. */
+static bool decode_uri(const char *uri, char *path, size_t size) {
+    size_t used = 0;
+    for (const char *c = uri; *c; c++) {
+        char byte = *c == '\\' ? '/' : *c;
+        if (*c == '%' && hex_digit(c[1]) >= 0 && hex_digit(c[2]) >= 0) {
+            byte = (char)(hex_digit(c[1]) * 16 + hex_digit(c[2]));
+            c += 2;
+        }
+        if (byte == 0 || used + 1 >= size)
+            return false;
+        path[used++] = byte;
+    }
+    path[used] = 0;
+    return used > 0;
+}
+
+static bool has_parent_component(const char *path) {
+    for (const char *c = path; *c;) {
+        const size_t length = strcspn(c, "/");
+        if (length == 2 && c[0] == '.' && c[1] == '.')
+            return true;
+        c += length;
+        c += *c == '/';
+    }
+    return false;
+}
+
+static bool has_scheme(const char *path) {
+    const size_t length = strspn(path, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ+.-");
+    return length > 0 && path[length] == ':';
+}
+
+bool sources_resolve(const source_set *set, const char *uri, char *path, size_t size,
+                     cli_error *error) {
+    char name[sizeof((source *)0)->path], full[PATH_MAX], real[PATH_MAX];
+    if (!decode_uri(uri, name, sizeof name))
+        return cli_fail(error, set->subject, "refers to a file by a name that is none");
+    if (name[0] == '/' || has_parent_component(name) || has_scheme(name))
+        return cli_fail(error, set->subject,
+                        "refers to \"%.200s\", which is outside its folder (only files inside are "
+                        "read)",
+                        name);
+    const int length = snprintf(full, sizeof full, "%s/%s", set->folder, name);
+    if (length < 0 || (size_t)length >= sizeof full)
+        return cli_fail(error, set->subject, "refers to a file by too long a name");
+    if (!realpath(full, real))
+        return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
+                        errno == ENOENT ? "does not exist" : "cannot be opened");
+    const size_t folder_length = strlen(set->folder);
+    const bool at_root = folder_length == 1;
+    if (strncmp(real, set->folder, folder_length) != 0 || (!at_root && real[folder_length] != '/'))
+        return cli_fail(error, set->subject,
+                        "refers to \"%.200s\", a link that leaves its folder (only files inside "
+                        "are read)",
+                        name);
+    if (strlen(real) >= size)
+        return cli_fail(error, set->subject, "refers to a file by too long a name");
+    strcpy(path, real);
+    return true;
+}
+
+uint64_t sources_size(const source_set *set, const char *uri) {
+    char path[PATH_MAX];
+    cli_error ignored;
+    struct stat status;
+    return sources_resolve(set, uri, path, sizeof path, &ignored) && stat(path, &status) == 0 &&
+                   S_ISREG(status.st_mode)
+               ? (uint64_t)status.st_size
+               : 0;
+}
+
+bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error) {
+    char path[PATH_MAX], name[sizeof((source *)0)->path];
+    if (!sources_resolve(set, uri, path, sizeof path, error))
+        return false;
+    decode_uri(uri, name, sizeof name);
+    for (size_t i = 0; i < set->count; i++)
+        if (strcmp(set->items[i].path, name) == 0) {
+            *found = &set->items[i];
+            return true;
+        }
+    if (set->count == SOURCES_MAX)
+        return cli_fail(error, set->subject, "refers to more than %d files", SOURCES_MAX);
+    if (!set->items && !(set->items = calloc(SOURCES_MAX, sizeof *set->items)))
+        return cli_fail(error, set->subject, "does not fit into memory");
+    cli_error reason;
+    source *item = &set->items[set->count];
+    if (!file_read(path, SOURCES_SIZE_LIMIT, &item->data, &item->size, &reason)) {
+        const char *what = strstr(reason.text, ": ");
+        return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
+                        what ? what + 2 : "cannot be read");
+    }
+    strcpy(item->path, name);
+    set->count++;
+    *found = item;
+    return true;
+}

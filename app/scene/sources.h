@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* sources.h - the files a scene refers to: read once, and only inside the scene's own folder. */
+#ifndef LAMPION_SCENE_SOURCES_H
+#define LAMPION_SCENE_SOURCES_H
+
+#include "app/scene/blob.h"
+
+#define SOURCES_MAX        4096
+#define SOURCES_SIZE_LIMIT ((size_t)8 << 30)
+
+typedef struct source {
+    char path[sizeof((blob_source *)0)->path]; /* relative to the folder */
+    void *data;
+    size_t size;
+} source;
+
+typedef struct source_set {
+    const char *subject; /* the scene's name, for messages */
+    const char *folder;  /* its real path */
+    source *items;
+    size_t count;
+} source_set;
+
+/* Finds the file that `uri` names: relative, without "..", percent-escapes decoded, and after
+ * following links still inside the folder. `path` (of `size` bytes) receives its full name. */
+bool sources_resolve(const source_set *set, const char *uri, char *path, size_t size,
+                     cli_error *error);
+
+/* Reads that file, or gives it again. The set keeps it. */
+bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error);
+
+/* The size of the file, 0 if it cannot be had. */
+uint64_t sources_size(const source_set *set, const char *uri);
+
+#endif
