@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: MIT */
+/* Every kind of light against quadrature of what it is. */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/light.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { BANDS = 8, COUNT = BANDS * BANDS };
+
+static const lmp_vec3 origin = { 0, 0, 0 };
+
+static void wide(lmp_vec3 v, double w[3]) {
+    w[0] = (double)v.x, w[1] = (double)v.y, w[2] = (double)v.z;
+}
+
+/* The light's planes against `unit` times each channel of its colour; bound relative. */
+static void check_planes(const lmp_light *light, lmp_vec3 point, const double *unit,
+                         lmp_rgb color) {
+    float sh[3 * COUNT];
+    double expected[3 * COUNT];
+    const double channels[3] = { (double)color.r, (double)color.g, (double)color.b };
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < COUNT; k++)
+            expected[c * COUNT + k] = channels[c] * unit[k];
+    lmp_light_project(light, 1, point, BANDS, sh);
+    CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-5);
+}
+
+/* lmp_light_zonal says the same as lmp_light_project of colour 1. */
+static void check_zonal(const lmp_light *light, lmp_vec3 point) {
+    lmp_light white = *light;
+    white.radiance = (lmp_rgb) { 1, 1, 1 };
+    white.ground = (lmp_rgb) { 0, 0, 0 };
+    float sh[3 * COUNT], zonal[BANDS], turned[COUNT];
+    double expected[COUNT];
+    lmp_vec3 axis;
+    lmp_light_project(&white, 1, point, BANDS, sh);
+    lmp_light_zonal(light, point, BANDS, zonal, &axis);
+    lmp_sh_from_zonal(BANDS, zonal, axis, turned);
+    for (int k = 0; k < COUNT; k++)
+        expected[k] = (double)sh[k];
+    CHECK_WITHIN(check_error(COUNT, expected, turned), 1e-5);
+}
+
+static void a_sphere_is_the_cap_it_covers(void **state) {
+    (void)state;
+    const float radii[] = { 1e-5f, 0.1f, 1.9f, 2, 2.1f, 50 };
+    for (int i = 0; i < 6; i++) {
+        const lmp_vec3 w = check_random_direction(), point = { 1, -1, 0.5f };
+        const lmp_light light = { .kind = LMP_LIGHT_SPHERE,
+                                  .position = { 1 + 2 * w.x, -1 + 2 * w.y, 0.5f + 2 * w.z },
+                                  .radius = radii[i],
+                                  .radiance = { 1, 2, 0.5f } };
+        double center[3], receiver[3], expected[COUNT];
+        wide(light.position, center);
+        wide(point, receiver);
+        oracle_sphere(BANDS, center, (double)radii[i], receiver, expected, NULL);
+        if (radii[i] != 2) /* at the surface itself rounding decides on which side the point is */
+            check_planes(&light, point, expected, light.radiance);
+        check_zonal(&light, point);
+        float sh[COUNT], zonal[BANDS];
+        lmp_sphere_project(BANDS, light.position, radii[i], point, sh);
+        double wide_sh[COUNT];
+        for (int k = 0; k < COUNT; k++)
+            wide_sh[k] = (double)sh[k];
+        check_planes(&light, point, wide_sh, light.radiance);
+        lmp_vec3 axis;
+        lmp_light_zonal(&light, point, BANDS, zonal, &axis);
+        CHECK_WITHIN(fabsf(axis.x - w.x) + fabsf(axis.y - w.y) + fabsf(axis.z - w.z), 2e-6);
+    }
+}
+
+static void a_cap_is_its_quadrature_at_every_angle(void **state) {
+    (void)state;
+    const float angles[] = { 1e-4f, 0.00465f, 0.5f, 1.5f, 1.5707963f, 1.6f, 2.5f, 3.1415f };
+    for (int i = 0; i < 8; i++) {
+        const lmp_light light = { .kind = LMP_LIGHT_CAP,
+                                  .direction = check_random_direction(),
+                                  .angle = angles[i],
+                                  .radiance = { 3, 2, 1 } };
+        double w[3], expected[COUNT];
+        wide(light.direction, w);
+        oracle_cap(BANDS, w, 2 * pow(sin((double)angles[i] / 2), 2), expected);
+        check_planes(&light, origin, expected, light.radiance);
+        check_zonal(&light, origin);
+    }
+}
+
+static void a_directional_light_is_a_dirac(void **state) {
+    (void)state;
+    const lmp_light light = { .kind = LMP_LIGHT_DIRECTIONAL,
+                              .direction = check_random_direction(),
+                              .irradiance = { 2, 3, 4 } };
+    double w[3], expected[COUNT];
+    wide(light.direction, w);
+    oracle_sh_eval(BANDS, w, expected);
+    check_planes(&light, origin, expected, light.irradiance);
+    check_zonal(&light, origin);
+}
+
+static void a_point_light_falls_with_the_square_and_is_a_tiny_sphere(void **state) {
+    (void)state;
+    for (int i = -2; i <= 3; i++) {
+        const float distance = powf(10, (float)i);
+        const lmp_vec3 w = check_random_direction();
+        const lmp_light light = { .kind = LMP_LIGHT_POINT,
+                                  .position = { distance * w.x, distance * w.y, distance * w.z },
+                                  .intensity = { 1, 2, 3 } };
+        double position[3], expected[COUNT];
+        wide(light.position, position);
+        oracle_sh_eval(BANDS, position, expected);
+        const double d2 =
+            position[0] * position[0] + position[1] * position[1] + position[2] * position[2];
+        for (int k = 0; k < COUNT; k++)
+            expected[k] /= d2;
+        check_planes(&light, origin, expected, light.intensity);
+        check_zonal(&light, origin);
+
+        const float radius = 1e-4f * distance;
+        const float radiance = lmp_sphere_radiance_from_intensity(1, radius);
+        const lmp_light sphere = { .position = light.position,
+                                   .radius = radius,
+                                   .radiance = { radiance, 2 * radiance, 3 * radiance } };
+        check_planes(&sphere, origin, expected, light.intensity);
+    }
+}
+
+static void a_point_light_stays_finite_where_it_is(void **state) {
+    (void)state;
+    const lmp_light light = { .kind = LMP_LIGHT_POINT, .intensity = { 1, 1, 1 } };
+    float sh[3 * COUNT];
+    lmp_light_project(&light, 1, origin, BANDS, sh);
+    for (int k = 0; k < 3 * COUNT; k++)
+        CHECK_WITHIN(fabsf(sh[k]), 1e13);
+    assert_true(sh[0] > 0);
+}
+
+static void a_spot_light_fades_between_its_cones(void **state) {
+    (void)state;
+    const lmp_light spot = { .kind = LMP_LIGHT_SPOT,
+                             .position = { 0, 0, 2 },
+                             .direction = { 0, 0, -1 },
+                             .inner = 0.3f,
+                             .outer = 0.5f,
+                             .intensity = { 1, 2, 3 } };
+    for (int i = 0; i <= 20; i++) {
+        const double angle = 0.04 * i, half_way = cos(angle);
+        const lmp_vec3 point = { (float)(2 * tan(angle)), 0, 0 };
+        double falloff = (half_way - cos(0.5)) / (cos(0.3) - cos(0.5));
+        falloff = falloff < 0 ? 0 : falloff > 1 ? 1 : falloff * falloff;
+        lmp_light bulb = spot;
+        bulb.kind = LMP_LIGHT_POINT;
+        float sh[3 * COUNT];
+        double expected[COUNT];
+        lmp_light_project(&bulb, 1, point, BANDS, sh);
+        for (int k = 0; k < COUNT; k++)
+            expected[k] = falloff * (double)sh[k];
+        check_planes(&spot, point, expected, spot.intensity);
+    }
+    check_zonal(&spot, origin);
+}
+
+static void a_spot_light_with_equal_cones_has_a_hard_edge(void **state) {
+    (void)state;
+    lmp_light spot = { .kind = LMP_LIGHT_SPOT,
+                       .position = { 0, 0, 1 },
+                       .direction = { 0, 0, -1 },
+                       .inner = 0.5f,
+                       .outer = 0.5f,
+                       .intensity = { 1, 1, 1 } };
+    float sh[3 * COUNT];
+    lmp_light_project(&spot, 1, (lmp_vec3) { tanf(0.49f), 0, 0 }, BANDS, sh);
+    assert_true(sh[0] > 0.1f);
+    lmp_light_project(&spot, 1, (lmp_vec3) { tanf(0.51f), 0, 0 }, BANDS, sh);
+    assert_true(sh[0] == 0);
+}
+
+typedef struct sky {
+    double up[3];
+} sky;
+
+/* 1 above, 0 below */
+static double sky_value(const double w[3], void *user) {
+    const sky *above = user;
+    return w[0] * above->up[0] + w[1] * above->up[1] + w[2] * above->up[2] > 0;
+}
+
+static void a_hemisphere_light_is_sky_and_ground(void **state) {
+    (void)state;
+    const lmp_light light = { .kind = LMP_LIGHT_HEMISPHERE,
+                              .direction = { 0, 0, 1 },
+                              .radiance = { 3, 1, 0 },
+                              .ground = { 1, 2, 0.5f } };
+    /* up = z: an even number of Gauss-Legendre nodes splits at the horizon, though not exactly */
+    sky above = { { 0, 0, 1 } };
+    double upper[COUNT], expected[3 * COUNT];
+    oracle_project(BANDS, sky_value, &above, 200, upper);
+    const double sky_color[3] = { 3, 1, 0 }, ground_color[3] = { 1, 2, 0.5 };
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < COUNT; k++)
+            expected[c * COUNT + k] = (sky_color[c] - ground_color[c]) * upper[k] +
+                                      (k == 0 ? ground_color[c] * 2 * sqrt(ORACLE_PI) : 0);
+    float sh[3 * COUNT];
+    lmp_light_project(&light, 1, origin, BANDS, sh);
+    CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-4);
+
+    /* any axis: two caps of a right angle, exactly */
+    lmp_light turned = light;
+    turned.direction = check_random_direction();
+    double up[3], down[3], lower[COUNT];
+    wide(turned.direction, up);
+    for (int k = 0; k < 3; k++)
+        down[k] = -up[k];
+    oracle_cap(BANDS, up, 1, upper);
+    oracle_cap(BANDS, down, 1, lower);
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < COUNT; k++)
+            expected[c * COUNT + k] = sky_color[c] * upper[k] + ground_color[c] * lower[k];
+    lmp_light_project(&turned, 1, origin, BANDS, sh);
+    CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-6);
+    check_zonal(&turned, origin);
+}
+
+static void lights_add_up(void **state) {
+    (void)state;
+    lmp_light lights[20];
+    double expected[3 * COUNT] = { 0 };
+    float sh[3 * COUNT];
+    for (int i = 0; i < 20; i++) {
+        lights[i] = (lmp_light) {
+            .position = { (float)check_random_between(-3, 3), (float)check_random_between(-3, 3),
+                          (float)check_random_between(-3, 3) },
+            .radius = (float)check_random(),
+            .radiance = { (float)check_random(), (float)check_random(), (float)check_random() }
+        };
+        lmp_light_project(&lights[i], 1, origin, BANDS, sh);
+        for (int k = 0; k < 3 * COUNT; k++)
+            expected[k] += (double)sh[k];
+    }
+    lmp_light_project(lights, 20, origin, BANDS, sh);
+    CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-6);
+    lmp_light_project(NULL, 0, origin, BANDS, sh);
+    for (int k = 0; k < 3 * COUNT; k++)
+        assert_true(sh[k] == 0);
+}
+
+/* --- units ------------------------------------------------------------------------------------ */
+
+static void a_sphere_has_the_power_its_radiance_says(void **state) {
+    (void)state;
+    const float power = lmp_sphere_power_from_radiance(3, 0.5f);
+    CHECK_WITHIN(fabs((double)power / (4 * ORACLE_PI * ORACLE_PI * 0.25 * 3) - 1), 1e-6);
+    CHECK_WITHIN(fabsf(lmp_sphere_radiance_from_power(power, 0.5f) - 3), 1e-5);
+    const float intensity = lmp_sphere_intensity_from_radiance(3, 0.5f);
+    CHECK_WITHIN(fabs((double)intensity / (ORACLE_PI * 0.25 * 3) - 1), 1e-6);
+    CHECK_WITHIN(fabsf(lmp_sphere_radiance_from_intensity(intensity, 0.5f) - 3), 1e-5);
+    CHECK_WITHIN(fabs((double)(power / intensity) / (4 * ORACLE_PI) - 1), 1e-6);
+}
+
+/* All of a sphere's power arrives on any sphere round it: the irradiance of band 1 times 4 pi d².
+ */
+static void a_sphere_sends_its_power_through_any_shell(void **state) {
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const float distance = 0.6f + 3 * (float)i;
+        float sh[4];
+        lmp_sphere_project(2, (lmp_vec3) { 0, 0, distance }, 0.5f, origin, sh);
+        /* ∫ L cos = sqrt(4 pi / 3) L_10 */
+        const double irradiance = sqrt(4 * ORACLE_PI / 3) * (double)sh[2];
+        const double power = 4 * ORACLE_PI * (double)(distance * distance) * irradiance;
+        CHECK_WITHIN(fabs(power / (double)lmp_sphere_power_from_radiance(1, 0.5f) - 1), 2e-6);
+    }
+}
+
+static void the_sun_has_the_radiance_its_irradiance_says(void **state) {
+    (void)state;
+    const float angle = (float)(0.2665 * ORACLE_PI / 180);
+    CHECK_WITHIN(fabs((double)lmp_cap_radiance_from_irradiance(1, angle) / 14713 - 1), 1e-4);
+    CHECK_WITHIN(
+        fabsf(lmp_cap_irradiance_from_radiance(lmp_cap_radiance_from_irradiance(2, angle), angle) -
+              2),
+        1e-5);
+    CHECK_WITHIN(fabs((double)lmp_cap_irradiance_from_radiance(1, 1.5707963f) - ORACLE_PI), 1e-6);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sphere_is_the_cap_it_covers),
+        cmocka_unit_test(a_cap_is_its_quadrature_at_every_angle),
+        cmocka_unit_test(a_directional_light_is_a_dirac),
+        cmocka_unit_test(a_point_light_falls_with_the_square_and_is_a_tiny_sphere),
+        cmocka_unit_test(a_point_light_stays_finite_where_it_is),
+        cmocka_unit_test(a_spot_light_fades_between_its_cones),
+        cmocka_unit_test(a_spot_light_with_equal_cones_has_a_hard_edge),
+        cmocka_unit_test(a_hemisphere_light_is_sky_and_ground),
+        cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(a_sphere_has_the_power_its_radiance_says),
+        cmocka_unit_test(a_sphere_sends_its_power_through_any_shell),
+        cmocka_unit_test(the_sun_has_the_radiance_its_irradiance_says),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
