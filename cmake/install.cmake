@@ -7,10 +7,7 @@ install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion
 if(LAMPION_PROGRAM)
   install(TARGETS lampion_program)
 endif()
-if(EXISTS ${PROJECT_SOURCE_DIR}/shaders)
-  install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders
-    FILES_MATCHING PATTERN "*.glsl" PATTERN "*.h")
-endif()
+install(FILES shaders/lampion.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lampion)
 install(EXPORT lampionTargets NAMESPACE lampion:: DESTINATION ${package_dir})

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/command.h"
 
+extern const cli_command command_basis;
 extern const cli_command command_project;
 extern const cli_command command_render;
 
-const cli_command *const command_table[] = { &command_render, &command_project, NULL };
+const cli_command *const command_table[] = { &command_render, &command_project, &command_basis,
+                                             NULL };

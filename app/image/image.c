@@ -102,6 +102,12 @@ void image_tone_map(const image *picture, float exposure, unsigned char *rgb8) {
     }
 }
 
+static void encode(const image *picture, unsigned char *rgb8) {
+    const size_t count = 3 * (size_t)picture->width * (size_t)picture->height;
+    for (size_t i = 0; i < count; i++)
+        rgb8[i] = to_byte(picture->rgb[i]);
+}
+
 /* --- files --------------------------------------------------------------------------------------
  */
 
@@ -128,7 +134,9 @@ bool image_check_path(const char *path, cli_error *error) {
     return true;
 }
 
-bool image_write(const image *picture, const char *path, float exposure, cli_error *error) {
+/* exposure 0: no filmic curve. */
+static bool write_by_extension(const image *picture, const char *path, float exposure,
+                               cli_error *error) {
     const image_format format = image_format_of(path);
     if (format == IMAGE_EXR)
         return image_write_exr_layers(path, &(image_layer) { NULL, picture }, 1, error);
@@ -137,10 +145,21 @@ bool image_write(const image *picture, const char *path, float exposure, cli_err
     unsigned char *rgb8 = malloc(3 * (size_t)picture->width * (size_t)picture->height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");
-    image_tone_map(picture, exposure, rgb8);
+    if (exposure > 0)
+        image_tone_map(picture, exposure, rgb8);
+    else
+        encode(picture, rgb8);
     const bool ok = image_write_png8(rgb8, picture->width, picture->height, path, error);
     free(rgb8);
     return ok;
+}
+
+bool image_write(const image *picture, const char *path, float exposure, cli_error *error) {
+    return write_by_extension(picture, path, exposure, error);
+}
+
+bool image_write_figure(const image *picture, const char *path, cli_error *error) {
+    return write_by_extension(picture, path, 0, error);
 }
 
 bool image_read(const char *path, image *picture, cli_error *error) {

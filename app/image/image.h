@@ -35,6 +35,10 @@ bool image_write(const image *image, const char *path, float exposure, cli_error
 typedef enum image_format { IMAGE_UNKNOWN, IMAGE_PNG, IMAGE_EXR } image_format;
 image_format image_format_of(const char *path);
 
+/* The same for a drawing, whose colours (0 … 1) are meant to be seen as they are: no exposure and
+ * no filmic curve. */
+bool image_write_figure(const image *image, const char *path, cli_error *error);
+
 /* True if image_write will know what to do with path and its folder can be written: ask before the
  * long work. */
 bool image_check_path(const char *path, cli_error *error);

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/figure/figure.h"
+
+static int clamp(int x, int most) {
+    return x < 0 ? 0 : x > most ? most : x;
+}
+
+void figure_fill(image *picture, figure_box box, lmp_rgb color) {
+    const int left = clamp(box.x, picture->width), right = clamp(box.x + box.width, picture->width);
+    const int top = clamp(box.y, picture->height);
+    const int bottom = clamp(box.y + box.height, picture->height);
+    for (int y = top; y < bottom; y++)
+        for (int x = left; x < right; x++) {
+            float *const rgb = picture->rgb + 3 * ((size_t)y * (size_t)picture->width + (size_t)x);
+            rgb[0] = color.r;
+            rgb[1] = color.g;
+            rgb[2] = color.b;
+        }
+}
