@@ -72,6 +72,11 @@ typedef struct lmp_allocator {
     void *user;
 } lmp_allocator;
 
+/* Runs task(index, data) for every index below count, in any order, on any threads, and returns
+ * when all are done: how a host lends its threads to the library. */
+typedef void (*lmp_parallel)(void *user, size_t count, void (*task)(size_t index, void *data),
+                             void *data);
+
 /* The version the library was built as: major << 16 | minor << 8 | patch. */
 LMP_API uint32_t lmp_version(void);
 

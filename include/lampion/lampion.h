@@ -6,6 +6,7 @@
 #include <lampion/base.h>
 #include <lampion/light.h>
 #include <lampion/lobe.h>
+#include <lampion/response.h>
 #include <lampion/sh.h>
 #include <lampion/shade.h>
 

@@ -73,17 +73,17 @@ lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_material *
     prepare_lobes(settings, material, surface, &lobes);
     const int bands = lobes.bands;
     float diffuse[LMP_BANDS_MAX], specular[LMP_BANDS_MAX], r[LMP_BANDS_MAX];
-    lmp_response_weights(bands, lobes.diffuse, diffuse);
-    lmp_response_weights(bands, lobes.specular, specular);
+    lmp_lobe_weights(bands, lobes.diffuse, diffuse);
+    lmp_lobe_weights(bands, lobes.specular, specular);
     lmp_rgb diffuse_sum = { 0, 0, 0 }, specular_sum = { 0, 0, 0 };
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], surface->position, &cap);
         lmp_cap_polynomials(bands, cap.one_minus, r);
-        lmp_response_add(&cap, lmp_response(bands, diffuse, r, lobes.normal, cap.axis),
-                         lobes.diffuse[0], &diffuse_sum);
-        lmp_response_add(&cap, lmp_response(bands, specular, r, lobes.mirror, cap.axis),
-                         lobes.specular[0], &specular_sum);
+        lmp_lobe_add(&cap, lmp_lobe_sum(bands, diffuse, r, lobes.normal, cap.axis),
+                     lobes.diffuse[0], &diffuse_sum);
+        lmp_lobe_add(&cap, lmp_lobe_sum(bands, specular, r, lobes.mirror, cap.axis),
+                     lobes.specular[0], &specular_sum);
     }
     return reflect(material, diffuse_sum, specular_sum);
 }

@@ -15,9 +15,10 @@ may_include() {
     sh) echo base kernels sh ;;
     light) echo base kernels sh light ;;
     lobe | brdf) echo base kernels sh light "$1" ;;
-    shade) echo base kernels sh light lobe brdf shade ;;
-    field) echo base kernels sh light lobe brdf shade field ;;
-    lampion) echo base sh light lobe brdf shade field kernels ;;
+    response) echo base kernels sh light lobe brdf response ;;
+    shade) echo base kernels sh light lobe brdf response shade ;;
+    field) echo base kernels sh light lobe brdf response shade field ;;
+    lampion) echo base sh light lobe brdf response shade field kernels ;;
     app/cli) echo app/cli ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
@@ -30,7 +31,7 @@ may_include() {
     app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
     app/command) echo app/cli app/csv app/file app/image app/figure app/scene app/reference app/gpu \
         app/command shaders LIBRARY ;;
-    esac | sed 's/LIBRARY/base kernels sh light lobe brdf shade field lampion/'
+    esac | sed 's/LIBRARY/base kernels sh light lobe brdf response shade field lampion/'
 }
 
 module_of() {

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion/response.h - lobes integrated against caps beforehand: shading whose cost does not grow
+ * with the bands.
+ *
+ * The integral of a Phong lobe, cut to n bands and windowed, over a spherical cap of half angle a
+ * depends on three numbers: the exponent e, a, and the angle g between the axes of lobe and cap.
+ * A response holds it for every e, a, g at one n and window; diffuse reflection is the lobe of
+ * exponent 1. Reading costs the same at 5 bands and at 128.
+ *
+ * How it is stored
+ *   slices   exponents e_k. Cell k holds slices k and k+1, value by value side by side; between
+ *            them the value is linear in `warp`, a table of the exponent.
+ *   grid     uniform in g and a at a step that follows the lobe's width (cell: 1 / step =
+ *            scale sqrt(e + 1.5) + offset); cubic B-splines in both, 4 x 4 coefficients a reading.
+ *            Row 0 and column 0 are the nodes -1, so that a reading never leaves the cell.
+ *   value    mean of the lobe over the cap, times the cap's solid angle plus the lobe's own, which
+ *            makes it about 1 at the peak for any cap. 16 bits. */
+#ifndef LAMPION_RESPONSE_H
+#define LAMPION_RESPONSE_H
+
+#include <lampion/lobe.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lmp_response lmp_response;
+
+/* How to make one; zero-initialise it, zero means the default. */
+typedef struct lmp_response_desc {
+    int bands; /* 1 … LMP_BANDS_MAX; 10 */
+    lmp_window window;
+    float window_size; /* as in lmp_sh_window */
+    float error;       /* largest error at exponents >= 1, relative to the response's largest value
+                          over g at that e and a; LMP_RESPONSE_ERROR_MIN … 0.1;
+                          LMP_RESPONSE_ERROR_DEFAULT. Memory grows as 1/error */
+    lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
+    void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
+    void *user;                                /* of both hooks */
+} lmp_response_desc;
+#define LMP_RESPONSE_ERROR_DEFAULT 0.005f
+#define LMP_RESPONSE_ERROR_MIN     0.0005f
+
+/* allocator and desc may be NULL; *response is NULL on failure. LMP_ERROR_ARGUMENT: a member
+ * outside its range. Immutable: share it freely. */
+LMP_API lmp_result lmp_response_create(const lmp_allocator *allocator,
+                                       const lmp_response_desc *desc, lmp_response **response);
+LMP_API void lmp_response_destroy(lmp_response *response);
+
+/* The response of the lobe of `exponent` to a cap of unit strength: the integral of lobe times
+ * radiance where pi L sin²a = 1 (lmp_cap: multiply by its strength, add its ambient).
+ *
+ * exponent >= 0; one_minus = 1 - cos a, 0 … 1; cosine of the angle between the axes, -1 … 1.
+ * Below exponent 1 the error bound does not hold: the lobe has a cusp, smoothed to 3 % of its
+ * peak */
+LMP_API float lmp_response_eval(const lmp_response *response, float exponent, float one_minus,
+                                float cosine);
+
+/* --- for a graphics API or a kernel of your own --------------------------------------------------
+ */
+
+/* Where a cell lies: rows of a, columns of g. */
+typedef struct lmp_response_cell {
+    float scale, offset;    /* 1/step = scale sqrt(e + 1.5) + offset, radians */
+    uint32_t first;         /* of its coefficients, in pairs */
+    uint32_t rows, columns; /* pairs: `columns` a row, tight */
+} lmp_response_cell;
+
+/* What a response is made of. `coefficients` are pairs of slices in units of
+ * LMP_RESPONSE_UNIT; warp[i] is the slice coordinate (cell + share of the second slice) at
+ * bits(1 + e) = bits(1) + i << 19, linear between: 16 entries an octave of 1 + e. */
+typedef struct lmp_response_info {
+    int bands;
+    lmp_window window;
+    float window_size;
+    float error;
+    uint32_t cell_count;
+    const lmp_response_cell *cells;
+    const int16_t *coefficients;
+    size_t pair_count;
+    const float *warp; /* LMP_RESPONSE_WARP_COUNT */
+    float width2;      /* 1 / bands²: the lobe's own solid angle is pi (1/(e + 1) + width2) */
+    size_t bytes;      /* of all that */
+} lmp_response_info;
+#define LMP_RESPONSE_UNIT       (2.0f / 32767.0f)
+#define LMP_RESPONSE_WARP_COUNT (20 * 16 + 1)
+LMP_API lmp_response_info lmp_response_describe(const lmp_response *response);
+
+/* --- as bytes ------------------------------------------------------------------------------------
+ * Little-endian, versioned, checksummed; the same bytes on any machine.
+ *
+ * bytes receives lmp_response_size(response) bytes */
+LMP_API size_t lmp_response_size(const lmp_response *response);
+LMP_API void lmp_response_write(const lmp_response *response, void *bytes);
+LMP_API lmp_result lmp_response_read(const lmp_allocator *allocator, const void *data, size_t size,
+                                     lmp_response **response);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

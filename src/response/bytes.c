@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT */
+/* bytes.c - the file format .lmpr (docs/formats.md): what cannot be derived, then the coefficients.
+ */
+#include "src/base/bytes.h"
+
+#include "src/base/heap.h"
+#include "src/response/response.h"
+
+#define FORMAT_VERSION 1u
+#define HEADER         32u
+#define CHECKSUM       4u
+#define DENSITY_MAX    1024 /* nodes a radian; pair counts then fit 32 bits */
+static const unsigned char magic[8] = { 'L', 'M', 'P', 'R', 0x0d, 0x0a, 0x1a, 0x0a };
+
+static size_t plan_size(uint32_t cells) {
+    return 4 * LMP_RESPONSE_WARP_COUNT + 8 * (size_t)cells;
+}
+
+size_t lmp_response_size(const lmp_response *response) {
+    const lmp_response_info *info = &response->info;
+    return HEADER + plan_size(info->cell_count) + 4 * info->pair_count + CHECKSUM;
+}
+
+void lmp_response_write(const lmp_response *response, void *bytes) {
+    const lmp_response_info *info = &response->info;
+    unsigned char *p = bytes;
+    memcpy(p, magic, sizeof magic);
+    p = lmp_bytes_store_u32(p + sizeof magic, FORMAT_VERSION);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->bands);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->window);
+    p = lmp_bytes_store_f32(p, info->window_size);
+    p = lmp_bytes_store_f32(p, info->error);
+    p = lmp_bytes_store_u32(p, info->cell_count);
+    for (int i = 0; i < LMP_RESPONSE_WARP_COUNT; i++)
+        p = lmp_bytes_store_f32(p, response->warp[i]);
+    for (uint32_t k = 0; k < info->cell_count; k++) {
+        p = lmp_bytes_store_f32(p, response->cells[k].scale);
+        p = lmp_bytes_store_f32(p, response->cells[k].offset);
+    }
+    for (size_t i = 0; i < 2 * info->pair_count; i++)
+        p = lmp_bytes_store_u16(p, (uint16_t)response->coefficients[i]);
+    lmp_bytes_store_u32(p, lmp_bytes_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
+}
+
+/* Every reading stays inside: the warp rises from 0 to the last slice, and grids are finite. */
+static int warp_sound(const lmp_response *plan) {
+    for (int i = 1; i < LMP_RESPONSE_WARP_COUNT; i++)
+        if (!(plan->warp[i] > plan->warp[i - 1]))
+            return 0;
+    return plan->warp[0] >= 0 && plan->warp[0] <= 0 &&
+           plan->warp[LMP_RESPONSE_WARP_COUNT - 1] <= (float)plan->info.cell_count;
+}
+
+static int cells_sound(const lmp_response *plan) {
+    for (uint32_t k = 0; k < plan->info.cell_count; k++)
+        if (!(plan->cells[k].scale >= 0) || !(plan->cells[k].offset >= 0) ||
+            !(lmp_response_density(&plan->cells[k], plan->exponents[k + 1]) <= DENSITY_MAX))
+            return 0;
+    return 1;
+}
+
+static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_response *plan) {
+    lmp_response_info *info = &plan->info;
+    const unsigned char *p = bytes + sizeof magic + 4;
+    info->bands = (int)(lmp_bytes_load_u32(&p) & 0xffff);
+    info->window = (lmp_window)(lmp_bytes_load_u32(&p) & 0xff);
+    info->window_size = lmp_bytes_load_f32(&p);
+    info->error = lmp_bytes_load_f32(&p);
+    info->cell_count = lmp_bytes_load_u32(&p);
+    if (!lmp_response_valid(info) || info->cell_count < 1 ||
+        info->cell_count > RESPONSE_CELLS_MAX ||
+        size < HEADER + plan_size(info->cell_count) + CHECKSUM)
+        return LMP_ERROR_FORMAT;
+    for (int i = 0; i < LMP_RESPONSE_WARP_COUNT; i++)
+        plan->warp[i] = lmp_bytes_load_f32(&p);
+    for (uint32_t k = 0; k < info->cell_count; k++) {
+        plan->cells[k].scale = lmp_bytes_load_f32(&p);
+        plan->cells[k].offset = lmp_bytes_load_f32(&p);
+    }
+    if (!warp_sound(plan))
+        return LMP_ERROR_FORMAT;
+    lmp_response_exponents(plan);
+    if (!cells_sound(plan))
+        return LMP_ERROR_FORMAT;
+    lmp_response_layout(plan);
+    return size == HEADER + plan_size(info->cell_count) + 4 * info->pair_count + CHECKSUM
+               ? LMP_OK
+               : LMP_ERROR_FORMAT;
+}
+
+static lmp_result check_frame(const unsigned char *bytes, size_t size) {
+    if (size < HEADER + CHECKSUM || memcmp(bytes, magic, sizeof magic) != 0)
+        return LMP_ERROR_FORMAT;
+    const unsigned char *version = bytes + sizeof magic, *checksum = bytes + size - CHECKSUM;
+    if (lmp_bytes_load_u32(&version) != FORMAT_VERSION)
+        return LMP_ERROR_VERSION;
+    if (lmp_bytes_checksum(bytes, size - CHECKSUM) != lmp_bytes_load_u32(&checksum))
+        return LMP_ERROR_CHECKSUM;
+    return LMP_OK;
+}
+
+lmp_result lmp_response_read(const lmp_allocator *allocator, const void *data, size_t size,
+                             lmp_response **response) {
+    *response = NULL;
+    const unsigned char *bytes = data;
+    lmp_result result = check_frame(bytes, size);
+    if (result != LMP_OK)
+        return result;
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    lmp_response *plan = lmp_heap_allocate(&heap, sizeof *plan);
+    if (!plan)
+        return LMP_ERROR_MEMORY;
+    memset(plan, 0, sizeof *plan);
+    result = read_plan(bytes, size, plan);
+    if (result == LMP_OK)
+        result = lmp_response_allocate(allocator, plan, response);
+    lmp_heap_release(&heap, plan);
+    if (result != LMP_OK)
+        return result;
+    const unsigned char *p = bytes + size - CHECKSUM - 4 * (*response)->info.pair_count;
+    for (size_t i = 0; i < 2 * (*response)->info.pair_count; i++)
+        (*response)->coefficients[i] = (int16_t)lmp_bytes_load_u16(&p);
+    return LMP_OK;
+}

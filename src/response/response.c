@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/response/response.h"
+
+#include "src/base/heap.h"
+
+#include <stdatomic.h>
+#include <string.h>
+
+#define BANDS_DEFAULT 10
+
+/* What the tasks of a creation share. */
+typedef struct creation {
+    lmp_response *response;
+    const lmp_response_desc *desc;
+    atomic_uint done;
+    atomic_int failed;
+} creation;
+
+static void fill_task(size_t index, void *data) {
+    creation *job = data;
+    const size_t tasks = 2 * (size_t)job->response->info.cell_count;
+    if (lmp_response_fill(job->response, (uint32_t)(index / 2), (uint32_t)(index % 2)) != LMP_OK)
+        atomic_store(&job->failed, 1);
+    const unsigned done = atomic_fetch_add(&job->done, 1) + 1;
+    if (job->desc->progress)
+        job->desc->progress(job->desc->user, (double)done / (double)tasks);
+}
+
+static lmp_result fill_all(lmp_response *response, const lmp_response_desc *desc) {
+    creation job = { .response = response, .desc = desc };
+    const size_t tasks = 2 * (size_t)response->info.cell_count;
+    if (desc->parallel) {
+        desc->parallel(desc->user, tasks, fill_task, &job);
+    } else {
+        for (size_t i = 0; i < tasks; i++)
+            fill_task(i, &job);
+    }
+    return atomic_load(&job.failed) ? LMP_ERROR_MEMORY : LMP_OK;
+}
+
+int lmp_response_valid(const lmp_response_info *info) {
+    return info->bands >= 1 && info->bands <= LMP_BANDS_MAX && info->window >= LMP_WINDOW_NONE &&
+           info->window <= LMP_WINDOW_LANCZOS && info->window_size >= 0 &&
+           info->window_size <= 1e6f && info->error >= LMP_RESPONSE_ERROR_MIN &&
+           info->error <= 0.1f;
+}
+
+lmp_result lmp_response_allocate(const lmp_allocator *allocator, const lmp_response *plan,
+                                 lmp_response **response) {
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    *response =
+        lmp_heap_allocate(&heap, sizeof *plan + plan->info.pair_count * 2 * sizeof(int16_t));
+    if (!*response)
+        return LMP_ERROR_MEMORY;
+    memcpy(*response, plan, sizeof *plan);
+    (*response)->allocator = heap;
+    (*response)->info.cells = (*response)->cells;
+    (*response)->info.coefficients = (*response)->coefficients;
+    (*response)->info.warp = (*response)->warp;
+    return LMP_OK;
+}
+
+static lmp_result create_planned(const lmp_allocator *allocator, const lmp_response_info *info,
+                                 lmp_response **response) {
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    lmp_response *plan = lmp_heap_allocate(&heap, sizeof *plan);
+    if (!plan)
+        return LMP_ERROR_MEMORY;
+    memset(plan, 0, sizeof *plan);
+    plan->info = *info;
+    const lmp_result result = lmp_response_plan(plan)
+                                  ? lmp_response_allocate(allocator, plan, response)
+                                  : LMP_ERROR_ARGUMENT;
+    lmp_heap_release(&heap, plan);
+    return result;
+}
+
+lmp_result lmp_response_create(const lmp_allocator *allocator, const lmp_response_desc *desc,
+                               lmp_response **response) {
+    static const lmp_response_desc defaults = { 0 };
+    *response = NULL;
+    if (!desc)
+        desc = &defaults;
+    const lmp_response_info info = {
+        .bands = desc->bands ? desc->bands : BANDS_DEFAULT,
+        .window = desc->window,
+        .window_size = desc->window_size,
+        .error = desc->error == 0 ? LMP_RESPONSE_ERROR_DEFAULT : desc->error,
+    };
+    if (!lmp_response_valid(&info))
+        return LMP_ERROR_ARGUMENT;
+    lmp_result result = create_planned(allocator, &info, response);
+    if (result != LMP_OK)
+        return result;
+    result = fill_all(*response, desc);
+    if (result != LMP_OK) {
+        lmp_response_destroy(*response);
+        *response = NULL;
+    }
+    return result;
+}
+
+void lmp_response_destroy(lmp_response *response) {
+    if (!response)
+        return;
+    const lmp_allocator heap = response->allocator;
+    lmp_heap_release(&heap, response);
+}
+
+lmp_response_info lmp_response_describe(const lmp_response *response) {
+    return response->info;
+}

@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: MIT */
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float pi = 3.14159265f;
+
+static lmp_response *created(int bands, lmp_window window, float error) {
+    lmp_response *response;
+    const lmp_response_desc desc = { .bands = bands, .window = window, .error = error };
+    assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+    return response;
+}
+
+/* One sphere seen from the origin, along z; and the same lobe by its series. */
+typedef struct probe {
+    int bands;
+    float exponent;
+    float lambda[LMP_BANDS_MAX];
+    lmp_light light;
+    lmp_cap cap;
+} probe;
+
+static probe probe_make(int bands, lmp_window window, float exponent, float radius) {
+    probe p = { .bands = bands, .exponent = exponent };
+    float weights[LMP_BANDS_MAX];
+    lmp_lobe_phong(bands, exponent, p.lambda);
+    lmp_sh_window(window, bands, 0, weights);
+    for (int l = 0; l < bands; l++)
+        p.lambda[l] *= weights[l];
+    p.light = (lmp_light) { .position = { 0, 0, 1 }, .radius = radius, .radiance = { 1, 1, 1 } };
+    lmp_light_cap(&p.light, (lmp_vec3) { 0, 0, 0 }, &p.cap);
+    return p;
+}
+
+static lmp_vec3 tilted(float angle) {
+    return (lmp_vec3) { sinf(angle), 0, cosf(angle) };
+}
+
+static float series(const probe *p, float angle) {
+    return lmp_lobe_response(p->bands, p->lambda, tilted(angle), &p->light, 1,
+                             (lmp_vec3) { 0, 0, 0 })
+        .r;
+}
+
+static float read(const lmp_response *response, const probe *p, float angle) {
+    const float cosine = cosf(angle) * p->cap.axis.z;
+    return p->cap.strength.r * lmp_response_eval(response, p->exponent, p->cap.one_minus, cosine) +
+           p->cap.ambient.r;
+}
+
+/* The largest value over all angles. */
+static float peak(const probe *p) {
+    const float near =
+        asinf(fminf(p->light.radius, 1)) + 4 / sqrtf(p->exponent + 1) + 4 / (float)p->bands;
+    float largest = 0;
+    for (int i = 0; i < 100; i++)
+        largest = fmaxf(largest, fabsf(series(p, fminf(near, pi) * (float)i / 99)));
+    return largest;
+}
+
+typedef struct error_sum {
+    double largest, squares;
+    long count;
+} error_sum;
+
+static void errors_add(error_sum *errors, double error) {
+    if (!(error <= errors->largest))
+        errors->largest = error;
+    errors->squares += error * error;
+    errors->count++;
+}
+
+/* Half of the angles anywhere on the sphere, half where the lobe is. */
+static void compare(const lmp_response *response, const probe *p, int angles, error_sum *errors) {
+    const float top = peak(p), near = asinf(fminf(p->light.radius, 1)) +
+                                      4 / sqrtf(p->exponent + 1) + 4 / (float)p->bands;
+    for (int i = 0; i < angles; i++) {
+        const float angle = i % 2 ? acosf((float)check_random_between(-1, 1))
+                                  : (float)check_random_between(0, fminf(near, pi));
+        errors_add(errors, (double)(fabsf(read(response, p, angle) - series(p, angle)) / top));
+    }
+}
+
+static void check_random_probes(int bands, lmp_window window, int probes) {
+    lmp_response *response = created(bands, window, 0);
+    error_sum errors = { 0 };
+    for (int i = 0; i < probes; i++) {
+        const double e = pow(10, check_random_between(0, 4)),
+                     r = pow(10, check_random_between(-4, log10(0.99)));
+        const probe p = probe_make(bands, window, (float)e, (float)r);
+        compare(response, &p, 50, &errors);
+    }
+    const double rms = sqrt(errors.squares / (double)errors.count);
+    print_message("%d bands, window %d: %zu bytes, %ld values, error max %.3f %%, rms %.4f %%\n",
+                  bands, (int)window, lmp_response_describe(response).bytes, errors.count,
+                  100 * errors.largest, 100 * rms);
+    CHECK_WITHIN(errors.largest, 5e-3);
+    CHECK_WITHIN(rms, 5e-4);
+    lmp_response_destroy(response);
+}
+
+static void responses_match_the_series_within_their_error(void **state) {
+    (void)state;
+    for (int bands = 1; bands <= 30; bands += 1 + bands / 6)
+        check_random_probes(bands, LMP_WINDOW_NONE, 150);
+    check_random_probes(50, LMP_WINDOW_NONE, 300);
+    check_random_probes(128, LMP_WINDOW_NONE, 400);
+    for (int bands = 3; bands <= 50; bands += 1 + bands / 2)
+        check_random_probes(bands, LMP_WINDOW_HANNING, 200);
+    check_random_probes(40, LMP_WINDOW_LANCZOS, 200);
+}
+
+static void lobes_below_exponent_1_are_within_3_percent(void **state) {
+    (void)state;
+    const int bands[] = { 4, 10, 40 };
+    for (int b = 0; b < 3; b++) {
+        lmp_response *response = created(bands[b], LMP_WINDOW_NONE, 0);
+        error_sum errors = { 0 };
+        for (int i = 0; i < 200; i++) {
+            const probe p =
+                probe_make(bands[b], LMP_WINDOW_NONE, (float)check_random(), (float)check_random());
+            compare(response, &p, 20, &errors);
+        }
+        CHECK_WITHIN(errors.largest, 0.03);
+        lmp_response_destroy(response);
+    }
+}
+
+static void a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory(void **state) {
+    (void)state;
+    size_t bytes = SIZE_MAX;
+    for (float bound = 0.002f; bound < 0.1f; bound *= 4) {
+        lmp_response *response = created(12, LMP_WINDOW_NONE, bound);
+        error_sum errors = { 0 };
+        for (int i = 0; i < 300; i++) {
+            const probe p =
+                probe_make(12, LMP_WINDOW_NONE, (float)pow(10, check_random_between(0, 4)),
+                           (float)pow(10, check_random_between(-4, 0)));
+            compare(response, &p, 20, &errors);
+        }
+        CHECK_WITHIN(errors.largest, bound);
+        assert_true(lmp_response_describe(response).bytes < bytes);
+        bytes = lmp_response_describe(response).bytes;
+        lmp_response_destroy(response);
+    }
+}
+
+static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
+    (void)state;
+    lmp_response *response = created(16, LMP_WINDOW_NONE, 0);
+    error_sum errors = { 0 };
+    for (int i = 0; i < 400; i++) {
+        const float radius = i < 200 ? (float)check_random_between(1, 100)
+                                     : (float)check_random_between(0.999, 1.001);
+        const probe p =
+            probe_make(16, LMP_WINDOW_NONE, (float)check_random_between(1, 500), radius);
+        compare(response, &p, 20, &errors);
+    }
+    CHECK_WITHIN(errors.largest, 5e-3);
+    lmp_response_destroy(response);
+}
+
+static void the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere(void **state) {
+    (void)state;
+    const float exponents[] = { 0, 1e-30f, 0.5f, 1, 3, 20000, 1e6f, 1e30f };
+    const int bands[] = { 1, 2, 9, 128 };
+    for (size_t b = 0; b < 4; b++) {
+        lmp_response *response = created(bands[b], LMP_WINDOW_NONE, 0.1f);
+        for (size_t e = 0; e < 8; e++)
+            for (int t = 0; t <= 20; t++)
+                for (int c = -20; c <= 20; c++) {
+                    const float value =
+                        lmp_response_eval(response, exponents[e], (float)t / 20, (float)c / 20);
+                    assert_true(isfinite(value));
+                }
+        lmp_response_destroy(response);
+    }
+}
+
+static void slices_join_without_a_step(void **state) {
+    (void)state;
+    lmp_response *response = created(20, LMP_WINDOW_NONE, 0);
+    float before = lmp_response_eval(response, 0, 0.02f, 0.99f);
+    for (float e = 0.001f; e < 3e4f; e *= 1.0005f) {
+        const float now = lmp_response_eval(response, e, 0.02f, 0.99f);
+        CHECK_WITHIN(fabsf(now - before), 0.004 * (double)fmaxf(fabsf(now), 0.1f));
+        before = now;
+    }
+    lmp_response_destroy(response);
+}
+
+/* --- building --------------------------------------------------------------------------------- */
+
+typedef struct build_log {
+    size_t tasks;
+    double done;
+} build_log;
+
+static void backwards(void *user, size_t count, void (*task)(size_t index, void *data),
+                      void *data) {
+    ((build_log *)user)->tasks = count;
+    for (size_t i = count; i-- > 0;)
+        task(i, data);
+}
+
+static void progressed(void *user, double done) {
+    build_log *log = user;
+    assert_true(done > log->done && done <= 1);
+    log->done = done;
+}
+
+static void *written(const lmp_response *response, size_t *size) {
+    *size = lmp_response_size(response);
+    void *bytes = malloc(*size);
+    assert_non_null(bytes);
+    lmp_response_write(response, bytes);
+    return bytes;
+}
+
+static void tasks_in_any_order_give_the_same_bytes(void **state) {
+    (void)state;
+    build_log seen = { 0, 0 };
+    const lmp_response_desc desc = {
+        .bands = 12, .parallel = backwards, .progress = progressed, .user = &seen
+    };
+    lmp_response *plain = created(12, LMP_WINDOW_NONE, 0), *other;
+    assert_int_equal(lmp_response_create(NULL, &desc, &other), LMP_OK);
+    assert_true(seen.tasks > 0);
+    CHECK_WITHIN(fabs(seen.done - 1), 0);
+    size_t size, other_size;
+    void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
+    assert_int_equal(size, other_size);
+    assert_memory_equal(bytes, other_bytes, size);
+    free(bytes);
+    free(other_bytes);
+    lmp_response_destroy(plain);
+    lmp_response_destroy(other);
+}
+
+static void arguments_outside_their_range_are_refused(void **state) {
+    (void)state;
+    const lmp_response_desc wrong[] = {
+        { .bands = -1 },        { .bands = 129 },   { .window = (lmp_window)7 },
+        { .window_size = -1 },  { .error = 1e-5f }, { .error = 0.5f },
+        { .window_size = NAN }, { .error = NAN },   { .error = -1 },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        lmp_response *response = (lmp_response *)1;
+        assert_int_equal(lmp_response_create(NULL, &wrong[i], &response), LMP_ERROR_ARGUMENT);
+        assert_null(response);
+    }
+}
+
+static void a_refused_allocation_leaks_nothing(void **state) {
+    (void)state;
+    const lmp_response_desc desc = { .bands = 2, .error = 0.1f };
+    for (int refuse = 0;; refuse++) {
+        check_heap heap = { .refuse = refuse };
+        const lmp_allocator allocator = check_allocator(&heap);
+        lmp_response *response;
+        const lmp_result result = lmp_response_create(&allocator, &desc, &response);
+        lmp_response_destroy(response);
+        assert_int_equal(heap.live, 0);
+        if (result == LMP_OK)
+            break;
+        assert_int_equal(result, LMP_ERROR_MEMORY);
+        assert_null(response);
+    }
+}
+
+/* --- bytes ------------------------------------------------------------------------------------ */
+
+static void bytes_read_back_are_the_same_response(void **state) {
+    (void)state;
+    lmp_response *response = created(9, LMP_WINDOW_HANNING, 0), *copy;
+    size_t size;
+    void *bytes = written(response, &size);
+    assert_int_equal(lmp_response_read(NULL, bytes, size, &copy), LMP_OK);
+    const lmp_response_info a = lmp_response_describe(response), b = lmp_response_describe(copy);
+    assert_int_equal(a.pair_count, b.pair_count);
+    assert_memory_equal(a.coefficients, b.coefficients, a.pair_count * 4);
+    for (int i = 0; i < 1000; i++) {
+        const float e = (float)pow(10, check_random_between(-2, 5)), t = (float)check_random(),
+                    c = (float)check_random_between(-1, 1);
+        const float x = lmp_response_eval(response, e, t, c), y = lmp_response_eval(copy, e, t, c);
+        assert_memory_equal(&x, &y, sizeof x);
+    }
+    free(bytes);
+    lmp_response_destroy(response);
+    lmp_response_destroy(copy);
+}
+
+/* CRC-32C bit by bit, to sign bytes that were changed on purpose. */
+static void sign(unsigned char *bytes, size_t size) {
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i + 4 < size; i++) {
+        crc ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1 ? 0x82f63b78u : 0);
+    }
+    crc = ~crc;
+    for (int i = 0; i < 4; i++)
+        bytes[size - 4 + (size_t)i] = (unsigned char)(crc >> 8 * i);
+}
+
+static void damaged_bytes_are_refused(void **state) {
+    (void)state;
+    const lmp_response_desc desc = { .bands = 2, .error = 0.1f };
+    lmp_response *response, *copy;
+    assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+    size_t size;
+    unsigned char *bytes = written(response, &size);
+    lmp_response_destroy(response);
+
+    for (size_t cut = 0; cut < size; cut += 1 + cut / 16)
+        assert_int_not_equal(lmp_response_read(NULL, bytes, cut, &copy), LMP_OK);
+    bytes[size / 2] ^= 1;
+    assert_int_equal(lmp_response_read(NULL, bytes, size, &copy), LMP_ERROR_CHECKSUM);
+    bytes[size / 2] ^= 1;
+    bytes[8] = 99;
+    assert_int_equal(lmp_response_read(NULL, bytes, size, &copy), LMP_ERROR_VERSION);
+    assert_null(copy);
+    bytes[8] = 1;
+    /* Any change of the plan either is refused or gives a response that stays in bounds. */
+    for (int i = 0; i < 20000; i++) {
+        const size_t at = 12 + (size_t)(check_random() * 1600);
+        const unsigned char was = bytes[at];
+        bytes[at] = (unsigned char)(check_random() * 256);
+        sign(bytes, size);
+        if (lmp_response_read(NULL, bytes, size, &copy) == LMP_OK)
+            for (float e = 0; e < 1e5f; e = 2 * e + 0.3f)
+                (void)lmp_response_eval(copy, e, 1, -1);
+        lmp_response_destroy(copy);
+        bytes[at] = was;
+    }
+    free(bytes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(responses_match_the_series_within_their_error),
+        cmocka_unit_test(lobes_below_exponent_1_are_within_3_percent),
+        cmocka_unit_test(a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory),
+        cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
+        cmocka_unit_test(the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere),
+        cmocka_unit_test(slices_join_without_a_step),
+        cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
+        cmocka_unit_test(arguments_outside_their_range_are_refused),
+        cmocka_unit_test(a_refused_allocation_leaks_nothing),
+        cmocka_unit_test(bytes_read_back_are_the_same_response),
+        cmocka_unit_test(damaged_bytes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
