@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT */
+/* info.c - lampion info: what is in a scene. */
+#include "app/command/command.h"
+#include "app/scene/scene.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void add_vector(cJSON *object, const char *name, const float *numbers, int count) {
+    cJSON *array = cJSON_AddArrayToObject(object, name);
+    for (int i = 0; i < count; i++) {
+        /* Shortest text that reads back as the float. */
+        char text[32];
+        snprintf(text, sizeof text, "%.9g", (double)numbers[i]);
+        cJSON_AddItemToArray(array, cJSON_CreateRaw(text));
+    }
+}
+
+static void add_materials(cJSON *root, const scene *s) {
+    cJSON *list = cJSON_AddArrayToObject(root, "materials");
+    for (size_t i = 0; i < s->material_count; i++) {
+        const scene_material *material = &s->materials[i];
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "name", material->name);
+        add_vector(entry, "base_color", material->base_color, 4);
+        cJSON_AddNumberToObject(entry, "metallic", (double)material->metallic);
+        cJSON_AddNumberToObject(entry, "roughness", (double)material->roughness);
+        add_vector(entry, "emission", material->emission, 3);
+        cJSON_AddBoolToObject(entry, "double_sided", (material->flags & SCENE_DOUBLE_SIDED) != 0);
+        cJSON_AddBoolToObject(entry, "alpha_mask", (material->flags & SCENE_ALPHA_MASK) != 0);
+        cJSON_AddItemToArray(list, entry);
+    }
+}
+
+static void add_lights(cJSON *root, const scene *s) {
+    cJSON *list = cJSON_AddArrayToObject(root, "lights");
+    for (size_t i = 0; i < s->light_count; i++) {
+        const scene_light *light = &s->lights[i];
+        cJSON *entry = cJSON_CreateObject();
+        add_vector(entry, "position", light->center, 3);
+        add_vector(entry, "radius", &light->radius, 1);
+        add_vector(entry, "radiance", light->radiance, 3);
+        cJSON_AddBoolToObject(entry, "emissive_mesh", light->hidden != 0);
+        cJSON_AddItemToArray(list, entry);
+    }
+}
+
+static cJSON *describe(const scene *s) {
+    cJSON *root = cJSON_CreateObject();
+    cJSON_AddStringToObject(root, "scene", s->origin);
+    cJSON_AddBoolToObject(root, "cached", s->cached);
+    cJSON_AddNumberToObject(root, "triangles", (double)(s->index_count / 3));
+    cJSON_AddNumberToObject(root, "vertices", (double)s->vertex_count);
+    add_vector(root, "minimum", s->minimum, 3);
+    add_vector(root, "maximum", s->maximum, 3);
+    cJSON_AddNumberToObject(root, "area", s->area);
+    cJSON *meshes = cJSON_AddArrayToObject(root, "meshes");
+    for (size_t i = 0; i < s->mesh_count; i++) {
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "name", s->meshes[i].name);
+        cJSON_AddNumberToObject(entry, "triangles", s->meshes[i].index_count / 3);
+        cJSON_AddStringToObject(entry, "material", s->materials[s->meshes[i].material].name);
+        cJSON_AddItemToArray(meshes, entry);
+    }
+    add_materials(root, s);
+    cJSON *textures = cJSON_AddArrayToObject(root, "textures");
+    for (size_t i = 0; i < s->texture_count; i++) {
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "name", s->textures[i].name);
+        cJSON_AddNumberToObject(entry, "width", s->textures[i].width);
+        cJSON_AddNumberToObject(entry, "height", s->textures[i].height);
+        cJSON_AddBoolToObject(entry, "srgb", s->textures[i].srgb != 0);
+        cJSON_AddItemToArray(textures, entry);
+    }
+    cJSON *cameras = cJSON_AddArrayToObject(root, "cameras");
+    for (size_t i = 0; i < s->camera_count; i++) {
+        cJSON *entry = cJSON_CreateObject();
+        cJSON_AddStringToObject(entry, "name", s->cameras[i].name);
+        add_vector(entry, "eye", s->cameras[i].eye, 3);
+        add_vector(entry, "target", s->cameras[i].target, 3);
+        add_vector(entry, "fov", &s->cameras[i].fov, 1);
+        cJSON_AddItemToArray(cameras, entry);
+    }
+    add_lights(root, s);
+    return root;
+}
+
+static int print_json(const scene *s) {
+    cJSON *root = describe(s);
+    char *text = cJSON_Print(root);
+    cJSON_Delete(root);
+    if (text)
+        puts(text);
+    free(text);
+    return text ? CLI_OK : CLI_FAILURE;
+}
+
+static void print_names(const char *what, const char *name, size_t size, size_t count) {
+    enum { SHOWN = 12 };
+    printf("%-10s %zu", what, count);
+    for (size_t i = 0; i < count && i < SHOWN; i++)
+        printf("%s%s", i ? ", " : ": ", name + i * size);
+    puts(count > SHOWN ? ", …" : "");
+}
+
+static void print_text(const scene *s) {
+    size_t hidden = 0;
+    for (size_t i = 0; i < s->light_count; i++)
+        hidden += s->lights[i].hidden;
+    printf("%s%s\n", s->origin, s->cached ? " (from the cache)" : "");
+    printf("%-10s %zu\n", "triangles", s->index_count / 3);
+    printf("%-10s %zu\n", "vertices", s->vertex_count);
+    printf("%-10s %.6g %.6g %.6g … %.6g %.6g %.6g\n", "bounds", (double)s->minimum[0],
+           (double)s->minimum[1], (double)s->minimum[2], (double)s->maximum[0],
+           (double)s->maximum[1], (double)s->maximum[2]);
+    printf("%-10s %.6g\n", "area", s->area);
+    print_names("meshes", s->meshes->name, sizeof *s->meshes, s->mesh_count);
+    print_names("materials", s->materials->name, sizeof *s->materials, s->material_count);
+    print_names("textures", s->textures->name, sizeof *s->textures, s->texture_count);
+    print_names("cameras", s->cameras->name, sizeof *s->cameras, s->camera_count);
+    printf("%-10s %zu", "lights", s->light_count);
+    printf(hidden ? " (%zu of them emissive meshes)\n" : "\n", hidden);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    bool json = false;
+    scene_options load = { 0 };
+    const cli_option options[] = {
+        { .name = "json", .kind = CLI_FLAG, .target = &json, .help = "print everything as JSON" },
+        { .name = "no-cache",
+          .kind = CLI_FLAG,
+          .target = &load.no_cache,
+          .help = "import the file anew" },
+        { 0 },
+    };
+    int operand_count, status;
+    char **operands;
+    if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
+        return status;
+    if (operand_count != 1)
+        return cli_usage(command, "needs one scene");
+    scene loaded;
+    cli_error error = { 0 };
+    if (!scene_load(operands[0], &load, &loaded, &error))
+        return cli_report(&error);
+    status = CLI_OK;
+    if (json)
+        status = print_json(&loaded);
+    else
+        print_text(&loaded);
+    scene_free(&loaded);
+    return status;
+}
+
+const cli_command command_info = {
+    .name = "info",
+    .operands = "SCENE",
+    .summary = "tell what is in a scene",
+    .examples = "lampion info builtin:atrium\n"
+                "lampion info --json model.gltf\n",
+    .run = run,
+};
