@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* device.h - a context whose every complaint is fatal, and small pictures, for the tests. */
+#ifndef LAMPION_TESTS_GPU_DEVICE_H
+#define LAMPION_TESTS_GPU_DEVICE_H
+
+#include "app/gpu/gpu.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+/* after the headers it needs */
+#include <cmocka.h>
+
+static gpu_context device;
+
+static int open_device(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    setenv("LAMPION_GL_DEBUG", "fatal", 1);
+    if (!gpu_context_create(getenv("LAMPION_TEST_GL_DEVICE"), &device, &error)) {
+        print_error("%s\n", error.text);
+        return 1;
+    }
+    print_message("device: %s, %s\n", device.device, device.driver);
+    return 0;
+}
+
+static int close_device(void **state) {
+    (void)state;
+    gpu_context_destroy(&device);
+    return 0;
+}
+
+/* Fails the test with the error's text. */
+static inline void expect(bool ok, const cli_error *error) {
+    if (!ok)
+        fail_msg("%s", error->text);
+}
+
+static inline gpu_renderer *open_renderer(const scene *world) {
+    cli_error error = { "" };
+    gpu_renderer *renderer = gpu_renderer_create(&device, world, &error);
+    expect(renderer != NULL, &error);
+    return renderer;
+}
+
+static inline gpu_frame frame_of(const scene *world, int width, int height) {
+    return (gpu_frame) { .width = width,
+                         .height = height,
+                         .camera = scene_default_camera(world, (float)width / (float)height),
+                         .bands = LMP_SHADE_BANDS_DEFAULT,
+                         .lights = world->lights,
+                         .light_count = world->light_count };
+}
+
+static inline image render_image(gpu_renderer *renderer, const gpu_frame *frame) {
+    cli_error error = { "" };
+    image picture;
+    expect(gpu_render(renderer, frame, NULL, &error), &error);
+    expect(gpu_read_image(renderer, &picture, &error), &error);
+    return picture;
+}
+
+static inline gpu_pixel *render_pixels(gpu_renderer *renderer, const gpu_frame *frame) {
+    cli_error error = { "" };
+    gpu_pixel *pixels;
+    expect(gpu_render(renderer, frame, NULL, &error), &error);
+    expect(gpu_read_pixels(renderer, &pixels, &error), &error);
+    return pixels;
+}
+
+#endif

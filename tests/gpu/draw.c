@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: MIT */
+/* What is drawn where: light spheres, sides of sheets, materials, and errors of OpenGL. */
+#include "tests/gpu/device.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { SIDE = 64, PIXELS = SIDE * SIDE, MATERIALS = 4 };
+
+/* A square of 2 x 2 in z = 0, its front to +z, once for each material at x = 0, 10, 20 … */
+typedef struct sheets {
+    scene world;
+    scene_vertex vertices[4 * MATERIALS];
+    uint32_t indices[6 * MATERIALS];
+    scene_mesh meshes[MATERIALS];
+    scene_material materials[MATERIALS];
+    scene_texture textures[2];
+    unsigned char texels[2 * 4 * 4];
+    scene_light lights[SCENE_LIGHTS_MAX];
+} sheets;
+
+static sheets sheet;
+
+static void lay_sheet(int i) {
+    static const float corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    static const uint32_t order[6] = { 0, 1, 2, 0, 2, 3 };
+    for (int k = 0; k < 4; k++)
+        sheet.vertices[4 * i + k] =
+            (scene_vertex) { { 10 * (float)i + corners[k][0], corners[k][1], 0 },
+                             { 0, 0, 1 },
+                             { 0.5f + 0.5f * corners[k][0], 0.5f - 0.5f * corners[k][1] },
+                             { 1, 0, 0, 1 } };
+    for (int k = 0; k < 6; k++)
+        sheet.indices[6 * i + k] = order[k] + 4 * (uint32_t)i;
+    sheet.meshes[i] = (scene_mesh) { .first_index = 6 * (uint32_t)i,
+                                     .index_count = 6,
+                                     .material = (uint32_t)i,
+                                     .minimum = { 10 * (float)i - 1, -1, 0 },
+                                     .maximum = { 10 * (float)i + 1, 1, 0 } };
+    scene_material *m = &sheet.materials[i];
+    *m = (scene_material) { .base_color = { 1, 1, 1, 1 }, .roughness = 1, .normal_scale = 1 };
+    scene_texture_use *uses[4] = { &m->base_color_map, &m->metallic_roughness_map, &m->normal_map,
+                                   &m->emission_map };
+    for (int k = 0; k < 4; k++)
+        *uses[k] = (scene_texture_use) { .texture = -1, .matrix = { 1, 0, 0, 1 } };
+}
+
+/* Texture 0: left half opaque red, right half transparent green (2x2 texels); texture 1: a normal
+ * that leans to +x by 3:4:5. */
+static void paint(void) {
+    static const unsigned char mask[16] = { 255, 0, 0, 255, 0, 255, 0, 0,
+                                            255, 0, 0, 255, 0, 255, 0, 0 };
+    memcpy(sheet.texels, mask, sizeof mask);
+    for (int i = 0; i < 4; i++) {
+        const unsigned char texel[4] = { 204, 128, 230, 255 }; /* (0.6, 0.004, 0.804) */
+        memcpy(sheet.texels + 16 + 4 * i, texel, sizeof texel);
+    }
+    for (uint32_t i = 0; i < 2; i++)
+        sheet.textures[i] = (scene_texture) { .width = 2,
+                                              .height = 2,
+                                              .srgb = i == 0,
+                                              .wrap_u = SCENE_WRAP_CLAMP,
+                                              .wrap_v = SCENE_WRAP_CLAMP,
+                                              .first_byte = 16 * i };
+}
+
+static const scene *make_sheets(void) {
+    memset(&sheet, 0, sizeof sheet);
+    for (int i = 0; i < MATERIALS; i++)
+        lay_sheet(i);
+    paint();
+    sheet.materials[0].flags = SCENE_DOUBLE_SIDED;
+    sheet.materials[1].flags = SCENE_ALPHA_MASK | SCENE_DOUBLE_SIDED;
+    sheet.materials[1].alpha_cutoff = 0.5f;
+    sheet.materials[1].base_color_map.texture = 0;
+    sheet.materials[2].normal_map.texture = 1;
+    sheet.materials[3].metallic = 1;
+    sheet.materials[3].roughness = 0;
+    sheet.materials[3].emission[1] = 2;
+    sheet.world = (scene) { .vertices = sheet.vertices,
+                            .indices = sheet.indices,
+                            .meshes = sheet.meshes,
+                            .materials = sheet.materials,
+                            .textures = sheet.textures,
+                            .texels = sheet.texels,
+                            .vertex_count = 4 * MATERIALS,
+                            .index_count = 6 * MATERIALS,
+                            .mesh_count = MATERIALS,
+                            .material_count = MATERIALS,
+                            .texture_count = 2,
+                            .texel_bytes = sizeof sheet.texels,
+                            .lights = sheet.lights,
+                            .minimum = { -1, -1, 0 },
+                            .maximum = { 31, 1, 0 },
+                            .origin = "sheets" };
+    return &sheet.world;
+}
+
+/* Looks at sheet i from z = ±3: it fills the middle half of the view's height. */
+static gpu_frame look_at(const scene *world, int i, float side) {
+    return (gpu_frame) { .width = SIDE,
+                         .height = SIDE,
+                         .camera = { .eye = { 10 * (float)i, 0, 3 * side },
+                                     .target = { 10 * (float)i, 0, 0 },
+                                     .up = { 0, 1, 0 },
+                                     .fov = 2 * atanf(2 / 3.0f) },
+                         .bands = 3,
+                         .lights = world->lights,
+                         .light_count = world->light_count };
+}
+
+static gpu_pixel pixel_at(gpu_renderer *renderer, const gpu_frame *frame, int x, int y) {
+    gpu_pixel *pixels = render_pixels(renderer, frame);
+    const gpu_pixel pixel = pixels[y * SIDE + x];
+    free(pixels);
+    return pixel;
+}
+
+static void positions_and_sides_are_where_the_camera_says(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    /* column 47 is 15.5 pixels right of the middle: x = 15.5/16; row 16 is as far above it */
+    const gpu_pixel front = pixel_at(renderer, &frame, 47, 16);
+    assert_int_equal(front.kind, GPU_KIND_SURFACE);
+    assert_true(fabsf(front.surface.position.x - 15.5f / 16) <= 1e-5f);
+    assert_true(fabsf(front.surface.position.y - 15.5f / 16) <= 1e-5f);
+    assert_true(fabsf(front.surface.position.z) <= 1e-5f);
+    assert_true(front.surface.normal.z >= 0.9999f);
+    assert_int_equal(pixel_at(renderer, &frame, 49, 32).kind, GPU_KIND_NONE);
+
+    frame = look_at(world, 0, -1);
+    const gpu_pixel back = pixel_at(renderer, &frame, 32, 32);
+    assert_int_equal(back.kind, GPU_KIND_SURFACE);
+    assert_true(back.surface.normal.z <= -0.9999f);
+    frame = look_at(world, 3, -1); /* one-sided */
+    assert_int_equal(pixel_at(renderer, &frame, 32, 32).kind, GPU_KIND_NONE);
+    gpu_renderer_destroy(renderer);
+}
+
+static void masks_cut_and_normal_maps_bend(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 1, 1);
+    const gpu_pixel red = pixel_at(renderer, &frame, 20, 32);
+    assert_int_equal(red.kind, GPU_KIND_SURFACE);
+    assert_true(red.material.diffuse.r == 1 && red.material.diffuse.g == 0);
+    assert_int_equal(pixel_at(renderer, &frame, 44, 32).kind, GPU_KIND_NONE);
+    frame = look_at(world, 2, 1);
+    const gpu_pixel bent = pixel_at(renderer, &frame, 32, 32);
+    assert_true(fabsf(bent.surface.normal.x - 0.6f) <= 0.01f);
+    assert_true(fabsf(bent.surface.normal.z - 0.8f) <= 0.01f);
+    gpu_renderer_destroy(renderer);
+}
+
+static void materials_are_those_of_the_library(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    /* values that eight bits hold exactly */
+    const float roughness[MATERIALS] = { 1, 51 / 255.0f, 102 / 255.0f, 0 };
+    const float metallic[MATERIALS] = { 0, 0.2f, 0.6f, 1 };
+    for (int i = 0; i < MATERIALS; i++) {
+        sheet.materials[i].roughness = roughness[i];
+        sheet.materials[i].metallic = metallic[i];
+        sheet.materials[i].base_color_map.texture = -1;
+        sheet.materials[i].base_color[2] = 0;
+    }
+    gpu_renderer *renderer = open_renderer(world);
+    for (int i = 0; i < MATERIALS; i++) {
+        const gpu_frame frame = look_at(world, i, 1);
+        const gpu_pixel p = pixel_at(renderer, &frame, 32, 32);
+        const lmp_material m =
+            lmp_material_from_metallic_roughness((lmp_rgb) { 1, 1, 0 }, metallic[i], roughness[i]);
+        assert_true(fabsf(p.material.diffuse.r - m.diffuse.r) <= 1e-6f);
+        assert_true(fabsf(p.material.specular.r - m.specular.r) <= 1e-6f);
+        assert_true(fabsf(p.material.specular.b - m.specular.b) <= 1e-6f);
+        assert_true(fabsf(p.material.exponent - m.exponent) <= 1e-5f * (m.exponent + 1));
+        assert_true(p.emission.g == sheet.materials[i].emission[1]);
+    }
+    gpu_renderer_destroy(renderer);
+}
+
+/* --- glowing spheres ----------------------------------------------------------------------------
+ */
+
+/* A pixel's centre on the sphere, off it, or so near the outline (±0) that rounding decides. */
+static int side_of_outline(const gpu_frame *frame, const scene_light *light, int x, int y) {
+    const double step = 2.0 * tan(0.5 * (double)frame->camera.fov) / SIDE;
+    const double ray[3] = { (x + 0.5 - SIDE / 2) * step, -(y + 0.5 - SIDE / 2) * step, -1 };
+    double along = 0, length2 = 0, center2 = 0;
+    for (int i = 0; i < 3; i++) {
+        const double c = (double)light->center[i] - (double)frame->camera.eye[i];
+        along += ray[i] * c;
+        length2 += ray[i] * ray[i];
+        center2 += c * c;
+    }
+    const double miss2 = center2 - along * along / length2;
+    const double r2 = (double)light->radius * (double)light->radius;
+    return fabs(miss2 - r2) < 1e-4 * r2 ? 0 : miss2 < r2 ? 1 : -1;
+}
+
+static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    /* half of it sticks out of the sheet's front */
+    sheet.lights[0] = (scene_light) { { 0.2f, 0.1f, 0 }, 0.6f, { 5, 1e9f, 1e-9f }, 0 };
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    frame.light_count = 1;
+    gpu_pixel *pixels = render_pixels(renderer, &frame);
+    int on = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const int side = side_of_outline(&frame, &sheet.lights[0], i % SIDE, i / SIDE);
+        if (side == 0)
+            continue;
+        on += side > 0;
+        assert_int_equal(pixels[i].kind == GPU_KIND_LIGHT, side > 0);
+        if (side > 0) /* the radiance itself, not what a G-buffer's format keeps of it */
+            assert_true(pixels[i].emission.r == 5 && pixels[i].emission.g == 1e9f &&
+                        pixels[i].emission.b == 1e-9f);
+    }
+    assert_true(on > 100);
+    free(pixels);
+
+    sheet.lights[0].center[2] = -2; /* behind the sheet */
+    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_SURFACE);
+    sheet.lights[0].center[2] = 2;
+    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_LIGHT);
+    sheet.lights[0].hidden = 1;
+    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_SURFACE);
+    gpu_renderer_destroy(renderer);
+}
+
+static void a_camera_inside_a_light_sees_it_all_round(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    sheet.lights[0] = (scene_light) { { 0, 0, 3 }, 1, { 1, 2, 3 }, 0 };
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    frame.light_count = 1;
+    gpu_pixel *pixels = render_pixels(renderer, &frame);
+    for (int i = 0; i < PIXELS; i++)
+        assert_int_equal(pixels[i].kind, GPU_KIND_LIGHT);
+    free(pixels);
+    gpu_renderer_destroy(renderer);
+}
+
+/* --- refusals -----------------------------------------------------------------------------------
+ */
+
+static void impossible_frames_are_refused_with_a_reason(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    cli_error error = { "" };
+    frame.width = GPU_SIZE_MAX + 1;
+    assert_false(gpu_render(renderer, &frame, NULL, &error));
+    assert_non_null(strstr(error.text, "beyond"));
+    frame.width = SIDE;
+    frame.bands = GPU_BANDS_MAX + 1;
+    assert_false(gpu_render(renderer, &frame, NULL, &error));
+    assert_non_null(strstr(error.text, "bands"));
+    frame.bands = 3;
+    memcpy(frame.camera.target, frame.camera.eye, sizeof frame.camera.eye);
+    assert_false(gpu_render(renderer, &frame, NULL, &error));
+    assert_non_null(strstr(error.text, "camera"));
+    gpu_renderer_destroy(renderer);
+}
+
+static void unknown_devices_are_refused_with_what_was_found(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    gpu_context context;
+    assert_false(gpu_context_create("99", &context, &error));
+    assert_non_null(strstr(error.text, "no such OpenGL device"));
+    assert_false(gpu_context_create("no such name", &context, &error));
+    assert_non_null(strstr(error.text, "found"));
+}
+
+static void complaints_of_opengl_are_fatal_here(void **state) {
+    (void)state;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        gpu_context context;
+        cli_error error = { "" };
+        signal(SIGABRT, SIG_DFL);
+        close(STDERR_FILENO);
+        if (gpu_context_create(getenv("LAMPION_TEST_GL_DEVICE"), &context, &error))
+            glEnable(0xdead);
+        _exit(0);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
+}
+
+int main(void) {
+    /* the forking test comes first, before this process has threads of a driver */
+    setenv("LAMPION_GL_DEBUG", "fatal", 1);
+    const struct CMUnitTest alone[] = { cmocka_unit_test(complaints_of_opengl_are_fatal_here),
+                                        cmocka_unit_test(
+                                            unknown_devices_are_refused_with_what_was_found) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(positions_and_sides_are_where_the_camera_says),
+        cmocka_unit_test(masks_cut_and_normal_maps_bend),
+        cmocka_unit_test(materials_are_those_of_the_library),
+        cmocka_unit_test(light_spheres_are_exact_and_hide_what_is_behind),
+        cmocka_unit_test(a_camera_inside_a_light_sees_it_all_round),
+        cmocka_unit_test(impossible_frames_are_refused_with_a_reason),
+    };
+    return cmocka_run_group_tests(alone, NULL, NULL) +
+           cmocka_run_group_tests(tests, open_device, close_device);
+}

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion.glsl alone, as an engine includes it, against the library. */
+#include "tests/gpu/device.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINTS = 64 };
+
+static const char *lampion_glsl(void) {
+    for (const embedded_file *file = gpu_sources; file->name; file++)
+        if (strcmp(file->name, "lampion.glsl") == 0)
+            return file->text;
+    fail_msg("lampion.glsl is not embedded");
+    return NULL;
+}
+
+/* One thread a point: in[i] is (point, radius) of a light at the origin; out receives the
+ * coefficients of the light, then those of the direction to it. */
+static const char main_function[] =
+    "layout(local_size_x = 64) in;\n"
+    "layout(std430, binding = 0) buffer in_block { vec4 points[]; };\n"
+    "layout(std430, binding = 1) buffer out_block { float values[]; };\n"
+    "void main() {\n"
+    "    float sh[LMP_SH_COUNT], basis[LMP_SH_COUNT];\n"
+    "    vec4 p = points[gl_GlobalInvocationID.x];\n"
+    "    lmp_sphere_project(vec4(0.0, 0.0, 0.0, p.w), p.xyz, sh);\n"
+    "    lmp_sh_eval(-normalize(p.xyz), basis);\n"
+    "    for (int i = 0; i < LMP_SH_COUNT; i++) {\n"
+    "        int at = (int(gl_GlobalInvocationID.x) * LMP_SH_COUNT + i) * 2;\n"
+    "        values[at] = sh[i];\n"
+    "        values[at + 1] = basis[i];\n"
+    "    }\n"
+    "}\n";
+
+static GLuint build(int bands) {
+    char head[64];
+    snprintf(head, sizeof head, "#version 450 core\n#define LMP_BANDS %d\n", bands);
+    const char *text[] = { head, lampion_glsl(), main_function };
+    const GLuint program = glCreateProgram(), shader = glCreateShader(GL_COMPUTE_SHADER);
+    GLint ok = 0;
+    char log[512] = "";
+    glShaderSource(shader, 3, text, NULL);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+    glDeleteShader(shader);
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    glGetProgramInfoLog(program, sizeof log, NULL, log);
+    if (!ok)
+        fail_msg("%s", log);
+    return program;
+}
+
+/* From touching the sphere to a million radii away, and inside. */
+static void fill_points(float points[POINTS][4]) {
+    for (int i = 0; i < POINTS; i++) {
+        const float turn = 2.39996f * (float)i, z = 1 - 2 * ((float)i + 0.5f) / (float)POINTS;
+        const float around = sqrtf(1 - z * z);
+        const float distance = 0.3f * powf(10, 7 * (float)(i * 37 % POINTS) / (float)POINTS);
+        points[i][0] = distance * around * cosf(turn);
+        points[i][1] = distance * around * sinf(turn);
+        points[i][2] = distance * z;
+        points[i][3] = 1;
+    }
+}
+
+static double largest(const float *values, size_t count) {
+    double result = 0;
+    for (size_t i = 0; i < count; i++)
+        result = fmax(result, fabs((double)values[i]));
+    return result;
+}
+
+static void coefficients_agree_with_the_library(void **state) {
+    (void)state;
+    static const int band_counts[] = { 1, 2, 3, 6, 10, 20 };
+    float points[POINTS][4];
+    fill_points(points);
+    for (size_t b = 0; b < sizeof band_counts / sizeof band_counts[0]; b++) {
+        const int bands = band_counts[b];
+        const size_t count = LMP_SH_COUNT(bands), size = POINTS * count * 2 * sizeof(float);
+        const GLuint program = build(bands);
+        GLuint buffers[2];
+        glCreateBuffers(2, buffers);
+        glNamedBufferStorage(buffers[0], sizeof points, points, 0);
+        glNamedBufferStorage(buffers[1], (GLsizeiptr)size, NULL, GL_MAP_READ_BIT);
+        glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, buffers);
+        glUseProgram(program);
+        glDispatchCompute(1, 1, 1);
+        glMemoryBarrier(GL_ALL_BARRIER_BITS);
+        const float *values = glMapNamedBuffer(buffers[1], GL_READ_ONLY);
+        assert_non_null(values);
+        double worst = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            float light[400], basis[400];
+            const lmp_vec3 p = { points[i][0], points[i][1], points[i][2] };
+            const float d = sqrtf(p.x * p.x + p.y * p.y + p.z * p.z);
+            lmp_sphere_project(bands, (lmp_vec3) { 0, 0, 0 }, points[i][3], p, light);
+            lmp_sh_eval(bands, (lmp_vec3) { -p.x / d, -p.y / d, -p.z / d }, basis);
+            const double scale[2] = { largest(light, count), largest(basis, count) };
+            for (size_t k = 0; k < 2 * count; k++) {
+                const double expected = (double)(k % 2 ? basis[k / 2] : light[k / 2]);
+                const double error =
+                    fabs((double)values[2 * count * i + k] - expected) / scale[k % 2];
+                assert_true(isfinite(error));
+                worst = fmax(worst, error);
+            }
+        }
+        print_message("%2d bands: %.1e of the largest coefficient\n", bands, worst);
+        glDeleteBuffers(2, buffers);
+        glDeleteProgram(program);
+        if (!(worst <= 2e-5))
+            fail_msg("%d bands: %g above 2e-5", bands, worst);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coefficients_agree_with_the_library),
+    };
+    return cmocka_run_group_tests(tests, open_device, close_device);
+}

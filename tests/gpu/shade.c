@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT */
+/* Every method of the renderer against lmp_shade at the very same surface points. */
+#include "tests/gpu/device.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 72, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
+
+/* Largest difference to lmp_shade a channel may have, as a part of the sum of the lobes' magnitudes
+ * at that pixel (what rounding is proportional to, for the lobes' series cancel). */
+static const double bound = 5e-6;
+
+/* The same as a part of the largest radiance in the picture. */
+static const double peak_bound = 5e-5;
+
+static const int band_counts[] = { 1, 3, 5, 8, 10, 20 };
+enum { BAND_COUNTS = sizeof band_counts / sizeof band_counts[0] };
+
+typedef struct worst {
+    double relative; /* to the magnitude at the pixel */
+    double peak;     /* to the largest radiance of the picture */
+    int surfaces;
+} worst;
+
+/* What each light alone would reflect with every term of its series positive: the scale of
+ * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of both lobes, times L
+ * sin²a. */
+static double magnitude(const gpu_pixel *p, const gpu_frame *frame, const float *diffuse,
+                        const float *glossy) {
+    double d = 0, g = 0, sum = 0;
+    for (int l = 0; l < frame->bands; l++) {
+        d += (2 * l + 1) * 0.25 * fabs((double)diffuse[l]) / 3.14159265;
+        g += (2 * l + 1) * 0.25 * fabs((double)glossy[l]);
+    }
+    const double lobes = d * (double)fmaxf(p->material.diffuse.r, p->material.diffuse.g) +
+                         g * (double)fmaxf(p->material.specular.r, p->material.specular.g);
+    for (size_t i = 0; i < frame->light_count; i++) {
+        const scene_light *light = &frame->lights[i];
+        const float x = light->center[0] - p->surface.position.x,
+                    y = light->center[1] - p->surface.position.y,
+                    z = light->center[2] - p->surface.position.z;
+        const double d2 = (double)(x * x + y * y + z * z);
+        const double r2 = (double)(light->radius * light->radius);
+        const double strength = d2 > r2 ? 2 * r2 / d2 : 4;
+        sum += strength *
+               (double)fmaxf(light->radiance[0], fmaxf(light->radiance[1], light->radiance[2]));
+    }
+    return lobes * sum;
+}
+
+static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
+    const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
+    static lmp_light lights[SCENE_LIGHTS_MAX];
+    for (size_t i = 0; i < frame->light_count; i++)
+        lights[i] = scene_light_as_sphere(&frame->lights[i]);
+    image picture = render_image(renderer, frame);
+    gpu_pixel *pixels = render_pixels(renderer, frame);
+    float diffuse[LMP_BANDS_MAX], glossy[LMP_BANDS_MAX];
+    lmp_lobe_diffuse(frame->bands, diffuse);
+    worst w = { 0 };
+    double peak = 0, difference = 0;
+    for (size_t i = 0; i < (size_t)frame->width * (size_t)frame->height; i++) {
+        const gpu_pixel *p = &pixels[i];
+        lmp_rgb c = { 0, 0, 0 };
+        double scale = 1;
+        if (p->kind == GPU_KIND_SURFACE) {
+            c = lmp_shade(&settings, &p->material, &p->surface, lights, frame->light_count);
+            lmp_lobe_phong(frame->bands, p->material.exponent, glossy);
+            scale = magnitude(p, frame, diffuse, glossy);
+            w.surfaces++;
+        }
+        const float expected[3] = { c.r + p->emission.r, c.g + p->emission.g, c.b + p->emission.b };
+        for (int k = 0; k < 3; k++) {
+            const double error = fabs((double)picture.rgb[3 * i + (size_t)k] - (double)expected[k]);
+            assert_true(isfinite(error));
+            if (p->kind != GPU_KIND_SURFACE) {
+                assert_true(error == 0);
+                continue;
+            }
+            const double relative = error == 0 ? 0 : error / scale;
+            w.relative = fmax(w.relative, relative);
+            difference = fmax(difference, error);
+            peak = fmax(peak, (double)expected[k]);
+        }
+    }
+    w.peak = difference / fmax(peak, 1e-30);
+    image_free(&picture);
+    free(pixels);
+    return w;
+}
+
+static void expect_agreement(const char *name, gpu_renderer *renderer, const gpu_frame *frame) {
+    const worst w = compare(renderer, frame);
+    print_message("%-14s %-12s %2d bands %4zu lights: %.1e of the lobes, %.1e of the peak\n", name,
+                  gpu_method_names[frame->method], frame->bands, frame->light_count, w.relative,
+                  w.peak);
+    assert_true(w.surfaces > 0);
+    if (!(w.relative <= bound))
+        fail_msg("%s: %g above %g", name, w.relative, bound);
+    if (!(w.peak <= peak_bound))
+        fail_msg("%s: %g of the peak, above %g", name, w.peak, peak_bound);
+}
+
+static void every_method_agrees_on(const char *name, int random_lights, bool keep) {
+    cli_error error = { "" };
+    scene world;
+    expect(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error), &error);
+    const scene_lights_options lights = { .random_count = random_lights, .seed = 7, .keep = keep };
+    expect(scene_apply_lights(&world, &lights, &error), &error);
+    gpu_renderer *renderer = open_renderer(&world);
+    for (int m = 0; m < GPU_METHODS; m++)
+        for (int b = 0; b < BAND_COUNTS; b++) {
+            gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+            frame.method = (gpu_method)m;
+            frame.bands = band_counts[b];
+            expect_agreement(name, renderer, &frame);
+        }
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+static void methods_agree_with_lmp_shade_in_the_atrium(void **state) {
+    (void)state;
+    every_method_agrees_on("builtin:atrium", 0, true);
+}
+
+static void methods_agree_with_lmp_shade_on_balls(void **state) {
+    (void)state;
+    every_method_agrees_on("builtin:balls", 0, true);
+}
+
+static void methods_agree_with_lmp_shade_on_a_ball_with_random_lights(void **state) {
+    (void)state;
+    every_method_agrees_on("builtin:ball", 12, false);
+}
+
+static void methods_agree_with_lmp_shade_on_balls_among_random_lights(void **state) {
+    (void)state;
+    every_method_agrees_on("builtin:balls", 30, true);
+}
+
+/* --- lights in odd places -----------------------------------------------------------------------
+ */
+
+static void with_balls(void (*check)(scene *world, gpu_renderer *renderer)) {
+    cli_error error = { "" };
+    scene world;
+    expect(scene_load("builtin:balls", &(scene_options) { .no_cache = true }, &world, &error),
+           &error);
+    gpu_renderer *renderer = open_renderer(&world);
+    check(&world, renderer);
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+static void check_with(const char *name, gpu_renderer *renderer, gpu_frame frame) {
+    for (int m = 0; m < GPU_METHODS; m++) {
+        frame.method = (gpu_method)m;
+        expect_agreement(name, renderer, &frame);
+    }
+}
+
+static void check_buried(scene *world, gpu_renderer *renderer) {
+    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    gpu_pixel *pixels = render_pixels(renderer, &frame);
+    /* centres exactly on surfaces, spheres that cut them, and one that holds the whole scene;
+     * hidden, for their own discs would cover the surfaces */
+    size_t count = 0;
+    for (size_t i = 0; i < PIXELS && count < 8; i += PIXELS / 16)
+        if (pixels[i].kind == GPU_KIND_SURFACE) {
+            const lmp_vec3 at = pixels[i].surface.position;
+            world->lights[count] =
+                (scene_light) { { at.x, at.y, at.z }, count % 2 ? 0.7f : 0.001f, { 3, 2, 1 }, 1 };
+            count++;
+        }
+    assert_true(count >= 4);
+    world->lights[count++] = (scene_light) { { 0, 1, 0 }, 100, { 0.5f, 1, 2 }, 1 };
+    world->lights[count++] = (scene_light) { { 0, 1, 0 }, 0, { 1, 1, 1 }, 1 };
+    free(pixels);
+    frame.light_count = count;
+    check_with("buried", renderer, frame);
+}
+
+static void lights_that_hold_or_touch_surfaces_agree_with_lmp_shade(void **state) {
+    (void)state;
+    with_balls(check_buried);
+}
+
+static void check_far(scene *world, gpu_renderer *renderer) {
+    /* r/d = 1e-6, as bright on the balls as a near lamp */
+    world->lights[0] = (scene_light) { { 6e3f, 8e3f, 0 }, 1e-2f, { 1e12f, 2e12f, 3e12f }, 0 };
+    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    frame.light_count = 1;
+    check_with("far", renderer, frame);
+    image picture = render_image(renderer, &frame);
+    double sum = 0;
+    for (size_t i = 0; i < 3 * PIXELS; i++)
+        sum += (double)picture.rgb[i];
+    image_free(&picture);
+    assert_true(sum > 0.01 * PIXELS);
+}
+
+static void a_light_a_million_radii_away_agrees_with_lmp_shade(void **state) {
+    (void)state;
+    with_balls(check_far);
+}
+
+static void check_counts(scene *world, gpu_renderer *renderer) {
+    cli_error error = { "" };
+    const scene_lights_options most = { .random_count = SCENE_LIGHTS_MAX, .seed = 1 };
+    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    frame.light_count = 0;
+    check_with("dark", renderer, frame);
+    expect(scene_apply_lights(world, &most, &error), &error);
+    frame = frame_of(world, WIDTH, HEIGHT);
+    assert_int_equal(frame.light_count, SCENE_LIGHTS_MAX);
+    check_with("crowded", renderer, frame);
+}
+
+static void no_lights_and_1024_lights_agree_with_lmp_shade(void **state) {
+    (void)state;
+    with_balls(check_counts);
+}
+
+static void check_windows(scene *world, gpu_renderer *renderer) {
+    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    frame.bands = 8;
+    frame.window = LMP_WINDOW_HANNING;
+    check_with("hanning", renderer, frame);
+    frame.window = LMP_WINDOW_LANCZOS;
+    check_with("lanczos", renderer, frame);
+}
+
+static void windows_agree_with_lmp_shade(void **state) {
+    (void)state;
+    with_balls(check_windows);
+}
+
+static void check_bytes(scene *world, gpu_renderer *renderer) {
+    static unsigned char bytes[GPU_METHODS][3 * PIXELS];
+    cli_error error = { "" };
+    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    image picture = render_image(renderer, &frame);
+    const float exposure = image_auto_exposure(&picture);
+    image_free(&picture);
+    for (int m = 0; m < GPU_METHODS; m++) {
+        frame.method = (gpu_method)m;
+        expect(gpu_render(renderer, &frame, NULL, &error), &error);
+        expect(gpu_read_rgb8(renderer, exposure, bytes[m], NULL, &error), &error);
+    }
+    int worst_difference = 0;
+    for (size_t i = 0; i < 3 * PIXELS; i++) {
+        const int difference = abs(bytes[0][i] - bytes[1][i]);
+        worst_difference = difference > worst_difference ? difference : worst_difference;
+    }
+    print_message("largest difference of a byte: %d\n", worst_difference);
+    assert_true(worst_difference <= 1);
+}
+
+static void methods_give_the_same_bytes_to_one_level(void **state) {
+    (void)state;
+    with_balls(check_bytes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(methods_agree_with_lmp_shade_in_the_atrium),
+        cmocka_unit_test(methods_agree_with_lmp_shade_on_balls),
+        cmocka_unit_test(methods_agree_with_lmp_shade_on_a_ball_with_random_lights),
+        cmocka_unit_test(methods_agree_with_lmp_shade_on_balls_among_random_lights),
+        cmocka_unit_test(lights_that_hold_or_touch_surfaces_agree_with_lmp_shade),
+        cmocka_unit_test(a_light_a_million_radii_away_agrees_with_lmp_shade),
+        cmocka_unit_test(no_lights_and_1024_lights_agree_with_lmp_shade),
+        cmocka_unit_test(windows_agree_with_lmp_shade),
+        cmocka_unit_test(methods_give_the_same_bytes_to_one_level),
+    };
+    return cmocka_run_group_tests(tests, open_device, close_device);
+}
