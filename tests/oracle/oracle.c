@@ -50,11 +50,11 @@ void oracle_legendre(int bands, double t, double *p) {
     legendre(bands, (long double)t, p);
 }
 
-/* K_l^m of paper Eq. 2. */
-static double normalisation(int l, int m) {
-    double k = sqrt((2 * l + 1) / (4 * pi));
-    for (int i = l - m + 1; i <= l + m; i++)
-        k /= sqrt(i);
+/* K_m^m of paper Eq. 2. */
+static long double first_normalisation(int m) {
+    long double k = sqrtl((2 * m + 1) / (4 * (long double)pi));
+    for (int i = 1; i <= 2 * m; i++)
+        k /= sqrtl(i);
     return k;
 }
 
@@ -69,8 +69,9 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
         long double before = 0, now = 1;
         for (int k = 1; k <= m; k++)
             now *= -(2 * k - 1) * (long double)sine;
+        long double k = first_normalisation(m);
         for (int l = m; l < bands; l++) {
-            const double value = normalisation(l, m) * (double)now;
+            const double value = (double)(k * now);
             if (m == 0) {
                 sh[l * l + l] = value;
             } else {
@@ -80,6 +81,7 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
             const long double next = ((2 * l + 1) * z * now - (l + m) * before) / (l + 1 - m);
             before = now;
             now = next;
+            k *= sqrtl((2 * l + 3) * (l + 1 - m) / ((2 * l + 1) * (long double)(l + 1 + m)));
         }
     }
 }

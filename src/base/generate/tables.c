@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -71,8 +72,10 @@ static double pole(int l) {
 
 static void print_value(int place, double value) {
     const float rounded = (float)value;
-    if (!isfinite(rounded))
+    if (!isfinite(rounded)) {
         fprintf(stderr, "generate_tables: a value overflows float32\n");
+        exit(1);
+    }
     char text[32];
     snprintf(text, sizeof text, "%.9g", (double)rounded);
     /* the suffix f needs a point or an exponent before it */
