@@ -65,7 +65,7 @@ void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point
 typedef struct band_slopes {
     lmp_vec3 axis;
     float radial[LMP_BANDS_MAX];     /* 2 k P_l / |cos a| */
-    float tangential[LMP_BANDS_MAX]; /* k R_l, 0 for l = 0 */
+    float tangential[LMP_BANDS_MAX]; /* k R_l */
 } band_slopes;
 
 static void prepare_slopes(int bands, const lmp_sight *sight, float radius, band_slopes *slopes) {
@@ -76,7 +76,6 @@ static void prepare_slopes(int bands, const lmp_sight *sight, float radius, band
     slopes->axis = sight->axis;
     lmp_legendre_polynomials(bands, sight->one_minus, slopes->radial);
     lmp_cap_polynomials(bands, sight->one_minus, slopes->tangential);
-    slopes->tangential[0] = 0;
     for (int l = 0; l < bands; l++) {
         /* at cos a < 0, P_l has the parity of l and R_l that of l-1 */
         const float p_sign = sight->inside && l % 2 != 0 ? -1.f : 1.f;

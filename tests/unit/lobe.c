@@ -55,6 +55,21 @@ static void matches_quadrature_at_128_bands(void **state) {
     }
 }
 
+/* The downward ratios must have forgotten their start, however few bands are asked for. */
+static void vmf_does_not_depend_on_the_number_of_bands(void **state) {
+    (void)state;
+    const float concentrations[] = { 1, 30, 100, 300, 2000, 1e4f };
+    double expected[LMP_BANDS_MAX];
+    float lambda[LMP_BANDS_MAX];
+    for (int i = 0; i < 6; i++) {
+        oracle_lobe_vmf(12, (double)concentrations[i], expected);
+        for (int bands = 1; bands <= 12; bands++) {
+            lmp_lobe_vmf(bands, concentrations[i], lambda);
+            CHECK_WITHIN(check_error((size_t)bands, expected, lambda), 1e-7);
+        }
+    }
+}
+
 static void becomes_a_dirac_as_it_sharpens(void **state) {
     (void)state;
     float lambda[LMP_BANDS_MAX];
@@ -191,6 +206,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(matches_the_vector_file),
         cmocka_unit_test(matches_quadrature_at_128_bands),
+        cmocka_unit_test(vmf_does_not_depend_on_the_number_of_bands),
         cmocka_unit_test(becomes_a_dirac_as_it_sharpens),
         cmocka_unit_test(projects_as_its_factors_times_the_harmonics),
         cmocka_unit_test(answers_lights_as_the_dot_product_of_coefficients_does),
