@@ -8,16 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float pi = 3.14159265f;
-
 enum { PIXELS_MAX = 1 << 26, REPEAT_MAX = 1000, FRAMES_MAX = 100000, PATH_SIZE = 4096 };
 
 /* Everything the command line says. */
 typedef struct render_options {
-    const char *output, *camera, *device;
+    const char *output, *device;
     int size[2], bands, method, window, frames, repeat;
-    float eye[3], target[3], fov, exposure, stops, fps, background[3];
-    bool eye_given, target_given, fov_given, exposure_given, stats, compare;
+    float exposure, stops, fps, background[3];
+    bool exposure_given, stats, compare;
+    scene_camera_options camera;
     scene_lights_options lights;
 } render_options;
 
@@ -31,56 +30,6 @@ typedef struct job {
     scene_light *moved;
     float exposure; /* 0: not yet known */
 } job;
-
-/* --- the camera ---------------------------------------------------------------------------------
- */
-
-static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
-                        cli_error *error) {
-    char *end = NULL;
-    const unsigned long index = strtoul(wanted, &end, 10);
-    for (size_t i = 0; i < world->camera_count; i++)
-        if (strcmp(world->cameras[i].name, wanted) == 0 || (!*end && index == i)) {
-            *camera = world->cameras[i];
-            return true;
-        }
-    return cli_fail(error, world->origin, "no camera \"%s\" (it has %zu; see lampion info)", wanted,
-                    world->camera_count);
-}
-
-/* A direction of up that the camera does not look along. */
-static void keep_upright(scene_camera *camera) {
-    float forward[3], along = 0, length2 = 0, up2 = 0;
-    for (int i = 0; i < 3; i++) {
-        forward[i] = camera->target[i] - camera->eye[i];
-        along += forward[i] * camera->up[i];
-        length2 += forward[i] * forward[i];
-        up2 += camera->up[i] * camera->up[i];
-    }
-    if (along * along < 0.999f * length2 * up2)
-        return;
-    memcpy(camera->up, (const float[3]) { 0, 0, -1 }, sizeof camera->up);
-}
-
-static bool place_camera(const render_options *o, const scene *world, scene_camera *camera,
-                         cli_error *error) {
-    *camera = scene_default_camera(world, (float)o->size[0] / (float)o->size[1]);
-    if (o->camera && !find_camera(world, o->camera, camera, error))
-        return false;
-    if (o->eye_given)
-        memcpy(camera->eye, o->eye, sizeof camera->eye);
-    if (o->target_given)
-        memcpy(camera->target, o->target, sizeof camera->target);
-    if (o->fov_given)
-        camera->fov = o->fov * pi / 180;
-    if (o->eye_given || o->target_given) {
-        memcpy(camera->up, (const float[3]) { 0, 1, 0 }, sizeof camera->up);
-        if (memcmp(camera->eye, camera->target, sizeof camera->eye) == 0)
-            return cli_fail(error, "camera", "--eye and --target are the same point");
-    }
-    keep_upright(camera);
-    return true;
-}
 
 /* --- names of the frames ------------------------------------------------------------------------
  */
@@ -272,7 +221,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     if (!image_check_path(path, error) ||
         !scene_load(name, &(scene_options) { 0 }, &j->world, error) ||
         !scene_apply_lights(&j->world, &o->lights, error) ||
-        !place_camera(o, &j->world, &j->frame.camera, error) ||
+        !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
         !gpu_context_create(o->device, &j->context, error))
         return false;
     j->renderer = gpu_renderer_create(&j->context, &j->world, error);
@@ -336,31 +285,7 @@ static int render(const cli_command *command, int argc, char **argv) {
           .help = "damps the ringing of few bands",
           .choices = windows },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
-        { .name = "camera",
-          .kind = CLI_TEXT,
-          .target = &o.camera,
-          .argument = "NAME",
-          .help = "a camera of the scene, by name or number from 0" },
-        { .name = "eye",
-          .kind = CLI_VEC3,
-          .target = o.eye,
-          .argument = "X,Y,Z",
-          .help = "where the camera is",
-          .given = &o.eye_given },
-        { .name = "target",
-          .kind = CLI_VEC3,
-          .target = o.target,
-          .argument = "X,Y,Z",
-          .help = "where it looks",
-          .given = &o.target_given },
-        { .name = "fov",
-          .kind = CLI_FLOAT,
-          .target = &o.fov,
-          .argument = "DEGREES",
-          .help = "its vertical field of view",
-          .minimum = 1,
-          .maximum = 170,
-          .given = &o.fov_given },
+        SCENE_CAMERA_OPTION_ROWS(o.camera),
         { .name = "exposure",
           .kind = CLI_FLOAT,
           .target = &o.exposure,

@@ -152,6 +152,42 @@ bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_e
 /* The scene's first camera, or one that frames its bounds. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
 
+/* The camera a command line asks for. Zero is the default: scene_default_camera. */
+typedef struct scene_camera_options {
+    const char *name; /* a camera of the scene, by name or number from 0 */
+    float eye[3], target[3], fov;
+    bool eye_given, target_given, fov_given;
+} scene_camera_options;
+
+/* The rows of a command's option table that fill a scene_camera_options variable. */
+#define SCENE_CAMERA_OPTION_ROWS(variable)                                                         \
+    { .name = "camera",                                                                            \
+      .kind = CLI_TEXT,                                                                            \
+      .target = &(variable).name,                                                                  \
+      .argument = "NAME",                                                                          \
+      .help = "a camera of the scene, by name or number from 0" },                                 \
+        { .name = "eye",                                                                           \
+          .kind = CLI_VEC3,                                                                        \
+          .target = (variable).eye,                                                                \
+          .argument = "X,Y,Z",                                                                     \
+          .help = "where the camera is",                                                           \
+          .given = &(variable).eye_given },                                                        \
+        { .name = "target",                                                                        \
+          .kind = CLI_VEC3,                                                                        \
+          .target = (variable).target,                                                             \
+          .argument = "X,Y,Z",                                                                     \
+          .help = "where it looks",                                                                \
+          .given = &(variable).target_given },                                                     \
+    {                                                                                              \
+        .name = "fov", .kind = CLI_FLOAT, .target = &(variable).fov, .argument = "DEGREES",        \
+        .help = "its vertical field of view", .minimum = 1, .maximum = 170,                        \
+        .given = &(variable).fov_given                                                             \
+    }
+
+/* Finds the camera for a picture of `size` pixels, upright and not inside its own target. */
+bool scene_place_camera(const scene *scene, const scene_camera_options *options, const int size[2],
+                        scene_camera *camera, cli_error *error);
+
 /* The light as the library knows it. */
 lmp_light scene_light_as_sphere(const scene_light *light);
 

@@ -24,12 +24,13 @@ may_include() {
     app/file) echo app/cli app/file ;;
     app/image) echo app/cli app/file app/image shaders
         ;;
+    app/compare) echo app/cli app/image app/compare ;;
     app/figure) echo app/cli app/image app/figure base ;;
     app/scene) echo app/cli app/file app/image app/scene LIBRARY ;;
     # the oracle shares no code with what it judges
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
     app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
-    app/command) echo app/cli app/csv app/file app/image app/figure app/scene app/reference app/gpu \
+    app/command) echo app/cli app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base kernels sh light lobe brdf response shade field lampion/'
 }

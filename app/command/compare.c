@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/compare/compare.h"
+#include "app/command/command.h"
+#include "app/image/image.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+typedef struct compare_arguments {
+    const char *paths[2]; /* picture, reference */
+    const char *heat_map;
+    float heat_scale;
+    cli_list limits; /* METRIC=VALUE */
+    bool json;
+} compare_arguments;
+
+typedef struct limit {
+    compare_metric metric;
+    double value;
+} limit;
+
+static bool is_exr(const char *path) {
+    const size_t length = strlen(path);
+    return length >= 4 && strcasecmp(path + length - 4, ".exr") == 0;
+}
+
+/* "rmse=0.01". Returns false after a message. */
+static bool parse_limit(const cli_command *command, const char *text, limit *wanted) {
+    const char *equals = strchr(text, '=');
+    char name[16], *end;
+    snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - text) : 0, text);
+    for (int m = 0; m < COMPARE_COUNT; m++)
+        if (equals && strcmp(name, compare_metrics[m]) == 0) {
+            wanted->metric = (compare_metric)m;
+            wanted->value = strtod(equals + 1, &end);
+            if (end != equals + 1 && *end == '\0' && !isnan(wanted->value))
+                return true;
+            cli_usage(command, "--fail-above %s: the part after = is not a number", text);
+            return false;
+        }
+    cli_usage(command,
+              "--fail-above %s: expected METRIC=VALUE, METRIC one of rmse relmse psnr max "
+              "ssim",
+              text);
+    return false;
+}
+
+/* Whether the metric keeps to its limit; NaN never does. */
+static bool within(const compare_result *result, const limit *wanted) {
+    const double value = result->values[wanted->metric];
+    return compare_grows_with_likeness(wanted->metric) ? value >= wanted->value
+                                                       : value <= wanted->value;
+}
+
+static void print_json_number(double value) {
+    if (isfinite(value))
+        printf("%.9g", value);
+    else
+        printf(isnan(value) ? "null" : "\"infinite\"");
+}
+
+static void print(const compare_arguments *arguments, const image *picture,
+                  const compare_result *result) {
+    const char *space = is_exr(arguments->paths[1]) ? "linear" : "display";
+    if (arguments->json) {
+        printf("{ \"width\": %d, \"height\": %d, \"space\": \"%s\"", picture->width,
+               picture->height, space);
+        for (int m = 0; m < COMPARE_COUNT; m++) {
+            printf(", \"%s\": ", compare_metrics[m]);
+            print_json_number(result->values[m]);
+        }
+        printf(", \"max_pixel\": [%d, %d], \"bad_values\": %zu }\n", result->max_x, result->max_y,
+               result->bad_values);
+        return;
+    }
+    printf("%dx%d pixels, %s values\n", picture->width, picture->height, space);
+    for (int m = 0; m < COMPARE_COUNT; m++) {
+        printf("%-7s %.6g", compare_metrics[m], result->values[m]);
+        if (m == COMPARE_MAX)
+            printf(" at pixel %d,%d", result->max_x, result->max_y);
+        printf("\n");
+    }
+}
+
+static bool write_heat_map(const compare_arguments *arguments, const image images[2],
+                           cli_error *error) {
+    const int width = images[0].width, height = images[0].height;
+    unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
+    if (!rgb8)
+        return cli_fail(error, NULL, "out of memory");
+    compare_heat_map(&images[0], &images[1], (double)arguments->heat_scale, rgb8);
+    const bool ok = image_write_png8(rgb8, width, height, arguments->heat_map, error);
+    free(rgb8);
+    return ok;
+}
+
+/* Reads both, compares, prints; *status says whether the limits hold. */
+static bool compare(const compare_arguments *arguments, const limit *limits, image images[2],
+                    int *status, cli_error *error) {
+    compare_result result;
+    const bool linear = is_exr(arguments->paths[1]);
+    for (int i = 0; i < 2; i++) {
+        if (!image_read(arguments->paths[i], &images[i], error))
+            return false;
+        if (!linear)
+            compare_to_display(&images[i]);
+    }
+    if (!compare_images(&images[0], &images[1], linear ? 0 : 1, &result, error))
+        return false;
+    if (arguments->heat_map && !write_heat_map(arguments, images, error))
+        return false;
+    print(arguments, &images[0], &result);
+    if (result.bad_values)
+        return cli_fail(error, NULL, "%zu values are not finite numbers, the first at pixel %d,%d",
+                        result.bad_values, result.max_x, result.max_y);
+    for (int i = 0; i < arguments->limits.count; i++)
+        if (!within(&result, &limits[i])) {
+            fprintf(stderr, "lampion: %s is %.6g, limit %g\n", compare_metrics[limits[i].metric],
+                    result.values[limits[i].metric], limits[i].value);
+            *status = CLI_FAILURE;
+        }
+    return true;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    compare_arguments a = { .heat_scale = 0 };
+    const cli_option options[] = {
+        { .name = "fail-above",
+          .kind = CLI_LIST,
+          .target = &a.limits,
+          .argument = "METRIC=VALUE",
+          .help = "exit with status 1 if rmse, relmse or max is above VALUE, or psnr or ssim below "
+                  "it; may be repeated" },
+        { .name = "heatmap",
+          .kind = CLI_TEXT,
+          .target = &a.heat_map,
+          .argument = "FILE.png",
+          .help = "write the absolute difference as a picture, black to white" },
+        { .name = "heatmap-scale",
+          .kind = CLI_FLOAT,
+          .target = &a.heat_scale,
+          .argument = "D",
+          .help = "the difference shown as white; 0 means the largest",
+          .minimum = 0,
+          .maximum = 1e30 },
+        { .name = "json", .kind = CLI_FLAG, .target = &a.json, .help = "print JSON" },
+        { .name = NULL },
+    };
+    limit limits[sizeof a.limits.items / sizeof *a.limits.items];
+    image images[2] = { { .rgb = NULL }, { .rgb = NULL } };
+    int count, status = CLI_OK;
+    char **operands;
+    cli_error error;
+    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+        return status;
+    if (count != 2)
+        return cli_usage(command, "expected two pictures, PICTURE and REFERENCE");
+    for (int i = 0; i < a.limits.count; i++)
+        if (!parse_limit(command, a.limits.items[i], &limits[i]))
+            return CLI_USAGE;
+    for (int i = 0; i < 2; i++)
+        a.paths[i] = operands[i];
+    if (is_exr(a.paths[0]) != is_exr(a.paths[1]))
+        return cli_usage(command, "one picture is linear (.exr), the other tone-mapped: compare "
+                                  "two of a kind");
+    if (!compare(&a, limits, images, &status, &error))
+        status = cli_report(&error);
+    for (int i = 0; i < 2; i++)
+        image_free(&images[i]);
+    return status;
+}
+
+const cli_command command_compare = {
+    .name = "compare",
+    .operands = "PICTURE REFERENCE",
+    .summary = "Say how far a picture is from a reference",
+    .examples = "lampion compare atrium.exr truth.exr\n"
+                "lampion compare a.png b.png --heatmap difference.png --fail-above max=0.01\n",
+    .run = run,
+};

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/reference/reference.h"
+#include "app/command/command.h"
+#include "app/reference/quadrature.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct reference_arguments {
+    const char *output;
+    int size[2];
+    scene_camera_options camera;
+    scene_lights_options lights;
+    reference_settings settings;
+    int bands, window;
+    float error, exposure, stops;
+    bool exposure_given;
+    /* One point instead of a picture. */
+    bool point_given;
+    float point[3], normal[3], view[3], diffuse[3], specular[3], exponent;
+    cli_list point_lights;
+} reference_arguments;
+
+static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
+
+static bool ends_with(const char *text, const char *end) {
+    const size_t length = strlen(text), tail = strlen(end);
+    return length >= tail && strcmp(text + length - tail, end) == 0;
+}
+
+/* A linear picture carries its standard error as a second layer. */
+static bool write_picture(const reference_arguments *a, const image *radiance,
+                          const image *standard_error, cli_error *error) {
+    const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
+    if (ends_with(a->output, ".exr"))
+        return image_write_exr_layers(a->output, layers, 2, error);
+    const float exposure = a->exposure_given ? a->exposure : image_auto_exposure(radiance);
+    return image_write(radiance, a->output, exposure * image_exposure_of_stops(a->stops), error);
+}
+
+static bool render(reference_arguments *a, const char *name, cli_error *error) {
+    scene world;
+    image radiance, standard_error;
+    reference_settings *settings = &a->settings;
+    if (!scene_load(name, NULL, &world, error))
+        return false;
+    bool ok = scene_apply_lights(&world, &a->lights, error) &&
+              scene_place_camera(&world, &a->camera, a->size, &settings->camera, error);
+    settings->width = a->size[0];
+    settings->height = a->size[1];
+    if (ok && reference_render(&world, settings, &radiance, &standard_error, error)) {
+        ok = write_picture(a, &radiance, &standard_error, error);
+        image_free(&radiance);
+        image_free(&standard_error);
+    } else
+        ok = false;
+    scene_free(&world);
+    return ok;
+}
+
+/* "X,Y,Z,RADIUS,R,G,B" */
+static bool parse_light(const char *text, scene_light *light, cli_error *error) {
+    float values[7];
+    const char *at = text;
+    for (int i = 0; i < 7; i++) {
+        char *end;
+        values[i] = strtof(at, &end);
+        if (end == at || *end != (i < 6 ? ',' : '\0') || !isfinite(values[i]) ||
+            (i >= 3 && values[i] < 0) || (i == 3 && !(values[i] > 0)))
+            return cli_fail(error, "--light", "\"%s\" is not X,Y,Z,RADIUS,R,G,B", text);
+        at = end + 1;
+    }
+    *light = (scene_light) { .center = { values[0], values[1], values[2] },
+                             .radius = values[3],
+                             .radiance = { values[4], values[5], values[6] } };
+    return true;
+}
+
+static bool solve_point(const reference_arguments *a, cli_error *error) {
+    scene_light lights[sizeof a->point_lights.items / sizeof *a->point_lights.items];
+    reference_material material = { .exponent = (double)a->exponent };
+    reference_surface surface;
+    double radiance[3];
+    for (int i = 0; i < a->point_lights.count; i++)
+        if (!parse_light(a->point_lights.items[i], &lights[i], error))
+            return false;
+    for (int c = 0; c < 3; c++) {
+        material.diffuse[c] = (double)a->diffuse[c];
+        material.specular[c] = (double)a->specular[c];
+    }
+    reference_surface_set(&surface, &a->settings.cut, &material, reference_from_floats(a->point),
+                          reference_normalize(reference_from_floats(a->normal)),
+                          reference_normalize(reference_from_floats(a->view)));
+    reference_quadrature(&surface, lights, (size_t)a->point_lights.count, radiance);
+    printf("%.12g %.12g %.12g\n", radiance[0], radiance[1], radiance[2]);
+    return true;
+}
+
+static int execute(const cli_command *command, reference_arguments *a, int count, char **operands) {
+    cli_error error;
+    a->settings.error = (double)a->error;
+    a->settings.cut = (reference_cut) { .bands = a->bands, .window = (lmp_window)a->window };
+    if (a->point_given) {
+        if (count != 0)
+            return cli_usage(command, "--point takes no scene: give its lights with --light");
+        return solve_point(a, &error) ? CLI_OK : cli_report(&error);
+    }
+    if (count != 1)
+        return cli_usage(command, "expected one scene");
+    if (!a->output)
+        return cli_usage(command, "-o FILE is missing");
+    return image_check_path(a->output, &error) && render(a, operands[0], &error)
+               ? CLI_OK
+               : cli_report(&error);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    reference_arguments a = { .size = { 1280, 720 },
+                              .settings = { .samples = 64, .seed = 1 },
+                              .normal = { 0, 1, 0 },
+                              .view = { 0, 1, 0 },
+                              .diffuse = { 1, 1, 1 } };
+    const cli_option options[] = {
+        { "output", 'o', CLI_TEXT, &a.output, "FILE",
+          "the picture: .exr (linear, the standard error as layer \"stderr\") or .png", 0, 0, NULL,
+          NULL },
+        { "size", 0, CLI_SIZE, a.size, "WIDTHxHEIGHT", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
+        SCENE_CAMERA_OPTION_ROWS(a.camera),
+        { "spp", 0, CLI_INT, &a.settings.samples, "N",
+          "light samples a pixel; with --error the most", 1, 1000000, NULL, NULL },
+        { "error", 0, CLI_FLOAT, &a.error, "E",
+          "stop a pixel when its standard error is below E times its value; 0 means never", 0, 1,
+          NULL, NULL },
+        { "noise-seed", 0, CLI_SEED, &a.settings.seed, "SEED",
+          "seed of the noise: the same seed gives the same picture", 0, 0, NULL, NULL },
+        { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
+          "let surfaces hide lights (render does not)", 0, 0, NULL, NULL },
+        { "bands", 0, CLI_INT, &a.bands, "N",
+          "cut the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX, NULL,
+          NULL },
+        { "window", 0, CLI_CHOICE, &a.window, "KIND", "window of the cut lobes", 0, 0, windows,
+          NULL },
+        { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR",
+          "of radiance in a .png; without it, automatic", 1e-12, 1e12, NULL, &a.exposure_given },
+        { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
+          NULL, NULL },
+        { "threads", 0, CLI_INT, &a.settings.threads, "N",
+          "0 means all processors; the result is the same", 0, 1024, NULL, NULL },
+        SCENE_LIGHTS_OPTION_ROWS(a.lights),
+        { "point", 0, CLI_VEC3, a.point, "X,Y,Z",
+          "no picture: print the radiance that one point reflects, by quadrature", 0, 0, NULL,
+          &a.point_given },
+        { "normal", 0, CLI_VEC3, a.normal, "X,Y,Z", "the point's normal", 0, 0, NULL, NULL },
+        { "view", 0, CLI_VEC3, a.view, "X,Y,Z", "direction from the point to the viewer", 0, 0,
+          NULL, NULL },
+        { "diffuse", 0, CLI_VEC3, a.diffuse, "R,G,B", "the point's diffuse albedo", 0, 0, NULL,
+          NULL },
+        { "specular", 0, CLI_VEC3, a.specular, "R,G,B", "the weight of its Phong lobe", 0, 0, NULL,
+          NULL },
+        { "exponent", 0, CLI_FLOAT, &a.exponent, "E", "the lobe's exponent", 0, 1e9, NULL, NULL },
+        { "light", 0, CLI_LIST, &a.point_lights, "X,Y,Z,RADIUS,R,G,B",
+          "a light of the point; may be repeated", 0, 0, NULL, NULL },
+        { .name = NULL },
+    };
+    int count, status;
+    char **operands;
+    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+        return status;
+    return execute(command, &a, count, operands);
+}
+
+const cli_command command_reference = {
+    .name = "reference",
+    .operands = "SCENE",
+    .summary = "Render the ground truth by Monte Carlo, without harmonics",
+    .examples = "lampion reference builtin:atrium -o truth.exr --random-lights 30 --spp 256\n"
+                "lampion reference builtin:balls -o truth.png --error 0.01 --spp 4096 --shadows\n"
+                "lampion reference --point 0,0,0 --normal 0,1,0 --light 0,2,0,0.5,10,10,10\n",
+    .run = run,
+};

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/reference/lobe.h"
+
+/* Blinn's fit of a Beckmann lobe of width alpha: the exponent 2/alpha² - 2. */
+#define NARROWEST_ALPHA 0.01
+
+reference_material reference_material_from_metallic_roughness(const double base[3], double metallic,
+                                                              double roughness) {
+    const double metal = fmin(fmax(metallic, 0), 1), rough = fmin(fmax(roughness, 0), 1);
+    const double alpha = fmax(rough * rough, NARROWEST_ALPHA);
+    reference_material material = { .exponent = 2 / (alpha * alpha) - 2 };
+    for (int c = 0; c < 3; c++) {
+        material.diffuse[c] = base[c] * (1 - metal);
+        material.specular[c] = 0.04 + (base[c] - 0.04) * metal;
+    }
+    return material;
+}
+
+static double window_weight(const reference_cut *cut, int l) {
+    const double size = cut->window_size > 0 ? cut->window_size : cut->bands;
+    const double x = REFERENCE_PI * l / size;
+    if (cut->window == LMP_WINDOW_NONE || l == 0)
+        return 1;
+    if (l >= size)
+        return 0;
+    return cut->window == LMP_WINDOW_HANNING ? (1 + cos(x)) / 2 : sin(x) / x;
+}
+
+/* (2l+1)/(4 pi) w_l lambda_l with lambda_l = (e+1) ∫ t^e P_l(t) dt over 0 … 1. Integrating
+ * Legendre's equation against t^e gives lambda_l (e+l+1) = lambda_(l-2) (e-l+2). */
+static void cut_lobe(reference_lobe *lobe, const reference_cut *cut) {
+    const double e = lobe->exponent;
+    double before = 0, lambda = 1;
+    lobe->bands = cut->bands;
+    for (int l = 0; l < cut->bands; l++) {
+        const double next = l == 0 ? (e + 1) / (e + 2) : before * (e - l + 1) / (e + l + 2);
+        lobe->series[l] = (2 * l + 1) / (4 * REFERENCE_PI) * window_weight(cut, l) * lambda;
+        before = lambda;
+        lambda = next;
+    }
+}
+
+void reference_surface_set(reference_surface *surface, const reference_cut *cut,
+                           const reference_material *material, reference_vec position,
+                           reference_vec normal, reference_vec view) {
+    reference_lobe *diffuse = &surface->lobes[0], *specular = &surface->lobes[1];
+    surface->position = surface->ray_origin = position;
+    diffuse->axis = normal;
+    diffuse->exponent = 1;
+    specular->axis = reference_mirror(view, normal);
+    specular->exponent = material->exponent;
+    for (int c = 0; c < 3; c++) {
+        diffuse->weight[c] = material->diffuse[c];
+        specular->weight[c] = material->specular[c];
+    }
+    diffuse->bands = specular->bands = 0;
+    if (cut->bands) {
+        cut_lobe(diffuse, cut);
+        cut_lobe(specular, cut);
+    }
+}
+
+double reference_lobe_at(const reference_lobe *lobe, double cosine) {
+    if (lobe->bands == 0) {
+        const double e = lobe->exponent, scale = (e + 1) / (2 * REFERENCE_PI);
+        if (cosine <= 0)
+            return 0;
+        return e == 1 ? scale * cosine : scale * pow(cosine, e);
+    }
+    double before = 0, p = 1, sum = 0;
+    for (int l = 0; l < lobe->bands; l++) {
+        const double next = ((2 * l + 1) * cosine * p - l * before) / (l + 1);
+        sum += lobe->series[l] * p;
+        before = p;
+        p = next;
+    }
+    return sum;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* reference.h - ground truth: direct lighting by glowing spheres, by Monte Carlo in double.
+ *
+ * The oracle of the program: it shares no code with the kernels, the shading methods or the GPU.
+ * What it takes from <lampion/…> are types alone. */
+#ifndef LAMPION_REFERENCE_H
+#define LAMPION_REFERENCE_H
+
+#include "app/image/image.h"
+#include "app/reference/lobe.h"
+#include "app/scene/scene.h"
+
+typedef struct reference_settings {
+    int width, height;
+    scene_camera camera;
+    int samples;   /* light samples a pixel; the most if error > 0 */
+    double error;  /* stop a pixel when its standard error falls below this part of it; 0: off */
+    uint64_t seed; /* of the noise: the same seed gives the same bits on any thread count */
+    int threads;   /* 0 means all processors */
+    bool shadows;  /* whether triangles hide lights from each other */
+    reference_cut cut; /* band limit of the lobes, as render has it; zero: none */
+} reference_settings;
+
+/* Radiance through the centre of every pixel, and its standard error. Triangles and the glowing
+ * spheres are seen; where there is neither, the picture is black. Both pictures are created here;
+ * free them. Shows progress. */
+bool reference_render(const scene *scene, const reference_settings *settings, image *radiance,
+                      image *standard_error, cli_error *error);
+
+#endif

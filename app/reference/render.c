@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/reference/estimate.h"
+#include "app/reference/reference.h"
+#include "app/reference/texture.h"
+#include "app/reference/trace.h"
+
+#include <omp.h>
+
+/* What every pixel needs. */
+typedef struct frame {
+    const scene *scene;
+    const reference_settings *settings;
+    const reference_tracer *tracer;
+    reference_vec eye, forward, right, up; /* right and up reach to the picture's edges */
+    image *radiance, *standard_error;
+} frame;
+
+static void set_camera(frame *f) {
+    const scene_camera *camera = &f->settings->camera;
+    const double top = tan((double)camera->fov / 2);
+    const double side = top * f->settings->width / f->settings->height;
+    f->eye = reference_from_floats(camera->eye);
+    f->forward =
+        reference_normalize(reference_subtract(reference_from_floats(camera->target), f->eye));
+    const reference_vec right =
+        reference_normalize(reference_cross(f->forward, reference_from_floats(camera->up)));
+    f->right = reference_scale(side, right);
+    f->up = reference_scale(top, reference_cross(right, f->forward));
+}
+
+static reference_vec pixel_direction(const frame *f, int x, int y) {
+    const double across = 2 * (x + 0.5) / f->settings->width - 1;
+    const double along = 1 - 2 * (y + 0.5) / f->settings->height;
+    return reference_normalize(
+        reference_add(f->forward, reference_add(reference_scale(across, f->right),
+                                                reference_scale(along, f->up))));
+}
+
+/* The nearest glowing sphere that the camera sees before `distance`, or NULL. */
+static const scene_light *seen_light(const frame *f, reference_vec direction, double distance) {
+    const scene_light *nearest = NULL;
+    for (size_t i = 0; i < f->scene->light_count; i++) {
+        const scene_light *light = &f->scene->lights[i];
+        if (light->hidden || !reference_light_is_hit(light, f->eye, direction))
+            continue;
+        const double at = reference_light_distance(light, f->eye, direction);
+        if (at < distance) {
+            distance = at;
+            nearest = light;
+        }
+    }
+    return nearest;
+}
+
+static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
+                                   const scene_material *material) {
+    double texel[4];
+    if (material->normal_map.texture < 0)
+        return hit->normal;
+    reference_texture_at(f->scene, &material->normal_map, hit->uv, texel);
+    const double scale = (double)material->normal_scale;
+    const reference_vec bitangent =
+        reference_scale(hit->handedness, reference_cross(hit->normal, hit->tangent));
+    const reference_vec normal =
+        reference_add(reference_scale((2 * texel[0] - 1) * scale, hit->tangent),
+                      reference_add(reference_scale((2 * texel[1] - 1) * scale, bitangent),
+                                    reference_scale(2 * texel[2] - 1, hit->normal)));
+    return reference_normalize(normal);
+}
+
+/* Fills the surface and the light it emits itself. */
+static void describe(const frame *f, const reference_hit *hit, reference_vec view,
+                     reference_surface *surface, double emission[3]) {
+    const scene_material *material = &f->scene->materials[hit->material];
+    double color[4], rough[4], glow[4], base[3];
+    reference_texture_at(f->scene, &material->base_color_map, hit->uv, color);
+    reference_texture_at(f->scene, &material->metallic_roughness_map, hit->uv, rough);
+    reference_texture_at(f->scene, &material->emission_map, hit->uv, glow);
+    for (int c = 0; c < 3; c++) {
+        base[c] = color[c] * (double)material->base_color[c];
+        emission[c] = glow[c] * (double)material->emission[c];
+    }
+    const reference_material lobes = reference_material_from_metallic_roughness(
+        base, rough[2] * (double)material->metallic, rough[1] * (double)material->roughness);
+    reference_surface_set(surface, &f->settings->cut, &lobes, hit->position,
+                          mapped_normal(f, hit, material), view);
+    surface->ray_origin = hit->ray_origin;
+}
+
+static void store(image *picture, size_t pixel, int channel, double value) {
+    picture->rgb[3 * pixel + (size_t)channel] = (float)value;
+}
+
+static void trace_pixel(const frame *f, const reference_estimator *estimator, int x, int y) {
+    const reference_settings *settings = f->settings;
+    const size_t pixel = (size_t)y * (size_t)settings->width + (size_t)x;
+    const reference_vec direction = pixel_direction(f, x, y);
+    const reference_hit hit = reference_tracer_see(f->tracer, f->eye, direction);
+    const scene_light *light = seen_light(f, direction, hit.distance);
+    reference_result result = { .samples = 0 };
+    double emission[3] = { 0 };
+    if (light) {
+        for (int c = 0; c < 3; c++)
+            emission[c] = (double)light->radiance[c];
+    } else if (isfinite(hit.distance)) {
+        const reference_stop stop = { settings->samples, settings->error };
+        reference_surface surface;
+        describe(f, &hit, reference_scale(-1, direction), &surface, emission);
+        result =
+            reference_estimate(estimator, &surface, &stop, reference_hash(settings->seed, pixel));
+    }
+    for (int c = 0; c < 3; c++) {
+        /* Renderers clamp the sum of a ringing series at 0. */
+        const double mean = settings->cut.bands ? fmax(result.mean[c], 0) : result.mean[c];
+        store(f->radiance, pixel, c, mean + emission[c]);
+        store(f->standard_error, pixel, c, result.standard_error[c]);
+    }
+}
+
+/* Rows are shared out among threads; each pixel's stream is its own. */
+static bool trace_rows(const frame *f, int threads) {
+    int done = 0;
+    bool ok = true;
+#pragma omp parallel num_threads(threads)
+    {
+        reference_estimator estimator;
+        const bool mine =
+            reference_estimator_create(&estimator, f->scene->lights, f->scene->light_count);
+        if (!mine) {
+#pragma omp atomic write
+            ok = false;
+        }
+        if (f->settings->shadows) {
+            estimator.visibility = reference_tracer_free_path;
+            estimator.visibility_user = (void *)(uintptr_t)f->tracer;
+        }
+#pragma omp for schedule(dynamic)
+        for (int y = 0; y < f->settings->height; y++) {
+            for (int x = 0; mine && x < f->settings->width; x++)
+                trace_pixel(f, &estimator, x, y);
+            int rows;
+#pragma omp atomic capture
+            rows = ++done;
+            if (omp_get_thread_num() == 0)
+                cli_progress("tracing", (double)rows / f->settings->height);
+        }
+        reference_estimator_free(&estimator);
+    }
+    cli_progress_end();
+    return ok;
+}
+
+bool reference_render(const scene *world, const reference_settings *settings, image *radiance,
+                      image *standard_error, cli_error *error) {
+    frame f = {
+        .scene = world, .settings = settings, .radiance = radiance, .standard_error = standard_error
+    };
+    reference_tracer *tracer = NULL;
+    *radiance = *standard_error = (image) { .rgb = NULL };
+    bool ok = reference_tracer_create(world, &tracer, error) &&
+              image_create(radiance, settings->width, settings->height, error) &&
+              image_create(standard_error, settings->width, settings->height, error);
+    if (ok) {
+        f.tracer = tracer;
+        set_camera(&f);
+        ok = trace_rows(&f, settings->threads ? settings->threads : omp_get_num_procs()) ||
+             cli_fail(error, NULL, "out of memory");
+    }
+    reference_tracer_destroy(tracer);
+    if (!ok) {
+        image_free(radiance);
+        image_free(standard_error);
+    }
+    return ok;
+}

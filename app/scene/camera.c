@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT */
+/* The camera a command line asks for. */
+#include "app/scene/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979f
+
+static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
+                        cli_error *error) {
+    char *end = NULL;
+    const unsigned long index = strtoul(wanted, &end, 10);
+    for (size_t i = 0; i < world->camera_count; i++)
+        if (strcmp(world->cameras[i].name, wanted) == 0 || (!*end && index == i)) {
+            *camera = world->cameras[i];
+            return true;
+        }
+    return cli_fail(error, world->origin, "no camera \"%s\" (it has %zu; see lampion info)", wanted,
+                    world->camera_count);
+}
+
+/* A direction of up that the camera does not look along. */
+static void keep_upright(scene_camera *camera) {
+    float forward[3], along = 0, length2 = 0, up2 = 0;
+    for (int i = 0; i < 3; i++) {
+        forward[i] = camera->target[i] - camera->eye[i];
+        along += forward[i] * camera->up[i];
+        length2 += forward[i] * forward[i];
+        up2 += camera->up[i] * camera->up[i];
+    }
+    if (along * along < 0.999f * length2 * up2)
+        return;
+    memcpy(camera->up, (const float[3]) { 0, 0, -1 }, sizeof camera->up);
+}
+
+bool scene_place_camera(const scene *world, const scene_camera_options *o, const int size[2],
+                        scene_camera *camera, cli_error *error) {
+    *camera = scene_default_camera(world, (float)size[0] / (float)size[1]);
+    if (o->name && !find_camera(world, o->name, camera, error))
+        return false;
+    if (o->eye_given)
+        memcpy(camera->eye, o->eye, sizeof camera->eye);
+    if (o->target_given)
+        memcpy(camera->target, o->target, sizeof camera->target);
+    if (o->fov_given)
+        camera->fov = o->fov * PI / 180;
+    if (o->eye_given || o->target_given) {
+        memcpy(camera->up, (const float[3]) { 0, 1, 0 }, sizeof camera->up);
+        if (memcmp(camera->eye, camera->target, sizeof camera->eye) == 0)
+            return cli_fail(error, "camera", "--eye and --target are the same point");
+    }
+    keep_upright(camera);
+    return true;
+}

@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures of the ground truth: a floor whose every pixel has a known value. */
+#include "app/reference/quadrature.h"
+#include "app/reference/reference.h"
+#include "tests/oracle/check.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = 24, HEIGHT = 16 };
+
+/* A square floor at y = 0, 20 wide, and a camera above it. */
+typedef struct stage {
+    scene_vertex vertices[4];
+    uint32_t indices[6];
+    scene_mesh mesh;
+    scene_material material;
+    scene_texture texture;
+    unsigned char texels[16];
+    scene_light lights[2];
+    scene world;
+    reference_settings settings;
+} stage;
+
+static void build(stage *s) {
+    static const uint32_t counter_clockwise[6] = { 0, 1, 2, 0, 2, 3 };
+    *s = (stage) {
+        .mesh = { .index_count = 6 },
+        .material = { .base_color = { 0.5f, 0.25f, 1, 1 },
+                      .metallic = 0.5f,
+                      .roughness = 0.6f,
+                      .normal_scale = 1,
+                      .base_color_map = { .texture = -1, .matrix = { 1, 0, 0, 1 } },
+                      .metallic_roughness_map = { .texture = -1 },
+                      .normal_map = { .texture = -1 },
+                      .emission_map = { .texture = -1 } },
+        .lights = { { { 1, 3, -1 }, 0.5f, { 10, 20, 30 }, 0 },
+                    { { -3, 1, 2 }, 2, { 1, 1, 1 }, 0 } },
+        .settings = { .width = WIDTH,
+                      .height = HEIGHT,
+                      .camera = { "", { 0, 5, 0.01f }, { 0, 0, 0 }, { 0, 1, 0 }, 1 },
+                      .samples = 256,
+                      .seed = 5 },
+    };
+    for (int i = 0; i < 4; i++) {
+        const float x = i == 0 || i == 3 ? -1 : 1, z = i < 2 ? 1 : -1;
+        s->vertices[i] = (scene_vertex) { .position = { 10 * x, 0, 10 * z },
+                                          .normal = { 0, 1, 0 },
+                                          .uv = { (x + 1) / 2, (z + 1) / 2 },
+                                          .tangent = { 1, 0, 0, 1 } };
+    }
+    memcpy(s->indices, counter_clockwise, sizeof s->indices);
+    s->world = (scene) { .vertices = s->vertices,
+                         .indices = s->indices,
+                         .meshes = &s->mesh,
+                         .materials = &s->material,
+                         .textures = &s->texture,
+                         .texels = s->texels,
+                         .vertex_count = 4,
+                         .index_count = 6,
+                         .mesh_count = 1,
+                         .material_count = 1,
+                         .texture_count = 1,
+                         .texel_bytes = 16,
+                         .lights = s->lights,
+                         .light_count = 2,
+                         .minimum = { -10, 0, -10 },
+                         .maximum = { 10, 0, 10 },
+                         .origin = "floor" };
+    s->texture = (scene_texture) { .width = 2, .height = 2 };
+}
+
+static void draw(const stage *s, image *radiance, image *standard_error) {
+    cli_error error;
+    assert_true(reference_render(&s->world, &s->settings, radiance, standard_error, &error));
+}
+
+static void draw_plain(const stage *s, image *radiance) {
+    image standard_error;
+    draw(s, radiance, &standard_error);
+    image_free(&standard_error);
+}
+
+/* The floor point seen through the centre of a pixel, from the camera's definition. */
+static reference_vec floor_point(const stage *s, int x, int y) {
+    const double top = tan((double)s->settings.camera.fov / 2);
+    const reference_vec eye = reference_from_floats(s->settings.camera.eye);
+    const reference_vec forward = reference_normalize(reference_scale(-1, eye));
+    const reference_vec right =
+        reference_normalize(reference_cross(forward, reference_from_floats(s->settings.camera.up)));
+    const reference_vec up = reference_cross(right, forward);
+    const double across = (2 * (x + 0.5) / WIDTH - 1) * top * WIDTH / HEIGHT;
+    const double along = (1 - 2 * (y + 0.5) / HEIGHT) * top;
+    const reference_vec d = reference_add(
+        forward, reference_add(reference_scale(across, right), reference_scale(along, up)));
+    return reference_add(eye, reference_scale(-eye.y / d.y, d));
+}
+
+static void every_pixel_is_its_quadrature(void **state) {
+    (void)state;
+    for (int bands = 0; bands <= 8; bands += 8) {
+        stage s;
+        image radiance, standard_error;
+        int outside = 0;
+        build(&s);
+        s.settings.cut.bands = bands;
+        s.lights[0].hidden = s.lights[1].hidden = 1;
+        draw(&s, &radiance, &standard_error);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) {
+                const double base[3] = { 0.5, 0.25, 1 };
+                const reference_material material = reference_material_from_metallic_roughness(
+                    base, 0.5, (double)s.material.roughness);
+                const reference_vec p = floor_point(&s, x, y);
+                const reference_vec view = reference_normalize(
+                    reference_subtract(reference_from_floats(s.settings.camera.eye), p));
+                reference_surface surface;
+                double exact[3];
+                reference_surface_set(&surface, &s.settings.cut, &material, p,
+                                      (reference_vec) { 0, 1, 0 }, view);
+                reference_quadrature(&surface, s.lights, 2, exact);
+                const size_t i = 3 * ((size_t)y * WIDTH + (size_t)x) + 1;
+                const double error =
+                    fabs((double)radiance.rgb[i] - (bands ? fmax(exact[1], 0) : exact[1]));
+                outside += !(error <= 3 * (double)standard_error.rgb[i] + 1e-4 * exact[1]);
+                CHECK_WITHIN(error, 6 * (double)standard_error.rgb[i] + 1e-4 * fabs(exact[1]));
+            }
+        /* 3 in 1000 lie outside three standard errors; of 64 skewed samples somewhat more. */
+        assert_in_range(outside, 0, WIDTH * HEIGHT / 50);
+        image_free(&radiance);
+        image_free(&standard_error);
+    }
+}
+
+static void the_number_of_threads_changes_no_bit(void **state) {
+    (void)state;
+    scene world;
+    cli_error error;
+    image one[2], two[2];
+    reference_settings settings = {
+        .width = 40, .height = 30, .samples = 16, .seed = 9, .error = 0.2, .shadows = true
+    };
+    assert_true(scene_load("builtin:balls", &(scene_options) { .no_cache = true }, &world, &error));
+    settings.camera = scene_default_camera(&world, 4.0f / 3);
+    settings.threads = 1;
+    assert_true(reference_render(&world, &settings, &one[0], &one[1], &error));
+    settings.threads = 2;
+    assert_true(reference_render(&world, &settings, &two[0], &two[1], &error));
+    for (int i = 0; i < 2; i++)
+        assert_memory_equal(one[i].rgb, two[i].rgb, sizeof(float) * 3 * 40 * 30);
+    settings.seed = 10;
+    image_free(&two[0]);
+    image_free(&two[1]);
+    assert_true(reference_render(&world, &settings, &two[0], &two[1], &error));
+    assert_memory_not_equal(one[0].rgb, two[0].rgb, sizeof(float) * 3 * 40 * 30);
+    for (int i = 0; i < 2; i++) {
+        image_free(&one[i]);
+        image_free(&two[i]);
+    }
+    scene_free(&world);
+}
+
+/* Of the picture's middle row, whether the left and the right end are lit. */
+static void lit_ends(const stage *s, bool *left, bool *right) {
+    image radiance;
+    draw_plain(s, &radiance);
+    const float *row = radiance.rgb + 3 * WIDTH * (HEIGHT / 2);
+    *left = row[0] > 0;
+    *right = row[3 * (WIDTH - 1)] > 0;
+    image_free(&radiance);
+}
+
+static void backs_of_single_sided_triangles_are_not_seen(void **state) {
+    (void)state;
+    stage s;
+    bool left, right;
+    build(&s);
+    s.lights[0].hidden = s.lights[1].hidden = 1;
+    s.settings.camera.eye[1] = -5;
+    s.lights[0].center[1] = -3;
+    lit_ends(&s, &left, &right);
+    assert_false(left || right);
+    s.material.flags = SCENE_DOUBLE_SIDED;
+    lit_ends(&s, &left, &right);
+    assert_true(left && right);
+}
+
+static void an_alpha_mask_cuts_holes(void **state) {
+    (void)state;
+    stage s;
+    bool left, right;
+    build(&s);
+    s.lights[0].hidden = s.lights[1].hidden = 1;
+    s.material.base_color_map.texture = 0;
+    s.material.flags = SCENE_ALPHA_MASK;
+    s.material.alpha_cutoff = 0.5f;
+    for (int i = 0; i < 16; i++)
+        s.texels[i] = (unsigned char)(i % 8 == 3 ? 0 : 255); /* transparent where u < 1/2 */
+    s.texture.wrap_u = s.texture.wrap_v = SCENE_WRAP_CLAMP;
+    lit_ends(&s, &left, &right);
+    assert_true(!left && right);
+}
+
+static void a_normal_map_tilts_the_normal(void **state) {
+    (void)state;
+    stage s;
+    image flat, tilted;
+    build(&s);
+    s.lights[0] = (scene_light) { { 100, 100, 0 }, 1, { 1e4f, 1e4f, 1e4f }, 1 };
+    s.world.light_count = 1;
+    s.material.metallic = 0;
+    s.material.roughness = 1;
+    s.settings.samples = 4096;
+    draw_plain(&s, &flat);
+    s.material.normal_map = (scene_texture_use) { 0, { 1, 0, 0, 1 }, { 0, 0 } };
+    for (int i = 0; i < 4; i++)
+        memcpy(s.texels + 4 * i, (const unsigned char[4]) { 218, 128, 218, 255 }, 4);
+    draw_plain(&s, &tilted);
+    /* 45° towards the light: the irradiance grows by sqrt 2, the flat lobe (e = 0) not. */
+    const size_t i = 3 * (WIDTH * (HEIGHT / 2) + WIDTH / 2);
+    const double lobe = 0.04 / (2 * REFERENCE_PI) * REFERENCE_PI;
+    CHECK_WITHIN(fabs(((double)tilted.rgb[i] - lobe) / ((double)flat.rgb[i] - lobe) - sqrt(2.0)),
+                 0.03);
+    image_free(&flat);
+    image_free(&tilted);
+}
+
+static void shadows_fall_only_when_asked_for(void **state) {
+    (void)state;
+    stage s;
+    bool left, right;
+    build(&s);
+    s.material.flags = SCENE_DOUBLE_SIDED;
+    s.lights[0] = (scene_light) { { 0, -3, 0 }, 4, { 1, 1, 1 }, 1 };
+    s.world.light_count = 1;
+    s.settings.camera.eye[1] = 6;
+    s.material.roughness = 1;
+    s.lights[0].radius = 2.5f;
+    s.vertices[0].normal[1] = s.vertices[1].normal[1] = -1; /* shaded as if seen from below */
+    s.vertices[2].normal[1] = s.vertices[3].normal[1] = -1;
+    lit_ends(&s, &left, &right);
+    assert_true(left && right);
+    s.settings.shadows = true;
+    lit_ends(&s, &left, &right);
+    assert_false(left || right);
+}
+
+static void glowing_spheres_are_seen(void **state) {
+    (void)state;
+    stage s;
+    image radiance, standard_error;
+    build(&s);
+    s.lights[0] = (scene_light) { { 0, 2, 0 }, 1, { 3, 5, 7 }, 0 };
+    draw(&s, &radiance, &standard_error);
+    const size_t i = 3 * (WIDTH * (HEIGHT / 2) + WIDTH / 2);
+    assert_true(radiance.rgb[i] == 3 && radiance.rgb[i + 1] == 5 && radiance.rgb[i + 2] == 7);
+    assert_true(standard_error.rgb[i] == 0);
+    image_free(&radiance);
+    image_free(&standard_error);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pixel_is_its_quadrature),
+        cmocka_unit_test(the_number_of_threads_changes_no_bit),
+        cmocka_unit_test(backs_of_single_sided_triangles_are_not_seen),
+        cmocka_unit_test(an_alpha_mask_cuts_holes),
+        cmocka_unit_test(a_normal_map_tilts_the_normal),
+        cmocka_unit_test(shadows_fall_only_when_asked_for),
+        cmocka_unit_test(glowing_spheres_are_seen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
