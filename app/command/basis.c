@@ -148,7 +148,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_basis = {
     .name = "basis",
     .operands = "",
-    .summary = "draws the basis functions as lobes: red positive, green negative",
+    .summary = "draw the basis functions as lobes: red positive, green negative",
     .examples = "lampion basis -o basis.png\n"
                 "lampion basis --bands 3 --size 1000x640 -o basis.exr",
     .run = run,

@@ -242,7 +242,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_project = {
     .name = "project",
     .operands = "",
-    .summary = "prints the SH coefficients of a sphere light at a point",
+    .summary = "print the SH coefficients of a sphere light at a point",
     .examples = "lampion project --light 0,3,0 --radius 0.5 --bands 4\n"
                 "lampion project --light 0,3,0 --radius 0.5 --format json\n"
                 "lampion project --batch lights.csv --bands 8 > coefficients.csv",

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# The program explains itself, and treats its output streams as a good Unix program does.
+set -eu
+. tests/house/common.sh
+
+version=$(sed -n 's/^#define LMP_VERSION_[A-Z]* //p' include/lampion/base.h | paste -sd .)
+[ "$("$PROGRAM" --version)" = "lampion $version" ] || fail "--version is not $version"
+cached=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$BUILD/CMakeCache.txt")
+[ "$cached" = "$version" ] || fail "CMake thinks the version is $cached"
+grep -q "^## .*$version" CHANGELOG.md || fail "CHANGELOG.md does not know version $version"
+
+commands=$("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ -n "$commands" ] || fail "--help lists no command"
+[ "$("$PROGRAM")" = "$("$PROGRAM" --help)" ] || fail "no argument at all is not answered with help"
+for command in $commands; do
+    help=$("$PROGRAM" "$command" --help) || fail "$command --help fails"
+    [ "$help" = "$("$PROGRAM" help "$command")" ] || fail "help $command is not $command --help"
+    printf '%s\n' "$help" | sed '1,/^Examples:/d' | grep -q "lampion $command" ||
+        fail "$command --help has no example"
+    status=0
+    line=$("$PROGRAM" "$command" --no-such-option 2>&1 >/dev/null </dev/null) || status=$?
+    [ $status = 2 ] || fail "$command --no-such-option: status $status"
+    [ "$(printf '%s\n' "$line" | wc -l)" = 1 ] || fail "$command --no-such-option: $line"
+done
+
+status=0
+line=$("$PROGRAM" projcet 2>&1) || status=$?
+[ "$status: $line" = "2: lampion: unknown command projcet (did you mean project?); see lampion --help" ] ||
+    fail "projcet: $status: $line"
+
+status=0
+line=$("$PROGRAM" --help 2>&1 >/dev/full) || status=$?
+[ $status = 1 ] || fail "a full disk goes unseen: $status"
+[ "$line" = "lampion: standard output: cannot write: No space left on device" ] || fail "full: $line"
+status=0
+"$PROGRAM" --help >&- 2>/dev/null || status=$?
+[ $status = 1 ] || fail "a closed output goes unseen: $status"
+
+# a reader that leaves early is no news
+awk 'BEGIN { print "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z"
+    for (i = 0; i < 100000; i++) print "0,0,1,0.1,0,0,0" }' >"$WORK/table"
+{ "$PROGRAM" project --batch "$WORK/table" 2>"$WORK/early" || echo $? >"$WORK/status"; } |
+    head -n 1 >/dev/null
+[ ! -s "$WORK/early" ] || fail "a closed pipe is reported: $(cat "$WORK/early")"
+[ "$(cat "$WORK/status")" = 1 ] || fail "a closed pipe ends in status $(cat "$WORK/status")"
