@@ -1,0 +1,446 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes and lights files that are truncated, damaged or malicious: the program says so in one
+ * line, exits with 1, and leaves nothing behind. */
+#include "tests/oracle/check.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/lampion-bad-XXXXXX";
+
+static const char *in_folder(const char *name) {
+    static char path[512];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_bytes(const char *name, const void *data, size_t size) {
+    FILE *file = fopen(in_folder(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void write_text(const char *name, const char *text) {
+    write_bytes(name, text, strlen(text));
+}
+
+static int count_entries(const char *path) {
+    DIR *listing = opendir(path);
+    int count = 0;
+    assert_non_null(listing);
+    while (readdir(listing))
+        count++;
+    closedir(listing);
+    return count;
+}
+
+/* Runs the program with its output in files; returns its exit status. */
+static int run_program(const char *const arguments[]) {
+    const pid_t child = fork();
+    if (child == 0) {
+        const int out = open(in_folder("stdout"), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int err = open(in_folder("stderr"), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        dup2(out, 1);
+        dup2(err, 2);
+        char *copies[16] = { 0 };
+        for (int i = 0; arguments[i] && i < 15; i++)
+            copies[i] = strdup(arguments[i]);
+        execv(getenv("LAMPION_PROGRAM"), copies);
+        _exit(127);
+    }
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static size_t read_text(const char *name, char *text, size_t size) {
+    FILE *file = fopen(in_folder(name), "rb");
+    assert_non_null(file);
+    const size_t got = fread(text, 1, size - 1, file);
+    fclose(file);
+    text[got] = 0;
+    return got;
+}
+
+/* What the program printed must be one line that starts with "lampion" and holds `expected`. */
+static void assert_one_line(int status, const char *what, const char *expected) {
+    char text[4096];
+    const size_t printed = read_text("stdout", text, sizeof text);
+    const size_t size = read_text("stderr", text, sizeof text);
+    if (status != 1 || printed != 0 || size == 0 || strchr(text, '\n') != text + size - 1 ||
+        strncmp(text, "lampion: ", 9) != 0 || !strstr(text, expected))
+        fail_msg("%s: status %d, \"%s\" instead of \"%s\"", what, status, text, expected);
+}
+
+/* The program must refuse the scene of this name in the folder. */
+static void assert_refused(const char *name, const char *expected) {
+    char path[512];
+    snprintf(path, sizeof path, "%s", in_folder(name));
+    const char *const arguments[] = { "lampion", "info", path, NULL };
+    const int before = count_entries(folder);
+    assert_one_line(run_program(arguments), name, expected);
+    assert_int_equal(count_entries(folder), before);
+}
+
+static void assert_lights_refused(const char *json, const char *expected) {
+    char path[512], picture[512];
+    write_text("lights.json", json);
+    snprintf(path, sizeof path, "%s", in_folder("lights.json"));
+    snprintf(picture, sizeof picture, "%s", in_folder("picture.png"));
+    const char *const arguments[] = { "lampion", "render", "builtin:ball", "--lights",
+                                      path,      "-o",     picture,        NULL };
+    const int before = count_entries(folder);
+    assert_one_line(run_program(arguments), json, expected);
+    assert_int_equal(count_entries(folder), before);
+}
+
+/* --- a sound file to damage ---------------------------------------------------------------------
+ */
+
+#define HEAD                                                                                       \
+    "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+#define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+#define ACCESSOR                                                                                   \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+#define VIEW   "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+#define BUFFER "\"buffers\":[{\"byteLength\":36,\"uri\":\"triangle.bin\"}]}"
+
+static const float triangle[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+
+static void a_sound_file_is_read(void **state) {
+    (void)state;
+    char path[512];
+    write_text("sound.gltf", HEAD MESH ACCESSOR VIEW BUFFER);
+    snprintf(path, sizeof path, "%s", in_folder("sound.gltf"));
+    const char *const arguments[] = { "lampion", "info", path, NULL };
+    assert_int_equal(run_program(arguments), 0);
+}
+
+static void what_is_no_scene_is_refused(void **state) {
+    (void)state;
+    write_text("empty.gltf", "");
+    write_text("blank.gltf", " \n");
+    write_text("text.obj", "nothing to see here\n");
+    write_text("text.gltf", "nothing to see here\n");
+    write_text("wrong.txt", "v 0 0 0\n");
+    write_text("picture.png", "\x89PNG\r\n\x1a\n");
+    mkdir(in_folder("directory.gltf"), 0700);
+    assert_int_equal(mkfifo(in_folder("fifo.gltf"), 0600), 0);
+    assert_refused("missing.gltf", "does not exist");
+    assert_refused("empty.gltf", "is empty");
+    assert_refused("blank.gltf", "is no scene");
+    assert_refused("text.obj", "text.obj: ");
+    assert_refused("text.gltf", "is no scene");
+    assert_refused("wrong.txt", "is no scene");
+    assert_refused("picture.png", "is no scene");
+    assert_refused("directory.gltf", "is a directory");
+    assert_refused("fifo.gltf", "is not a regular file");
+    assert_refused("a\nname\x1b[31m", "does not exist");
+}
+
+static void truncated_files_are_refused(void **state) {
+    (void)state;
+    static const char whole[] = HEAD MESH ACCESSOR VIEW BUFFER;
+    for (size_t length = 1; length + 1 < sizeof whole; length += 13) {
+        write_bytes("truncated.gltf", whole, length);
+        assert_refused("truncated.gltf", "is no valid JSON");
+    }
+    /* the same as GLB: header, JSON chunk, BIN chunk */
+    static const char json[] = HEAD MESH ACCESSOR VIEW "\"buffers\":[{\"byteLength\":36}]}   ";
+    const uint32_t json_size = (uint32_t)(sizeof json - 1) & ~3u, all = 12 + 8 + json_size + 8 + 36;
+    const uint32_t head[5] = { 0x46546c67, 2, all, json_size, 0x4e4f534a };
+    const uint32_t tail[2] = { 36, 0x004e4942 };
+    char glb[2048];
+    memcpy(glb, head, sizeof head);
+    memcpy(glb + 20, json, json_size);
+    memcpy(glb + 20 + json_size, tail, sizeof tail);
+    memcpy(glb + 28 + json_size, triangle, sizeof triangle);
+    char path[512];
+    write_bytes("whole.glb", glb, all);
+    snprintf(path, sizeof path, "%s", in_folder("whole.glb"));
+    const char *const arguments[] = { "lampion", "info", path, NULL };
+    assert_int_equal(run_program(arguments), 0);
+    for (size_t length = 4; length < all; length += 17) {
+        write_bytes("truncated.glb", glb, length);
+        assert_refused("truncated.glb", length < 20 ? "is no GLB" : "is truncated");
+    }
+}
+
+static void random_damage_never_crashes_the_program(void **state) {
+    (void)state;
+    static const char whole[] = HEAD MESH ACCESSOR VIEW BUFFER;
+    char damaged[sizeof whole], path[512];
+    snprintf(path, sizeof path, "%s", in_folder("damaged.gltf"));
+    const char *const arguments[] = { "lampion", "info", "--no-cache", path, NULL };
+    for (int round = 0; round < 40; round++) {
+        memcpy(damaged, whole, sizeof whole);
+        for (int i = 0; i <= round % 4; i++)
+            damaged[(size_t)check_random_between(1.0, sizeof whole - 1.0)] =
+                (char)check_random_between(32.0, 127.0);
+        write_bytes("damaged.gltf", damaged, sizeof whole - 1);
+        const int status = run_program(arguments);
+        if (status != 0)
+            assert_one_line(status, damaged, "damaged.gltf: ");
+    }
+    for (int round = 0; round < 20; round++) {
+        unsigned char noise[512];
+        for (size_t i = 0; i < sizeof noise; i++)
+            noise[i] = (unsigned char)check_random_between(0.0, 256.0);
+        memcpy(noise, round % 2 ? "glTF\2\0\0\0" : "v 1 1 1\n", 8);
+        write_bytes("noise.obj", noise, sizeof noise);
+        assert_refused("noise.obj", "noise.obj: ");
+    }
+}
+
+/* --- lies and bombs -----------------------------------------------------------------------------
+ */
+
+static void counts_beyond_the_data_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *expected;
+    } cases[] = {
+        { HEAD MESH "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4000000000,"
+                    "\"type\":\"VEC3\"}]," VIEW BUFFER,
+          "accessor 0" },
+        { HEAD MESH "\"accessors\":[{\"componentType\":5126,\"count\":3000000000,"
+                    "\"type\":\"VEC3\"}]," VIEW BUFFER,
+          "accessor 0" },
+        { HEAD MESH "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":-3,"
+                    "\"type\":\"VEC3\"}]," VIEW BUFFER,
+          "accessor 0" },
+        { HEAD MESH "\"accessors\":[{\"bufferView\":7,\"componentType\":5126,\"count\":3,"
+                    "\"type\":\"VEC3\"}]," VIEW BUFFER,
+          "accessor 0" },
+        { HEAD MESH "\"accessors\":[{\"bufferView\":0,\"byteOffset\":1e30,\"componentType\":5126,"
+                    "\"count\":3,\"type\":\"VEC3\"}]," VIEW BUFFER,
+          "accessor 0" },
+        { HEAD MESH ACCESSOR "\"bufferViews\":[{\"buffer\":0,\"byteLength\":99999999}]," BUFFER,
+          "bufferView 0" },
+        { HEAD MESH ACCESSOR "\"bufferViews\":[{\"buffer\":3,\"byteLength\":36}]," BUFFER,
+          "bufferView 0" },
+        { HEAD MESH ACCESSOR VIEW
+          "\"buffers\":[{\"byteLength\":99999999,\"uri\":\"triangle.bin\"}]}",
+          "buffer 0" },
+        { HEAD MESH ACCESSOR VIEW "\"buffers\":[{\"byteLength\":36}]}", "buffer 0" },
+        { HEAD MESH ACCESSOR VIEW
+          "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:a/b;base64,!!!!\"}]}",
+          "buffer 0" },
+        { HEAD
+          "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":9}}]}]," ACCESSOR VIEW BUFFER,
+          "mesh 0" },
+        { HEAD "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":5}]}]"
+               "," ACCESSOR VIEW BUFFER,
+          "mesh 0" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_text("lie.gltf", cases[i].text);
+        assert_refused("lie.gltf", cases[i].expected);
+    }
+}
+
+/* With these nodes before the rest of a sound file. */
+static void assert_nodes_refused(const char *nodes, const char *expected) {
+    const size_t room = strlen(nodes) + 1024;
+    char *text = malloc(room);
+    assert_non_null(text);
+    snprintf(text, room, "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],%s,%s",
+             nodes, MESH ACCESSOR VIEW BUFFER);
+    write_text("nodes.gltf", text);
+    free(text);
+    assert_refused("nodes.gltf", expected);
+}
+
+static void impossible_nodes_are_refused(void **state) {
+    (void)state;
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"children\":[0]}]", "node 0");
+    assert_nodes_refused("\"nodes\":[{\"children\":[1]},{\"mesh\":0,\"children\":[0]}]", "node 1");
+    assert_nodes_refused("\"nodes\":[{\"children\":[1,1]},{\"mesh\":0}]", "node 0");
+    assert_nodes_refused("\"nodes\":[{\"children\":[17]}]", "node 0");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":4}]", "node 0");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "node 0");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is no valid JSON");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e300,1e300,1]}]", "finite");
+    enum { DEEP = 20000 };
+    char *deep = malloc(32 * DEEP);
+    assert_non_null(deep);
+    size_t used = (size_t)sprintf(deep, "\"nodes\":[");
+    for (int i = 0; i < DEEP; i++)
+        used += (size_t)sprintf(deep + used, "{\"children\":[%d]},", i + 1);
+    sprintf(deep + used, "{\"mesh\":0}]");
+    assert_nodes_refused(deep, "nested too deep");
+    free(deep);
+    static char nested[200001];
+    memset(nested, '[', sizeof nested - 1);
+    nested[0] = '{';
+    write_text("nested.gltf", nested);
+    assert_refused("nested.gltf", "is no valid JSON");
+}
+
+static void bombs_end_quickly(void **state) {
+    (void)state;
+    /* One mesh in very many nodes: gigabytes from a few. */
+    enum { COPIES = 20000, TRIANGLES = 20000 };
+    float *many = malloc(TRIANGLES * sizeof triangle);
+    char *text = malloc(64 * COPIES), *end = text;
+    assert_non_null(many);
+    assert_non_null(text);
+    for (int i = 0; i < TRIANGLES; i++)
+        memcpy(many + 9 * i, triangle, sizeof triangle);
+    write_bytes("many.bin", many, TRIANGLES * sizeof triangle);
+    end += sprintf(end, "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0");
+    for (int i = 1; i < COPIES; i++)
+        end += sprintf(end, ",%d", i);
+    end += sprintf(end, "]}],\"nodes\":[{\"mesh\":0}");
+    for (int i = 1; i < COPIES; i++)
+        end += sprintf(end, ",{\"mesh\":0}");
+    sprintf(end,
+            "]," MESH "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":%d,"
+            "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],"
+            "\"buffers\":[{\"byteLength\":%d,\"uri\":\"many.bin\"}]}",
+            3 * TRIANGLES, 36 * TRIANGLES, 36 * TRIANGLES);
+    write_text("bomb.gltf", text);
+    free(many);
+    free(text);
+    assert_refused("bomb.gltf", "bomb.gltf: ");
+}
+
+static void textures_that_cannot_be_are_refused(void **state) {
+    (void)state;
+    static const char scene_text[] = HEAD
+        "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
+        "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"t.png\"}]," MESH ACCESSOR VIEW BUFFER;
+    /* A PNG header of 2 000 000 000 × 4 pixels, then one of 16000 × 16000 without data. */
+    static const unsigned char absurd[] = { 0x89, 'P', 'N', 'G', 13,  10,   26,   10,   0, 0, 0,
+                                            13,   'I', 'H', 'D', 'R', 0x77, 0x35, 0x94, 0, 0, 0,
+                                            0,    4,   8,   6,   0,   0,    0,    0,    0, 0, 0 };
+    static const unsigned char large[] = { 0x89, 'P',  'N', 'G', 13,  10, 26, 10,   0,    0, 0,
+                                           13,   'I',  'H', 'D', 'R', 0,  0,  0x3e, 0x80, 0, 0,
+                                           0x3e, 0x80, 8,   6,   0,   0,  0,  0,    0,    0, 0 };
+    write_text("textured.gltf", scene_text);
+    assert_refused("textured.gltf", "\"t.png\"");
+    write_bytes("t.png", absurd, sizeof absurd);
+    assert_refused("textured.gltf", "t.png");
+    write_bytes("t.png", large, sizeof large);
+    assert_refused("textured.gltf", "t.png");
+    write_text("t.png", "no picture");
+    assert_refused("textured.gltf", "t.png");
+}
+
+/* --- files outside ------------------------------------------------------------------------------
+ */
+
+static void files_outside_the_folder_are_never_read(void **state) {
+    (void)state;
+    static const char *const uris[] = { "../secret.bin",
+                                        "sub/../../secret.bin",
+                                        "/etc/passwd",
+                                        "%2e%2e/secret.bin",
+                                        "..\\\\secret.bin",
+                                        "file:///etc/passwd",
+                                        "http://example.com/a.bin",
+                                        "link.bin",
+                                        "linked/passwd" };
+    mkdir(in_folder("inside"), 0700);
+    write_bytes("secret.bin", triangle, sizeof triangle);
+    assert_int_equal(symlink("../secret.bin", in_folder("inside/link.bin")), 0);
+    assert_int_equal(symlink("/etc", in_folder("inside/linked")), 0);
+    for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "%s\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}]}",
+                 HEAD MESH ACCESSOR VIEW, uris[i]);
+        write_text("inside/outside.gltf", text);
+        assert_refused("inside/outside.gltf", "folder");
+    }
+    write_text("inside/outside.obj", "mtllib ../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    assert_refused("inside/outside.obj", "folder");
+    write_text("inside/texture.obj",
+               "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    write_text("inside/t.mtl", "newmtl m\nmap_Kd ../../etc/passwd\n");
+    assert_refused("inside/texture.obj", "folder");
+    write_text("gone.gltf",
+               HEAD MESH ACCESSOR VIEW "\"buffers\":[{\"byteLength\":36,\"uri\":\"gone.bin\"}]}");
+    assert_refused("gone.gltf", "\"gone.bin\", which does not exist");
+}
+
+/* --- lights -------------------------------------------------------------------------------------
+ */
+
+static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) {
+    (void)state;
+#define GOOD "{\"position\":[0,1,0],\"radius\":1,\"radiance\":[1,1,1]}"
+    assert_lights_refused("", "lights.json");
+    assert_lights_refused("{\"lights\":[" GOOD, "is no valid JSON");
+    assert_lights_refused("[]", "has no array");
+    assert_lights_refused("{\"lights\":{}}", "has no array");
+    assert_lights_refused("{\"lights\":[],\"lamps\":[]}", "has keys other");
+    assert_lights_refused("{\"lights\":[" GOOD ",3]}", "lights[1] is no object");
+    assert_lights_refused("{\"lights\":[" GOOD ",{\"position\":[0,1],\"radius\":1,\"power\":1}]}",
+                          "lights[1] has no position");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":-1,\"power\":1}]}",
+                          "lights[0] has no radius above 0");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":0,\"power\":1}]}",
+                          "lights[0] has no radius above 0");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1e999,\"power\":1}]}",
+                          "lights[0] has no radius above 0");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1e999,0],\"radius\":1,\"power\":1}]}",
+                          "lights[0] has a position that is not finite");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":-1}]}",
+                          "lights[0] has a strength that is negative");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":[1,1e60,1]}]}",
+                          "lights[0] has a strength that is negative or not finite");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":\"much\"}]}",
+                          "lights[0] has a strength");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1}]}",
+                          "lights[0] needs one");
+    assert_lights_refused(
+        "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,\"radiance\":1}]}",
+        "lights[0] needs one");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"colour\":1}]}",
+                          "unknown key \"colour\"");
+    assert_lights_refused(
+        "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"radius\":2,\"power\":1}]}", "twice");
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    if (!mkdtemp(folder) || !getenv("LAMPION_PROGRAM"))
+        return -1;
+    mkdir(in_folder("cache"), 0700);
+    setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
+    write_bytes("triangle.bin", triangle, sizeof triangle);
+    write_text("stdout", "");
+    write_text("stderr", "");
+    write_text("lights.json", "");
+    return 0;
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    char command[300];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sound_file_is_read),
+        cmocka_unit_test(what_is_no_scene_is_refused),
+        cmocka_unit_test(truncated_files_are_refused),
+        cmocka_unit_test(random_damage_never_crashes_the_program),
+        cmocka_unit_test(counts_beyond_the_data_are_refused),
+        cmocka_unit_test(impossible_nodes_are_refused),
+        cmocka_unit_test(bombs_end_quickly),
+        cmocka_unit_test(textures_that_cannot_be_are_refused),
+        cmocka_unit_test(files_outside_the_folder_are_never_read),
+        cmocka_unit_test(faulty_lights_files_are_refused_by_the_light_s_number),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes: what is read is what is in the files, lights keep their power, the cache and the random
+ * numbers are exact. */
+#include "app/scene/scene.h"
+
+#include "tests/oracle/check.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define PI 3.14159265358979
+#define CHECK_NEAR(expected, actual, bound)                                                        \
+    CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
+
+static char folder[] = "/tmp/lampion-scene-XXXXXX";
+
+static const char *in_folder(const char *name) {
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_text(const char *name, const char *text) {
+    FILE *file = fopen(in_folder(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+static scene load(const char *name, bool no_cache) {
+    scene loaded;
+    cli_error error = { 0 };
+    if (!scene_load(name, &(scene_options) { .no_cache = no_cache }, &loaded, &error))
+        fail_msg("%s", error.text);
+    return loaded;
+}
+
+static void assert_unit_and_inside(const scene *s) {
+    for (size_t i = 0; i < s->index_count; i++)
+        assert_true(s->indices[i] < s->vertex_count);
+    for (size_t i = 0; i < s->vertex_count; i++) {
+        const float *n = s->vertices[i].normal, *t = s->vertices[i].tangent;
+        CHECK_NEAR(1.0, n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1e-5);
+        CHECK_NEAR(1.0, t[0] * t[0] + t[1] * t[1] + t[2] * t[2], 1e-5);
+        CHECK_NEAR(0.0, n[0] * t[0] + n[1] * t[1] + n[2] * t[2], 1e-3);
+        CHECK_NEAR(1.0, fabsf(t[3]), 0.0);
+    }
+}
+
+/* --- files --------------------------------------------------------------------------------------
+ */
+
+static void files_hold_what_the_facts_say(void **state) {
+    (void)state;
+    const char *data = getenv("LAMPION_DATA") ? getenv("LAMPION_DATA") : "../shared";
+    char path[1024], line[1024];
+    snprintf(path, sizeof path, "%s/data/facts.csv", data);
+    FILE *facts = fopen(path, "r");
+    if (!facts) {
+        printf("skipped: %s is not there\n", path);
+        return;
+    }
+    int checked = 0;
+    assert_non_null(fgets(line, sizeof line, facts));
+    for (; fgets(line, sizeof line, facts); checked++) {
+        char name[512];
+        double lo[3], hi[3], area;
+        size_t triangles;
+        assert_int_equal(sscanf(line, "%511[^,],%zu,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, &triangles,
+                                &lo[0], &lo[1], &lo[2], &hi[0], &hi[1], &hi[2], &area),
+                         9);
+        snprintf(path, sizeof path, "%s/data/%s", data, name);
+        scene s = load(path, true);
+        assert_int_equal(s.index_count / 3, triangles);
+        /* The facts have six digits: of the largest extent. */
+        double size = 0.0;
+        for (int k = 0; k < 3; k++)
+            size = fmax(size, fmax(fabs(lo[k]), fabs(hi[k])));
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(lo[k], s.minimum[k], 1e-5 * size);
+            CHECK_NEAR(hi[k], s.maximum[k], 1e-5 * size);
+        }
+        CHECK_NEAR(area, s.area, 1e-5 * area);
+        assert_unit_and_inside(&s);
+        scene_free(&s);
+    }
+    fclose(facts);
+    assert_true(checked >= 8);
+}
+
+/* A square of side 2 in the plane z = 0, as an OBJ with one quad, without normals. */
+static const char square_obj[] = "mtllib square.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+                                 "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                                 "usemtl glow\nf 1/1 2/2 3/3 4/4\n";
+
+static void an_obj_is_read_with_its_materials(void **state) {
+    (void)state;
+    write_text("square.obj", square_obj);
+    write_text("square.mtl", "newmtl glow\nKd 0.5 0.25 0.125\nKs 0.1 0.1 0.1\nNs 98\nKe 2 3 4\n");
+    scene s = load(in_folder("square.obj"), true);
+    assert_int_equal(s.index_count, 6);
+    assert_int_equal(s.vertex_count, 4);
+    assert_unit_and_inside(&s);
+    CHECK_NEAR(1.0, s.vertices[0].normal[2], 1e-6);
+    const scene_material *material = &s.materials[s.meshes[0].material];
+    assert_string_equal(material->name, "glow");
+    CHECK_NEAR(0.25, material->base_color[1], 1e-6);
+    /* Ns = 2 / roughness⁴ - 2 */
+    CHECK_NEAR(98.0, 2.0 / pow((double)material->roughness, 4.0) - 2.0, 0.01);
+    /* The picture's v is up, the scene's is down. */
+    CHECK_NEAR(1.0, s.vertices[0].uv[1], 1e-6);
+    /* The emissive square is one light of the same power: area times pi times radiance. */
+    assert_int_equal(s.light_count, 1);
+    assert_int_equal(s.lights[0].hidden, 1);
+    CHECK_NEAR(sqrt(2.0), s.lights[0].radius, 1e-5);
+    for (int k = 0; k < 3; k++)
+        CHECK_NEAR(4.0 * PI * (2.0 + k),
+                   lmp_sphere_power_from_radiance(s.lights[0].radiance[k], s.lights[0].radius),
+                   1e-4);
+    scene_free(&s);
+}
+
+/* A triangle with everything this importer reads by itself. */
+static const char full_gltf[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,2,3]}],"
+    "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_materials_emissive_strength\"],"
+    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":["
+    "{\"type\":\"point\",\"intensity\":100,\"color\":[1,0.5,0.25],\"extras\":{\"radius\":0.5}}]}},"
+    "\"nodes\":[{\"children\":[1],\"scale\":[-2,2,2]},"
+    "{\"mesh\":0,\"translation\":[1,0,0]},"
+    "{\"camera\":0,\"translation\":[0,0,5]},"
+    "{\"translation\":[1,2,3],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}],"
+    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.5,\"znear\":0.1}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+    "\"materials\":[{\"name\":\"m\",\"emissiveFactor\":[0.5,0.5,0.5],\"alphaMode\":\"MASK\","
+    "\"alphaCutoff\":0.25,\"doubleSided\":true,"
+    "\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":8}},"
+    "\"pbrMetallicRoughness\":{\"metallicFactor\":0.75,\"roughnessFactor\":0.5}}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+    "\"min\":[0,0,0],\"max\":[1,1,0]}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+    "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) {
+    (void)state;
+    write_text("full.gltf", full_gltf);
+    scene s = load(in_folder("full.gltf"), true);
+    assert_int_equal(s.index_count, 3);
+    /* x is mirrored: -2 (1 + 0 … 1). The winding follows, so that the front still looks to +z. */
+    CHECK_NEAR(-4.0, s.minimum[0], 1e-6);
+    CHECK_NEAR(-2.0, s.maximum[0], 1e-6);
+    CHECK_NEAR(2.0, s.area, 1e-6);
+    const float *p = s.vertices[s.indices[0]].position, *q = s.vertices[s.indices[1]].position;
+    const float *r = s.vertices[s.indices[2]].position;
+    const float front = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    assert_true(front * s.vertices[s.indices[0]].normal[2] > 0.0f);
+    const scene_material *m = &s.materials[s.meshes[0].material];
+    assert_int_equal(m->flags, SCENE_DOUBLE_SIDED | SCENE_ALPHA_MASK);
+    CHECK_NEAR(0.25, m->alpha_cutoff, 1e-6);
+    CHECK_NEAR(4.0, m->emission[1], 1e-6);
+    CHECK_NEAR(0.75, m->metallic, 1e-6);
+    assert_int_equal(s.camera_count, 1);
+    CHECK_NEAR(0.5, s.cameras[0].fov, 1e-6);
+    CHECK_NEAR(5.0, s.cameras[0].eye[2], 1e-6);
+    assert_true(s.cameras[0].target[2] < 5.0f);
+    assert_int_equal(s.light_count, 2);
+    CHECK_NEAR(0.5, s.lights[0].radius, 1e-6);
+    CHECK_NEAR(3.0, s.lights[0].center[2], 1e-6);
+    CHECK_NEAR(50.0,
+               lmp_sphere_intensity_from_radiance(s.lights[0].radiance[1], s.lights[0].radius),
+               1e-4);
+    /* Double-sided: twice area times pi times radiance. */
+    CHECK_NEAR(2.0 * 2.0 * PI * 4.0,
+               lmp_sphere_power_from_radiance(s.lights[1].radiance[0], s.lights[1].radius), 1e-3);
+    scene_free(&s);
+}
+
+/* --- the cache ----------------------------------------------------------------------------------
+ */
+
+static void find_cached(char *path, size_t size) {
+    const char *cache = in_folder("cache/lampion");
+    DIR *listing = opendir(cache);
+    assert_non_null(listing);
+    int found = 0;
+    for (const struct dirent *entry; (entry = readdir(listing));)
+        if (entry->d_name[0] != '.') {
+            snprintf(path, size, "%s/%s", cache, entry->d_name);
+            found++;
+        }
+    closedir(listing);
+    assert_int_equal(found, 1);
+}
+
+static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
+    (void)state;
+    char cached_path[1024];
+    write_text("square.obj", square_obj);
+    write_text("square.mtl", "newmtl glow\nKd 0.5 0.25 0.125\n");
+    scene first = load(in_folder("square.obj"), false);
+    scene second = load(in_folder("square.obj"), false);
+    assert_false(first.cached);
+    assert_true(second.cached);
+    assert_int_equal(first.block_size, second.block_size);
+    assert_memory_equal(first.block, second.block, first.block_size);
+    scene_free(&second);
+    /* A changed byte anywhere: the file is imported anew, and the cache mended. */
+    find_cached(cached_path, sizeof cached_path);
+    for (size_t at = 0; at < first.block_size; at += first.block_size / 7) {
+        FILE *file = fopen(cached_path, "r+b");
+        assert_non_null(file);
+        fseek(file, (long)at, SEEK_SET);
+        const int byte = fgetc(file);
+        fseek(file, (long)at, SEEK_SET);
+        fputc(byte ^ 0x55, file);
+        fclose(file);
+        scene mended = load(in_folder("square.obj"), false);
+        assert_false(mended.cached);
+        assert_memory_equal(first.block, mended.block, first.block_size);
+        scene_free(&mended);
+    }
+    assert_int_equal(truncate(cached_path, 100), 0);
+    scene truncated = load(in_folder("square.obj"), false);
+    assert_false(truncated.cached);
+    scene_free(&truncated);
+    /* A file it refers to changes. */
+    write_text("square.mtl", "newmtl glow\nKd 0.5 0.75 0.125\n");
+    scene changed = load(in_folder("square.obj"), false);
+    assert_false(changed.cached);
+    CHECK_NEAR(0.75, changed.materials[changed.meshes[0].material].base_color[1], 1e-6);
+    scene_free(&changed);
+    scene_free(&first);
+}
+
+/* --- built in -----------------------------------------------------------------------------------
+ */
+
+static void built_in_scenes_are_sound(void **state) {
+    (void)state;
+    static const char *const names[] = { "builtin:atrium", "builtin:atrium:tiles=2,lanterns=7",
+                                         "builtin:balls", "builtin:ball" };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        scene s = load(names[i], false);
+        assert_unit_and_inside(&s);
+        assert_int_equal(s.camera_count, 1);
+        if (i == 0) {
+            assert_true(s.index_count / 3 >= 100000);
+            assert_int_equal(s.light_count, 30);
+        }
+        if (i == 1)
+            assert_int_equal(s.light_count, 7);
+        scene_free(&s);
+    }
+}
+
+static void the_atrium_is_the_same_for_a_seed_and_another_for_another(void **state) {
+    (void)state;
+    scene a = load("builtin:atrium:seed=5", false), b = load("builtin:atrium:seed=5", false);
+    scene c = load("builtin:atrium:seed=6", false);
+    assert_int_equal(a.block_size, b.block_size);
+    assert_memory_equal(a.block, b.block, a.block_size);
+    assert_memory_not_equal(a.lights, c.lights, a.light_count * sizeof *a.lights);
+    scene_free(&a);
+    scene_free(&b);
+    scene_free(&c);
+}
+
+/* --- lights -------------------------------------------------------------------------------------
+ */
+
+static void random_lights_are_the_same_everywhere(void **state) {
+    (void)state;
+    /* x, y, radius and green, from the same formulas in another language */
+    static const float golden[3][4] = {
+        { -0.81179575f, 0.673277893f, 0.0358586756f, 110.884056f },
+        { -0.28883111f, -0.614446106f, 0.0385102674f, 115.658121f },
+        { 0.623837342f, 0.611532855f, 0.0537860332f, 30.5118532f },
+    };
+    write_text("square.obj", square_obj);
+    write_text("square.mtl", "newmtl glow\n");
+    scene s = load(in_folder("square.obj"), true);
+    cli_error error = { 0 };
+    scene_clear_lights(&s);
+    assert_true(scene_add_random_lights(&s, 30, 7, &error));
+    assert_int_equal(s.light_count, 30);
+    for (size_t i = 0; i < 3; i++) {
+        const scene_light *light = &s.lights[i];
+        const float found[4] = { light->center[0], light->center[1], light->radius,
+                                 light->radiance[1] };
+        for (int k = 0; k < 4; k++)
+            CHECK_NEAR(golden[i][k], found[k], 2e-6 * fabs((double)golden[i][k]));
+    }
+    for (size_t i = 0; i < s.light_count; i++)
+        for (int k = 0; k < 3; k++) {
+            assert_true(s.lights[i].center[k] >= s.minimum[k]);
+            assert_true(s.lights[i].center[k] <= s.maximum[k]);
+            assert_true(s.lights[i].radiance[k] > 0.0f);
+        }
+    assert_false(scene_add_random_lights(&s, SCENE_LIGHTS_MAX - 29, 7, &error));
+    assert_non_null(strstr(error.text, "1025"));
+    assert_int_equal(s.light_count, 30);
+    scene_free(&s);
+}
+
+static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
+    (void)state;
+    write_text("lights.json",
+               "{\"lights\":[{\"position\":[1,2,3],\"radius\":0.5,\"radiance\":[1,2,3]},"
+               "{\"position\":[0,0,0],\"radius\":2,\"power\":100},"
+               "{\"position\":[0,0,0],\"radius\":2,\"intensity\":[100,0,1]}]}");
+    scene s = load("builtin:ball", false);
+    cli_error error = { 0 };
+    assert_int_equal(s.light_count, 10);
+    scene_lights_options options = { .file = in_folder("lights.json"), .keep = true };
+    assert_true(scene_apply_lights(&s, &options, &error));
+    assert_int_equal(s.light_count, 13);
+    options.keep = false;
+    options.random_count = 4;
+    assert_true(scene_apply_lights(&s, &options, &error));
+    assert_int_equal(s.light_count, 7);
+    CHECK_NEAR(2.0, s.lights[0].radiance[1], 0.0);
+    CHECK_NEAR(100.0, lmp_sphere_power_from_radiance(s.lights[1].radiance[2], 2.0f), 1e-4);
+    CHECK_NEAR(100.0, lmp_sphere_intensity_from_radiance(s.lights[2].radiance[0], 2.0f), 1e-4);
+    scene_free(&s);
+}
+
+static void moving_lights_close_their_orbits_inside_the_scene(void **state) {
+    (void)state;
+    scene s = load("builtin:atrium", false);
+    scene_light start[64], later[64], closed[64];
+    scene_move_lights(&s, 0.0, start);
+    scene_move_lights(&s, 1.25, later);
+    scene_move_lights(&s, 8.0, closed);
+    double moved = 0.0;
+    for (size_t i = 0; i < s.light_count; i++)
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(s.lights[i].center[k], start[i].center[k], 1e-6);
+            CHECK_NEAR(start[i].center[k], closed[i].center[k], 1e-4);
+            assert_true(later[i].center[k] >= s.minimum[k] && later[i].center[k] <= s.maximum[k]);
+            moved += fabs((double)later[i].center[k] - (double)start[i].center[k]);
+        }
+    assert_true(moved > 1.0);
+    scene_free(&s);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    if (!mkdtemp(folder) || mkdir(in_folder("cache"), 0700) != 0)
+        return -1;
+    return setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    char command[300];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_hold_what_the_facts_say),
+        cmocka_unit_test(an_obj_is_read_with_its_materials),
+        cmocka_unit_test(a_gltf_is_read_with_lights_cameras_and_mirrored_nodes),
+        cmocka_unit_test(a_cached_scene_is_the_same_and_damage_is_noticed),
+        cmocka_unit_test(built_in_scenes_are_sound),
+        cmocka_unit_test(the_atrium_is_the_same_for_a_seed_and_another_for_another),
+        cmocka_unit_test(random_lights_are_the_same_everywhere),
+        cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
+        cmocka_unit_test(moving_lights_close_their_orbits_inside_the_scene),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
