@@ -24,7 +24,7 @@ vec3 pixel_emission(ivec2 at) {
 }
 
 pixel pixel_read(ivec2 at) {
-    vec2 screen = (vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0;
+    vec2 screen = (vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0 + jitter.xy;
     vec3 ray = forward.xyz + right.xyz * screen.x + down.xyz * screen.y;
     vec4 base_metallic = texelFetch(base_metallic_texture, at, 0);
     pixel p;

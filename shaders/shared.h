@@ -55,6 +55,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 down;        /* to its bottom edge */
     vec4 background;  /* radiance where nothing is */
     vec4 size_lights; /* width, height, number of lights */
+    vec4 jitter;      /* the sample's place in its pixel, 0 in the middle; the view is -1 … 1 */
 }
 SHARED_END(shared_frame);
 
@@ -106,7 +107,7 @@ typedef struct shared_pixel {
 
 static_assert(offsetof(shared_frame, eye) == 64, "std140");
 static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
-static_assert(sizeof(shared_frame) == 160, "std140");
+static_assert(sizeof(shared_frame) == 176, "std140");
 static_assert(sizeof(shared_light) == 32, "std140");
 static_assert(sizeof(shared_lights) == 32 * SHARED_LIGHTS_MAX, "std140");
 static_assert(offsetof(shared_material, matrix) == 64, "std140");

@@ -8,12 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIXELS_MAX = 1 << 26, REPEAT_MAX = 1000, FRAMES_MAX = 100000, PATH_SIZE = 4096 };
+enum {
+    PIXELS_MAX = 1 << 26,
+    REPEAT_MAX = 1000,
+    SAMPLES_MAX = 1024,
+    FRAMES_MAX = 100000,
+    PATH_SIZE = 4096
+};
 
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device;
-    int size[2], bands, method, window, frames, repeat;
+    int size[2], bands, method, window, frames, repeat, samples;
     float exposure, stops, fps, background[3];
     bool exposure_given, stats, compare;
     scene_camera_options camera;
@@ -28,7 +34,7 @@ typedef struct job {
     gpu_renderer *renderer;
     gpu_frame frame;
     scene_light *moved;
-    float exposure; /* 0: not yet known */
+    float exposure;
 } job;
 
 /* --- names of the frames ------------------------------------------------------------------------
@@ -87,17 +93,20 @@ static bool write_png(const job *j, const char *path, cli_error *error) {
 /* The exposure of the first frame serves all: a sequence must not flicker. */
 static bool settle_exposure(job *j, cli_error *error) {
     const render_options *o = j->options;
-    if (j->exposure > 0)
-        return true;
     float factor = o->exposure;
     if (!o->exposure_given) {
         image picture;
-        if (!gpu_read_image(j->renderer, &picture, error))
+        gpu_frame frame = j->frame;
+        frame.samples = 1;
+        if (!gpu_render(j->renderer, &frame, NULL, error) ||
+            !gpu_read_image(j->renderer, &picture, error))
             return false;
         factor = image_auto_exposure(&picture);
         image_free(&picture);
     }
     j->exposure = factor * image_exposure_of_stops(o->stops);
+    if (image_format_of(o->output) == IMAGE_PNG)
+        j->frame.samples_exposure = j->exposure;
     return true;
 }
 
@@ -108,7 +117,8 @@ static bool render_frame(job *j, int index, cli_error *error) {
         scene_move_lights(&j->world, (double)index / (double)j->options->fps, j->moved);
         j->frame.lights = j->moved;
     }
-    if (!gpu_render(j->renderer, &j->frame, NULL, error) || !settle_exposure(j, error))
+    if ((index == 0 && !settle_exposure(j, error)) ||
+        !gpu_render(j->renderer, &j->frame, NULL, error))
         return false;
     return image_format_of(path) == IMAGE_EXR ? write_exr(j, path, error)
                                               : write_png(j, path, error);
@@ -145,6 +155,7 @@ static cJSON *measure(job *j, gpu_method method, cli_error *error) {
     static double samples[PASSES][REPEAT_MAX];
     gpu_frame frame = j->frame;
     frame.method = method;
+    frame.samples = 1;
     unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
     bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
     ok = ok && gpu_render(j->renderer, &frame, NULL, error);
@@ -231,6 +242,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     j->frame.method = (gpu_method)o->method;
     j->frame.bands = o->bands;
     j->frame.window = (lmp_window)o->window;
+    j->frame.samples = o->samples;
     j->frame.lights = j->world.lights;
     j->frame.light_count = j->world.light_count;
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
@@ -248,9 +260,12 @@ static void close_job(job *j) {
 
 static int render(const cli_command *command, int argc, char **argv) {
     static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
-    render_options o = {
-        .size = { 1280, 720 }, .bands = LMP_SHADE_BANDS_DEFAULT, .repeat = 5, .fps = 24
-    };
+    render_options o = { .size = { 1280, 720 },
+                         .bands = LMP_SHADE_BANDS_DEFAULT,
+                         .window = LMP_WINDOW_HANNING,
+                         .samples = 1,
+                         .repeat = 5,
+                         .fps = 24 };
     const cli_option options[] = {
         { .name = "output",
           .letter = 'o',
@@ -320,10 +335,17 @@ static int render(const cli_command *command, int argc, char **argv) {
           .help = "frames a second of their time",
           .minimum = 0.01,
           .maximum = 1000 },
+        { .name = "samples",
+          .kind = CLI_INT,
+          .target = &o.samples,
+          .argument = "N",
+          .help = "samples a pixel: 8 make smooth edges",
+          .minimum = 1,
+          .maximum = SAMPLES_MAX },
         { .name = "stats",
           .kind = CLI_FLAG,
           .target = &o.stats,
-          .help = "print what was drawn and the time of each pass as JSON" },
+          .help = "print what was drawn and the time of each pass of a sample, as JSON" },
         { .name = "repeat",
           .kind = CLI_INT,
           .target = &o.repeat,
@@ -360,6 +382,10 @@ static int render(const cli_command *command, int argc, char **argv) {
     for (int i = 0; i < 3; i++)
         if (o.background[i] < 0)
             return cli_usage(command, "--background: radiance is not negative");
+
+    if (o.bands > gpu_bands_max((gpu_method)o.method))
+        return cli_usage(command, "--bands %d: %s takes 1 to %d", o.bands,
+                         gpu_method_names[o.method], gpu_bands_max((gpu_method)o.method));
 
     cli_error error = { "" };
     job all = { .options = &o };

@@ -10,8 +10,9 @@
 #include "app/image/image.h"
 #include "app/scene/scene.h"
 
-#define GPU_BANDS_MAX 32    /* LMP_BANDS_GLSL_MAX of lampion.glsl */
-#define GPU_SIZE_MAX  16384 /* pixels a side */
+#define GPU_BANDS_MAX        32    /* LMP_BANDS_GLSL_MAX of lampion.glsl */
+#define GPU_COEFFICIENTS_MAX 20    /* bands of coefficients: a driver takes minutes for more */
+#define GPU_SIZE_MAX         16384 /* pixels a side */
 
 /* --- the device --------------------------------------------------------------------------------
  */
@@ -45,12 +46,16 @@ typedef struct gpu_frame {
     int width, height;
     scene_camera camera;
     gpu_method method;
-    int bands; /* 1 … GPU_BANDS_MAX */
+    int bands; /* 1 … gpu_bands_max(method) */
     lmp_window window;
     const scene_light *lights;
     size_t light_count; /* <= SCENE_LIGHTS_MAX */
     float background[3];
+    int samples;            /* a pixel, spread over it; 0 means 1, in its middle */
+    float samples_exposure; /* the mean suits a picture of this exposure; 0: the plain mean */
 } gpu_frame;
+
+int gpu_bands_max(gpu_method method);
 
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
 typedef struct gpu_times {
@@ -94,7 +99,8 @@ typedef struct gpu_pixel {
     lmp_rgb emission;
 } gpu_pixel;
 
-/* The pixels of the last frame, positions and materials just as the shaders evaluate them.
+/* The pixels of the last frame (of its last sample), positions and materials just as the shaders
+ * evaluate them.
  *
  * *pixels receives width * height entries, rows from the top; free() it. */
 bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *error);

@@ -65,12 +65,12 @@ typedef struct gpu_variant {
 struct gpu_renderer {
     gpu_context context;
     gpu_mesh mesh;
-    GLuint surface, surface_masked, light, tone, surfaces; /* programs */
+    GLuint surface, surface_masked, light, tone, surfaces, resolve; /* programs */
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, empty_array;
     int width, height; /* of the targets below */
-    GLuint attachments[GPU_ATTACHMENTS], depth, hdr, framebuffer, ldr, ldr_framebuffer;
+    GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
     GLuint timestamps[GPU_TIMESTAMPS]; /* hardware */
     double marks[GPU_TIMESTAMPS];      /* software, milliseconds */
     float near;                        /* distance of the near plane */

@@ -11,6 +11,10 @@ const char *const gpu_method_names[GPU_METHODS + 1] = { "zonal", "coefficients",
 static const char *const method_functions[GPU_METHODS] = { "lmp_shade_zonal",
                                                            "lmp_shade_coefficients" };
 
+int gpu_bands_max(gpu_method method) {
+    return method == GPU_METHOD_COEFFICIENTS ? GPU_COEFFICIENTS_MAX : GPU_BANDS_MAX;
+}
+
 /* The near plane's distance as a part of the scene's extent. Depth is reversed and in float32, so
  * that a small one costs no precision; there is no far plane. */
 static const float near_of_extent = 1e-4f;
@@ -26,6 +30,7 @@ static bool create_programs(gpu_renderer *r, cli_error *error) {
     const gpu_stage tone[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                { GL_FRAGMENT_SHADER, "tone.frag" } };
     const gpu_stage surfaces[] = { { GL_COMPUTE_SHADER, "surfaces.comp" } };
+    const gpu_stage resolve[] = { { GL_COMPUTE_SHADER, "resolve.comp" } };
     char defines[128];
     snprintf(defines, sizeof defines, "#define LMP_BANDS 1\n#define LMP_ALPHA_MIN %.9g\n",
              (double)LMP_ALPHA_MIN);
@@ -33,6 +38,7 @@ static bool create_programs(gpu_renderer *r, cli_error *error) {
            (r->surface_masked = gpu_program(surface, 2, "#define SURFACE_MASKED\n", error)) &&
            (r->light = gpu_program(light, 2, "", error)) &&
            (r->tone = gpu_program(tone, 2, "", error)) &&
+           (r->resolve = gpu_program(resolve, 1, "", error)) &&
            (r->surfaces = gpu_program(surfaces, 1, defines, error));
 }
 
@@ -65,6 +71,8 @@ static void delete_targets(gpu_renderer *r) {
     glDeleteTextures(GPU_ATTACHMENTS, r->attachments);
     glDeleteTextures(1, &r->depth);
     glDeleteTextures(1, &r->hdr);
+    glDeleteTextures(1, &r->sums);
+    r->sums = 0;
     glDeleteTextures(1, &r->ldr);
     glDeleteFramebuffers(1, &r->framebuffer);
     glDeleteFramebuffers(1, &r->ldr_framebuffer);
@@ -78,7 +86,8 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     gpu_mesh_destroy(&r->mesh);
     for (int i = 0; i < r->variant_count; i++)
         glDeleteProgram(r->variants[i].program);
-    const GLuint programs[] = { r->surface, r->surface_masked, r->light, r->tone, r->surfaces };
+    const GLuint programs[] = { r->surface, r->surface_masked, r->light,
+                                r->tone,    r->surfaces,       r->resolve };
     for (size_t i = 0; i < sizeof programs / sizeof programs[0]; i++)
         if (programs[i])
             glDeleteProgram(programs[i]);
@@ -162,10 +171,20 @@ static bool scale_to(float v[3], float length) {
     return true;
 }
 
+/* Sample `index` of `count` in its pixel, -0.5 … 0.5, by the two-dimensional golden ratio (Roberts
+ * 2018). */
+static void place_sample(int index, int count, float offset[2]) {
+    static const double steps[2] = { 0.7548776662466927, 0.5698402909980532 };
+    for (int i = 0; i < 2; i++) {
+        const double at = count > 1 ? 0.5 + steps[i] * index : 0.5;
+        offset[i] = (float)(at - floor(at) - 0.5);
+    }
+}
+
 /* Rows of the clip matrix: x right, y down (row 0 of a picture is its top), depth = near /
  * distance, w = distance. */
-static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, shared_frame *block,
-                       cli_error *error) {
+static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float offset[2],
+                       shared_frame *block, cli_error *error) {
     const scene_camera *camera = &frame->camera;
     const float half_height = tanf(0.5f * camera->fov);
     const float half_width = half_height * (float)frame->width / (float)frame->height;
@@ -183,11 +202,14 @@ static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, shared_fra
     block->size_lights[1] = (float)frame->height;
     block->size_lights[2] = (float)frame->light_count;
 
+    block->jitter[0] = 2 * offset[0] / (float)frame->width;
+    block->jitter[1] = 2 * offset[1] / (float)frame->height;
+
     float rows[4][4] = { { 0 } };
     for (int i = 0; i < 3; i++) {
-        rows[0][i] = block->right[i] / (half_width * half_width);
-        rows[1][i] = block->down[i] / (half_height * half_height);
         rows[3][i] = block->forward[i];
+        rows[0][i] = block->right[i] / (half_width * half_width) - block->jitter[0] * rows[3][i];
+        rows[1][i] = block->down[i] / (half_height * half_height) - block->jitter[1] * rows[3][i];
     }
     for (int row = 0; row < 4; row++) {
         rows[row][3] = row == 2 ? r->near : -dot(rows[row], block->eye);
@@ -221,8 +243,9 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
         if (v->method == frame->method && v->bands == frame->bands && v->window == frame->window)
             return v->program;
     }
-    if (frame->bands < 1 || frame->bands > GPU_BANDS_MAX) {
-        cli_fail(error, NULL, "%d bands: the shaders take 1 to %d", frame->bands, GPU_BANDS_MAX);
+    if (frame->bands < 1 || frame->bands > gpu_bands_max(frame->method)) {
+        cli_fail(error, NULL, "%d bands: the shader of %s takes 1 to %d", frame->bands,
+                 gpu_method_names[frame->method], gpu_bands_max(frame->method));
         return 0;
     }
     char defines[256];
@@ -317,17 +340,15 @@ static double marked(const gpu_renderer *r, int index) {
     return 1e-6 * (double)nanoseconds;
 }
 
-bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_error *error) {
+/* One sample of every pixel into the HDR target. */
+static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GLuint program,
+                          gpu_times *times, cli_error *error) {
     shared_frame block;
-    if (frame->light_count > SHARED_LIGHTS_MAX)
-        return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
-                        SHARED_LIGHTS_MAX);
-    const GLuint program = find_variant(r, frame, error);
-    if (!program || !create_targets(r, frame->width, frame->height, error) ||
-        !fill_frame(r, frame, &block, error))
+    float offset[2];
+    place_sample(index, frame->samples, offset);
+    if (!fill_frame(r, frame, offset, &block, error))
         return false;
     glNamedBufferSubData(r->frame_block, 0, sizeof block, &block);
-    upload_lights(r, frame);
     if (times)
         mark(r, 0);
     draw_gbuffer(r, frame, &block);
@@ -336,11 +357,44 @@ bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_e
     shade(r, program);
     if (times) {
         mark(r, 2);
-        times->gbuffer = marked(r, 1) - marked(r, 0);
-        times->shade = marked(r, 2) - marked(r, 1);
-        times->tone = 0;
-        times->total = times->gbuffer + times->shade;
+        times->gbuffer += marked(r, 1) - marked(r, 0);
+        times->shade += marked(r, 2) - marked(r, 1);
     }
+    return true;
+}
+
+/* Adds the HDR target to the sums; the last sample leaves the mean there. */
+static void resolve_sample(gpu_renderer *r, const gpu_frame *frame, int index) {
+    if (!r->sums)
+        r->sums = create_target(GL_RGBA32F, r->width, r->height);
+    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    glBindImageTexture(1, r->sums, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
+    glUseProgram(r->resolve);
+    glUniform1f(0, frame->samples_exposure);
+    glUniform1i(1, index == 0);
+    glUniform1i(2, index == frame->samples - 1);
+    glDispatchCompute(groups(r->width), groups(r->height), 1);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_error *error) {
+    if (frame->light_count > SHARED_LIGHTS_MAX)
+        return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
+                        SHARED_LIGHTS_MAX);
+    const GLuint program = find_variant(r, frame, error);
+    if (!program || !create_targets(r, frame->width, frame->height, error))
+        return false;
+    upload_lights(r, frame);
+    if (times)
+        memset(times, 0, sizeof *times);
+    for (int i = 0; i == 0 || i < frame->samples; i++) {
+        if (!render_sample(r, frame, i, program, times, error))
+            return false;
+        if (frame->samples > 1)
+            resolve_sample(r, frame, i);
+    }
+    if (times)
+        times->total = times->gbuffer + times->shade;
     return true;
 }
 
