@@ -96,7 +96,7 @@ LMP_API void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_ve
  * gradient receives three planes of LMP_SH_COUNT(bands) values: d/dx, d/dy, d/dz. The derivative
  * is infinite on the sphere's surface: its 1/|cos a| is held to 1/LMP_COS_MIN. At the centre the
  * direction is taken as z. radius and distance not both 0 */
-#define LMP_COS_MIN 0.05f
+#define LMP_COS_MIN 0.02f
 LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
                                          float *sh, float *gradient);
 
