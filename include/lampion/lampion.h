@@ -4,6 +4,7 @@
 #define LAMPION_LAMPION_H
 
 #include <lampion/base.h>
+#include <lampion/brdf.h>
 #include <lampion/light.h>
 #include <lampion/lobe.h>
 #include <lampion/response.h>

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT */
+/* brdf.h - what the files of this module share. */
+#ifndef LAMPION_BRDF_BRDF_H
+#define LAMPION_BRDF_BRDF_H
+
+#include <lampion/brdf.h>
+
+#include "src/base/heap.h"
+
+#include <string.h>
+
+#define BRDF_PI 3.14159265358979323846
+
+typedef struct brdf_phong {
+    double reflectance[3], exponent;
+} brdf_phong;
+
+typedef struct brdf_ggx {
+    double alpha_x, alpha_y, f0[3], diffuse[3];
+} brdf_ggx;
+
+typedef struct brdf_merl {
+    int shape[3];
+    float *samples; /* [theta_h][theta_d][phi_d][rgb], scaled to sr⁻¹ */
+} brdf_merl;
+
+/* A plane of samples over the unit square, column = first coordinate. */
+typedef struct brdf_grid {
+    int height, width;
+    const float *values;
+} brdf_grid;
+
+typedef struct brdf_rgl {
+    int phi_count, theta_count;
+    bool isotropic, jacobian;
+    int turn;           /* the file covers 1/turn of phi_i: 1, 2 or 4 */
+    const float *phi;   /* [phi_count] */
+    const float *theta; /* [theta_count] */
+    brdf_grid ndf, sigma;
+    int vndf_height, vndf_width;
+    float *density;     /* [phi][theta][height][width], integral 1 */
+    float *conditional; /* the same shape: integral along a row up to here */
+    float *marginal;    /* [phi][theta][height]: integral of the rows up to here */
+    int rgb_height, rgb_width;
+    float *rgb; /* [phi][theta][channel][height][width] */
+} brdf_rgl;
+
+struct lmp_brdf {
+    lmp_allocator allocator;
+    lmp_brdf_info info;
+    /* f_r of unit vectors above the surface; b is where a cosine was folded in by the file */
+    void (*eval)(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]);
+    union {
+        double lambert[3];
+        brdf_phong phong;
+        brdf_ggx ggx;
+        lmp_sgd sgd;
+        brdf_merl merl;
+        brdf_rgl rgl;
+    };
+};
+
+/* One block for the object and `extra` bytes behind it, zeroed, aligned for any type. */
+lmp_result lmp_brdf_new(const lmp_allocator *allocator, lmp_brdf_kind kind, size_t extra,
+                        lmp_brdf **brdf);
+static inline void *lmp_brdf_extra(lmp_brdf *brdf) {
+    return (unsigned char *)brdf + ((sizeof *brdf + 15) & ~(size_t)15);
+}
+
+/* Fills the fault (may be NULL) and returns `result`. */
+lmp_result lmp_brdf_fail(lmp_brdf_fault *fault, lmp_result result, size_t offset,
+                         const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+/* Little-endian loads and stores, wherever they lie. */
+static inline uint32_t brdf_load_u32(const unsigned char *p) {
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+static inline uint64_t brdf_load_u64(const unsigned char *p) {
+    return brdf_load_u32(p) | (uint64_t)brdf_load_u32(p + 4) << 32;
+}
+static inline float brdf_load_f32(const unsigned char *p) {
+    const uint32_t bits = brdf_load_u32(p);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+static inline double brdf_load_f64(const unsigned char *p) {
+    const uint64_t bits = brdf_load_u64(p);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+static inline unsigned char *brdf_store_u32(unsigned char *p, uint32_t value) {
+    for (int k = 0; k < 4; k++)
+        p[k] = (unsigned char)(value >> 8 * k);
+    return p + 4;
+}
+static inline unsigned char *brdf_store_u64(unsigned char *p, uint64_t value) {
+    return brdf_store_u32(brdf_store_u32(p, (uint32_t)value), (uint32_t)(value >> 32));
+}
+static inline unsigned char *brdf_store_f32(unsigned char *p, float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return brdf_store_u32(p, bits);
+}
+static inline unsigned char *brdf_store_f64(unsigned char *p, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return brdf_store_u64(p, bits);
+}
+
+/* Unit half vector of a and b. */
+void lmp_brdf_half(const double a[3], const double b[3], double h[3]);
+static inline double brdf_dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+#endif

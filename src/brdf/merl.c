@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: MIT */
+/* MERL .binary: half-angle coordinates (Rusinkiewicz 1998), theta_h nodes dense near 0. */
+#include "src/brdf/brdf.h"
+
+#include <math.h>
+
+#define HEADER 12u
+
+static const int full_shape[3] = { 90, 90, 180 };
+static const double scale[3] = { 1.00 / 1500, 1.15 / 1500, 1.66 / 1500 };
+
+static int cell(double share, int count) {
+    const int i = (int)(share * count);
+    return i < 0 ? 0 : i < count ? i : count - 1;
+}
+
+/* theta_h, theta_d and phi_d as shares of their ranges pi/2, pi/2, pi; theta_h by its root. */
+static void half_angles(const double a[3], const double b[3], double shares[3]) {
+    double h[3];
+    lmp_brdf_half(a, b, h);
+    const double ct = h[2], st = sqrt(h[0] * h[0] + h[1] * h[1]);
+    const double cp = st > 1e-12 ? h[0] / st : 1, sp = st > 1e-12 ? h[1] / st : 0;
+    const double x = cp * a[0] + sp * a[1], y = cp * a[1] - sp * a[0];
+    const double dx = ct * x - st * a[2], dz = st * x + ct * a[2];
+    double phi = atan2(y, dx);
+    if (phi < 0)
+        phi += BRDF_PI;
+    shares[0] = sqrt(atan2(st, ct) / (BRDF_PI / 2));
+    shares[1] = atan2(sqrt(dx * dx + y * y), dz) / (BRDF_PI / 2);
+    shares[2] = phi / BRDF_PI;
+}
+
+static void eval_merl(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
+    const int *shape = brdf->merl.shape;
+    double shares[3];
+    half_angles(a, b, shares);
+    const size_t i = (size_t)cell(shares[0], shape[0]), j = (size_t)cell(shares[1], shape[1]);
+    const size_t k = (size_t)cell(shares[2], shape[2]);
+    const float *sample =
+        brdf->merl.samples + 3 * ((i * (size_t)shape[1] + j) * (size_t)shape[2] + k);
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (double)sample[c];
+}
+
+/* The pair of directions at the centre of a cell; false where one lies below the surface. */
+static bool cell_centre(const int shape[3], int i, int j, int k, double a[3], double b[3]) {
+    const double root = (i + 0.5) / shape[0], theta_h = BRDF_PI / 2 * root * root;
+    const double theta_d = BRDF_PI / 2 * (j + 0.5) / shape[1],
+                 phi_d = BRDF_PI * (k + 0.5) / shape[2];
+    const double d[3] = { sin(theta_d) * cos(phi_d), sin(theta_d) * sin(phi_d), cos(theta_d) };
+    const double h[3] = { sin(theta_h), 0, cos(theta_h) };
+    a[0] = h[2] * d[0] + h[0] * d[2];
+    a[1] = d[1];
+    a[2] = h[2] * d[2] - h[0] * d[0];
+    const double along = 2 * brdf_dot(a, h);
+    for (int c = 0; c < 3; c++)
+        b[c] = along * h[c] - a[c];
+    return a[2] > 0 && b[2] > 0;
+}
+
+static lmp_result check_header(const unsigned char *bytes, size_t size, int shape[3], size_t *cells,
+                               lmp_brdf_fault *fault) {
+    if (size < HEADER)
+        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, size,
+                             "a MERL file begins with 12 bytes of dimensions, this has %zu", size);
+    uint64_t product = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        const uint32_t n = brdf_load_u32(bytes + 4 * axis);
+        if (n < 1 || n > 1u << 20)
+            return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 4 * (size_t)axis,
+                                 "MERL dimension %d is %ld, not a sensible number of cells", axis,
+                                 (long)(int32_t)n);
+        shape[axis] = (int)n;
+        product *= n;
+    }
+    const uint64_t wanted = HEADER + 24 * product;
+    if (product > UINT64_C(1) << 40 || wanted != size)
+        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 0,
+                             "MERL dimensions %d x %d x %d need %llu bytes, the file has %zu",
+                             shape[0], shape[1], shape[2], (unsigned long long)wanted, size);
+    *cells = (size_t)product;
+    return LMP_OK;
+}
+
+lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, size_t size,
+                              lmp_brdf_fault *fault, lmp_brdf **brdf) {
+    *brdf = NULL;
+    const unsigned char *bytes = data;
+    int shape[3];
+    size_t cells = 0;
+    lmp_result result = check_header(bytes, size, shape, &cells, fault);
+    if (result != LMP_OK)
+        return result;
+    lmp_brdf *made = NULL;
+    result = lmp_brdf_new(allocator, LMP_BRDF_MERL, 3 * cells * sizeof(float), &made);
+    if (result != LMP_OK)
+        return lmp_brdf_fail(fault, result, 0, "no memory for %zu MERL cells", cells);
+    float *samples = lmp_brdf_extra(made);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < cells; i++) {
+            const size_t offset = HEADER + 8 * (c * cells + i);
+            const double value = brdf_load_f64(bytes + offset) * scale[c];
+            if (!(fabs(value) <= 3e38)) {
+                lmp_brdf_destroy(made);
+                return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset,
+                                     "MERL cell %zu of channel %zu is not a finite number", i, c);
+            }
+            samples[3 * i + c] = value > 0 ? (float)value : 0;
+        }
+    made->merl.samples = samples;
+    memcpy(made->merl.shape, shape, sizeof shape);
+    memcpy(made->info.shape, shape, sizeof shape);
+    made->info.measured = true;
+    made->info.rings = 256;
+    made->eval = eval_merl;
+    *brdf = made;
+    return LMP_OK;
+}
+
+lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *allocator, void **data,
+                               size_t *size) {
+    *size = LMP_MERL_SIZE;
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    unsigned char *bytes = *data = lmp_heap_allocate(&heap, *size);
+    if (!bytes)
+        return LMP_ERROR_MEMORY;
+    const size_t cells = (LMP_MERL_SIZE - HEADER) / 24;
+    for (int axis = 0; axis < 3; axis++)
+        brdf_store_u32(bytes + 4 * axis, (uint32_t)full_shape[axis]);
+    size_t n = 0;
+    for (int i = 0; i < full_shape[0]; i++)
+        for (int j = 0; j < full_shape[1]; j++)
+            for (int k = 0; k < full_shape[2]; k++, n++) {
+                double a[3], b[3], rgb[3] = { -1, -1, -1 };
+                if (cell_centre(full_shape, i, j, k, a, b))
+                    lmp_brdf_eval_double(brdf, a, b, rgb);
+                for (size_t c = 0; c < 3; c++)
+                    brdf_store_f64(bytes + HEADER + 8 * (c * cells + n),
+                                   rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
+            }
+    return LMP_OK;
+}

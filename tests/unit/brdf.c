@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: MIT */
+/* BRDFs: the parametric ones against their own laws, the file formats by round trips. */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/brdf.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PAIRS 10000
+
+static lmp_brdf *lambert(void) {
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 0.8f, 0.5f, 0.2f }, &brdf), LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf *phong(float exponent) {
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 0.5f, 0.25f }, exponent, &brdf),
+                     LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf *ggx(float alpha_x, float alpha_y) {
+    const lmp_ggx desc = { alpha_x, alpha_y, { 0.9f, 0.6f, 0.3f }, { 0.1f, 0.1f, 0.2f } };
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf *sgd(const char *name) {
+    lmp_sgd parameters;
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_sgd_find(name, &parameters), LMP_OK);
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_OK);
+    return brdf;
+}
+
+static lmp_vec3 random_upper(void) {
+    lmp_vec3 w = check_random_direction();
+    w.z = fabsf(w.z);
+    return w;
+}
+
+static double albedo(const lmp_brdf *brdf, double theta, int channel) {
+    enum { RINGS = 200, AZIMUTHS = 400 };
+    static double node[RINGS], weight[RINGS];
+    oracle_gauss_legendre(RINGS, node, weight);
+    const double wo[3] = { sin(theta), 0, cos(theta) };
+    double sum = 0;
+    for (int k = 0; k < RINGS; k++)
+        for (int j = 0; j < AZIMUTHS; j++) {
+            const double z = (1 + node[k]) / 2, s = sqrt(1 - z * z);
+            const double phi = 2 * ORACLE_PI * (j + 0.5) / AZIMUTHS;
+            const double wi[3] = { s * cos(phi), s * sin(phi), z };
+            double rgb[3];
+            lmp_brdf_eval_double(brdf, wi, wo, rgb);
+            sum += weight[k] / 2 * z * rgb[channel] * 2 * ORACLE_PI / AZIMUTHS;
+        }
+    return sum;
+}
+
+static void lambert_reflects_its_albedo(void **state) {
+    (void)state;
+    lmp_brdf *brdf = lambert();
+    CHECK_WITHIN(fabs(albedo(brdf, 0.7, 0) - (double)0.8f), 1e-12);
+    lmp_brdf_destroy(brdf);
+}
+
+static void phong_is_normalised_head_on(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(20);
+    CHECK_WITHIN(fabs(albedo(brdf, 0, 1) - 0.5), 1e-9);
+    lmp_brdf_destroy(brdf);
+}
+
+/* Heitz 2014: masking and distribution belong together, so a white GGX loses only what would need
+ * a second bounce. */
+static void rough_ggx_keeps_nearly_all_energy_when_smooth(void **state) {
+    (void)state;
+    const lmp_ggx desc = { 0.1f, 0, { 1, 1, 1 }, { 0, 0, 0 } };
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
+    const double share = albedo(brdf, 0.5, 0);
+    assert_true(share > 0.98 && share < 1.0);
+    lmp_brdf_destroy(brdf);
+}
+
+static void parametric_brdfs_are_reciprocal(void **state) {
+    (void)state;
+    lmp_brdf *const brdfs[] = { lambert(), phong(20), ggx(0.3f, 0), ggx(0.4f, 0.1f),
+                                sgd("gold-metallic-paint") };
+    for (size_t i = 0; i < 5; i++) {
+        for (int n = 0; n < 500; n++) {
+            const lmp_vec3 a = random_upper(), b = random_upper();
+            const lmp_rgb ab = lmp_brdf_eval(brdfs[i], a, b), ba = lmp_brdf_eval(brdfs[i], b, a);
+            CHECK_WITHIN(fabsf(ab.r - ba.r), 1e-6f * fmaxf(ab.r, 1e-3f));
+        }
+        lmp_brdf_destroy(brdfs[i]);
+    }
+}
+
+static void nothing_is_reflected_below_the_surface(void **state) {
+    (void)state;
+    lmp_brdf *brdf = lambert();
+    const lmp_vec3 up = { 0, 0, 1 }, down = { 0, 0.6f, -0.8f }, along = { 1, 0, 0 };
+    assert_true(lmp_brdf_eval(brdf, up, down).r == 0);
+    assert_true(lmp_brdf_eval(brdf, along, up).r == 0);
+    assert_true(lmp_brdf_eval(brdf, (lmp_vec3) { 0, 0, NAN }, up).r == 0);
+    lmp_brdf_destroy(brdf);
+}
+
+static void parameters_out_of_range_are_refused(void **state) {
+    (void)state;
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { -1, 0, 0 }, &brdf),
+                     LMP_ERROR_ARGUMENT);
+    assert_null(brdf);
+    assert_int_equal(lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 1, 1 }, NAN, &brdf),
+                     LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &(lmp_ggx) { .alpha_x = 0 }, &brdf),
+                     LMP_ERROR_ARGUMENT);
+    lmp_sgd parameters;
+    assert_int_equal(lmp_sgd_find("no-such-material", &parameters), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_sgd_find("", &parameters), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_sgd_find("fabric-beige", &parameters), LMP_OK);
+    parameters.alpha[1] = 0;
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_ERROR_ARGUMENT);
+    assert_null(brdf);
+}
+
+/* Of materials wide enough for this quadrature; numbers by another implementation. */
+static void sgd_materials_have_their_published_albedo(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        double degrees, rgb[3];
+    } rows[] = {
+        { "alum-bronze", 10, { 0.099, 0.080, 0.060 } },
+        { "alum-bronze", 75, { 0.211, 0.295, 0.181 } },
+        { "gold-metallic-paint", 10, { 0.226, 0.157, 0.050 } },
+        { "gold-metallic-paint", 75, { 0.118, 0.081, 0.038 } },
+        { "red-fabric", 45, { 0.225, 0.032, 0.014 } },
+        { "alum-bronze", 45, { 0.163, 0.124, 0.104 } },
+        { "white-paint", 75, { 1.419, 0.443, 0.356 } },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        lmp_brdf *brdf = sgd(rows[i].name);
+        for (int c = 0; c < 3; c++)
+            CHECK_WITHIN(fabs(albedo(brdf, rows[i].degrees * ORACLE_PI / 180, c) - rows[i].rgb[c]),
+                         1e-3 + 0.01 * rows[i].rgb[c]);
+        lmp_brdf_destroy(brdf);
+    }
+}
+
+static void every_sgd_material_is_finite_everywhere(void **state) {
+    (void)state;
+    size_t count = 0;
+    for (; lmp_sgd_name(count); count++) {
+        lmp_brdf *brdf = sgd(lmp_sgd_name(count));
+        for (int n = 0; n < 300; n++) {
+            lmp_vec3 a = random_upper(), b = random_upper();
+            if (n % 3 == 0)
+                a.z = 1e-6f;
+            const lmp_rgb f = lmp_brdf_eval(brdf, a, b);
+            assert_true(isfinite(f.r) && f.r >= 0 && isfinite(f.g) && f.g >= 0 && isfinite(f.b) &&
+                        f.b >= 0);
+        }
+        lmp_brdf_destroy(brdf);
+    }
+    assert_int_equal(count, 100);
+}
+
+/* --- round trips -------------------------------------------------------------------------------
+ */
+
+typedef lmp_result (*writer)(const lmp_brdf *, const lmp_allocator *, void **, size_t *);
+typedef lmp_result (*reader)(const lmp_allocator *, const void *, size_t, lmp_brdf_fault *,
+                             lmp_brdf **);
+
+static lmp_brdf *through(const lmp_brdf *brdf, writer write, reader read) {
+    void *data = NULL;
+    size_t size = 0;
+    lmp_brdf *copy = NULL;
+    lmp_brdf_fault fault = { 0 };
+    assert_int_equal(write(brdf, NULL, &data, &size), LMP_OK);
+    if (read(NULL, data, size, &fault, &copy) != LMP_OK)
+        fail_msg("%s", fault.text);
+    free(data);
+    return copy;
+}
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The median of |copy - original| / original (green) over random pairs. */
+static double median_error(const lmp_brdf *original, const lmp_brdf *copy) {
+    static double errors[PAIRS];
+    for (int n = 0; n < PAIRS; n++) {
+        const lmp_vec3 a = random_upper(), b = random_upper();
+        const double f = (double)lmp_brdf_eval(original, a, b).g;
+        const double g = (double)lmp_brdf_eval(copy, a, b).g;
+        assert_true(isfinite(g));
+        errors[n] = f == g ? 0 : fabs(g - f) / fmax(f, 1e-9);
+    }
+    qsort(errors, PAIRS, sizeof *errors, by_value);
+    return errors[PAIRS / 2];
+}
+
+static void round_trips(writer write, reader read, const double bounds[7]) {
+    lmp_brdf *const brdfs[] = { lambert(),
+                                phong(20),
+                                ggx(0.3f, 0),
+                                sgd("red-fabric"),
+                                sgd("gold-metallic-paint"),
+                                sgd("specular-blue-phenolic"),
+                                ggx(0.5f, 0.2f) };
+    for (size_t i = 0; i < 7; i++) {
+        if (bounds[i] > 0) {
+            lmp_brdf *copy = through(brdfs[i], write, read);
+            const double error = median_error(brdfs[i], copy);
+            print_message("median error %zu: %.2e\n", i, error);
+            CHECK_WITHIN(error, bounds[i]);
+            lmp_brdf_destroy(copy);
+        }
+        lmp_brdf_destroy(brdfs[i]);
+    }
+}
+
+static void merl_round_trips_to_its_cells(void **state) {
+    (void)state;
+    const double bounds[7] = { 1e-6, 3e-2, 3e-2, 1e-2, 3e-2, 1e-2, 0 };
+    round_trips(lmp_brdf_write_merl, lmp_brdf_read_merl, bounds);
+}
+
+static void rgl_round_trips_to_its_grid(void **state) {
+    (void)state;
+    const double bounds[7] = { 1e-2, 3e-2, 1e-2, 1e-2, 1e-2, 1e-2, 3e-2 };
+    round_trips(lmp_brdf_write_rgl, lmp_brdf_read_rgl, bounds);
+}
+
+/* --- bad bytes ---------------------------------------------------------------------------------
+ */
+
+/* A MERL file of 2 x 3 x 4 cells, each holding its number. */
+enum { SMALL_MERL = 12 + 24 * 24 };
+static void small_merl(unsigned char bytes[SMALL_MERL]) {
+    const int32_t shape[3] = { 2, 3, 4 };
+    memcpy(bytes, shape, sizeof shape);
+    for (int i = 0; i < 72; i++) {
+        const double value = i + 1;
+        memcpy(bytes + 12 + 8 * i, &value, sizeof value);
+    }
+}
+
+static void expect_fault(reader read, const void *data, size_t size, const char *text) {
+    lmp_brdf *brdf = NULL;
+    lmp_brdf_fault fault = { 0 };
+    assert_int_not_equal(read(NULL, data, size, &fault, &brdf), LMP_OK);
+    assert_null(brdf);
+    if (!strstr(fault.text, text))
+        fail_msg("'%s' does not say '%s'", fault.text, text);
+}
+
+static void merl_cells_read_exactly(void **state) {
+    (void)state;
+    unsigned char bytes[SMALL_MERL];
+    small_merl(bytes);
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_read_merl(NULL, bytes, sizeof bytes, NULL, &brdf), LMP_OK);
+    /* head on: theta_h = theta_d = 0, phi_d = 0: the first cell of each plane */
+    const lmp_rgb f = lmp_brdf_eval(brdf, (lmp_vec3) { 0, 0, 1 }, (lmp_vec3) { 0, 0, 1 });
+    CHECK_WITHIN(fabsf(f.r - 1.0f / 1500), 1e-9);
+    CHECK_WITHIN(fabsf(f.g - 25 * 1.15f / 1500), 1e-8);
+    CHECK_WITHIN(fabsf(f.b - 49 * 1.66f / 1500), 1e-8);
+    lmp_brdf_destroy(brdf);
+}
+
+static void damaged_merl_is_refused_with_its_reason(void **state) {
+    (void)state;
+    unsigned char bytes[SMALL_MERL];
+    small_merl(bytes);
+    expect_fault(lmp_brdf_read_merl, bytes, 11, "12 bytes");
+    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL - 1, "need 588 bytes");
+    const double nan = (double)NAN;
+    memcpy(bytes + 12 + 8 * 30, &nan, sizeof nan);
+    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "cell 6 of channel 1");
+    const int32_t zero = 0, huge = 0x7fffffff, negative = -90;
+    memcpy(bytes, &zero, 4);
+    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is 0");
+    memcpy(bytes, &huge, 4);
+    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0");
+    memcpy(bytes, &negative, 4);
+    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is -90");
+}
+
+static void negative_merl_cells_are_black(void **state) {
+    (void)state;
+    unsigned char bytes[SMALL_MERL];
+    small_merl(bytes);
+    const double negative = -1;
+    memcpy(bytes + 12, &negative, sizeof negative);
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_read_merl(NULL, bytes, sizeof bytes, NULL, &brdf), LMP_OK);
+    const lmp_rgb f = lmp_brdf_eval(brdf, (lmp_vec3) { 0, 0, 1 }, (lmp_vec3) { 0, 0, 1 });
+    assert_true(f.r == 0 && f.g > 0);
+    lmp_brdf_destroy(brdf);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lambert_reflects_its_albedo),
+        cmocka_unit_test(phong_is_normalised_head_on),
+        cmocka_unit_test(rough_ggx_keeps_nearly_all_energy_when_smooth),
+        cmocka_unit_test(parametric_brdfs_are_reciprocal),
+        cmocka_unit_test(nothing_is_reflected_below_the_surface),
+        cmocka_unit_test(parameters_out_of_range_are_refused),
+        cmocka_unit_test(sgd_materials_have_their_published_albedo),
+        cmocka_unit_test(every_sgd_material_is_finite_everywhere),
+        cmocka_unit_test(merl_round_trips_to_its_cells),
+        cmocka_unit_test(rgl_round_trips_to_its_grid),
+        cmocka_unit_test(merl_cells_read_exactly),
+        cmocka_unit_test(damaged_merl_is_refused_with_its_reason),
+        cmocka_unit_test(negative_merl_cells_are_black),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
