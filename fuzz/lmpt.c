@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* Lampion's tables, .lmpt. The checksum is put right, so that the rest of the reader is reached. */
+#include "src/brdf/table.h"
+
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void use(const lmp_brdf_table *table) {
+    float *rgb = malloc(3 * lmp_brdf_table_describe(table).count * sizeof *rgb);
+    if (!rgb)
+        return;
+    for (int i = 0; i < 4; i++)
+        lmp_brdf_table_view(table, (float)i / 3, (float)i - 1, rgb);
+    free(rgb);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    lmp_brdf_table *table;
+    lmp_brdf_fault fault;
+    lmp_result result = lmp_brdf_table_read(NULL, data, size, &fault, &table);
+    if (result == LMP_ERROR_CHECKSUM) {
+        unsigned char *sound = malloc(size);
+        if (!sound)
+            return 0;
+        memcpy(sound, data, size);
+        brdf_store_u32(sound + size - 4, lmp_brdf_checksum(sound, size - 4));
+        result = lmp_brdf_table_read(NULL, sound, size, &fault, &table);
+        free(sound);
+    }
+    if (result == LMP_OK)
+        use(table);
+    lmp_brdf_table_destroy(table);
+    return 0;
+}

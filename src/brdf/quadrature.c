@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/brdf/quadrature.h"
+#include "src/sh/quadrature.h"
+
+#include <math.h>
+
+/* Y_lm(z, phi = 0) for m >= 0, sqrt 2 and (-1)^m included (paper Eq. 1-2), in double: float tables
+ * would lose 100 bands. */
+static void legendre_ring(int bands, double z, double *row) {
+    const double s = sqrt((1 - z) * (1 + z));
+    double diagonal = sqrt(1 / (4 * BRDF_PI));
+    for (int m = 0; m < bands; m++) {
+        if (m > 0)
+            diagonal *= -s * (m == 1 ? sqrt(3) : sqrt((2 * m + 1.0) / (2 * m)));
+        double before = 0, value = diagonal;
+        for (int l = m; l < bands; l++) {
+            *row++ = value;
+            const double n = l + 1, span = n * n - (double)m * m;
+            const double back = (n - 1) * (n - 1) - (double)m * m;
+            const double b = back > 0 ? sqrt((2 * n + 1) * back / ((2 * n - 3) * span)) : 0;
+            const double next = sqrt((4 * n * n - 1) / span) * z * value - b * before;
+            before = value;
+            value = next;
+        }
+    }
+}
+
+lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int rings,
+                                      brdf_quadrature *quadrature) {
+    const size_t n = (size_t)bands, k = (size_t)rings, half = brdf_half_count(bands);
+    double *block = lmp_heap_allocate(heap, (2 * k + 4 * k * n + k * half) * sizeof *block);
+    if (!block)
+        return LMP_ERROR_MEMORY;
+    *quadrature = (brdf_quadrature) { .bands = bands,
+                                      .rings = rings,
+                                      .azimuths = 2 * rings,
+                                      .z = block,
+                                      .weight = block + k,
+                                      .cosine = block + 2 * k,
+                                      .sine = block + 2 * k + 2 * k * n,
+                                      .legendre = block + 2 * k + 4 * k * n,
+                                      .block = block };
+    for (size_t i = 0; i < k; i++) {
+        double node, weight;
+        lmp_gauss_legendre(rings, (int)i, &node, &weight);
+        const double z = quadrature->z[i] = (1 + node) / 2;
+        quadrature->weight[i] = weight / 2 * z * 2 * BRDF_PI / quadrature->azimuths;
+        legendre_ring(bands, z, quadrature->legendre + i * half);
+    }
+    for (size_t j = 0; j < 2 * k; j++)
+        for (size_t m = 0; m < n; m++) {
+            const double phi = BRDF_PI * (double)((2 * j + 1) * m % (4 * k)) / (double)(2 * k);
+            quadrature->cosine[j * n + m] = cos(phi);
+            quadrature->sine[j * n + m] = sin(phi);
+        }
+    return LMP_OK;
+}
+
+void lmp_brdf_quadrature_destroy(const lmp_allocator *heap, brdf_quadrature *quadrature) {
+    lmp_heap_release(heap, quadrature->block);
+    quadrature->block = NULL;
+}
+
+/* Σ_j f(phi_j) cos(m phi_j), and with sin, of one ring. */
+static void transform_ring(const brdf_projection *p, const brdf_quadrature *q, double z, int count,
+                           double cosine[3][LMP_BANDS_MAX], double sine[3][LMP_BANDS_MAX]) {
+    const double s = sqrt((1 - z) * (1 + z));
+    const int bands = q->bands;
+    memset(cosine, 0, 3 * sizeof *cosine);
+    memset(sine, 0, 3 * sizeof *sine);
+    for (int j = 0; j < count; j++) {
+        const double *c = q->cosine + (size_t)j * (size_t)bands;
+        const double *d = q->sine + (size_t)j * (size_t)bands;
+        /* the azimuth itself, for it is not in the table of one band */
+        const double phi = BRDF_PI * (2 * j + 1) / q->azimuths;
+        const double x = s * cos(phi), y = s * sin(phi);
+        const double light[3] = { p->turn[0] * x - p->turn[1] * y, p->turn[1] * x + p->turn[0] * y,
+                                  z };
+        double rgb[3];
+        p->brdf->eval(p->brdf, p->view, light, rgb);
+        for (int channel = 0; channel < 3; channel++) {
+            for (int m = 0; m < bands; m++)
+                cosine[channel][m] += rgb[channel] * c[m];
+            if (!p->mirrored)
+                for (int m = 1; m < bands; m++)
+                    sine[channel][m] += rgb[channel] * d[m];
+        }
+    }
+}
+
+void lmp_brdf_project_view(const brdf_projection *projection, const brdf_quadrature *quadrature,
+                           double *cosine, double *sine) {
+    const int bands = quadrature->bands;
+    const size_t half = brdf_half_count(bands);
+    const bool halved = projection->mirrored && projection->brdf->info.mirrored;
+    const int count = halved ? quadrature->azimuths / 2 : quadrature->azimuths;
+    memset(cosine, 0, 3 * half * sizeof *cosine);
+    if (!projection->mirrored)
+        memset(sine, 0, 3 * half * sizeof *sine);
+    for (int k = 0; k < quadrature->rings; k++) {
+        double ring_cosine[3][LMP_BANDS_MAX], ring_sine[3][LMP_BANDS_MAX];
+        transform_ring(projection, quadrature, quadrature->z[k], count, ring_cosine, ring_sine);
+        const double weight = quadrature->weight[k] * (halved ? 2 : 1);
+        for (size_t channel = 0; channel < 3; channel++) {
+            const double *q = quadrature->legendre + (size_t)k * half;
+            double *out_c = cosine + channel * half, *out_s = sine + channel * half;
+            for (int m = 0; m < bands; m++) {
+                const double c = weight * ring_cosine[channel][m];
+                const double s = weight * ring_sine[channel][m];
+                const int run = bands - m;
+                for (int l = 0; l < run; l++)
+                    out_c[l] += c * q[l];
+                if (!projection->mirrored)
+                    for (int l = 0; l < run; l++)
+                        out_s[l] += s * q[l];
+                q += run;
+                out_c += run;
+                out_s += run;
+            }
+        }
+    }
+}

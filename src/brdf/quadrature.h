@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* quadrature.h - projection of one view of a BRDF: Gauss-Legendre rings in z on [0, 1] times
+ * uniform azimuths, the transforms done one after the other (azimuth, then Legendre). */
+#ifndef LAMPION_BRDF_QUADRATURE_H
+#define LAMPION_BRDF_QUADRATURE_H
+
+#include "src/brdf/brdf.h"
+
+typedef struct brdf_quadrature {
+    int bands, rings, azimuths; /* azimuths = 2 rings, at half steps: symmetric under y -> -y */
+    double *z, *weight;         /* [rings]; the weight includes z and 2 pi / azimuths */
+    double *cosine, *sine;      /* [azimuths][bands]: of m phi */
+    double *legendre;           /* [rings][half_count]: Y_lm / cos(m phi), by m */
+    void *block;
+} brdf_quadrature;
+
+/* Coefficients with m >= 0. */
+static inline size_t brdf_half_count(int bands) {
+    return (size_t)bands * ((size_t)bands + 1) / 2;
+}
+
+/* Their place by m: for each m the entries l = m … bands-1 follow one another. */
+static inline size_t brdf_half_index(int bands, int l, int m) {
+    return (size_t)(m * bands - m * (m - 1) / 2 + l - m);
+}
+
+/* heap must be resolved. */
+lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int rings,
+                                      brdf_quadrature *quadrature);
+void lmp_brdf_quadrature_destroy(const lmp_allocator *heap, brdf_quadrature *quadrature);
+
+/* How a view is projected. */
+typedef struct brdf_projection {
+    const lmp_brdf *brdf;
+    double view[3], turn[2]; /* wo in the material's frame; cos and sin of the turn of wi's frame */
+    bool mirrored;           /* m >= 0 alone */
+} brdf_projection;
+
+/* cosine and sine parts: [channel][half_count], by m. sine is left alone if mirrored. */
+void lmp_brdf_project_view(const brdf_projection *projection, const brdf_quadrature *quadrature,
+                           double *cosine, double *sine);
+
+#endif

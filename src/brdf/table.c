@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/brdf/table.h"
+#include "src/brdf/quadrature.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define TOLERANCE_DEFAULT 1e-4f
+#define RINGS_MIN         16
+#define RINGS_DEFAULT     512
+#define RINGS_MAX         2048
+
+lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_table_info *info,
+                              lmp_brdf_table **table) {
+    *table = NULL;
+    const size_t count = info->mirrored ? brdf_half_count(info->bands) : LMP_SH_COUNT(info->bands);
+    const size_t head = (sizeof **table + 15) & ~(size_t)15;
+    const size_t floats = 3 * count * (size_t)info->views * (size_t)info->azimuths;
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    lmp_brdf_table *made = lmp_heap_allocate(&heap, head + floats * sizeof(float));
+    if (!made)
+        return LMP_ERROR_MEMORY;
+    made->allocator = heap;
+    made->info = *info;
+    made->info.count = count;
+    made->info.theta_step = (float)(BRDF_PI / 2 / (info->views - 0.5));
+    made->coefficients = (float *)(void *)((unsigned char *)made + head);
+    *table = made;
+    return LMP_OK;
+}
+
+void lmp_brdf_table_destroy(lmp_brdf_table *table) {
+    if (!table)
+        return;
+    const lmp_allocator heap = table->allocator;
+    lmp_heap_release(&heap, table);
+}
+
+lmp_brdf_table_info lmp_brdf_table_describe(const lmp_brdf_table *table) {
+    return table->info;
+}
+
+const float *lmp_brdf_table_coefficients(const lmp_brdf_table *table) {
+    return table->coefficients;
+}
+
+/* --- making ------------------------------------------------------------------------------------
+ */
+
+/* One doubling of the nodes over all views; task i is view i % views of azimuth i / views. */
+typedef struct table_job {
+    const lmp_brdf *brdf;
+    lmp_brdf_table *table;
+    const brdf_quadrature *quadrature;
+    float tolerance;
+    float *change; /* [azimuth][view]: at the last doubling; INFINITY before the first */
+    bool *failed;  /* [azimuth][view]: out of memory */
+    size_t first, end;
+} table_job;
+
+/* Writes a view's coefficients in the order of the table; returns the relative change. */
+static float store_view(const lmp_brdf_table_info *info, const double *cosine, const double *sine,
+                        float *row) {
+    const size_t half = brdf_half_count(info->bands);
+    double largest = 0, change = 0;
+    for (size_t channel = 0; channel < 3; channel++, row += info->count)
+        for (int l = 0; l < info->bands; l++)
+            for (int m = info->mirrored ? 0 : -l; m <= l; m++) {
+                const size_t from = channel * half + brdf_half_index(info->bands, l, abs(m));
+                const double value = m < 0 ? sine[from] : cosine[from];
+                float *to = row + (info->mirrored ? l * (l + 1) / 2 + m : l * l + l + m);
+                largest = fmax(largest, fabs(value));
+                change = fmax(change, fabs(value - (double)*to));
+                *to = (float)value;
+            }
+    return largest > 0 ? (float)(change / largest) : 0;
+}
+
+static void make_view(size_t task, void *data) {
+    const table_job *job = data;
+    const size_t index = job->first + task;
+    lmp_brdf_table *table = job->table;
+    const lmp_brdf_table_info *info = &table->info;
+    if (job->change[index] <= job->tolerance)
+        return;
+    const size_t half = brdf_half_count(info->bands);
+    double *parts = lmp_heap_allocate(&table->allocator, 6 * half * sizeof *parts);
+    if (!parts) {
+        job->failed[index] = true;
+        return;
+    }
+    const double theta = (double)info->theta_step * (double)(index % (size_t)info->views);
+    const double phi = 2 * BRDF_PI * (double)(index / (size_t)info->views) / (double)info->azimuths;
+    const brdf_projection projection = {
+        .brdf = job->brdf,
+        .view = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) },
+        .turn = { cos(phi), sin(phi) },
+        .mirrored = info->mirrored,
+    };
+    lmp_brdf_project_view(&projection, job->quadrature, parts, parts + 3 * half);
+    const float change =
+        store_view(info, parts, parts + 3 * half, table->coefficients + index * 3 * info->count);
+    job->change[index] = isinf(job->change[index]) ? 1e30f : change;
+    lmp_heap_release(&table->allocator, parts);
+}
+
+/* Runs the tasks in portions, so that progress comes from this thread alone. */
+static void run_portions(table_job *job, const lmp_brdf_table_desc *desc, double from, double to) {
+    const size_t total = (size_t)job->table->info.views * (size_t)job->table->info.azimuths;
+    const size_t portion = desc->progress ? 32 : total;
+    for (job->first = 0; job->first < total; job->first = job->end) {
+        job->end = job->first + portion < total ? job->first + portion : total;
+        if (desc->parallel)
+            desc->parallel(desc->user, job->end - job->first, make_view, job);
+        else
+            for (size_t i = 0; i < job->end - job->first; i++)
+                make_view(i, job);
+        if (desc->progress)
+            desc->progress(desc->user, from + (to - from) * (double)job->end / (double)total);
+    }
+}
+
+static float largest_change(const table_job *job, size_t total) {
+    float largest = 0;
+    for (size_t i = 0; i < total; i++)
+        largest = fmaxf(largest, job->change[i]);
+    return largest;
+}
+
+/* Doubles the nodes until no view changes by more than the tolerance. */
+static lmp_result refine(table_job *job, const lmp_brdf_table_desc *desc, int rings_max) {
+    lmp_brdf_table_info *info = &job->table->info;
+    const size_t total = (size_t)info->views * (size_t)info->azimuths;
+    int rings = 32;
+    while (rings < info->bands)
+        rings *= 2;
+    rings = rings < rings_max / 2 ? rings : rings_max / 2;
+    for (;;) {
+        brdf_quadrature quadrature;
+        const lmp_result result =
+            lmp_brdf_quadrature_create(&job->table->allocator, info->bands, rings, &quadrature);
+        if (result != LMP_OK)
+            return result;
+        job->quadrature = &quadrature;
+        /* each doubling costs four times the one before: a quarter of what is left */
+        const double share = (double)rings / rings_max;
+        run_portions(job, desc, share * share / 4, share * share);
+        lmp_brdf_quadrature_destroy(&job->table->allocator, &quadrature);
+        for (size_t i = 0; i < total; i++)
+            if (job->failed[i])
+                return LMP_ERROR_MEMORY;
+        info->rings = rings;
+        info->change = largest_change(job, total);
+        if (info->change <= job->tolerance || rings >= rings_max)
+            return LMP_OK;
+        rings = 2 * rings < rings_max ? 2 * rings : rings_max;
+    }
+}
+
+static void apply_window(lmp_brdf_table *table) {
+    const lmp_brdf_table_info *info = &table->info;
+    float weights[LMP_BANDS_MAX];
+    lmp_sh_window(info->window, info->bands, info->window_size, weights);
+    const size_t planes = 3 * (size_t)info->views * (size_t)info->azimuths;
+    float *value = table->coefficients;
+    for (size_t plane = 0; plane < planes; plane++)
+        for (int l = 0; l < info->bands; l++)
+            for (int i = 0; i < (info->mirrored ? l + 1 : 2 * l + 1); i++)
+                *value++ *= weights[l];
+}
+
+/* Whether mirroring an isotropic BRDF changes it by no more than measurement noise: 5 % on average
+ * over a fixed lattice of directions. */
+static bool is_nearly_mirrored(const lmp_brdf *brdf) {
+    double difference = 0, sum = 0;
+    for (int o = 1; o < 8; o++)
+        for (int i = 1; i < 8; i++)
+            for (int k = 1; k < 16; k++) {
+                const double theta_o = o * BRDF_PI / 16, theta_i = i * BRDF_PI / 16;
+                const double phi = k * BRDF_PI / 16;
+                const double view[3] = { sin(theta_o), 0, cos(theta_o) };
+                double light[3] = { sin(theta_i) * cos(phi), sin(theta_i) * sin(phi),
+                                    cos(theta_i) };
+                double left[3], right[3];
+                brdf->eval(brdf, view, light, left);
+                light[1] = -light[1];
+                brdf->eval(brdf, view, light, right);
+                for (int c = 0; c < 3; c++) {
+                    difference += fabs(left[c] - right[c]);
+                    sum += (left[c] + right[c]) / 2;
+                }
+            }
+    return difference <= 0.05 * sum;
+}
+
+static bool is_mirrored(const lmp_brdf *brdf, lmp_brdf_symmetry symmetry) {
+    if (brdf->info.anisotropic || symmetry == LMP_BRDF_SYMMETRY_NONE)
+        return false;
+    return symmetry == LMP_BRDF_SYMMETRY_MIRROR || brdf->info.mirrored || is_nearly_mirrored(brdf);
+}
+
+static bool within(int value, int minimum, int maximum) {
+    return value >= minimum && value <= maximum;
+}
+
+/* The desc with its defaults in place; false if a value is out of range. */
+static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
+    desc->bands = desc->bands ? desc->bands : LMP_BRDF_BANDS_DEFAULT;
+    desc->views = desc->views ? desc->views : LMP_BRDF_VIEWS_DEFAULT;
+    desc->azimuths = desc->azimuths ? desc->azimuths : LMP_BRDF_AZIMUTHS_DEFAULT;
+    desc->azimuths = brdf->info.anisotropic ? desc->azimuths : 1;
+    desc->tolerance = desc->tolerance != 0 ? desc->tolerance : TOLERANCE_DEFAULT;
+    if (!desc->rings_max) {
+        desc->rings_max = brdf->info.rings ? brdf->info.rings : RINGS_DEFAULT;
+        desc->rings_max = desc->rings_max > 2 * desc->bands ? desc->rings_max : 2 * desc->bands;
+    }
+    const bool azimuths = desc->azimuths == 1 ||
+                          (within(desc->azimuths, 4, BRDF_AZIMUTHS_MAX) && desc->azimuths % 2 == 0);
+    return within(desc->bands, 1, LMP_BANDS_MAX) && within(desc->views, 2, BRDF_VIEWS_MAX) &&
+           azimuths && desc->tolerance > 0 && within(desc->rings_max, RINGS_MIN, RINGS_MAX) &&
+           within((int)desc->window, LMP_WINDOW_NONE, LMP_WINDOW_LANCZOS) &&
+           within((int)desc->symmetry, LMP_BRDF_SYMMETRY_AUTO, LMP_BRDF_SYMMETRY_NONE) &&
+           desc->window_size >= 0 && isfinite(desc->window_size);
+}
+
+lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf *brdf,
+                                 const lmp_brdf_table_desc *desc, lmp_brdf_table **table) {
+    *table = NULL;
+    lmp_brdf_table_desc own = { .window = LMP_WINDOW_HANNING };
+    if (desc)
+        own = *desc;
+    if (!resolve(brdf, &own))
+        return LMP_ERROR_ARGUMENT;
+    const lmp_brdf_table_info info = {
+        .bands = own.bands,
+        .views = own.views,
+        .azimuths = own.azimuths,
+        .mirrored = is_mirrored(brdf, own.symmetry),
+        .window = own.window,
+        .window_size = own.window_size > 0 ? own.window_size : (float)own.bands,
+    };
+    lmp_brdf_table *made = NULL;
+    lmp_result result = lmp_brdf_table_new(allocator, &info, &made);
+    if (result != LMP_OK)
+        return result;
+    const size_t total = (size_t)own.views * (size_t)own.azimuths;
+    table_job job = { .brdf = brdf, .table = made, .tolerance = own.tolerance };
+    job.change = lmp_heap_allocate(&made->allocator, total * (sizeof(float) + sizeof(bool)));
+    if (job.change) {
+        job.failed = (bool *)(job.change + total);
+        for (size_t i = 0; i < total; i++) {
+            job.change[i] = INFINITY;
+            job.failed[i] = false;
+        }
+        result = refine(&job, &own, own.rings_max);
+        lmp_heap_release(&made->allocator, job.change);
+    } else
+        result = LMP_ERROR_MEMORY;
+    if (result != LMP_OK) {
+        lmp_brdf_table_destroy(made);
+        return result;
+    }
+    apply_window(made);
+    *table = made;
+    return LMP_OK;
+}
+
+lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf, lmp_vec3 wo,
+                            int bands, int rings, float *rgb) {
+    if (!within(bands, 1, LMP_BANDS_MAX) || !within(rings, 1, RINGS_MAX) || !(wo.z > 0))
+        return LMP_ERROR_ARGUMENT;
+    const double x = (double)wo.x, y = (double)wo.y, z = (double)wo.z;
+    const double length = sqrt(x * x + y * y + z * z);
+    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    const size_t half = brdf_half_count(bands);
+    brdf_quadrature quadrature;
+    const lmp_result result = lmp_brdf_quadrature_create(&heap, bands, rings, &quadrature);
+    if (result != LMP_OK)
+        return result;
+    double *parts = lmp_heap_allocate(&heap, 6 * half * sizeof *parts);
+    if (parts) {
+        const brdf_projection projection = {
+            .brdf = brdf,
+            .view = { x / length, y / length, z / length },
+            .turn = { 1, 0 },
+        };
+        lmp_brdf_project_view(&projection, &quadrature, parts, parts + 3 * half);
+        const lmp_brdf_table_info info = { .bands = bands, .count = LMP_SH_COUNT(bands) };
+        store_view(&info, parts, parts + 3 * half, rgb);
+        lmp_heap_release(&heap, parts);
+    }
+    lmp_brdf_quadrature_destroy(&heap, &quadrature);
+    return parts ? LMP_OK : LMP_ERROR_MEMORY;
+}
+
+/* --- reading -----------------------------------------------------------------------------------
+ */
+
+/* Four neighbours and their weights (Catmull-Rom), t in 0 … 1 from the second to the third. */
+static void cubic_weights(float t, float weights[4]) {
+    const float t2 = t * t, t3 = t2 * t;
+    weights[0] = (-t3 + 2 * t2 - t) / 2;
+    weights[1] = (3 * t3 - 5 * t2 + 2) / 2;
+    weights[2] = (-3 * t3 + 4 * t2 + t) / 2;
+    weights[3] = (t3 - t2) / 2;
+}
+
+/* Adds weight * the row of a view to rgb, odd m negated if `turned`. */
+static void add_row(const lmp_brdf_table *table, int azimuth, int view, float weight, bool turned,
+                    float *rgb) {
+    const lmp_brdf_table_info *info = &table->info;
+    const float *row = table->coefficients +
+                       ((size_t)azimuth * (size_t)info->views + (size_t)view) * 3 * info->count;
+    if (!turned) {
+        for (size_t i = 0; i < 3 * info->count; i++)
+            rgb[i] += weight * row[i];
+        return;
+    }
+    for (int channel = 0; channel < 3; channel++)
+        for (int l = 0; l < info->bands; l++)
+            for (int m = info->mirrored ? 0 : -l; m <= l; m++)
+                *rgb++ += (m & 1 ? -weight : weight) * *row++;
+}
+
+/* One azimuth's share. Past the pole the view goes on at the opposite azimuth, in a frame turned by
+ * pi; past the last view the table is continued linearly. */
+static void add_azimuth(const lmp_brdf_table *table, float theta, int azimuth, float weight,
+                        float *rgb) {
+    const lmp_brdf_table_info *info = &table->info;
+    const int last = info->views - 1;
+    const float place = fminf(theta / info->theta_step, (float)last);
+    const int first = (int)place < last ? (int)place : last - 1;
+    float weights[4];
+    cubic_weights(place - (float)first, weights);
+    if (first + 2 > last) {
+        weights[2] += 2 * weights[3];
+        weights[1] -= weights[3];
+        weights[3] = 0;
+    }
+    for (int k = 0; k < 4; k++) {
+        const int view = first - 1 + k;
+        if (weights[k] == 0)
+            continue;
+        if (view >= 0)
+            add_row(table, azimuth, view, weight * weights[k], false, rgb);
+        else
+            add_row(table, (azimuth + info->azimuths / 2) % info->azimuths, 1, weight * weights[k],
+                    true, rgb);
+    }
+}
+
+void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float phi_o, float *rgb) {
+    const lmp_brdf_table_info *info = &table->info;
+    const float theta = acosf(fminf(fmaxf(cos_theta_o, 0), 1));
+    memset(rgb, 0, 3 * info->count * sizeof *rgb);
+    if (info->azimuths == 1) {
+        add_azimuth(table, theta, 0, 1, rgb);
+        return;
+    }
+    const float turns = phi_o / (float)(2 * BRDF_PI);
+    const float place = (turns - floorf(turns)) * (float)info->azimuths;
+    const int first = (int)place;
+    float weights[4];
+    cubic_weights(place - (float)first, weights);
+    for (int k = 0; k < 4; k++)
+        add_azimuth(table, theta, (first - 1 + k + info->azimuths) % info->azimuths, weights[k],
+                    rgb);
+}
+
+void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, lmp_rgb *measured,
+                           lmp_rgb *series) {
+    const lmp_brdf_table_info *info = &table->info;
+    const float *row = table->coefficients +
+                       ((size_t)azimuth * (size_t)info->views + (size_t)view) * 3 * info->count;
+    double whole[3], upper[3];
+    for (int channel = 0; channel < 3; channel++, row += info->count) {
+        whole[channel] = sqrt(4 * BRDF_PI) * (double)row[0];
+        upper[channel] = sqrt(BRDF_PI) * (double)row[0];
+        /* the hemisphere's coefficients: pi R_l(0) Y_l0 of odd l, R_l(0) = -R_(l-2)(0) (l-2)/(l+1)
+         */
+        double r = 1;
+        for (int l = 1; l < info->bands; l += 2) {
+            if (l > 1)
+                r *= -(l - 2.0) / (l + 1);
+            const float value = row[info->mirrored ? l * (l + 1) / 2 : l * l + l];
+            upper[channel] += BRDF_PI * r * sqrt((2 * l + 1) / (4 * BRDF_PI)) * (double)value;
+        }
+    }
+    *measured = (lmp_rgb) { (float)whole[0], (float)whole[1], (float)whole[2] };
+    *series = (lmp_rgb) { (float)upper[0], (float)upper[1], (float)upper[2] };
+}

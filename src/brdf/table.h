@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* table.h - the inside of a table, for its maker, its file format and its reader. */
+#ifndef LAMPION_BRDF_TABLE_H
+#define LAMPION_BRDF_TABLE_H
+
+#include "src/brdf/brdf.h"
+
+#define BRDF_VIEWS_MAX    1024
+#define BRDF_AZIMUTHS_MAX 256
+
+struct lmp_brdf_table {
+    lmp_allocator allocator;
+    lmp_brdf_table_info info;
+    float *coefficients; /* [azimuth][view][channel][count] */
+};
+
+/* A table of the shape in info (bands, views, azimuths, mirrored); sets what follows from it. */
+lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_table_info *info,
+                              lmp_brdf_table **table);
+
+/* CRC-32C (Castagnoli) of bytes. */
+uint32_t lmp_brdf_checksum(const unsigned char *bytes, size_t size);
+
+#endif

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: MIT */
+/* Tables of BRDFs: projection against the vector files and laws, the file format by round trips. */
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/brdf.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static lmp_brdf *white(void) {
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 1, 1, 1 }, &brdf), LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf *phong(float exponent) {
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 0.5f, 0.25f }, exponent, &brdf),
+                     LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf *brushed(void) {
+    const lmp_ggx desc = { 0.6f, 0.3f, { 0.9f, 0.6f, 0.3f }, { 0.1f, 0.1f, 0.2f } };
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
+    return brdf;
+}
+
+/* The m >= 0 coefficients of the red plane, l outer, against a row of a vector file; those of m < 0
+ * must vanish. */
+static double error_of_row(const float *sh, const double expected[55]) {
+    float half[55];
+    double odd = 0;
+    for (int l = 0; l < 10; l++)
+        for (int m = 0; m <= l; m++) {
+            half[l * (l + 1) / 2 + m] = sh[LMP_SH_INDEX(l, m)];
+            if (m > 0)
+                odd = fmax(odd, fabs((double)sh[LMP_SH_INDEX(l, -m)]));
+        }
+    return fmax(odd, check_error(55, expected, half));
+}
+
+static lmp_vec3 view_at(double theta) {
+    return (lmp_vec3) { (float)sin(theta), 0, (float)cos(theta) };
+}
+
+static void lambert_matches_the_vectors(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("lambert_brdf_table.csv");
+    if (!csv)
+        return;
+    lmp_brdf *brdf = white();
+    for (int row = 0; row < csv->rows; row++) {
+        double expected[55];
+        float sh[300];
+        check_csv_numbers(csv, row, 1, 55, expected);
+        const lmp_vec3 view = view_at(check_csv_number(csv, row, 0));
+        assert_int_equal(lmp_brdf_project(NULL, brdf, view, 10, 16, sh), LMP_OK);
+        CHECK_WITHIN(error_of_row(sh, expected), 2e-7);
+    }
+    lmp_brdf_destroy(brdf);
+    check_csv_close(csv);
+}
+
+static void phong_matches_the_vectors(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("phong_brdf_table.csv");
+    if (!csv)
+        return;
+    for (int row = 0; row < csv->rows; row++) {
+        double expected[55];
+        float sh[300];
+        check_csv_numbers(csv, row, 2, 55, expected);
+        const double exponent = check_csv_number(csv, row, 0);
+        lmp_brdf *brdf = phong((float)exponent);
+        const lmp_vec3 view = view_at(check_csv_number(csv, row, 1));
+        assert_int_equal(lmp_brdf_project(NULL, brdf, view, 10, 128, sh), LMP_OK);
+        /* the clamp of a wide lobe is an edge that quadrature finds slowly */
+        CHECK_WITHIN(error_of_row(sh, expected), exponent < 10 ? 3e-5 : 2e-6);
+        lmp_brdf_destroy(brdf);
+    }
+    check_csv_close(csv);
+}
+
+static void tables_hold_the_projection_of_each_view(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(20);
+    lmp_brdf_table *table = NULL;
+    const lmp_brdf_table_desc desc = { .bands = 12, .views = 7 };
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    assert_true(info.mirrored && info.azimuths == 1 && info.count == 78);
+    assert_true(info.change <= 1e-4f);
+    for (int view = 0; view < 7; view++) {
+        float sh[3 * 144];
+        const lmp_vec3 wo = view_at(view * (double)info.theta_step);
+        assert_int_equal(lmp_brdf_project(NULL, brdf, wo, 12, 256, sh), LMP_OK);
+        const float *row = lmp_brdf_table_coefficients(table) + (size_t)view * 3 * info.count;
+        for (int l = 0; l < 12; l++)
+            for (int m = 0; m <= l; m++)
+                for (int c = 0; c < 3; c++)
+                    CHECK_WITHIN(fabsf(row[(size_t)c * 78 + (size_t)(l * (l + 1) / 2 + m)] -
+                                       sh[(size_t)c * 144 + LMP_SH_INDEX(l, m)]),
+                                 1e-4);
+    }
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
+static void white_furnace_lambert_reflects_all(void **state) {
+    (void)state;
+    lmp_brdf *brdf = white();
+    lmp_brdf_table *table = NULL;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, NULL, &table), LMP_OK);
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    assert_int_equal(info.bands, 10);
+    assert_int_equal(info.window, LMP_WINDOW_HANNING);
+    for (int view = 0; view < info.views; view++) {
+        lmp_rgb measured, series;
+        lmp_brdf_table_albedo(table, view, 0, &measured, &series);
+        CHECK_WITHIN(fabsf(measured.g - 1), 1e-6);
+        /* what the cut series leaks below the horizon */
+        CHECK_WITHIN(fabsf(series.g - 1), 2e-2);
+    }
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
+/* The window of the paper weakens each band as lmp_sh_window says. */
+static void windows_scale_the_bands(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(10);
+    lmp_brdf_table *plain = NULL, *windowed = NULL;
+    lmp_brdf_table_desc desc = { .bands = 8, .views = 3 };
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &plain), LMP_OK);
+    desc.window = LMP_WINDOW_LANCZOS;
+    desc.window_size = 9;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &windowed), LMP_OK);
+    float weights[8];
+    lmp_sh_window(LMP_WINDOW_LANCZOS, 8, 9, weights);
+    const float *a = lmp_brdf_table_coefficients(plain), *b = lmp_brdf_table_coefficients(windowed);
+    for (int plane = 0; plane < 9; plane++)
+        for (int l = 0; l < 8; l++)
+            for (int m = 0; m <= l; m++, a++, b++)
+                CHECK_WITHIN(fabsf(*a * weights[l] - *b), 1e-7);
+    lmp_brdf_table_destroy(plain);
+    lmp_brdf_table_destroy(windowed);
+    lmp_brdf_destroy(brdf);
+}
+
+/* The largest error of interpolated coefficients over views off the nodes, relative to the largest
+ * coefficient. */
+static double interpolation_error(const lmp_brdf *brdf, int views, int azimuths, double phi) {
+    lmp_brdf_table *table = NULL;
+    const lmp_brdf_table_desc desc = {
+        .bands = 10, .views = views, .azimuths = azimuths, .symmetry = LMP_BRDF_SYMMETRY_NONE
+    };
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    float matrices[LMP_SH_ROTATION_COUNT(10)], sh[300], turned[300], rgb[300];
+    const lmp_quat back = { 0, 0, (float)sin(-phi / 2), (float)cos(phi / 2) };
+    lmp_sh_rotation(10, back, matrices);
+    double worst = 0, largest = 0;
+    for (int n = 0; n < 40; n++) {
+        const double theta = 0.01 + 1.45 * n / 39;
+        const lmp_vec3 wo = { (float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
+                              (float)cos(theta) };
+        assert_int_equal(lmp_brdf_project(NULL, brdf, wo, 10, 128, sh), LMP_OK);
+        for (int c = 0; c < 3; c++)
+            lmp_sh_rotate(10, matrices, sh + 100 * c, turned + 100 * c);
+        lmp_brdf_table_view(table, (float)cos(theta), (float)phi, rgb);
+        for (int i = 0; i < 300; i++) {
+            worst = fmax(worst, fabs((double)rgb[i] - (double)turned[i]));
+            largest = fmax(largest, fabs((double)turned[i]));
+        }
+    }
+    lmp_brdf_table_destroy(table);
+    return worst / largest;
+}
+
+static void views_between_nodes_are_smooth(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(60);
+    CHECK_WITHIN(interpolation_error(brdf, 64, 0, 0), 2e-4);
+    CHECK_WITHIN(interpolation_error(brdf, 64, 0, 2.5), 2e-4);
+    lmp_brdf_destroy(brdf);
+}
+
+/* An anisotropic table read at any azimuth is the projection in the material's frame, turned. */
+static void anisotropic_tables_turn_with_the_view(void **state) {
+    (void)state;
+    lmp_brdf *brdf = brushed();
+    CHECK_WITHIN(interpolation_error(brdf, 24, 24, 0), 1e-2);
+    CHECK_WITHIN(interpolation_error(brdf, 24, 24, 0.63), 1e-2);
+    CHECK_WITHIN(interpolation_error(brdf, 24, 24, -2.2), 1e-2);
+    lmp_brdf_destroy(brdf);
+}
+
+/* Turning an anisotropic lobe about the normal rotates its coefficients. */
+static void turned_lobes_have_rotated_coefficients(void **state) {
+    (void)state;
+    const lmp_ggx along = { 0.6f, 0.3f, { 1, 1, 1 }, { 0, 0, 0 } };
+    const lmp_ggx across = { 0.3f, 0.6f, { 1, 1, 1 }, { 0, 0, 0 } };
+    lmp_brdf *a = NULL, *b = NULL;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &along, &a), LMP_OK);
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &across, &b), LMP_OK);
+    float sh_a[300], sh_b[300], turned[100], matrices[LMP_SH_ROTATION_COUNT(10)];
+    assert_int_equal(lmp_brdf_project(NULL, a, (lmp_vec3) { 0.6f, 0, 0.8f }, 10, 128, sh_a),
+                     LMP_OK);
+    assert_int_equal(lmp_brdf_project(NULL, b, (lmp_vec3) { 0, 0.6f, 0.8f }, 10, 128, sh_b),
+                     LMP_OK);
+    lmp_sh_rotation(10, (lmp_quat) { 0, 0, sqrtf(0.5f), sqrtf(0.5f) }, matrices);
+    lmp_sh_rotate(10, matrices, sh_a, turned);
+    for (int i = 0; i < 100; i++)
+        CHECK_WITHIN(fabsf(turned[i] - sh_b[i]), 2e-6);
+    lmp_brdf_destroy(a);
+    lmp_brdf_destroy(b);
+}
+
+/* --- hooks -------------------------------------------------------------------------------------
+ */
+
+typedef struct hooks {
+    int calls;
+    double done;
+} hooks;
+
+static void backwards(void *user, size_t count, void (*task)(size_t, void *), void *data) {
+    ((hooks *)user)->calls++;
+    for (size_t i = count; i > 0; i--)
+        task(i - 1, data);
+}
+
+static void note_progress(void *user, double done) {
+    hooks *own = user;
+    assert_true(done >= own->done && done <= 1);
+    own->done = done;
+}
+
+static void any_order_of_tasks_makes_the_same_table(void **state) {
+    (void)state;
+    hooks own = { 0 };
+    lmp_brdf *brdf = phong(30);
+    lmp_brdf_table *serial = NULL, *shuffled = NULL;
+    lmp_brdf_table_desc desc = { .bands = 6, .views = 40 };
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &serial), LMP_OK);
+    desc.parallel = backwards;
+    desc.progress = note_progress;
+    desc.user = &own;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &shuffled), LMP_OK);
+    assert_true(own.calls > 0 && own.done > 0);
+    assert_memory_equal(lmp_brdf_table_coefficients(serial), lmp_brdf_table_coefficients(shuffled),
+                        40 * 3 * 21 * sizeof(float));
+    lmp_brdf_table_destroy(serial);
+    lmp_brdf_table_destroy(shuffled);
+    lmp_brdf_destroy(brdf);
+}
+
+static void every_failing_allocation_is_reported(void **state) {
+    (void)state;
+    lmp_brdf *brdf = brushed();
+    const lmp_brdf_table_desc desc = { .bands = 3, .views = 2, .azimuths = 4, .rings_max = 16 };
+    for (int refuse = 0;; refuse++) {
+        check_heap heap = { .refuse = refuse };
+        const lmp_allocator allocator = check_allocator(&heap);
+        lmp_brdf_table *table = NULL;
+        const lmp_result result = lmp_brdf_table_create(&allocator, brdf, &desc, &table);
+        lmp_brdf_table_destroy(table);
+        assert_int_equal(heap.live, 0);
+        if (result == LMP_OK)
+            break;
+        assert_int_equal(result, LMP_ERROR_MEMORY);
+        assert_true(refuse < 1000);
+    }
+    lmp_brdf_destroy(brdf);
+}
+
+static void descriptions_out_of_range_are_refused(void **state) {
+    (void)state;
+    lmp_brdf *brdf = white();
+    const lmp_brdf_table_desc descs[] = {
+        { .bands = 129 },       { .bands = -1 },
+        { .views = 1 },         { .views = 1025 },
+        { .window_size = NAN }, { .tolerance = -1 },
+        { .rings_max = 8 },     { .window = (lmp_window)9 },
+    };
+    for (size_t i = 0; i < sizeof descs / sizeof *descs; i++) {
+        lmp_brdf_table *table = NULL;
+        assert_int_equal(lmp_brdf_table_create(NULL, brdf, &descs[i], &table), LMP_ERROR_ARGUMENT);
+        assert_null(table);
+    }
+    lmp_brdf_destroy(brdf);
+}
+
+/* --- .lmpt -------------------------------------------------------------------------------------
+ */
+
+static unsigned char *written(const lmp_brdf *brdf, const lmp_brdf_table_desc *desc, size_t *size) {
+    lmp_brdf_table *table = NULL;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, desc, &table), LMP_OK);
+    *size = lmp_brdf_table_size(table);
+    unsigned char *bytes = malloc(*size);
+    assert_non_null(bytes);
+    lmp_brdf_table_write(table, bytes);
+    lmp_brdf_table_destroy(table);
+    return bytes;
+}
+
+static void files_of_tables_round_trip(void **state) {
+    (void)state;
+    lmp_brdf *const brdfs[] = { phong(5), brushed() };
+    for (int i = 0; i < 2; i++) {
+        const lmp_brdf_table_desc desc = {
+            .bands = 4, .views = 5, .azimuths = 6, .window = LMP_WINDOW_HANNING, .rings_max = 64
+        };
+        size_t size = 0;
+        unsigned char *bytes = written(brdfs[i], &desc, &size);
+        lmp_brdf_table *copy = NULL;
+        lmp_brdf_fault fault = { 0 };
+        assert_int_equal(lmp_brdf_table_read(NULL, bytes, size, &fault, &copy), LMP_OK);
+        const lmp_brdf_table_info info = lmp_brdf_table_describe(copy);
+        assert_int_equal(info.azimuths, i == 0 ? 1 : 6);
+        assert_int_equal(info.window, LMP_WINDOW_HANNING);
+        assert_true(info.window_size == 4);
+        assert_int_equal(lmp_brdf_table_size(copy), size);
+        unsigned char *again = malloc(size);
+        assert_non_null(again);
+        lmp_brdf_table_write(copy, again);
+        assert_memory_equal(bytes, again, size);
+        free(again);
+        free(bytes);
+        lmp_brdf_table_destroy(copy);
+        lmp_brdf_destroy(brdfs[i]);
+    }
+}
+
+static void damaged_tables_are_refused_with_their_reason(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(5);
+    const lmp_brdf_table_desc desc = { .bands = 3, .views = 3 };
+    size_t size = 0;
+    unsigned char *bytes = written(brdf, &desc, &size);
+    const struct {
+        size_t offset, size;
+        unsigned char value;
+        lmp_result result;
+        const char *text;
+    } damages[] = {
+        { 0, size, 'X', LMP_ERROR_FORMAT, "not a Lampion table" },
+        { 8, size, 2, LMP_ERROR_VERSION, "version 2" },
+        { 12, size, 0, LMP_ERROR_FORMAT, "bands is 0" },
+        { 13, size, 1, LMP_ERROR_FORMAT, "bands is 259" },
+        { 16, size, 4, LMP_ERROR_FORMAT, "need" },
+        { 20, size, 3, LMP_ERROR_FORMAT, "azimuths is 3" },
+        { 60, size, 1, LMP_ERROR_CHECKSUM, "checksum" },
+        { size - 1, size, 0x55, LMP_ERROR_CHECKSUM, "checksum" },
+        { 0, size - 4, 'L', LMP_ERROR_FORMAT, "the file has" },
+        { 0, 20, 'L', LMP_ERROR_FORMAT, "not a Lampion table" },
+    };
+    for (size_t i = 0; i < sizeof damages / sizeof *damages; i++) {
+        const unsigned char before = bytes[damages[i].offset];
+        bytes[damages[i].offset] = damages[i].value;
+        lmp_brdf_table *table = NULL;
+        lmp_brdf_fault fault = { 0 };
+        assert_int_equal(lmp_brdf_table_read(NULL, bytes, damages[i].size, &fault, &table),
+                         damages[i].result);
+        assert_null(table);
+        if (!strstr(fault.text, damages[i].text))
+            fail_msg("'%s' does not say '%s'", fault.text, damages[i].text);
+        bytes[damages[i].offset] = before;
+    }
+    free(bytes);
+    lmp_brdf_destroy(brdf);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lambert_matches_the_vectors),
+        cmocka_unit_test(phong_matches_the_vectors),
+        cmocka_unit_test(tables_hold_the_projection_of_each_view),
+        cmocka_unit_test(white_furnace_lambert_reflects_all),
+        cmocka_unit_test(windows_scale_the_bands),
+        cmocka_unit_test(views_between_nodes_are_smooth),
+        cmocka_unit_test(anisotropic_tables_turn_with_the_view),
+        cmocka_unit_test(turned_lobes_have_rotated_coefficients),
+        cmocka_unit_test(any_order_of_tasks_makes_the_same_table),
+        cmocka_unit_test(every_failing_allocation_is_reported),
+        cmocka_unit_test(descriptions_out_of_range_are_refused),
+        cmocka_unit_test(files_of_tables_round_trip),
+        cmocka_unit_test(damaged_tables_are_refused_with_their_reason),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
