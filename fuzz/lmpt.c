@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         if (!sound)
             return 0;
         memcpy(sound, data, size);
-        brdf_store_u32(sound + size - 4, lmp_brdf_checksum(sound, size - 4));
+        lmp_bytes_store_u32(sound + size - 4, lmp_bytes_checksum(sound, size - 4));
         result = lmp_brdf_table_read(NULL, sound, size, &fault, &table);
         free(sound);
     }

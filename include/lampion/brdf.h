@@ -131,11 +131,6 @@ LMP_API lmp_result lmp_brdf_write_rgl(const lmp_brdf *brdf, const lmp_allocator 
 /* --- tables ------------------------------------------------------------------------------------
  */
 
-/* Runs task(index, data) for every index below count, in any order, on any threads, and returns
- * when all are done. */
-typedef void (*lmp_parallel)(void *user, size_t count, void (*task)(size_t index, void *data),
-                             void *data);
-
 typedef enum lmp_brdf_symmetry {
     LMP_BRDF_SYMMETRY_AUTO = 0, /* mirrored where the BRDF is so, exactly or to its own noise */
     LMP_BRDF_SYMMETRY_MIRROR,   /* m >= 0 alone: averages f_r with its mirror image */

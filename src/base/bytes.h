@@ -21,22 +21,50 @@ static inline unsigned char *lmp_bytes_store_f32(unsigned char *to, float value)
     memcpy(&bits, &value, sizeof bits);
     return lmp_bytes_store_u32(to, bits);
 }
+static inline unsigned char *lmp_bytes_store_u64(unsigned char *to, uint64_t value) {
+    return lmp_bytes_store_u32(lmp_bytes_store_u32(to, (uint32_t)value), (uint32_t)(value >> 32));
+}
+static inline unsigned char *lmp_bytes_store_f64(unsigned char *to, double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return lmp_bytes_store_u64(to, bits);
+}
 
-/* Each reads at *from and moves it on. */
-static inline uint16_t lmp_bytes_load_u16(const unsigned char **from) {
-    const unsigned char *p = *from;
-    *from += 2;
+/* Each reads in place. */
+static inline uint16_t lmp_bytes_at_u16(const unsigned char *p) {
     return (uint16_t)(p[0] | p[1] << 8);
 }
-static inline uint32_t lmp_bytes_load_u32(const unsigned char **from) {
-    const uint32_t low = lmp_bytes_load_u16(from);
-    return low | (uint32_t)lmp_bytes_load_u16(from) << 16;
+static inline uint32_t lmp_bytes_at_u32(const unsigned char *p) {
+    return lmp_bytes_at_u16(p) | (uint32_t)lmp_bytes_at_u16(p + 2) << 16;
 }
-static inline float lmp_bytes_load_f32(const unsigned char **from) {
-    const uint32_t bits = lmp_bytes_load_u32(from);
+static inline uint64_t lmp_bytes_at_u64(const unsigned char *p) {
+    return lmp_bytes_at_u32(p) | (uint64_t)lmp_bytes_at_u32(p + 4) << 32;
+}
+static inline float lmp_bytes_at_f32(const unsigned char *p) {
+    const uint32_t bits = lmp_bytes_at_u32(p);
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;
+}
+static inline double lmp_bytes_at_f64(const unsigned char *p) {
+    const uint64_t bits = lmp_bytes_at_u64(p);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Each reads at *from and moves it on. */
+static inline uint16_t lmp_bytes_load_u16(const unsigned char **from) {
+    *from += 2;
+    return lmp_bytes_at_u16(*from - 2);
+}
+static inline uint32_t lmp_bytes_load_u32(const unsigned char **from) {
+    *from += 4;
+    return lmp_bytes_at_u32(*from - 4);
+}
+static inline float lmp_bytes_load_f32(const unsigned char **from) {
+    *from += 4;
+    return lmp_bytes_at_f32(*from - 4);
 }
 
 /* CRC-32C (Castagnoli), eight bytes a step. */

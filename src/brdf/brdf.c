@@ -2,8 +2,6 @@
 #include "src/brdf/brdf.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 
 lmp_result lmp_brdf_new(const lmp_allocator *allocator, lmp_brdf_kind kind, size_t extra,
                         lmp_brdf **brdf) {
@@ -32,18 +30,6 @@ void lmp_brdf_destroy(lmp_brdf *brdf) {
 
 lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf) {
     return brdf->info;
-}
-
-lmp_result lmp_brdf_fail(lmp_brdf_fault *fault, lmp_result result, size_t offset,
-                         const char *format, ...) {
-    if (fault) {
-        fault->offset = offset;
-        va_list list;
-        va_start(list, format);
-        vsnprintf(fault->text, sizeof fault->text, format, list);
-        va_end(list);
-    }
-    return result;
 }
 
 void lmp_brdf_half(const double a[3], const double b[3], double h[3]) {

@@ -5,9 +5,10 @@
 
 #include <lampion/brdf.h>
 
+#include "src/base/bytes.h"
 #include "src/base/heap.h"
 
-#include <string.h>
+#include <stdarg.h>
 
 #define BRDF_PI 3.14159265358979323846
 
@@ -67,47 +68,12 @@ static inline void *lmp_brdf_extra(lmp_brdf *brdf) {
     return (unsigned char *)brdf + ((sizeof *brdf + 15) & ~(size_t)15);
 }
 
-/* Fills the fault (may be NULL) and returns `result`. */
+/* Fills the fault (may be NULL) and returns `result`. The format knows %s, %d and %zu. */
 lmp_result lmp_brdf_fail(lmp_brdf_fault *fault, lmp_result result, size_t offset,
                          const char *format, ...) __attribute__((format(printf, 4, 5)));
-
-/* Little-endian loads and stores, wherever they lie. */
-static inline uint32_t brdf_load_u32(const unsigned char *p) {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-static inline uint64_t brdf_load_u64(const unsigned char *p) {
-    return brdf_load_u32(p) | (uint64_t)brdf_load_u32(p + 4) << 32;
-}
-static inline float brdf_load_f32(const unsigned char *p) {
-    const uint32_t bits = brdf_load_u32(p);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-static inline double brdf_load_f64(const unsigned char *p) {
-    const uint64_t bits = brdf_load_u64(p);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-static inline unsigned char *brdf_store_u32(unsigned char *p, uint32_t value) {
-    for (int k = 0; k < 4; k++)
-        p[k] = (unsigned char)(value >> 8 * k);
-    return p + 4;
-}
-static inline unsigned char *brdf_store_u64(unsigned char *p, uint64_t value) {
-    return brdf_store_u32(brdf_store_u32(p, (uint32_t)value), (uint32_t)(value >> 32));
-}
-static inline unsigned char *brdf_store_f32(unsigned char *p, float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return brdf_store_u32(p, bits);
-}
-static inline unsigned char *brdf_store_f64(unsigned char *p, double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return brdf_store_u64(p, bits);
-}
+lmp_result lmp_brdf_fail_list(lmp_brdf_fault *fault, lmp_result result, size_t offset,
+                              const char *format, va_list list)
+    __attribute__((format(printf, 4, 0)));
 
 /* Unit half vector of a and b. */
 void lmp_brdf_half(const double a[3], const double b[3], double h[3]);

@@ -4,23 +4,10 @@
 
 #include <math.h>
 
-#define FORMAT_VERSION 1u
+#define FORMAT_VERSION 1
 #define HEADER         48u
 #define CHECKSUM       4u
 static const unsigned char magic[8] = { 'L', 'M', 'P', 'T', 0x0d, 0x0a, 0x1a, 0x0a };
-
-uint32_t lmp_brdf_checksum(const unsigned char *bytes, size_t size) {
-    uint32_t table[256];
-    for (uint32_t i = 0; i < 256; i++) {
-        table[i] = i;
-        for (int bit = 0; bit < 8; bit++)
-            table[i] = table[i] >> 1 ^ (table[i] & 1 ? 0x82f63b78u : 0);
-    }
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i < size; i++)
-        crc = crc >> 8 ^ table[(crc ^ bytes[i]) & 0xff];
-    return ~crc;
-}
 
 static size_t float_count(const lmp_brdf_table_info *info) {
     return 3 * info->count * (size_t)info->views * (size_t)info->azimuths;
@@ -34,28 +21,28 @@ void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes) {
     const lmp_brdf_table_info *info = &table->info;
     unsigned char *p = bytes;
     memcpy(p, magic, sizeof magic);
-    p = brdf_store_u32(p + sizeof magic, FORMAT_VERSION);
-    p = brdf_store_u32(p, (uint32_t)info->bands);
-    p = brdf_store_u32(p, (uint32_t)info->views);
-    p = brdf_store_u32(p, (uint32_t)info->azimuths);
-    p = brdf_store_u32(p, info->mirrored);
-    p = brdf_store_u32(p, (uint32_t)info->window);
-    p = brdf_store_f32(p, info->window_size);
-    p = brdf_store_u32(p, (uint32_t)info->rings);
-    p = brdf_store_f32(p, info->change);
-    p = brdf_store_u32(p, 0);
+    p = lmp_bytes_store_u32(p + sizeof magic, FORMAT_VERSION);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->bands);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->views);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->azimuths);
+    p = lmp_bytes_store_u32(p, info->mirrored);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->window);
+    p = lmp_bytes_store_f32(p, info->window_size);
+    p = lmp_bytes_store_u32(p, (uint32_t)info->rings);
+    p = lmp_bytes_store_f32(p, info->change);
+    p = lmp_bytes_store_u32(p, 0);
     for (size_t i = 0; i < float_count(info); i++)
-        p = brdf_store_f32(p, table->coefficients[i]);
-    brdf_store_u32(p, lmp_brdf_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
+        p = lmp_bytes_store_f32(p, table->coefficients[i]);
+    lmp_bytes_store_u32(p, lmp_bytes_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
 }
 
 /* One integer of the header, held to its range. */
 static lmp_result take(const unsigned char *bytes, size_t offset, const char *what,
                        uint32_t minimum, uint32_t maximum, int *value, lmp_brdf_fault *fault) {
-    const uint32_t n = brdf_load_u32(bytes + offset);
+    const uint32_t n = lmp_bytes_at_u32(bytes + offset);
     if (n < minimum || n > maximum)
-        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset, "%s is %lu, not in %lu to %lu", what,
-                             (unsigned long)n, (unsigned long)minimum, (unsigned long)maximum);
+        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset, "%s is %zu, not in %zu to %zu", what,
+                             (size_t)n, (size_t)minimum, (size_t)maximum);
     *value = (int)n;
     return LMP_OK;
 }
@@ -64,11 +51,11 @@ static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_
                               lmp_brdf_fault *fault) {
     if (size < HEADER + CHECKSUM || memcmp(bytes, magic, sizeof magic) != 0)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 0, "not a Lampion table (.lmpt)");
-    const uint32_t version = brdf_load_u32(bytes + 8);
+    const uint32_t version = lmp_bytes_at_u32(bytes + 8);
     if (version != FORMAT_VERSION)
         return lmp_brdf_fail(fault, LMP_ERROR_VERSION, 8,
-                             "table format version %lu, this library knows version %u",
-                             (unsigned long)version, FORMAT_VERSION);
+                             "table format version %zu, this library knows version %d",
+                             (size_t)version, FORMAT_VERSION);
     int mirrored = 0, window = 0;
     lmp_result result = take(bytes, 12, "bands", 1, LMP_BANDS_MAX, &info->bands, fault);
     if (result == LMP_OK)
@@ -86,8 +73,8 @@ static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_
         result = take(bytes, 36, "rings", 1, 1 << 20, &info->rings, fault);
     info->mirrored = mirrored != 0;
     info->window = (lmp_window)window;
-    info->window_size = brdf_load_f32(bytes + 32);
-    info->change = brdf_load_f32(bytes + 40);
+    info->window_size = lmp_bytes_at_f32(bytes + 32);
+    info->change = lmp_bytes_at_f32(bytes + 40);
     if (result == LMP_OK && !(info->window_size > 0 && isfinite(info->window_size)))
         result = lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 32, "window size is not positive");
     if (result == LMP_OK && !(info->change >= 0 && isfinite(info->change)))
@@ -110,17 +97,16 @@ lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data,
         UINT64_C(12) * info.count * (uint64_t)info.views * (uint64_t)info.azimuths;
     if (wanted != size)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 12,
-                             "%d bands, %d views, %d azimuths need %llu bytes, the file has %zu",
-                             info.bands, info.views, info.azimuths, (unsigned long long)wanted,
-                             size);
-    if (lmp_brdf_checksum(bytes, size - CHECKSUM) != brdf_load_u32(bytes + size - CHECKSUM))
+                             "%d bands, %d views, %d azimuths need %zu bytes, the file has %zu",
+                             info.bands, info.views, info.azimuths, (size_t)wanted, size);
+    if (lmp_bytes_checksum(bytes, size - CHECKSUM) != lmp_bytes_at_u32(bytes + size - CHECKSUM))
         return lmp_brdf_fail(fault, LMP_ERROR_CHECKSUM, size - CHECKSUM,
                              "checksum mismatch: the file is damaged");
     result = lmp_brdf_table_new(allocator, &info, table);
     if (result != LMP_OK)
         return lmp_brdf_fail(fault, result, 0, "no memory for the table");
     for (size_t i = 0; i < float_count(&info); i++) {
-        (*table)->coefficients[i] = brdf_load_f32(bytes + HEADER + 4 * i);
+        (*table)->coefficients[i] = lmp_bytes_at_f32(bytes + HEADER + 4 * i);
         if (!isfinite((*table)->coefficients[i])) {
             lmp_brdf_table_destroy(*table);
             *table = NULL;

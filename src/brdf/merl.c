@@ -65,19 +65,19 @@ static lmp_result check_header(const unsigned char *bytes, size_t size, int shap
                              "a MERL file begins with 12 bytes of dimensions, this has %zu", size);
     uint64_t product = 1;
     for (int axis = 0; axis < 3; axis++) {
-        const uint32_t n = brdf_load_u32(bytes + 4 * axis);
+        const uint32_t n = lmp_bytes_at_u32(bytes + 4 * axis);
         if (n < 1 || n > 1u << 20)
             return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 4 * (size_t)axis,
-                                 "MERL dimension %d is %ld, not a sensible number of cells", axis,
-                                 (long)(int32_t)n);
+                                 "MERL dimension %d is %d, not a sensible number of cells", axis,
+                                 (int)n);
         shape[axis] = (int)n;
         product *= n;
     }
     const uint64_t wanted = HEADER + 24 * product;
     if (product > UINT64_C(1) << 40 || wanted != size)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 0,
-                             "MERL dimensions %d x %d x %d need %llu bytes, the file has %zu",
-                             shape[0], shape[1], shape[2], (unsigned long long)wanted, size);
+                             "MERL dimensions %d x %d x %d need %zu bytes, the file has %zu",
+                             shape[0], shape[1], shape[2], (size_t)wanted, size);
     *cells = (size_t)product;
     return LMP_OK;
 }
@@ -99,7 +99,7 @@ lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, 
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < cells; i++) {
             const size_t offset = HEADER + 8 * (c * cells + i);
-            const double value = brdf_load_f64(bytes + offset) * scale[c];
+            const double value = lmp_bytes_at_f64(bytes + offset) * scale[c];
             if (!(fabs(value) <= 3e38)) {
                 lmp_brdf_destroy(made);
                 return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset,
@@ -126,7 +126,7 @@ lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *alloca
         return LMP_ERROR_MEMORY;
     const size_t cells = (LMP_MERL_SIZE - HEADER) / 24;
     for (int axis = 0; axis < 3; axis++)
-        brdf_store_u32(bytes + 4 * axis, (uint32_t)full_shape[axis]);
+        lmp_bytes_store_u32(bytes + 4 * axis, (uint32_t)full_shape[axis]);
     size_t n = 0;
     for (int i = 0; i < full_shape[0]; i++)
         for (int j = 0; j < full_shape[1]; j++)
@@ -135,8 +135,8 @@ lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *alloca
                 if (cell_centre(full_shape, i, j, k, a, b))
                     lmp_brdf_eval_double(brdf, a, b, rgb);
                 for (size_t c = 0; c < 3; c++)
-                    brdf_store_f64(bytes + HEADER + 8 * (c * cells + n),
-                                   rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
+                    lmp_bytes_store_f64(bytes + HEADER + 8 * (c * cells + n),
+                                        rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
             }
     return LMP_OK;
 }

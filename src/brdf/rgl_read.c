@@ -3,8 +3,6 @@
 #include "src/brdf/rgl.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 
 #define DIMENSIONS_MAX 8
 
@@ -59,12 +57,10 @@ typedef struct rgl_file {
 static bool wrong(const rgl_file *file, size_t offset, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 static bool wrong(const rgl_file *file, size_t offset, const char *format, ...) {
-    char text[sizeof file->fault->text];
     va_list list;
     va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
+    lmp_brdf_fail_list(file->fault, LMP_ERROR_FORMAT, offset, format, list);
     va_end(list);
-    lmp_brdf_fail(file->fault, LMP_ERROR_FORMAT, offset, "%s", text);
     return false;
 }
 
@@ -79,11 +75,11 @@ static int find_known(const unsigned char *name, size_t length) {
 }
 
 /* Reads the shape at `at` and checks that the data lie inside the file. */
-static bool read_extent(const rgl_file *file, size_t at, int dimensions, unsigned type,
-                        uint64_t offset, int number, rgl_field *field) {
+static bool read_extent(const rgl_file *file, size_t at, int dimensions, int type, uint64_t offset,
+                        int number, rgl_field *field) {
     uint64_t count = 1;
     for (int d = 0; d < dimensions; d++) {
-        const uint64_t n = brdf_load_u64(file->bytes + at + 8 * (size_t)d);
+        const uint64_t n = lmp_bytes_at_u64(file->bytes + at + 8 * (size_t)d);
         if (n == 0)
             return wrong(file, at + 8 * (size_t)d, "field %d has dimension %d of size 0", number,
                          d);
@@ -95,9 +91,8 @@ static bool read_extent(const rgl_file *file, size_t at, int dimensions, unsigne
     }
     const uint64_t bytes = count * type_sizes[type];
     if (offset > file->size || bytes > file->size - offset)
-        return wrong(file, at,
-                     "data of field %d (%llu bytes at %llu) end past the file's %zu bytes", number,
-                     (unsigned long long)bytes, (unsigned long long)offset, file->size);
+        return wrong(file, at, "data of field %d (%zu bytes at %zu) end past the file's %zu bytes",
+                     number, (size_t)bytes, (size_t)offset, file->size);
     field->offset = (size_t)offset;
     field->count = (size_t)count;
     field->present = true;
@@ -115,10 +110,10 @@ static bool read_entry(rgl_file *file, int number, size_t *at) {
     const unsigned char *name = file->bytes + start + 2;
     const size_t rest = start + 2 + length;
     const int dimensions = (int)(file->bytes[rest] | file->bytes[rest + 1] << 8);
-    const unsigned type = file->bytes[rest + 2];
-    const uint64_t offset = brdf_load_u64(file->bytes + rest + 3);
-    if (type < 1 || type >= sizeof type_sizes)
-        return wrong(file, rest + 2, "field %d has unknown type %u", number, type);
+    const int type = file->bytes[rest + 2];
+    const uint64_t offset = lmp_bytes_at_u64(file->bytes + rest + 3);
+    if (type < 1 || type >= (int)sizeof type_sizes)
+        return wrong(file, rest + 2, "field %d has unknown type %d", number, type);
     if (dimensions > DIMENSIONS_MAX)
         return wrong(file, rest, "field %d has %d dimensions, more than %d", number, dimensions,
                      DIMENSIONS_MAX);
@@ -134,7 +129,7 @@ static bool read_entry(rgl_file *file, int number, size_t *at) {
     if (file->fields[id].present)
         return wrong(file, start, "field '%s' is there twice", known[id].name);
     if (dimensions != known[id].dimensions || type != known[id].type)
-        return wrong(file, rest, "field '%s' has %d dimensions of type %u, not %d of type %d",
+        return wrong(file, rest, "field '%s' has %d dimensions of type %d, not %d of type %d",
                      known[id].name, dimensions, type, known[id].dimensions, known[id].type);
     file->fields[id] = field;
     return true;
@@ -148,7 +143,7 @@ static bool read_directory(rgl_file *file) {
                       file->bytes[12], file->bytes[13]);
         return false;
     }
-    const uint32_t count = brdf_load_u32(file->bytes + 14);
+    const uint32_t count = lmp_bytes_at_u32(file->bytes + 14);
     size_t at = RGL_HEADER;
     for (uint32_t i = 0; i < count; i++)
         if (!read_entry(file, (int)i, &at))
@@ -171,8 +166,8 @@ static bool same_shape(const rgl_file *file, rgl_field_id id, int d, uint64_t ex
                        const char *by) {
     const uint64_t n = file->fields[id].shape[d];
     if (n != expected)
-        return wrong(file, file->fields[id].offset, "dimension %d of '%s' is %llu, %s says %llu", d,
-                     known[id].name, (unsigned long long)n, by, (unsigned long long)expected);
+        return wrong(file, file->fields[id].offset, "dimension %d of '%s' is %zu, %s says %zu", d,
+                     known[id].name, (size_t)n, by, (size_t)expected);
     return true;
 }
 
@@ -206,10 +201,10 @@ static bool check_shapes(const rgl_file *file) {
 static bool copy_floats(const rgl_file *file, rgl_field_id id, float minimum, float *out) {
     const rgl_field *field = &file->fields[id];
     for (size_t i = 0; i < field->count; i++) {
-        out[i] = brdf_load_f32(file->bytes + field->offset + 4 * i);
+        out[i] = lmp_bytes_at_f32(file->bytes + field->offset + 4 * i);
         if (!(out[i] >= minimum && out[i] <= 1e30f))
-            return wrong(file, field->offset + 4 * i, "value %zu of '%s' is %g, not in %g to 1e30",
-                         i, known[id].name, (double)out[i], (double)minimum);
+            return wrong(file, field->offset + 4 * i, "value %zu of '%s' is %s", i, known[id].name,
+                         out[i] < minimum ? "below its range" : "not a finite number");
     }
     return true;
 }
@@ -242,7 +237,7 @@ static bool check_angles(const rgl_file *file, brdf_rgl *rgl) {
     if (!(fabs(parts - rgl->turn) <= 0.15 * rgl->turn) ||
         (rgl->turn == 4 && !(fabs(quarters - floor(quarters + 0.5)) <= 0.02)))
         return wrong(file, file->fields[FIELD_PHI].offset,
-                     "'phi_i' spans %g rad from %g, not a full, half or quarter turn", span, first);
+                     "'phi_i' does not span a full, half or quarter turn");
     return true;
 }
 
@@ -310,7 +305,7 @@ static bool add_spectra(const rgl_file *file, size_t slices, size_t plane, const
             double sum[3] = { 0, 0, 0 };
             for (size_t w = 0; w < count; w++) {
                 const size_t at = field->offset + 4 * ((slice * count + w) * plane + i);
-                const double value = (double)brdf_load_f32(file->bytes + at);
+                const double value = (double)lmp_bytes_at_f32(file->bytes + at);
                 if (!(fabs(value) <= 1e30))
                     return wrong(file, at, "a value of 'spectra' is not a finite number");
                 for (size_t c = 0; c < 3; c++)

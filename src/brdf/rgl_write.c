@@ -217,7 +217,7 @@ static void write_fields(const out_field *fields, size_t count, unsigned char *b
     p += RGL_MAGIC_SIZE;
     *p++ = 1;
     *p++ = 0;
-    p = brdf_store_u32(p, (uint32_t)count);
+    p = lmp_bytes_store_u32(p, (uint32_t)count);
     size_t offset = directory_size(fields, count);
     for (size_t i = 0; i < count; i++) {
         const out_field *field = &fields[i];
@@ -229,14 +229,14 @@ static void write_fields(const out_field *fields, size_t count, unsigned char *b
         *p++ = (unsigned char)field->dimensions;
         *p++ = 0;
         *p++ = (unsigned char)field->type;
-        p = brdf_store_u64(p, offset);
+        p = lmp_bytes_store_u64(p, offset);
         for (int d = 0; d < field->dimensions; d++)
-            p = brdf_store_u64(p, field->shape[d]);
+            p = lmp_bytes_store_u64(p, field->shape[d]);
         if (field->type == RGL_U8)
             memcpy(bytes + offset, field->values, out_count(field));
         else
             for (size_t k = 0; k < out_count(field); k++)
-                brdf_store_f32(bytes + offset + 4 * k, ((const float *)field->values)[k]);
+                lmp_bytes_store_f32(bytes + offset + 4 * k, ((const float *)field->values)[k]);
         offset += out_bytes(field);
     }
 }

@@ -18,7 +18,4 @@ struct lmp_brdf_table {
 lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_table_info *info,
                               lmp_brdf_table **table);
 
-/* CRC-32C (Castagnoli) of bytes. */
-uint32_t lmp_brdf_checksum(const unsigned char *bytes, size_t size);
-
 #endif
