@@ -65,11 +65,17 @@ csv_result csv_line_error(const csv_reader *reader, cli_error *error, const char
 
 bool csv_open(csv_reader *reader, const char *path, const char *header, cli_error *error) {
     const bool standard = strcmp(path, "-") == 0;
-    reader->name = standard ? "standard input" : path;
-    reader->line_number = reader->begin = reader->end = 0;
-    reader->stream = standard ? stdin : fopen(path, "rb");
-    if (!reader->stream)
+    FILE *const stream = standard ? stdin : fopen(path, "rb");
+    if (!stream)
         return cli_fail(error, path, "%s", strerror(errno));
+    return csv_open_stream(reader, stream, standard ? "standard input" : path, header, error);
+}
+
+bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const char *header,
+                     cli_error *error) {
+    reader->stream = stream;
+    reader->name = name;
+    reader->line_number = reader->begin = reader->end = 0;
     char *line;
     size_t length;
     const csv_result result = read_line(reader, &line, &length, error);
