@@ -57,10 +57,12 @@ bool file_write_begin(file_writer *writer, const char *path, cli_error *error) {
         return cli_fail(error, path, "is a directory, not a file");
     if (exists && !S_ISREG(status.st_mode))
         return cli_fail(error, path, "is not a regular file");
-    if (strlen(path) + 16 > sizeof writer->path)
+    const int size = (int)sizeof writer->temporary;
+    if (snprintf(writer->temporary, sizeof writer->temporary, "%s.XXXXXX", path) >= size) {
+        writer->temporary[0] = 0;
         return cli_fail(error, path, "is too long a name");
+    }
     strcpy(writer->path, path);
-    snprintf(writer->temporary, sizeof writer->temporary, "%s.XXXXXX", writer->path);
     const int fd = mkostemp(writer->temporary, O_CLOEXEC);
     if (fd < 0) {
         writer->temporary[0] = 0;

@@ -217,6 +217,6 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaq
                 glEnable(GL_CULL_FACE);
         }
         glDrawElements(GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT,
-                       (const char *)NULL + 4 * (size_t)draw->first_index);
+                       (const void *)(4 * (uintptr_t)draw->first_index));
     }
 }

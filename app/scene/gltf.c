@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NODE_DEPTH_MAX     512
-#define UNBACKED_BYTES_MAX (64u << 20) /* of accessors without a buffer view: they are all zeros   \
-                                        */
+#define NODE_DEPTH_MAX 512
+/* of accessors without a buffer view: they are all zeros */
+#define UNBACKED_BYTES_MAX (64u << 20)
 
 /* --- reading JSON -------------------------------------------------------------------------------
  */

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NODE_DEPTH_MAX   1024
-#define SMOOTH_GROUP_MAX 256 /* more corners at one point than this are not compared with another  \
-                              */
+#define NODE_DEPTH_MAX 1024
+/* more corners at one point than this are not compared with another */
+#define SMOOTH_GROUP_MAX 256
 
 /* One mesh being flattened: its triangles' corners, and one vertex per corner or per vertex. */
 typedef struct flattening {

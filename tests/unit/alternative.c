@@ -37,7 +37,7 @@ static void the_closed_forms_agree_up_to_six_bands(void **state) {
 
 static void the_table_converges_with_its_size(void **state) {
     (void)state;
-    double before = INFINITY;
+    double before = (double)INFINITY;
     for (int size = 64; size <= 4096; size *= 4) {
         lmp_zonal_table *table;
         assert_int_equal(lmp_zonal_table_create(NULL, 10, size, &table), LMP_OK);

@@ -81,7 +81,7 @@ static void compare(const lmp_response *response, const probe *p, int angles, er
                                       4 / sqrtf(p->exponent + 1) + 4 / (float)p->bands;
     for (int i = 0; i < angles; i++) {
         const float angle = i % 2 ? acosf((float)check_random_between(-1, 1))
-                                  : (float)check_random_between(0, fminf(near, pi));
+                                  : (float)check_random_between(0, (double)fminf(near, pi));
         errors_add(errors, (double)(fabsf(read(response, p, angle) - series(p, angle)) / top));
     }
 }
