@@ -119,8 +119,10 @@ static_assert(sizeof(shared_pixel) == 96, "std430");
 /* The filmic curve: Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab,
  * 2016), scaled so that middle grey stays 0.18. Bright saturated colours drift to white, their hue
  * holds. shared_tone_in goes to its working primaries, shared_tone is the curve, shared_tone_out
- * comes back to linear sRGB (clamp it to 0 … 1). row: 0 red, 1 green, 2 blue. */
+ * comes back to linear sRGB (clamp it to 0 … 1).
+ * Clamp exposed radiance to 0 … SHARED_TONE_MAX before. row: 0 red, 1 green, 2 blue. */
 #define SHARED_TONE_SCALE 1.4627f
+#define SHARED_TONE_MAX   65504.0f
 
 SHARED_FUNCTION float shared_tone_in(int row, float r, float g, float b) {
     return SHARED_TONE_SCALE * (row == 0   ? 0.59719f * r + 0.35458f * g + 0.04823f * b

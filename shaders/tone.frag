@@ -17,7 +17,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     if (flip != 0)
         at.y = int(size_lights.y) - 1 - at.y;
-    vec3 x = min(texelFetch(hdr, at, 0).rgb * exposure, vec3(65504.0));
+    vec3 x = clamp(texelFetch(hdr, at, 0).rgb * exposure, 0.0, SHARED_TONE_MAX);
     vec3 y = vec3(shared_tone(shared_tone_in(0, x.r, x.g, x.b)),
                   shared_tone(shared_tone_in(1, x.r, x.g, x.b)),
                   shared_tone(shared_tone_in(2, x.r, x.g, x.b)));

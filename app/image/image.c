@@ -79,13 +79,12 @@ static float transfer(float x) {
 }
 
 static unsigned char to_byte(float x) {
-    x = x >= 0 ? x : 0; /* NaN too */
-    return (unsigned char)(255 * transfer(x < 1 ? x : 1) + 0.5f);
+    return (unsigned char)(255 * transfer(fminf(fmaxf(x, 0), 1)) + 0.5f);
 }
 
-/* Keeps the curve's squares finite. */
+/* Keeps the curve's squares finite, and off its pole below 0; NaN is black. */
 static float limit(float x) {
-    return x < 65504 ? x : 65504;
+    return x > 0 ? fminf(x, SHARED_TONE_MAX) : 0;
 }
 
 void image_tone_map(const image *picture, float exposure, unsigned char *rgb8) {

@@ -251,6 +251,46 @@ static void a_camera_inside_a_light_sees_it_all_round(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
+/* --- pictures -----------------------------------------------------------------------------------
+ */
+
+static void samples_cover_a_pixel_in_part(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    for (int i = 0; i < MATERIALS; i++)
+        sheet.materials[i].emission[0] = 1;
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    frame.camera.eye[0] = frame.camera.target[0] = 0.5f / 16; /* the edges halve pixels */
+    frame.samples = 64;
+    image picture = render_image(renderer, &frame);
+    const float *row = picture.rgb + 3 * SIDE * 32;
+    assert_true(row[3 * 32] == 1 && row[3 * 60] == 0);
+    assert_true(fabsf(row[3 * 47] - 0.5f) <= 0.05f);
+    image_free(&picture);
+    gpu_renderer_destroy(renderer);
+}
+
+static void the_device_and_the_cpu_tone_map_alike(void **state) {
+    (void)state;
+    static unsigned char on_device[3 * PIXELS], on_cpu[3 * PIXELS];
+    cli_error error = { "" };
+    const scene *world = make_sheets();
+    sheet.lights[0] = (scene_light) { { 0.5f, 0.5f, 1 }, 0.3f, { 5, 40, 0.2f }, 0 };
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    frame.light_count = 1;
+    image picture = render_image(renderer, &frame);
+    for (float exposure = 0.01f; exposure < 1e7f; exposure *= 10) {
+        expect(gpu_read_rgb8(renderer, exposure, on_device, NULL, &error), &error);
+        image_tone_map(&picture, exposure, on_cpu);
+        for (size_t i = 0; i < 3 * PIXELS; i++)
+            assert_true(abs(on_device[i] - on_cpu[i]) <= 1);
+    }
+    image_free(&picture);
+    gpu_renderer_destroy(renderer);
+}
+
 /* --- refusals -----------------------------------------------------------------------------------
  */
 
@@ -314,6 +354,8 @@ int main(void) {
         cmocka_unit_test(materials_are_those_of_the_library),
         cmocka_unit_test(light_spheres_are_exact_and_hide_what_is_behind),
         cmocka_unit_test(a_camera_inside_a_light_sees_it_all_round),
+        cmocka_unit_test(samples_cover_a_pixel_in_part),
+        cmocka_unit_test(the_device_and_the_cpu_tone_map_alike),
         cmocka_unit_test(impossible_frames_are_refused_with_a_reason),
     };
     return cmocka_run_group_tests(alone, NULL, NULL) +

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/* Pictures: what is written comes back, damaged files are refused, exposure and tone. */
+#include "app/image/image.h"
+#include "app/file/file.h"
+#include "tests/oracle/check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { WIDTH = 37, HEIGHT = 23, VALUES = 3 * WIDTH * HEIGHT };
+
+static char folder[] = "/tmp/lampion-image-XXXXXX";
+
+static const char *path_of(const char *name) {
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : 1;
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    static const char *const names[] = { "a.exr", "a.png", "bad.exr", "bad.png" };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        unlink(path_of(names[i]));
+    return rmdir(folder); /* no temporary file may be left */
+}
+
+static image noise(void) {
+    image picture;
+    cli_error error;
+    assert_true(image_create(&picture, WIDTH, HEIGHT, &error));
+    for (size_t i = 0; i < VALUES; i++)
+        picture.rgb[i] = (float)exp(check_random_between(-30, 30));
+    return picture;
+}
+
+static void openexr_keeps_every_bit(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    image main_layer = noise(), other = noise(), back;
+    const image_layer layers[] = { { "", &main_layer }, { "error", &other } };
+    assert_true(image_write_exr_layers(path_of("a.exr"), layers, 2, &error));
+    assert_true(image_read(path_of("a.exr"), &back, &error));
+    assert_int_equal(back.width, WIDTH);
+    assert_int_equal(back.height, HEIGHT);
+    assert_memory_equal(back.rgb, main_layer.rgb, VALUES * sizeof(float));
+    image_free(&back);
+    image_free(&main_layer);
+    image_free(&other);
+}
+
+static void png_keeps_every_byte(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    static unsigned char bytes[VALUES];
+    image back;
+    for (size_t i = 0; i < VALUES; i++)
+        bytes[i] = (unsigned char)(i % 256);
+    assert_true(image_write_png8(bytes, WIDTH, HEIGHT, path_of("a.png"), &error));
+    assert_true(image_read(path_of("a.png"), &back, &error));
+    for (size_t i = 0; i < VALUES; i++) {
+        const double linear = (double)back.rgb[i];
+        const double stored =
+            linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
+        CHECK_WITHIN(fabs(255 * stored - (double)bytes[i]), 1e-3);
+    }
+    image_free(&back);
+}
+
+/* Cuts a good file everywhere and damages it at random: it reads or is refused, and no more. */
+static void survive_damage(const char *good, const char *bad) {
+    cli_error error = { "" };
+    void *data;
+    size_t size;
+    char name[64];
+    snprintf(name, sizeof name, "%s", good);
+    assert_true(file_read(path_of(name), 1 << 20, &data, &size, &error));
+    unsigned char *bytes = data;
+    int refused = 0, tries = 0;
+    for (size_t step = 0; step < 300; step++) {
+        const size_t length = step < 150 ? size * step / 150 : size;
+        unsigned char before = 0;
+        const size_t at = (size_t)(check_random() * (double)size);
+        if (step >= 150) {
+            before = bytes[at];
+            bytes[at] = (unsigned char)(check_random() * 256);
+        }
+        FILE *stream = fopen(path_of(bad), "wb");
+        assert_non_null(stream);
+        assert_int_equal(fwrite(bytes, 1, length, stream), length);
+        fclose(stream);
+        if (step >= 150)
+            bytes[at] = before;
+        image picture;
+        error.text[0] = '\0';
+        if (image_read(path_of(bad), &picture, &error)) {
+            image_free(&picture);
+        } else {
+            refused++;
+            assert_true(error.text[0] && !strchr(error.text, '\n'));
+            assert_non_null(strstr(error.text, bad));
+        }
+        tries++;
+    }
+    print_message("%s: %d of %d damaged files refused\n", good, refused, tries);
+    assert_true(refused >= 140);
+    free(data);
+}
+
+static void damaged_pictures_are_refused_in_one_line(void **state) {
+    (void)state;
+    survive_damage("a.exr", "bad.exr");
+    survive_damage("a.png", "bad.png");
+}
+
+static void a_png_that_claims_to_be_huge_is_refused(void **state) {
+    (void)state;
+    /* the header of 65535 x 65535 pixels, with its checksum, and an empty IDAT */
+    static const unsigned char bytes[] = { 0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00,
+                                           0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
+                                           0xff, 0xff, 0x00, 0x00, 0xff, 0xff, 0x08, 0x02, 0x00,
+                                           0x00, 0x00, 0x39, 0x67, 0x4e, 0x07, 0x00, 0x00, 0x00,
+                                           0x00, 0x49, 0x44, 0x41, 0x54, 0x35, 0xaf, 0x06, 0x1e };
+    cli_error error = { "" };
+    image picture;
+    FILE *stream = fopen(path_of("bad.png"), "wb");
+    assert_non_null(stream);
+    fwrite(bytes, 1, sizeof bytes, stream);
+    fclose(stream);
+    assert_false(image_read(path_of("bad.png"), &picture, &error));
+    assert_non_null(strstr(error.text, "too large"));
+}
+
+static void paths_that_cannot_be_written_are_refused_at_once(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    assert_true(image_check_path(path_of("b.png"), &error));
+    assert_true(access(path_of("b.png"), F_OK) != 0); /* only asked */
+    assert_false(image_check_path(path_of("none/b.png"), &error));
+    assert_false(image_check_path(path_of("b.jpg"), &error));
+    assert_non_null(strstr(error.text, ".png or .exr"));
+}
+
+/* --- exposure and tone --------------------------------------------------------------------------
+ */
+
+static void fill(image *picture, float value) {
+    for (size_t i = 0; i < VALUES; i++)
+        picture->rgb[i] = value;
+}
+
+static void exposure_puts_what_is_lit_at_middle_grey(void **state) {
+    (void)state;
+    image picture = noise();
+    fill(&picture, 40);
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
+    /* background, lamps and numbers that are none do not count */
+    for (size_t i = 0; i < VALUES / 2; i++)
+        picture.rgb[i] = 0;
+    for (size_t i = VALUES / 2; i < VALUES / 2 + 36; i++)
+        picture.rgb[i] = 1e9f;
+    picture.rgb[VALUES - 1] = NAN;
+    picture.rgb[VALUES - 4] = INFINITY;
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
+    fill(&picture, 0);
+    assert_true(image_auto_exposure(&picture) == 1);
+    CHECK_WITHIN(fabs((double)image_exposure_of_stops(-2) - 0.25), 1e-7);
+    image_free(&picture);
+}
+
+static void the_curve_keeps_black_and_grey_rises_and_ends_white(void **state) {
+    (void)state;
+    static unsigned char bytes[VALUES];
+    image picture = noise();
+    for (size_t i = 0; i < VALUES; i++)
+        picture.rgb[i] = powf(10, -4 + 8 * (float)(i / 3) / (float)(VALUES / 3));
+    image_tone_map(&picture, 1, bytes);
+    for (size_t i = 3; i < VALUES; i++)
+        assert_true(bytes[i] >= bytes[i - 3]);
+    assert_int_equal(bytes[0], 0);
+    assert_int_equal(bytes[VALUES - 1], 255);
+    fill(&picture, 0.18f);
+    picture.rgb[3] = picture.rgb[4] = picture.rgb[5] = NAN;
+    picture.rgb[6] = picture.rgb[7] = picture.rgb[8] = INFINITY;
+    picture.rgb[9] = picture.rgb[10] = picture.rgb[11] = -1;
+    image_tone_map(&picture, 1, bytes);
+    assert_true(abs(bytes[0] - 118) <= 1); /* sRGB of 0.18 */
+    assert_int_equal(bytes[3], 0);
+    assert_int_equal(bytes[6], 255);
+    assert_int_equal(bytes[9], 0);
+    image_free(&picture);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(openexr_keeps_every_bit),
+        cmocka_unit_test(png_keeps_every_byte),
+        cmocka_unit_test(damaged_pictures_are_refused_in_one_line),
+        cmocka_unit_test(a_png_that_claims_to_be_huge_is_refused),
+        cmocka_unit_test(paths_that_cannot_be_written_are_refused_at_once),
+        cmocka_unit_test(exposure_puts_what_is_lit_at_middle_grey),
+        cmocka_unit_test(the_curve_keeps_black_and_grey_rises_and_ends_white),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

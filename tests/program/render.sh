@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+# lampion render as a user runs it: pictures, sequences, statistics, and what it refuses.
+set -eu
+. tests/house/common.sh
+export LAMPION_GL_DEBUG=fatal
+small="--size 64x36 --bands 4"
+
+# the same command gives the same bytes; the methods give the same picture
+"$PROGRAM" render builtin:balls $small -o "$WORK/a.png"
+"$PROGRAM" render builtin:balls $small -o "$WORK/b.png"
+cmp "$WORK/a.png" "$WORK/b.png" || fail "two runs differ"
+for method in zonal coefficients; do
+    "$PROGRAM" render builtin:balls $small --method $method -o "$WORK/$method.exr"
+done
+
+# sequences: numbered, moving, and of one exposure
+"$PROGRAM" render builtin:balls $small --frames 2 --fps 1 -o "$WORK/f_%03d.png"
+[ -f "$WORK/f_000.png" ] && [ -f "$WORK/f_001.png" ] || fail "frames are not numbered"
+cmp -s "$WORK/f_000.png" "$WORK/f_001.png" && fail "lights do not move"
+"$PROGRAM" render builtin:balls $small --frames 1 -o "$WORK/g.exr"
+[ -f "$WORK/g_0000.exr" ] || fail "the number does not go before the extension"
+
+# statistics
+"$PROGRAM" render builtin:balls $small --stats --compare-methods --repeat 1 -o "$WORK/s.png" >"$WORK/stats"
+for word in '"triangles"' '"zonal_speedup"' '"coefficients"' '"device"' '"shade"' '"total"'; do
+    grep -q "$word" "$WORK/stats" || fail "--stats without $word"
+done
+
+# samples smooth: more distinct grey levels at edges means other bytes
+"$PROGRAM" render builtin:balls $small --samples 4 -o "$WORK/smooth.png"
+cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"
+
+# refusals: status, one line, nothing written
+refused() {
+    status=$1
+    shift
+    got=0
+    "$PROGRAM" render "$@" >"$WORK/out" 2>"$WORK/err" || got=$?
+    [ $got -eq "$status" ] || fail "render $*: status $got, not $status"
+    [ "$(wc -l <"$WORK/err")" -eq 1 ] || fail "render $*: not one line: $(cat "$WORK/err")"
+    [ ! -e "$WORK/x.png" ] || fail "render $*: left a picture"
+}
+refused 2
+refused 2 builtin:ball
+refused 2 builtin:ball -o "$WORK/x.gif"
+refused 2 builtin:ball -o "$WORK/x.png" --size 0x10
+refused 2 builtin:ball -o "$WORK/x.png" --size 16384x16384
+refused 2 builtin:ball -o "$WORK/x.png" --bands 33
+refused 2 builtin:ball -o "$WORK/x.png" --bands 21 --method coefficients
+refused 2 builtin:ball -o "$WORK/x.png" --eye nan,0,0
+refused 2 builtin:ball -o "$WORK/x.png" --background 1,-1,0
+refused 1 builtin:ball -o "$WORK/none/x.png"
+refused 1 builtin:ball -o "$WORK/x.png" --gl-device 99
+refused 1 builtin:ball -o "$WORK/x.png" --camera none
+refused 1 builtin:ball -o "$WORK/x.png" --eye 1,2,3 --target 1,2,3
+refused 1 "$WORK/none.gltf" -o "$WORK/x.png"
