@@ -100,7 +100,8 @@ LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *
  * angles. A pixel counts as a constant seen at its centre: take pictures of at least 4 * bands
  * rows. The cost is width * height * bands².
  *
- * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, 0 = tight
+ * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, a
+ * multiple of 4, 0 = tight
  * sh receives channels planes of LMP_SH_COUNT(bands) values */
 LMP_API void lmp_sh_project_latlong(int bands, const float *pixels, int width, int height,
                                     int channels, size_t row_stride, float *sh);
