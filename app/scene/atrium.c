@@ -75,10 +75,10 @@ static void add_materials(scene_builder *builder) {
                                              { 0.055f, 0.07f, 0.075f },
                                              { 0.36f, 0.075f, 0.05f } };
     static const float gloss[4] = { 0.26f, 0.36f, 0.50f, 0.72f };
-    add_material(builder, "limestone", 0.58f, 0.51f, 0.42f, 0.85f, 0.0f);
-    add_material(builder, "marble", 0.72f, 0.68f, 0.61f, 0.42f, 0.0f);
-    add_material(builder, "trim", 0.66f, 0.60f, 0.50f, 0.65f, 0.0f);
-    add_material(builder, "plaster", 0.55f, 0.53f, 0.50f, 0.95f, 0.0f);
+    add_material(builder, "limestone", 0.46f, 0.38f, 0.29f, 0.85f, 0.0f);
+    add_material(builder, "marble", 0.64f, 0.59f, 0.52f, 0.42f, 0.0f);
+    add_material(builder, "trim", 0.56f, 0.48f, 0.38f, 0.65f, 0.0f);
+    add_material(builder, "plaster", 0.40f, 0.38f, 0.36f, 0.95f, 0.0f);
     add_material(builder, "fresco", 0.42f, 0.09f, 0.06f, 0.7f, 0.0f);
     add_material(builder, "dado", 0.10f, 0.17f, 0.16f, 0.38f, 0.0f);
     add_material(builder, "bronze", 0.52f, 0.33f, 0.16f, 0.45f, 1.0f);
@@ -129,7 +129,7 @@ static const shape_point bell[] = { { 0.86f, 0.12f }, { 0.92f, 0.30f }, { 0.98f,
 
 static void put_column(scene_shaper *shaper, lmp_vec3 foot, float radius, float height,
                        int flutes) {
-    enum { RINGS = 12 };
+    enum { RINGS = 8 };
     shape_point scaled[64];
     const float plinth = 0.36f * radius, base = plinth + 0.62f * radius;
     const float capital = height - 1.5f * radius;
@@ -138,7 +138,7 @@ static void put_column(scene_shaper *shaper, lmp_vec3 foot, float radius, float 
     const int base_count = sizeof attic_base / sizeof *attic_base;
     for (int i = 0; i < base_count; i++)
         scaled[i] = (shape_point) { attic_base[i].r * radius, plinth + attic_base[i].a * radius };
-    turn(shaper, scaled, base_count, foot, 40);
+    turn(shaper, scaled, base_count, foot, 32);
     /* The shaft swells a little before it tapers: entasis. */
     for (int i = 0; i <= RINGS; i++) {
         const float t = (float)i / RINGS;
@@ -148,13 +148,13 @@ static void put_column(scene_shaper *shaper, lmp_vec3 foot, float radius, float 
                                           .point_count = RINGS + 1,
                                           .origin = foot,
                                           .axis = 'y',
-                                          .segments = flutes ? 6 * flutes : 36,
+                                          .segments = flutes ? 4 * flutes : 28,
                                           .flutes = flutes,
                                           .depth = 0.055f });
     const int astragal_count = sizeof astragal / sizeof *astragal;
     for (int i = 0; i < astragal_count; i++)
         scaled[i] = (shape_point) { astragal[i].r * radius, capital + astragal[i].a * radius };
-    turn(shaper, scaled, astragal_count, foot, 40);
+    turn(shaper, scaled, astragal_count, foot, 32);
     const int bell_count = sizeof bell / sizeof *bell;
     for (int i = 0; i < bell_count; i++)
         scaled[i] = (shape_point) { bell[i].r * radius, capital + bell[i].a * radius };
@@ -172,9 +172,8 @@ static void put_column(scene_shaper *shaper, lmp_vec3 foot, float radius, float 
 static void put_balustrade(scene_shaper *shaper, float floor) {
     static const shape_point baluster[] = {
         { 0.070f, 0.10f }, { 0.070f, 0.14f }, { 0.050f, 0.16f }, { 0.046f, 0.19f },
-        { 0.062f, 0.23f }, { 0.084f, 0.30f }, { 0.088f, 0.36f }, { 0.078f, 0.43f },
-        { 0.056f, 0.52f }, { 0.040f, 0.60f }, { 0.036f, 0.66f }, { 0.048f, 0.69f },
-        { 0.048f, 0.71f }, { 0.062f, 0.74f }, { 0.070f, 0.75f }, { 0.070f, 0.80f },
+        { 0.076f, 0.26f }, { 0.088f, 0.35f }, { 0.066f, 0.48f }, { 0.040f, 0.60f },
+        { 0.038f, 0.67f }, { 0.052f, 0.72f }, { 0.070f, 0.75f }, { 0.070f, 0.80f },
     };
     static const shape_point rail[] = { { -0.11f, 0.92f }, { -0.13f, 0.88f }, { -0.13f, 0.84f },
                                         { -0.10f, 0.80f }, { 0.10f, 0.80f },  { 0.13f, 0.84f },
@@ -183,7 +182,7 @@ static void put_balustrade(scene_shaper *shaper, float floor) {
     shaper->material = BALUSTER;
     for (int i = 0; i < BALUSTERS; i++) {
         const float x = 2.3f * (((float)i + 0.5f) / BALUSTERS - 0.5f);
-        turn(shaper, baluster, sizeof baluster / sizeof *baluster, vec(x, floor, 0.05f), 16);
+        turn(shaper, baluster, sizeof baluster / sizeof *baluster, vec(x, floor, 0.05f), 12);
     }
     const float end = 0.5f * BAY - 0.2f;
     shaper->material = TRIM;
@@ -314,33 +313,47 @@ static void put_cornice(scene_shaper *shaper, float y, float scale) {
  * vault is the upper of two crossing half cylinders. */
 static void put_groin_shell(scene_shaper *shaper, lmp_vec3 center, float half_x, float half_z,
                             float rise, int side) {
-    enum { STEPS = 12 };
+    enum { STEPS = 10 };
     lmp_vec3 points[2][STEPS + 1], normals[2][STEPS + 1];
-    (void)normals;
     for (int i = 0; i <= STEPS; i++) {
+        lmp_vec3 *out = points[i & 1], *out_normals = normals[i & 1];
+        const lmp_vec3 *in = points[~i & 1], *in_normals = normals[~i & 1];
         const float s = (float)i / STEPS;
         for (int k = 0; k <= STEPS; k++) {
             const float t = s * (2.0f * (float)k / STEPS - 1.0f);
-            const float y = rise * sqrtf(fmaxf(0.0f, 1.0f - t * t));
+            const float height = sqrtf(fmaxf(0.0f, 1.0f - t * t));
             const float along = side & 1 ? -s : s, across = side & 1 ? -t : t;
-            points[i & 1][k] = vec_add(center, side & 2 ? vec(-half_x * across, y, half_z * along)
-                                                        : vec(half_x * along, y, half_z * across));
+            const bool turned = side & 2;
+            out[k] = vec_add(center, vec(half_x * (turned ? -across : along), rise * height,
+                                         half_z * (turned ? along : across)));
+            out_normals[k] = vec(turned ? across / half_x : 0.0f, -height / rise,
+                                 turned ? 0.0f : -across / half_z);
         }
         for (int k = 0; i > 0 && k < STEPS; k++) {
-            const lmp_vec3 *in = points[(i - 1) & 1], *out = points[i & 1];
-            shape_quad(shaper, in[k], out[k], out[k + 1], in[k + 1]);
+            const lmp_vec3 corners[4] = { in[k], out[k], out[k + 1], in[k + 1] };
+            const lmp_vec3 corner_normals[4] = { in_normals[k], out_normals[k], out_normals[k + 1],
+                                                 in_normals[k + 1] };
+            shape_quad_smooth(shaper, corners, corner_normals);
         }
     }
+}
+
+static void put_groin_vault(scene_shaper *shaper, lmp_vec3 center, float half_x, float half_z,
+                            float rise) {
+    shaper->material = PLASTER;
+    for (int side = 0; side < 4; side++)
+        put_groin_shell(shaper, center, half_x, half_z, rise, side);
+}
+
+static float vault_rise(const storey_plan *s) {
+    return s->top - s->springing - 0.25f;
 }
 
 /* The bay of an aisle behind the arcade: floor, vault, outer wall with a blind arch. */
 static void put_aisle(scene_shaper *shaper, const storey_plan *s) {
     const float half = 0.5f * BAY, back = -AISLE;
-    shaper->material = PLASTER;
-    const lmp_vec3 center = vec(0.0f, s->springing, 0.5f * (back - WALL));
-    for (int side = 0; side < 4; side++)
-        put_groin_shell(shaper, center, half, 0.5f * (AISLE - WALL), s->top - s->springing - 0.25f,
-                        side);
+    put_groin_vault(shaper, vec(0.0f, s->springing, 0.5f * (back - WALL)), half,
+                    0.5f * (AISLE - WALL), vault_rise(s));
     shaper->material = LIMESTONE;
     shape_quad(shaper, vec(-half, s->floor, back), vec(half, s->floor, back),
                vec(half, s->top, back), vec(-half, s->top, back));
@@ -399,6 +412,24 @@ static void put_bay(scene_shaper *shaper) {
     put_column(shaper, vec(-half, upper.floor, 0.0f), 0.20f, upper.springing - upper.floor, 0);
 }
 
+/* Where two aisles meet, behind the left end of a side: origin at the court's corner. */
+static void put_corner(scene_shaper *shaper) {
+    static const storey_plan *const storeys[] = { &lower, &upper };
+    const float half = 0.5f * AISLE;
+    for (int i = 0; i < 2; i++) {
+        const storey_plan *s = storeys[i];
+        put_groin_vault(shaper, vec(-half, s->springing, -half), half, half, vault_rise(s));
+        shaper->material = TERRACOTTA;
+        shape_quad(shaper, vec(-AISLE, s->floor, 0.0f), vec(0.0f, s->floor, 0.0f),
+                   vec(0.0f, s->floor, -AISLE), vec(-AISLE, s->floor, -AISLE));
+        shaper->material = LIMESTONE;
+        shape_quad(shaper, vec(-AISLE, s->floor, -AISLE), vec(0.0f, s->floor, -AISLE),
+                   vec(0.0f, s->top, -AISLE), vec(-AISLE, s->top, -AISLE));
+        shape_quad(shaper, vec(-AISLE, s->floor, 0.0f), vec(-AISLE, s->floor, -AISLE),
+                   vec(-AISLE, s->top, -AISLE), vec(-AISLE, s->top, 0.0f));
+    }
+}
+
 static void put_bays(court_plan *court) {
     scene_shaper *shaper = &court->shaper;
     for (int side = 0; side < 4; side++) {
@@ -414,6 +445,9 @@ static void put_bays(court_plan *court) {
                                          : vec(HALF_WIDTH, 0.0f, along);
             put_bay(shaper);
         }
+        shaper->origin = vec(side < 2 ? -HALF_WIDTH : HALF_WIDTH, 0.0f,
+                             side == 1 || side == 2 ? court->half_length : -court->half_length);
+        put_corner(shaper);
     }
     shaper->quarters = 0;
     shaper->origin = vec(0.0f, 0.0f, 0.0f);
@@ -487,6 +521,29 @@ static void put_vault(court_plan *court) {
     }
 }
 
+/* Four bars from the hub, and a ring between each two. */
+static void put_spokes(scene_shaper *shaper, lmp_vec3 center) {
+    static const shape_point ring[] = {
+        { 0.30f, 0.02f }, { 0.30f, 0.08f }, { 0.24f, 0.08f }, { 0.24f, 0.02f }
+    };
+    shaper->material = TRIM;
+    for (int i = 0; i < 4; i++) {
+        const float x = i % 2 ? 0.0f
+                        : i   ? -0.74f
+                              : 0.74f,
+                    y = i % 2 ? (i > 1 ? -0.74f : 0.74f) : 0.0f;
+        const float wide = i % 2 ? 0.04f : 0.46f, high = i % 2 ? 0.46f : 0.04f;
+        shape_box(shaper, vec_add(center, vec(x - wide, y - high, 0.02f)),
+                  vec_add(center, vec(x + wide, y + high, 0.09f)));
+        const lmp_vec3 between = vec(i & 1 ? -0.53f : 0.53f, i & 2 ? -0.53f : 0.53f, 0.0f);
+        shape_turn(shaper, &(shape_turning) { .profile = ring,
+                                              .point_count = sizeof ring / sizeof *ring,
+                                              .origin = vec_add(center, between),
+                                              .axis = 'z',
+                                              .segments = 32 });
+    }
+}
+
 /* The half discs that close the vault, with a round window's frame and spokes. */
 static void put_lunettes(court_plan *court) {
     scene_shaper *shaper = &court->shaper;
@@ -497,7 +554,6 @@ static void put_lunettes(court_plan *court) {
         { 0.30f, 0.02f }, { 0.30f, 0.10f }, { 0.22f, 0.14f }, { 0.0f, 0.16f }
     };
     static const shape_point glass[] = { { 1.17f, 0.02f }, { 0.0f, 0.02f } };
-    static const shape_point spoke[] = { { 0.035f, 0.25f }, { 0.035f, 1.2f } };
     for (int end = 0; end < 2; end++) {
         shaper->quarters = 2 * end;
         shaper->origin = vec(0.0f, 0.0f, end ? court->half_length : -court->half_length);
@@ -518,15 +574,7 @@ static void put_lunettes(court_plan *court) {
                                                   .axis = 'z',
                                                   .segments = 64 });
         }
-        shaper->material = TRIM;
-        for (int i = 0; i < 4; i++) {
-            const lmp_vec3 hub_center = vec_add(center, vec(0.0f, 0.0f, 0.06f));
-            shape_turn(shaper, &(shape_turning) { .profile = spoke,
-                                                  .point_count = 2,
-                                                  .origin = hub_center,
-                                                  .axis = i % 2 ? 'x' : 'y',
-                                                  .segments = 12 });
-        }
+        put_spokes(shaper, center);
     }
     shaper->quarters = 0;
     shaper->origin = vec(0.0f, 0.0f, 0.0f);
@@ -535,68 +583,81 @@ static void put_lunettes(court_plan *court) {
 /* --- lanterns -----------------------------------------------------------------------------------
  */
 
-/* Chain, cap, six bars, ring and finial round a glowing sphere. */
-static void put_lantern(court_plan *court, lmp_vec3 center, float radius) {
+/* A round paper lantern: bamboo rings, two collars and a cord round a glowing sphere. */
+static void put_lantern(court_plan *court, lmp_vec3 center, float radius, float ceiling) {
     scene_shaper *shaper = &court->shaper;
-    const float ceiling =
-        CORNICE + sqrtf((HALF_WIDTH - 0.1f) * (HALF_WIDTH - 0.1f) - center.x * center.x);
-    const float cage = 1.22f * radius;
-    const shape_point cap[] = { { 0.85f * cage, 0.86f * cage }, { 0.90f * cage, 0.92f * cage },
-                                { 0.62f * cage, 1.10f * cage }, { 0.30f * cage, 1.26f * cage },
-                                { 0.12f * cage, 1.50f * cage }, { 0.05f * cage, 1.56f * cage } };
-    const shape_point finial[] = {
-        { 0.0f, -1.55f * cage },         { 0.10f * cage, -1.46f * cage },
-        { 0.05f * cage, -1.36f * cage }, { 0.22f * cage, -1.16f * cage },
-        { 0.40f * cage, -1.02f * cage }, { 0.44f * cage, -0.96f * cage }
-    };
-    const shape_point chain[] = { { 0.012f, 1.5f * cage }, { 0.012f, ceiling - center.y } };
+    const shape_point top[] = { { 0.36f * radius, 0.93f * radius },
+                                { 0.36f * radius, 1.06f * radius },
+                                { 0.28f * radius, 1.12f * radius },
+                                { 0.06f * radius, 1.18f * radius } };
+    const shape_point bottom[] = { { 0.0f, -1.24f * radius },
+                                   { 0.06f * radius, -1.16f * radius },
+                                   { 0.28f * radius, -1.10f * radius },
+                                   { 0.34f * radius, -1.04f * radius },
+                                   { 0.34f * radius, -0.94f * radius } };
+    const shape_point cord[] = { { 0.010f, 1.1f * radius }, { 0.010f, ceiling - center.y } };
     shaper->material = BRONZE;
-    turn(shaper, cap, 6, center, 24);
-    turn(shaper, finial, 6, center, 24);
-    turn(shaper, chain, 2, center, 6);
-    enum { BARS = 6, STEPS = 10 };
-    for (int bar = 0; bar < BARS; bar++) {
-        const float azimuth = 2.0f * PI * (float)bar / BARS, w = 0.035f;
-        const lmp_vec3 side = vec(-w * cage * sinf(azimuth), 0.0f, w * cage * cosf(azimuth));
-        lmp_vec3 previous = { 0 };
-        for (int i = 0; i <= STEPS; i++) {
-            const float angle = -1.12f + 2.14f * (float)i / STEPS;
-            const lmp_vec3 p =
-                vec_add(center, vec(cage * cosf(angle) * cosf(azimuth), cage * sinf(angle) * 1.02f,
-                                    cage * cosf(angle) * sinf(azimuth)));
-            if (i > 0) {
-                shape_quad(shaper, vec_add(previous, side), vec_sub(previous, side),
-                           vec_sub(p, side), vec_add(p, side));
-                shape_quad(shaper, vec_sub(previous, side), vec_add(previous, side),
-                           vec_add(p, side), vec_sub(p, side));
-            }
-            previous = p;
-        }
+    turn(shaper, top, sizeof top / sizeof *top, center, 24);
+    turn(shaper, bottom, sizeof bottom / sizeof *bottom, center, 24);
+    turn(shaper, cord, 2, center, 6);
+    enum { RINGS = 7 };
+    for (int i = 0; i < RINGS; i++) {
+        const float height = 0.78f * radius * (2.0f * (float)i / (RINGS - 1) - 1.0f);
+        const float wide = 1.004f * sqrtf(radius * radius - height * height);
+        const shape_point ring[] = { { wide, height - 0.009f * radius },
+                                     { wide + 0.012f * radius, height },
+                                     { wide, height + 0.009f * radius } };
+        turn(shaper, ring, 3, center, 32);
     }
 }
 
+static void add_light(court_plan *court, lmp_vec3 center, float radius, float power,
+                      float warm_share) {
+    float color[3];
+    builtin_light_color(&court->random, warm_share, color);
+    scene_light *light = builder_append(court->shaper.builder, BLOB_LIGHTS, 1);
+    if (!light)
+        return;
+    vec_store(center, light->center);
+    light->radius = radius;
+    for (int k = 0; k < 3; k++)
+        light->radiance[k] = color[k] * lmp_sphere_radiance_from_power(power, radius);
+}
+
+/* One over the court: down its length, left, middle, right, at changing heights. */
+static void hang_in_court(court_plan *court, int number, int count) {
+    uint64_t *random = &court->random;
+    const float t = ((float)number + 0.5f) / (float)count;
+    const float z = (court->half_length - 1.5f) * (1.0f - 2.0f * t);
+    const float x = (float)(number % 3 - 1) * 2.2f + random_between(random, -0.6f, 0.6f);
+    const lmp_vec3 center =
+        vec(x, random_between(random, 4.6f, 8.4f), z + random_between(random, -0.3f, 0.3f));
+    const float radius = random_between(random, 0.24f, 0.38f), r = HALF_WIDTH - 0.1f;
+    put_lantern(court, center, radius, CORNICE + sqrtf(r * r - x * x));
+    add_light(court, center, radius, 230.0f, 0.85f);
+}
+
+/* One in a bay of an aisle, on either storey; neighbours come far apart. */
+static void hang_in_aisle(court_plan *court, int number) {
+    uint64_t *random = &court->random;
+    const int slot = (int)(67u * (unsigned)number % (4u * (unsigned)court->bays));
+    const storey_plan *s = slot & 1 ? &upper : &lower;
+    const float side = slot & 2 ? 1.0f : -1.0f;
+    const float z = BAY * ((float)(slot / 4) - 0.5f * (float)(court->bays - 1));
+    const lmp_vec3 center = vec(side * (HALF_WIDTH + 1.6f + random_between(random, -0.2f, 0.2f)),
+                                s->springing - random_between(random, 0.2f, 0.9f),
+                                z + random_between(random, -0.3f, 0.3f));
+    const float radius = random_between(random, 0.17f, 0.26f);
+    put_lantern(court, center, radius, s->springing + vault_rise(s));
+    add_light(court, center, radius, 190.0f, 0.25f);
+}
+
 static void hang_lanterns(court_plan *court, int count) {
-    /* A jittered walk down the court: left, middle, right, at changing heights. */
-    for (int i = 0; i < count; i++) {
-        const float t = ((float)i + 0.5f) / (float)count;
-        const float z = (court->half_length - 1.2f) * (1.0f - 2.0f * t);
-        const float lane = (float)(i % 3 - 1) * 2.3f;
-        const float x = lane + random_between(&court->random, -0.8f, 0.8f);
-        const float y = random_between(&court->random, 2.5f, 8.0f);
-        const float radius = random_between(&court->random, 0.13f, 0.23f);
-        float color[3];
-        builtin_light_color(&court->random, 0.62f, color);
-        const lmp_vec3 center = vec(x, y, z + random_between(&court->random, -0.3f, 0.3f));
-        put_lantern(court, center, radius);
-        scene_light *light = builder_append(court->shaper.builder, BLOB_LIGHTS, 1);
-        if (!light)
-            return;
-        vec_store(center, light->center);
-        light->radius = radius;
-        const float power = 500.0f * random_between(&court->random, 0.7f, 1.3f);
-        for (int k = 0; k < 3; k++)
-            light->radiance[k] = color[k] * lmp_sphere_radiance_from_power(power, radius);
-    }
+    const int over_court = (2 * count + 4) / 5;
+    for (int i = 0; i < over_court; i++)
+        hang_in_court(court, i, over_court);
+    for (int i = over_court; i < count; i++)
+        hang_in_aisle(court, i - over_court);
 }
 
 void builtin_atrium(const builtin_parameters *parameters, scene_builder *builder) {
@@ -619,4 +680,5 @@ void builtin_atrium(const builtin_parameters *parameters, scene_builder *builder
     vec_store(vec(0.35f, 3.9f, court.half_length - 16.0f), camera->target);
     camera->up[1] = 1.0f;
     camera->fov = 0.92f;
+    camera->aspect = 1.6f;
 }

@@ -33,7 +33,8 @@ static void add_light(scene_builder *builder, lmp_vec3 center, float radius, lmp
     vec_store(vec_scale(color, lmp_sphere_radiance_from_power(power, radius)), light->radiance);
 }
 
-static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, float fov) {
+static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, float fov,
+                       float aspect) {
     scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
     if (!camera)
         return;
@@ -42,6 +43,7 @@ static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, fl
     vec_store(target, camera->target);
     camera->up[1] = 1.0f;
     camera->fov = fov;
+    camera->aspect = aspect;
 }
 
 static void turn_sphere(scene_shaper *shaper, lmp_vec3 center, float radius, int segments) {
@@ -79,7 +81,7 @@ void builtin_balls(const builtin_parameters *parameters, scene_builder *builder)
     enum { BALLS = 7 };
     scene_shaper shaper = { .builder = builder };
     shaper.material = add_material(builder, "backdrop", 0.42f, 0.40f, 0.38f, 0.85f, 0.0f);
-    sweep_backdrop(&shaper, 9.0f, -5.0f, 2.0f, 6.0f, 14.0f);
+    sweep_backdrop(&shaper, 9.0f, -5.0f, 2.0f, 11.0f, 16.0f);
     for (int i = 0; i < BALLS; i++) {
         const float step = (float)i / (float)(BALLS - 1), x = 1.25f * ((float)i - 3.0f);
         char name[32];
@@ -87,18 +89,21 @@ void builtin_balls(const builtin_parameters *parameters, scene_builder *builder)
         shaper.material =
             add_material(builder, name, 0.55f, 0.10f, 0.06f, 1.0f - 0.85f * step, 0.0f);
         turn_sphere(&shaper, vec(x, 0.55f, 0.0f), 0.55f, 96);
-        snprintf(name, sizeof name, "gold %.2f", (double)(1.0f - 0.85f * step));
+        /* In front, between two of them, a darker one of the same gloss. */
+        if (i + 1 == BALLS)
+            break;
+        snprintf(name, sizeof name, "glaze %.2f", (double)(1.0f - 0.85f * step));
         shaper.material =
-            add_material(builder, name, 0.95f, 0.70f, 0.32f, 1.0f - 0.85f * step, 1.0f);
+            add_material(builder, name, 0.03f, 0.16f, 0.20f, 1.0f - 0.85f * step, 0.0f);
         turn_sphere(&shaper, vec(x + 0.62f, 0.36f, 1.35f), 0.36f, 96);
     }
     shaper_finish(&shaper);
-    add_light(builder, vec(-4.2f, 3.4f, 2.4f), 0.30f, vec(1.0f, 0.72f, 0.42f), 260.0f);
-    add_light(builder, vec(0.6f, 4.2f, 1.2f), 0.36f, vec(1.0f, 0.93f, 0.82f), 300.0f);
-    add_light(builder, vec(4.6f, 2.6f, 2.8f), 0.22f, vec(0.25f, 0.55f, 1.0f), 200.0f);
-    add_light(builder, vec(-1.9f, 1.9f, -1.9f), 0.16f, vec(1.0f, 0.25f, 0.45f), 70.0f);
-    add_light(builder, vec(2.4f, 1.7f, -2.1f), 0.16f, vec(0.25f, 1.0f, 0.65f), 60.0f);
-    add_camera(builder, vec(0.0f, 2.1f, 8.4f), vec(0.1f, 0.72f, 0.0f), 0.56f);
+    add_light(builder, vec(-3.9f, 2.5f, 0.6f), 0.42f, vec(1.0f, 0.56f, 0.20f), 190.0f);
+    add_light(builder, vec(-1.5f, 2.1f, -1.6f), 0.30f, vec(1.0f, 0.16f, 0.34f), 110.0f);
+    add_light(builder, vec(0.6f, 5.4f, 2.6f), 0.50f, vec(1.0f, 0.90f, 0.76f), 330.0f);
+    add_light(builder, vec(1.7f, 1.9f, -1.9f), 0.30f, vec(0.14f, 1.0f, 0.55f), 100.0f);
+    add_light(builder, vec(4.1f, 2.4f, 0.4f), 0.42f, vec(0.12f, 0.45f, 1.0f), 190.0f);
+    add_camera(builder, vec(0.0f, 2.1f, 8.4f), vec(0.1f, 0.72f, 0.0f), 0.66f, 1.99f);
 }
 
 void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) {
@@ -119,12 +124,12 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) 
     shaper_finish(&shaper);
     /* Ten lights on two rings round the ball, warm on the left and cold on the right. */
     for (int i = 0; i < 10; i++) {
-        const float angle = 2.0f * PI * ((float)(i / 2) + 0.25f) / 5.0f;
+        const float angle = 2.0f * PI * ((float)(i / 2) + 0.5f) / 5.0f;
         const float height = i % 2 ? 3.3f : 1.7f, ring = i % 2 ? 1.9f : 2.5f;
         const lmp_vec3 center = vec(ring * sinf(angle), height, 0.9f + ring * cosf(angle) * 0.8f);
         const float warm = 0.5f - 0.5f * center.x / ring;
         const lmp_vec3 color = vec(0.45f + 0.55f * warm, 0.62f + 0.06f * warm, 1.0f - 0.62f * warm);
         add_light(builder, center, 0.13f, color, 34.0f);
     }
-    add_camera(builder, vec(0.0f, 1.75f, 6.6f), vec(0.0f, 1.12f, 0.0f), 0.50f);
+    add_camera(builder, vec(0.0f, 1.75f, 6.6f), vec(0.0f, 1.12f, 0.0f), 0.50f, 0.735f);
 }

@@ -46,8 +46,12 @@ void scene_free(scene *s) {
 }
 
 scene_camera scene_default_camera(const scene *s, float aspect) {
-    if (s->camera_count > 0)
-        return s->cameras[0];
+    if (s->camera_count > 0) {
+        scene_camera first = s->cameras[0];
+        if (aspect > 0.0f && aspect < first.aspect)
+            first.fov = 2.0f * atanf(tanf(0.5f * first.fov) * first.aspect / aspect);
+        return first;
+    }
     const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
     const lmp_vec3 center = vec_scale(vec_add(lo, hi), 0.5f);
     const float radius = 0.5f * vec_length(vec_sub(hi, lo));

@@ -63,14 +63,16 @@ typedef struct scene_texture {
 typedef struct scene_camera {
     char name[SCENE_NAME_SIZE];
     float eye[3], target[3], up[3];
-    float fov; /* vertical field of view, radians */
+    float fov;    /* vertical field of view, radians */
+    float aspect; /* the picture it was framed for, width / height; 0: any */
 } scene_camera;
 
 /* A glowing sphere. */
 typedef struct scene_light {
     float center[3], radius;
     float radiance[3];
-    uint32_t hidden; /* 1: it stands for an emissive mesh, which is drawn instead of the sphere */
+    uint32_t
+        hidden; /* 1: it shades, but its sphere is not drawn (an emissive mesh is, or nothing) */
 } scene_light;
 
 /* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
@@ -146,10 +148,12 @@ typedef struct scene_lights_options {
         .help = "keep the scene's own lights beside --lights and --random-lights"                  \
     }
 
-/* Gives the scene the lights that the command line asks for. */
+/* Gives the scene the lights that the command line asks for. A scene that then has none gets three
+ * studio lights (key, fill and rim, hidden, sized by its bounds), with a note on stderr. */
 bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_error *error);
 
-/* The scene's first camera, or one that frames its bounds. */
+/* The scene's first camera, or one that frames its bounds. In a picture narrower than the camera's
+ * aspect the field of view is widened, so that nothing is cut off at the sides. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
 
 /* The camera a command line asks for. Zero is the default: scene_default_camera. */

@@ -76,19 +76,25 @@ static void put_quad_indices(uint32_t *indices, uint32_t a, uint32_t b, uint32_t
     memcpy(indices, corners, sizeof corners);
 }
 
-void shape_quad(scene_shaper *shaper, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c, lmp_vec3 d) {
+void shape_quad_smooth(scene_shaper *shaper, const lmp_vec3 corners[4], const lmp_vec3 normals[4]) {
     const uint32_t first = (uint32_t)builder_count(shaper->builder, BLOB_VERTICES);
     scene_vertex *vertices = builder_append(shaper->builder, BLOB_VERTICES, 4);
     uint32_t *indices = grow_triangles(shaper, 6);
     if (!vertices || !indices)
         return;
-    const lmp_vec3 normal = vec_cross(vec_sub(c, a), vec_sub(d, b));
-    const float width = vec_length(vec_sub(b, a)), height = vec_length(vec_sub(d, a));
-    put_vertex(shaper, &vertices[0], a, normal, 0.0f, 0.0f);
-    put_vertex(shaper, &vertices[1], b, normal, width, 0.0f);
-    put_vertex(shaper, &vertices[2], c, normal, width, height);
-    put_vertex(shaper, &vertices[3], d, normal, 0.0f, height);
+    const float width = vec_length(vec_sub(corners[1], corners[0]));
+    const float height = vec_length(vec_sub(corners[3], corners[0]));
+    put_vertex(shaper, &vertices[0], corners[0], normals[0], 0.0f, 0.0f);
+    put_vertex(shaper, &vertices[1], corners[1], normals[1], width, 0.0f);
+    put_vertex(shaper, &vertices[2], corners[2], normals[2], width, height);
+    put_vertex(shaper, &vertices[3], corners[3], normals[3], 0.0f, height);
     put_quad_indices(indices, first, first + 1, first + 2, first + 3);
+}
+
+void shape_quad(scene_shaper *shaper, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c, lmp_vec3 d) {
+    const lmp_vec3 n = vec_cross(vec_sub(c, a), vec_sub(d, b));
+    const lmp_vec3 corners[4] = { a, b, c, d }, normals[4] = { n, n, n, n };
+    shape_quad_smooth(shaper, corners, normals);
 }
 
 void shape_box(scene_shaper *shaper, lmp_vec3 lo, lmp_vec3 hi) {

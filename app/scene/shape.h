@@ -28,6 +28,9 @@ typedef struct shape_point {
 /* A quad a b c d, counter-clockwise seen from its front. */
 void shape_quad(scene_shaper *shaper, lmp_vec3 a, lmp_vec3 b, lmp_vec3 c, lmp_vec3 d);
 
+/* The same with a normal at each corner. */
+void shape_quad_smooth(scene_shaper *shaper, const lmp_vec3 corners[4], const lmp_vec3 normals[4]);
+
 void shape_box(scene_shaper *shaper, lmp_vec3 minimum, lmp_vec3 maximum);
 
 /* A surface of revolution, or part of one. */
