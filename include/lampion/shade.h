@@ -11,6 +11,7 @@
 #ifndef LAMPION_SHADE_H
 #define LAMPION_SHADE_H
 
+#include <lampion/brdf.h>
 #include <lampion/lobe.h>
 
 #ifdef __cplusplus
@@ -19,9 +20,10 @@ extern "C" {
 
 /* The paper's two lobes. */
 typedef struct lmp_material {
-    lmp_rgb diffuse;  /* albedo of the diffuse lobe */
-    lmp_rgb specular; /* reflectance of the Phong lobe */
-    float exponent;   /* of the Phong lobe, >= 0 */
+    lmp_rgb diffuse;             /* albedo of the diffuse lobe */
+    lmp_rgb specular;            /* reflectance of the Phong lobe */
+    float exponent;              /* of the Phong lobe, >= 0 */
+    const lmp_brdf_table *table; /* instead of the lobes, or NULL; see lmp_shade_table */
 } lmp_material;
 
 /* glTF's metallic-roughness as two lobes: diffuse = base (1 - metallic), specular = Schlick's F0 =
@@ -61,6 +63,15 @@ LMP_API lmp_rgb lmp_shade_coefficients(const lmp_shade_settings *settings,
                                        const lmp_light *lights, size_t count);
 LMP_API lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_material *material,
                                 const lmp_surface *surface, const lmp_light *lights, size_t count);
+
+/* Radiance reflected by a tabulated BRDF (brdf.h), with the bands and the window of the table: the
+ * lights are moved to the view's frame, so that no coefficients are rotated (Kautz et al. 2002).
+ * Every method above calls it for a material with a table. Clamped at 0; 400 KB of stack.
+ *
+ * tangent is the material's x axis, of any length and at any angle to the normal but 0: an
+ * anisotropic table needs it. Zero means the horizontal one, y up x normal */
+LMP_API lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
+                                lmp_vec3 tangent, const lmp_light *lights, size_t count);
 
 #ifdef __cplusplus
 }

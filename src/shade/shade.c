@@ -69,6 +69,8 @@ static lmp_rgb reflect(const lmp_material *material, lmp_rgb diffuse, lmp_rgb sp
 
 lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_material *material,
                         const lmp_surface *surface, const lmp_light *lights, size_t count) {
+    if (material->table)
+        return lmp_shade_table(material->table, surface, (lmp_vec3) { 0, 0, 0 }, lights, count);
     lobe_pair lobes;
     prepare_lobes(settings, material, surface, &lobes);
     const int bands = lobes.bands;
@@ -90,6 +92,8 @@ lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_material *
 
 lmp_rgb lmp_shade_coefficients(const lmp_shade_settings *settings, const lmp_material *material,
                                const lmp_surface *surface, const lmp_light *lights, size_t count) {
+    if (material->table)
+        return lmp_shade_table(material->table, surface, (lmp_vec3) { 0, 0, 0 }, lights, count);
     lobe_pair lobes;
     prepare_lobes(settings, material, surface, &lobes);
     const int bands = lobes.bands;
