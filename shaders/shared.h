@@ -117,11 +117,14 @@ static_assert(sizeof(shared_pixel) == 96, "std430");
 #endif
 
 /* The filmic curve: Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab,
- * 2016), scaled so that middle grey stays 0.18. Bright saturated colours drift to white, their hue
- * holds. shared_tone_in goes to its working primaries, shared_tone is the curve, shared_tone_out
- * comes back to linear sRGB (clamp it to 0 … 1).
- * Clamp exposed radiance to 0 … SHARED_TONE_MAX before. row: 0 red, 1 green, 2 blue. */
+ * 2016), scaled so that middle grey stays 0.18. A channel follows the curve by itself, which turns
+ * bright colours white as film does, but for a part SHARED_TONE_HUE that keeps its share of the
+ * brightest channel: a lamp shows its colour however bright it is. shared_tone_in goes to its
+ * working primaries, shared_tone (of a channel and the largest of the three) is the curve,
+ * shared_tone_out comes back to linear sRGB (clamp it to 0 … 1). Clamp exposed radiance to 0 …
+ * SHARED_TONE_MAX before. row: 0 red, 1 green, 2 blue. */
 #define SHARED_TONE_SCALE 1.4627f
+#define SHARED_TONE_HUE   0.4f
 #define SHARED_TONE_MAX   65504.0f
 
 SHARED_FUNCTION float shared_tone_in(int row, float r, float g, float b) {
@@ -130,8 +133,13 @@ SHARED_FUNCTION float shared_tone_in(int row, float r, float g, float b) {
                                            : 0.02840f * r + 0.13383f * g + 0.83777f * b);
 }
 
-SHARED_FUNCTION float shared_tone(float x) {
+SHARED_FUNCTION float shared_tone_curve(float x) {
     return (x * (x + 0.0245786f) - 0.000090537f) / (x * (0.983729f * x + 0.4329510f) + 0.238081f);
+}
+
+SHARED_FUNCTION float shared_tone(float x, float peak) {
+    return (1.0f - SHARED_TONE_HUE) * shared_tone_curve(x) +
+           (peak > 0.0f ? SHARED_TONE_HUE * shared_tone_curve(peak) * (x / peak) : 0.0f);
 }
 
 SHARED_FUNCTION float shared_tone_out(int row, float r, float g, float b) {

@@ -18,9 +18,10 @@ void main() {
     if (flip != 0)
         at.y = int(size_lights.y) - 1 - at.y;
     vec3 x = clamp(texelFetch(hdr, at, 0).rgb * exposure, 0.0, SHARED_TONE_MAX);
-    vec3 y = vec3(shared_tone(shared_tone_in(0, x.r, x.g, x.b)),
-                  shared_tone(shared_tone_in(1, x.r, x.g, x.b)),
-                  shared_tone(shared_tone_in(2, x.r, x.g, x.b)));
+    vec3 y = vec3(shared_tone_in(0, x.r, x.g, x.b), shared_tone_in(1, x.r, x.g, x.b),
+                  shared_tone_in(2, x.r, x.g, x.b));
+    float peak = max(y.r, max(y.g, y.b));
+    y = vec3(shared_tone(y.r, peak), shared_tone(y.g, peak), shared_tone(y.b, peak));
     color = vec4(transfer(shared_tone_out(0, y.r, y.g, y.b)),
                  transfer(shared_tone_out(1, y.r, y.g, y.b)),
                  transfer(shared_tone_out(2, y.r, y.g, y.b)), 1.0);

@@ -95,7 +95,10 @@ void image_tone_map(const image *picture, float exposure, unsigned char *rgb8) {
         for (int c = 0; c < 3; c++)
             x[c] = limit(picture->rgb[3 * i + (size_t)c] * exposure);
         for (int c = 0; c < 3; c++)
-            y[c] = shared_tone(shared_tone_in(c, x[0], x[1], x[2]));
+            y[c] = shared_tone_in(c, x[0], x[1], x[2]);
+        const float peak = fmaxf(y[0], fmaxf(y[1], y[2]));
+        for (int c = 0; c < 3; c++)
+            y[c] = shared_tone(y[c], peak);
         for (int c = 0; c < 3; c++)
             rgb8[3 * i + (size_t)c] = to_byte(shared_tone_out(c, y[0], y[1], y[2]));
     }
