@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lights_file.c - sphere lights from JSON (docs/formats.md). */
+/* lights_file.c - sphere lights from JSON (docs/scenes.md). */
 #include "app/file/file.h"
 #include "app/scene/scene.h"
 

@@ -26,8 +26,8 @@
 #define MEMORY_PER_BYTE 40
 #define OUTPUT_BASE     (512ull << 20)
 #define OUTPUT_PER_BYTE 24
-#define CPU_BASE        1.5    /* seconds */
-#define CPU_PER_BYTE    1.0e-6 /* seconds */
+#define CPU_BASE        1.0    /* seconds */
+#define CPU_PER_BYTE    0.5e-6 /* seconds */
 #define WALL_SECONDS    600    /* against a child that sleeps */
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
