@@ -118,6 +118,7 @@ static int execute(const cli_command *command, reference_arguments *a, int count
 static int run(const cli_command *command, int argc, char **argv) {
     reference_arguments a = { .size = { 1280, 720 },
                               .settings = { .samples = 64, .seed = 1 },
+                              .window = LMP_WINDOW_HANNING,
                               .normal = { 0, 1, 0 },
                               .view = { 0, 1, 0 },
                               .diffuse = { 1, 1, 1 } };

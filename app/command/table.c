@@ -4,11 +4,12 @@
 extern const cli_command command_basis;
 extern const cli_command command_compare;
 extern const cli_command command_info;
+extern const cli_command command_paper;
 extern const cli_command command_project;
 extern const cli_command command_reference;
 extern const cli_command command_render;
 
 const cli_command *const command_table[] = {
-    &command_render,  &command_info, &command_project, &command_basis, &command_reference,
-    &command_compare, NULL,
+    &command_render,    &command_info,    &command_project, &command_basis,
+    &command_reference, &command_compare, &command_paper,   NULL,
 };

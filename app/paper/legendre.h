@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: MIT */
+/* legendre.h - Legendre polynomials and the cap's coefficients in double, for the steps that judge
+ * formulas. */
+#ifndef LAMPION_PAPER_LEGENDRE_H
+#define LAMPION_PAPER_LEGENDRE_H
+
+/* P_l(x) by Bonnet's recurrence. */
+double paper_legendre(int l, double x);
+
+/* ∫ P_l over cos_a … 1 by quadrature: the Delta_l of the paper's Eq. 10. */
+double paper_delta(int l, double cos_a);
+
+/* Z_l = 2 pi K_l Delta_l, paper Eq. 10, by quadrature. */
+double paper_zonal(int l, double cos_a);
+
+#endif

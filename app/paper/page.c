@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/paper/page.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <string.h>
+
+static const char style[] =
+    "body{font:16px/1.5 system-ui,sans-serif;max-width:1060px;margin:0 auto;padding:1em;"
+    "color:#1d2126;background:#fff}h1{line-height:1.15}h2{margin-top:2.2em;border-top:1px solid "
+    "#ccd2d9;padding-top:.8em}figure{margin:1em 0}img{max-width:100%;height:auto;display:block}"
+    "figcaption{color:#555d66;font-size:14px;margin-top:.3em}pre{background:#f1f3f5;padding:.6em "
+    ".8em;overflow-x:auto;font-size:13px;white-space:pre-wrap;overflow-wrap:anywhere}"
+    ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px;margin:.6em 0}"
+    "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid #dde1e6;white-space:nowrap}"
+    "th:first-child,td:first-child{text-align:left}th{background:#f1f3f5}"
+    ".failed{background:#fde8e8;border-left:4px solid #c0392b;padding:.6em .8em}";
+
+void page_begin(paper_page *page, const char *title, const char *lead) {
+    fprintf(page->html,
+            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+            "name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>%s</title>\n"
+            "<style>%s</style></head><body>\n<h1>%s</h1>\n<p>%s</p>\n",
+            title, style, title, lead);
+}
+
+void page_end(paper_page *page) {
+    fputs("</body></html>\n", page->html);
+}
+
+static void put_escaped(FILE *html, const char *text) {
+    for (; *text; text++)
+        switch (*text) {
+        case '<':
+            fputs("&lt;", html);
+            break;
+        case '>':
+            fputs("&gt;", html);
+            break;
+        case '&':
+            fputs("&amp;", html);
+            break;
+        case '"':
+            fputs("&quot;", html);
+            break;
+        default:
+            fputc(*text, html);
+        }
+}
+
+void page_section(paper_page *page, const char *title) {
+    fprintf(page->html, "<h2>%s</h2>\n", title);
+}
+
+void page_text(paper_page *page, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("<p>", page->html);
+    vfprintf(page->html, format, arguments);
+    fputs("</p>\n", page->html);
+    va_end(arguments);
+}
+
+void page_command(paper_page *page, const char *command) {
+    fputs("<pre>", page->html);
+    put_escaped(page->html, command);
+    fputs("</pre>\n", page->html);
+}
+
+void page_failure(paper_page *page, const char *text) {
+    fputs("<p class=\"failed\">This step failed: ", page->html);
+    put_escaped(page->html, text);
+    fputs("</p>\n", page->html);
+}
+
+void page_picture(paper_page *page, const char *file, const char *caption) {
+    fprintf(page->html,
+            "<figure><a href=\"%s\"><img src=\"%s\" alt=\"%s\"></a><figcaption>%s</figcaption>"
+            "</figure>\n",
+            file, file, caption, caption);
+}
+
+/* --- tables -------------------------------------------------------------------------------------
+ */
+
+static void put_row(page_table *table, const char *cells, const char *tag) {
+    FILE *html = table->page->html;
+    fprintf(html, "<tr><%s>", tag);
+    for (const char *c = cells; *c; c++)
+        if (*c == '|') {
+            fprintf(html, "</%s><%s>", tag, tag);
+            fputc(',', table->csv);
+        } else {
+            fputc(*c, html);
+            fputc(*c == ',' ? ';' : *c, table->csv);
+        }
+    fprintf(html, "</%s></tr>\n", tag);
+    fputc('\n', table->csv);
+}
+
+bool page_table_begin(paper_page *page, page_table *table, const char *file, const char *heads,
+                      cli_error *error) {
+    table->page = page;
+    snprintf(table->file, sizeof table->file, "%s.csv", file);
+    table->csv = fopen(table->file, "w");
+    if (!table->csv)
+        return cli_fail(error, table->file, "%s", strerror(errno));
+    fputs("<div class=\"wide\"><table>\n", page->html);
+    put_row(table, heads, "th");
+    return true;
+}
+
+void page_table_row(page_table *table, const char *format, ...) {
+    char cells[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(cells, sizeof cells, format, arguments);
+    va_end(arguments);
+    put_row(table, cells, "td");
+}
+
+bool page_table_end(page_table *table, cli_error *error) {
+    const bool failed = ferror(table->csv) != 0;
+    fprintf(table->page->html, "</table></div>\n<p><a href=\"%s\">%s</a></p>\n", table->file,
+            table->file);
+    if (fclose(table->csv) != 0 || failed)
+        return cli_fail(error, table->file, "cannot be written");
+    return true;
+}

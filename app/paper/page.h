@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT */
+/* page.h - one HTML page with its pictures, plots (SVG) and tables (CSV too), all in one folder. */
+#ifndef LAMPION_PAPER_PAGE_H
+#define LAMPION_PAPER_PAGE_H
+
+#include "app/cli/cli.h"
+
+#include <stdio.h>
+
+/* Files are written into the working directory, beside the page. */
+typedef struct paper_page {
+    FILE *html;
+} paper_page;
+
+void page_begin(paper_page *page, const char *title, const char *lead);
+void page_end(paper_page *page);
+void page_section(paper_page *page, const char *title);
+/* A paragraph; the format may hold HTML. */
+void page_text(paper_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The command that made what follows. */
+void page_command(paper_page *page, const char *command);
+void page_failure(paper_page *page, const char *text);
+void page_picture(paper_page *page, const char *file, const char *caption);
+
+/* A table, written to FILE.csv too. Cells are separated by '|'. */
+typedef struct page_table {
+    paper_page *page;
+    FILE *csv;
+    char file[64];
+} page_table;
+bool page_table_begin(paper_page *page, page_table *table, const char *file, const char *heads,
+                      cli_error *error);
+void page_table_row(page_table *table, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+bool page_table_end(page_table *table, cli_error *error);
+
+/* A plot, written to FILE.svg, its points to FILE.csv. Points that a logarithm cannot show are left
+ * out. */
+typedef struct plot_series {
+    const char *name;
+    const double *x, *y;
+    int count;
+} plot_series;
+typedef struct page_plot {
+    const char *file, *title, *x_label, *y_label;
+    bool log_x, log_y;
+    double y_floor; /* smallest y shown, of log_y; 0: as small as there is */
+    const plot_series *series;
+    int series_count; /* at most 8 */
+} page_plot;
+bool page_plot_write(paper_page *page, const page_plot *plot, cli_error *error);
+
+#endif

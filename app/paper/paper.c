@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/paper/paper.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+static const paper_step steps[] = {
+    { "basis", "Figure 2: the basis", paper_step_basis },
+    { "lights", "Figure 3: simple lights", paper_step_lights },
+    { "cap", "Figure 4: the cap of a sphere light", paper_step_cap },
+    { "integral", "Equations 11 and 12, Annex A: the integral of a Legendre polynomial",
+      paper_step_integral },
+    { "operations", "Section 3: operations counted", paper_step_operations },
+    { "table", "Section 4.2: analytic or tabulated", paper_step_table },
+    { "san-miguel", "Figure 1: ten lights, ten bands", paper_step_san_miguel },
+    { "sponza", "Figure 5: thirty lights, five and eight bands", paper_step_sponza },
+    { "cost", "What band limiting costs", paper_step_cost },
+};
+#define STEPS ((int)(sizeof steps / sizeof *steps))
+
+static bool wanted(const paper *p, int step) {
+    const cli_list *names = &p->options->steps;
+    for (int i = 0; i < names->count; i++)
+        if (strcmp(names->items[i], steps[step].name) == 0)
+            return true;
+    return names->count == 0;
+}
+
+bool paper_has_step(const char *name) {
+    for (int i = 0; i < STEPS; i++)
+        if (strcmp(steps[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+#define WORDS_MAX 64
+
+bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...) {
+    char line[4096] = "lampion ", words[4096], *argv[WORDS_MAX], *rest = NULL;
+    int argc = 0;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line + strlen(line), sizeof line - strlen(line), format, arguments);
+    va_end(arguments);
+    memcpy(words, line, sizeof words);
+    for (char *word = strtok_r(words, " ", &rest); word && argc < WORDS_MAX - 1;
+         word = strtok_r(NULL, " ", &rest))
+        argv[argc++] = word;
+    argv[argc] = NULL;
+    if (show)
+        page_command(&p->page, line);
+    if (p->options->run(argc - 1, argv + 1) != CLI_OK)
+        return cli_fail(error, NULL, "the command \"%s\" failed", line);
+    return true;
+}
+
+double paper_now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void name_processor(char name[128]) {
+    char line[256];
+    FILE *info = fopen("/proc/cpuinfo", "r");
+    snprintf(name, 128, "unknown processor");
+    while (info && fgets(line, sizeof line, info))
+        if (strncmp(line, "model name", 10) == 0 && strchr(line, ':')) {
+            line[strcspn(line, "\n")] = '\0';
+            snprintf(name, 128, "%.120s", strchr(line, ':') + 2);
+            break;
+        }
+    if (info)
+        fclose(info);
+}
+
+static void introduce(paper *p) {
+    char processor[128];
+    name_processor(processor);
+    page_begin(&p->page, "Efficient projection of sphere lights on spherical harmonics, reproduced",
+               "Figures, tables and claims of P. Mézières and M. Paulin, <em>Projection efficace "
+               "de lumières sphériques sur les harmoniques sphériques</em> (JFIG 2020), made anew "
+               "by <code>lampion paper</code>. Every number on this page was computed in this run; "
+               "each figure stands under the command that made it.");
+    page_text(&p->page,
+              "Machine: %s, %ld processors. The paper's: Intel Xeon 2.10 GHz, RTX 2080. %s",
+              processor, sysconf(_SC_NPROCESSORS_ONLN),
+              p->options->full ? "Sizes are the paper's (<code>--full</code>)."
+                               : "Pictures are smaller than the paper's, to end within minutes; "
+                                 "<code>--full</code> makes them as large.");
+}
+
+static void run_steps(paper *p, int *failures) {
+    for (int i = 0; i < STEPS; i++) {
+        cli_error error = { "" };
+        const double start = paper_now();
+        if (!wanted(p, i))
+            continue;
+        cli_progress(steps[i].name, (double)i / STEPS);
+        page_section(&p->page, steps[i].title);
+        if (!steps[i].run(p, &error)) {
+            page_failure(&p->page, error.text);
+            fprintf(stderr, "lampion: %s: %s\n", steps[i].name, error.text);
+            ++*failures;
+        }
+        page_text(&p->page, "<small>Step <code>%s</code>: %.1f s.</small>", steps[i].name,
+                  paper_now() - start);
+        if (isatty(STDERR_FILENO))
+            fprintf(stderr, "%d of %d, %s: %.1f s\n", i + 1, STEPS, steps[i].name,
+                    paper_now() - start);
+    }
+    cli_progress_end();
+}
+
+bool paper_write(const paper_options *options, int *failures, cli_error *error) {
+    paper p = { .options = options };
+    *failures = 0;
+    if (mkdir(options->directory, 0777) != 0 && errno != EEXIST)
+        return cli_fail(error, options->directory, "cannot be created: %s", strerror(errno));
+    if (chdir(options->directory) != 0)
+        return cli_fail(error, options->directory, "is no folder: %s", strerror(errno));
+    p.page.html = fopen("index.html.part", "w");
+    if (!p.page.html)
+        return cli_fail(error, "index.html", "cannot be written: %s", strerror(errno));
+    introduce(&p);
+    run_steps(&p, failures);
+    page_end(&p.page);
+    const bool failed = ferror(p.page.html) != 0;
+    if (fclose(p.page.html) != 0 || failed || rename("index.html.part", "index.html") != 0)
+        return cli_fail(error, "index.html", "cannot be written");
+    return true;
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* paper.h - the figures, tables and claims of Mézières and Paulin 2020, made anew and put beside
+ * what the paper says: one HTML page. */
+#ifndef LAMPION_PAPER_H
+#define LAMPION_PAPER_H
+
+#include "app/paper/page.h"
+
+/* Runs a command line of the program ("render builtin:atrium …"); returns its exit status. */
+typedef int (*paper_runner)(int argc, char **argv);
+
+typedef struct paper_options {
+    const char *directory;  /* created if it is not there */
+    bool full;              /* the paper's sizes; else such as end within minutes */
+    const char *san_miguel; /* a scene file for figure 1, or NULL: builtin:atrium */
+    const char *sponza;     /* for figure 5 */
+    cli_list steps;         /* the names of those to run; none means all */
+    paper_runner run;
+} paper_options;
+
+bool paper_has_step(const char *name);
+
+/* Writes index.html and its files. A step that fails says so in the page, and *failures counts it;
+ * the others go on. False only if the page itself cannot be written. */
+bool paper_write(const paper_options *options, int *failures, cli_error *error);
+
+/* --- for the steps ------------------------------------------------------------------------------
+ */
+
+typedef struct paper {
+    const paper_options *options;
+    paper_page page;
+} paper;
+
+typedef struct paper_step {
+    const char *name, *title;
+    bool (*run)(paper *p, cli_error *error);
+} paper_step;
+
+bool paper_step_basis(paper *p, cli_error *error);
+bool paper_step_lights(paper *p, cli_error *error);
+bool paper_step_cap(paper *p, cli_error *error);
+bool paper_step_integral(paper *p, cli_error *error);
+bool paper_step_operations(paper *p, cli_error *error);
+bool paper_step_table(paper *p, cli_error *error);
+bool paper_step_san_miguel(paper *p, cli_error *error);
+bool paper_step_sponza(paper *p, cli_error *error);
+bool paper_step_cost(paper *p, cli_error *error);
+
+/* Runs a command line of the program, its words separated by single blanks; `show` puts it on the
+ * page. */
+bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Seconds of a steady clock. */
+double paper_now(void);
+
+#endif

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: MIT */
+/* The paper's pictures: made by `render`, timed, and judged by `reference`. */
+#include "app/compare/compare.h"
+#include "app/gpu/gpu.h"
+#include "app/paper/paper.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BANDS_MAX = 8, RUNS = 5 };
+
+/* A figure of the paper. */
+typedef struct figure {
+    const char *name; /* of files */
+    char scene[2048], lights[64];
+    int width, height, light_count;
+    int bands[BANDS_MAX];         /* to compare, 0-terminated */
+    int shown[BANDS_MAX];         /* to show and time, 0-terminated */
+    const char *paper[BANDS_MAX]; /* the paper's milliseconds of `shown` */
+    int samples;                  /* of the ground truth */
+} figure;
+
+static int by_value(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Median milliseconds of a frame by the method, on the device of `context`. */
+static bool time_frame(const gpu_context *context, const scene *world, const figure *f, int bands,
+                       gpu_method method, double *milliseconds, cli_error *error) {
+    double totals[RUNS];
+    const gpu_frame frame = { .width = f->width,
+                              .height = f->height,
+                              .camera =
+                                  scene_default_camera(world, (float)f->width / (float)f->height),
+                              .method = method,
+                              .bands = bands,
+                              .window = LMP_WINDOW_HANNING,
+                              .lights = world->lights,
+                              .light_count = world->light_count };
+    gpu_renderer *renderer = gpu_renderer_create(context, world, error);
+    gpu_times times;
+    bool ok = renderer && gpu_render(renderer, &frame, &times, error);
+    for (int i = 0; ok && i < RUNS; i++) {
+        ok = gpu_render(renderer, &frame, &times, error);
+        totals[i] = times.total;
+    }
+    gpu_renderer_destroy(renderer);
+    if (!ok)
+        return false;
+    qsort(totals, RUNS, sizeof *totals, by_value);
+    *milliseconds = totals[RUNS / 2];
+    return true;
+}
+
+static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli_error *error) {
+    scene world;
+    page_table table;
+    char file[64];
+    const scene_lights_options lights = { .random_count = f->light_count, .seed = 1 };
+    snprintf(file, sizeof file, "%s-times", f->name);
+    if (!scene_load(f->scene, &(scene_options) { .no_cache = false }, &world, error))
+        return false;
+    bool ok =
+        scene_apply_lights(&world, &lights, error) &&
+        page_table_begin(&p->page, &table, file,
+                         "bands|method|ms, median of 5|paper, ms at full size on RTX 2080", error);
+    for (int i = 0; ok && f->shown[i]; i++)
+        for (int m = GPU_METHODS - 1; ok && m >= 0; m--) {
+            double ms;
+            ok = time_frame(context, &world, f, f->shown[i], (gpu_method)m, &ms, error);
+            if (ok)
+                page_table_row(&table, "%d|%s|%.1f|%s", f->shown[i], gpu_method_names[m], ms,
+                               f->paper[i]);
+        }
+    scene_free(&world);
+    return ok && page_table_end(&table, error);
+}
+
+static bool time_figure(paper *p, const figure *f, cli_error *error) {
+    gpu_context context;
+    if (!gpu_context_create(NULL, &context, error))
+        return false;
+    page_text(&p->page, "Frame times at %dx%d on <code>%s</code> (%s):", f->width, f->height,
+              context.device, context.software ? "software, wall clock" : "timer queries");
+    const bool ok = time_rows(p, &context, f, error);
+    gpu_context_destroy(&context);
+    return ok;
+}
+
+static bool compare_files(const char *picture, const char *truth, compare_result *result,
+                          cli_error *error) {
+    image a = { .rgb = NULL }, b = { .rgb = NULL };
+    const bool ok = image_read(picture, &a, error) && image_read(truth, &b, error) &&
+                    compare_images(&a, &b, 0, result, error);
+    image_free(&a);
+    image_free(&b);
+    return ok;
+}
+
+/* The error of each number of bands against the ground truth, and that of a second ground truth of
+ * other noise: no smaller error can be told from noise. */
+static bool judge(paper *p, const figure *f, cli_error *error) {
+    double x[BANDS_MAX], rough[BANDS_MAX];
+    page_table table;
+    compare_result result;
+    char file[64], picture[64];
+    int count = 0;
+    if (!paper_run(p, false, error,
+                   "reference %s %s --size %dx%d --spp %d --noise-seed 2 -o %s-again.exr", f->scene,
+                   f->lights, f->width, f->height, f->samples, f->name))
+        return false;
+    snprintf(file, sizeof file, "%s-errors", f->name);
+    snprintf(picture, sizeof picture, "%s-truth.exr", f->name);
+    if (!page_table_begin(&p->page, &table, file, "bands|relative MSE|SSIM|largest error at pixel",
+                          error))
+        return false;
+    for (; f->bands[count]; count++) {
+        char ours[64];
+        snprintf(ours, sizeof ours, "%s-%d.exr", f->name, f->bands[count]);
+        if (!paper_run(p, false, error,
+                       "render %s %s --size %dx%d --bands %d --window hanning -o %s", f->scene,
+                       f->lights, f->width, f->height, f->bands[count], ours) ||
+            !compare_files(ours, picture, &result, error))
+            return false;
+        x[count] = f->bands[count];
+        rough[count] = result.values[COMPARE_RELMSE];
+        page_table_row(&table, "%d|%.3e|%.5f|%.3g at %d×%d", f->bands[count],
+                       result.values[COMPARE_RELMSE], result.values[COMPARE_SSIM],
+                       result.values[COMPARE_MAX], result.max_x, result.max_y);
+    }
+    char again[64];
+    snprintf(again, sizeof again, "%s-again.exr", f->name);
+    if (!compare_files(again, picture, &result, error))
+        return false;
+    page_table_row(&table, "noise alone|%.3e|%.5f|%.3g at %d×%d", result.values[COMPARE_RELMSE],
+                   result.values[COMPARE_SSIM], result.values[COMPARE_MAX], result.max_x,
+                   result.max_y);
+    if (!page_table_end(&table, error))
+        return false;
+    const plot_series series = { "relative MSE", x, rough, count };
+    return page_plot_write(&p->page,
+                           &(page_plot) { .file = file,
+                                          .title = "Error against whole lobes by number of bands",
+                                          .x_label = "bands",
+                                          .y_label = "relative MSE",
+                                          .log_y = true,
+                                          .series = &series,
+                                          .series_count = 1 },
+                           error);
+}
+
+/* Traces the ground truth; *exposure is its own, for all pictures of the figure. */
+static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *error) {
+    char file[64], caption[160];
+    image truth;
+    if (!paper_run(p, true, error, "reference %s %s --size %dx%d --spp %d -o %s-truth.exr",
+                   f->scene, f->lights, f->width, f->height, f->samples, f->name))
+        return false;
+    snprintf(file, sizeof file, "%s-truth.exr", f->name);
+    if (!image_read(file, &truth, error))
+        return false;
+    *exposure = image_auto_exposure(&truth);
+    snprintf(file, sizeof file, "%s-truth.png", f->name);
+    const bool ok = image_write(&truth, file, *exposure, error);
+    image_free(&truth);
+    snprintf(caption, sizeof caption, "Ground truth: whole lobes, no harmonics, %d samples a pixel",
+             f->samples);
+    if (ok)
+        page_picture(&p->page, file, caption);
+    return ok;
+}
+
+static bool make_figure(paper *p, const figure *f, cli_error *error) {
+    char file[64], caption[160];
+    float exposure;
+    if (!trace_truth(p, f, &exposure, error))
+        return false;
+    for (int i = 0; f->shown[i]; i++) {
+        snprintf(file, sizeof file, "%s-%d.png", f->name, f->shown[i]);
+        snprintf(caption, sizeof caption, "%d sphere lights, %d bands", f->light_count,
+                 f->shown[i]);
+        if (!paper_run(
+                p, true, error,
+                "render %s %s --size %dx%d --bands %d --window hanning --exposure %.6g -o %s",
+                f->scene, f->lights, f->width, f->height, f->shown[i], (double)exposure, file))
+            return false;
+        page_picture(&p->page, file, caption);
+    }
+    return time_figure(p, f, error) && judge(p, f, error);
+}
+
+static void set_scene(figure *f, const char *name) {
+    snprintf(f->scene, sizeof f->scene, "%s", name ? name : "builtin:atrium");
+    snprintf(f->lights, sizeof f->lights, "--random-lights %d --seed 1", f->light_count);
+}
+
+bool paper_step_san_miguel(paper *p, cli_error *error) {
+    const bool full = p->options->full;
+    figure f = { .name = "figure1",
+                 .width = full ? 3400 : 850,
+                 .height = full ? 900 : 225,
+                 .light_count = 10,
+                 .bands = { 3, 5, 10, 20 },
+                 .shown = { 10 },
+                 .paper = { "69" },
+                 .samples = full ? 256 : 64 };
+    set_scene(&f, p->options->san_miguel);
+    page_text(&p->page, "The paper renders San Miguel at 3400×900 in 69 ms. %s",
+              p->options->san_miguel ? "" : "Here <code>builtin:atrium</code> stands for it.");
+    return make_figure(p, &f, error);
+}
+
+bool paper_step_sponza(paper *p, cli_error *error) {
+    const bool full = p->options->full;
+    figure f = { .name = "figure5",
+                 .width = full ? 1980 : 660,
+                 .height = full ? 995 : 332,
+                 .light_count = 30,
+                 .bands = { 3, 5, 8, 12, 20 },
+                 .shown = { 5, 8 },
+                 .paper = { "4.9", "8.3" },
+                 .samples = full ? 256 : 64 };
+    set_scene(&f, p->options->sponza);
+    page_text(&p->page,
+              "The paper renders Sponza at 1980×995 in 4.9 ms with 5 bands and 8.3 ms with 8. %s",
+              p->options->sponza ? "" : "Here <code>builtin:atrium</code> stands for it.");
+    return make_figure(p, &f, error);
+}

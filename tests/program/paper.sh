@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+# lampion paper: quick steps succeed, a step that fails is told in the page and stops nothing.
+set -eu
+. tests/house/common.sh
+
+"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table >"$WORK/out" ||
+    fail "the quick steps fail"
+[ "$(cat "$WORK/out")" = "$WORK/page/index.html" ] || fail "the page's name is not printed"
+grep -q '</html>' "$WORK/page/index.html" || fail "the page is cut"
+! grep -q 'class="failed"' "$WORK/page/index.html" || fail "a step failed"
+for form in 3,3,5 6,13,19; do
+    grep -q "^closed forms (Sloan 2008),$form,0," "$WORK/page/operations.csv" ||
+        fail "the closed forms' operations are not the paper's $form"
+done
+for file in figure4.svg figure4.csv tabulated.csv; do
+    [ -s "$WORK/page/$file" ] || fail "$file is missing"
+    grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"
+done
+
+echo nonsense >"$WORK/broken.gltf"
+status=0
+"$PROGRAM" paper -o "$WORK/broken" --step sponza --step operations --sponza "$WORK/broken.gltf" \
+    >"$WORK/out" 2>"$WORK/err" || status=$?
+[ $status = 1 ] || fail "a failed step ends with status $status"
+grep -q 'class="failed"' "$WORK/broken/index.html" || fail "the page hides the failure"
+grep -q 'closed forms' "$WORK/broken/index.html" || fail "the failure stopped the other step"
+
+status=0
+"$PROGRAM" paper -o "$WORK/none" --step beauty 2>"$WORK/err" || status=$?
+[ $status = 2 ] && grep -q beauty "$WORK/err" || fail "an unknown step is accepted"

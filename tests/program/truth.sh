@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+# lampion reference and lampion compare: what they write, print and refuse.
+set -eu
+. tests/house/common.sh
+
+# refuses STATUS TEXT COMMAND…: ends so, saying TEXT, and leaves no picture behind.
+refuses() {
+    expected=$1 text=$2
+    shift 2
+    status=0
+    "$PROGRAM" "$@" >"$WORK/out" 2>"$WORK/err" || status=$?
+    [ $status = "$expected" ] || fail "$*: status $status, not $expected"
+    grep -q -- "$text" "$WORK/err" || fail "$*: $(cat "$WORK/err")"
+    [ "$(grep -c . "$WORK/err")" -le 2 ] || fail "$*: more than a line"
+    [ ! -e "$WORK/none.png" ] || fail "$*: left a picture"
+}
+
+# E = pi L sin²a cos(theta) of a sphere of radius 1/2 at distance 2, half of it by a white floor
+radiance=$("$PROGRAM" reference --point 0,0,0 --light 0,2,0,0.5,8,16,32)
+[ "$radiance" = "0.5 1 2" ] || fail "one point: $radiance"
+small="--size 48x32 --random-lights 3 --spp 8"
+"$PROGRAM" reference builtin:balls $small --threads 1 -o "$WORK/one.exr"
+"$PROGRAM" reference builtin:balls $small --threads 2 -o "$WORK/two.exr"
+cmp "$WORK/one.exr" "$WORK/two.exr" || fail "the number of threads changes the picture"
+"$PROGRAM" reference builtin:balls $small --noise-seed 2 -o "$WORK/other.exr"
+"$PROGRAM" reference builtin:balls $small -o "$WORK/one.png"
+"$PROGRAM" reference builtin:balls $small --ev 1 -o "$WORK/brighter.png"
+grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the picture"
+
+"$PROGRAM" compare "$WORK/one.exr" "$WORK/two.exr" --fail-above max=0 --fail-above ssim=1 \
+    >"$WORK/out" || fail "equal pictures are not equal"
+"$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --json --heatmap "$WORK/heat.png" \
+    --fail-above rmse=1000 | grep -q '"bad_values": 0' || fail "no JSON"
+[ -s "$WORK/heat.png" ] || fail "no heat map"
+"$PROGRAM" compare "$WORK/one.png" "$WORK/brighter.png" | grep -q display || fail "PNG is not display"
+
+refuses 1 'rmse is .*, limit 0' compare "$WORK/one.exr" "$WORK/other.exr" --fail-above rmse=0
+refuses 1 'ssim is .*, limit 1' compare "$WORK/one.png" "$WORK/brighter.png" --fail-above ssim=1
+refuses 2 'METRIC' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above beauty=1
+refuses 2 'not a number' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rmse=nan
+refuses 2 'two of a kind' compare "$WORK/one.exr" "$WORK/one.png"
+refuses 2 'two pictures' compare "$WORK/one.exr"
+refuses 1 'absent.exr' compare "$WORK/one.exr" "$WORK/absent.exr"
+"$PROGRAM" reference builtin:balls --size 20x20 --spp 1 -o "$WORK/small.exr"
+refuses 1 'different sizes: 48x32 and 20x20' compare "$WORK/one.exr" "$WORK/small.exr"
+refuses 2 'one scene' reference -o "$WORK/none.png"
+refuses 2 '-o FILE' reference builtin:balls
+refuses 1 'absent.gltf' reference "$WORK/absent.gltf" -o "$WORK/none.png"
+refuses 1 'none.jpg' reference builtin:balls -o "$WORK/none.jpg"
+refuses 2 'no scene' reference builtin:balls --point 0,0,0
+refuses 1 'X,Y,Z,RADIUS,R,G,B' reference --point 0,0,0 --light 1,2,3
+refuses 1 'X,Y,Z,RADIUS,R,G,B' reference --point 0,0,0 --light 1,2,3,-1,1,1,1
