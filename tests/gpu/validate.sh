@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+# lampion.glsl alone is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10 (glslang's judgement).
+set -eu
+. tests/house/common.sh
+command -v glslangValidator >/dev/null || {
+    echo "skipped: glslangValidator is not installed (package glslang-tools)"
+    exit 0
+}
+
+# shader VERSION BANDS WINDOW
+shader() {
+    echo "#version $1"
+    echo "precision highp float; precision highp int;"
+    echo "#define LMP_BANDS $2"
+    echo "#define LMP_WINDOW $3"
+    cat <<'GLSL'
+layout(local_size_x = 64) in;
+layout(std140, binding = 0) uniform lights_block { vec4 lights[64]; };
+layout(std430, binding = 0) buffer out_block { vec4 values[]; };
+#define LMP_LIGHT_COUNT       32
+#define LMP_LIGHT_SPHERE(i)   lights[2 * (i)]
+#define LMP_LIGHT_RADIANCE(i) lights[2 * (i) + 1].rgb
+GLSL
+    cat shaders/lampion.glsl
+    cat <<'GLSL'
+void main() {
+    lmp_surface s;
+    s.position = vec3(gl_GlobalInvocationID);
+    s.normal = s.view = vec3(0.0, 0.0, 1.0);
+    lmp_material m = lmp_material_from_metallic_roughness(vec3(0.5), 0.5, 0.4);
+    float sh[LMP_SH_COUNT];
+    lmp_sphere_project(lights[0], s.position, sh);
+    values[gl_GlobalInvocationID.x] =
+        vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m), sh[0]);
+}
+GLSL
+}
+
+# check VERSION BANDS WINDOW OPTION…
+check() {
+    shader "$1" "$2" "$3" >"$WORK/shader.comp"
+    shift 3
+    (cd "$WORK" && glslangValidator "$@" shader.comp) >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+}
+for form in "1 0" "2 1" "6 2"; do
+    # shellcheck disable=SC2086
+    set -- $form
+    check "450 core" "$1" "$2"
+    check "310 es" "$1" "$2"
+    check "450 core" "$1" "$2" -V
+done
+check "450 core" 20 1
+if shader "450 core" 33 0 >"$WORK/shader.comp" && (cd "$WORK" && glslangValidator shader.comp) >"$WORK/log"; then
+    fail "33 bands are not refused"
+fi
