@@ -152,7 +152,7 @@ bool paper_step_cost(paper *p, cli_error *error) {
         "<b>Where the method is poor.</b> A lobe of exponent e needs about 3 √e bands: below "
         "that its highlight is too dim and too wide, and it rings, below zero at a distance "
         "from the highlight (column “lowest”). A window trades the ringing for more blur: the "
-        "peak falls further, the error does not. Large lights are easier than small ones, "
+        "peak falls further and the error grows. Large lights are easier than small ones, "
         "for they blur the lobe themselves. Nothing here knows visibility: light passes "
         "through walls.");
     return true;

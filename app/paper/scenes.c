@@ -140,6 +140,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
     if (!page_table_end(&table, error))
         return false;
     const plot_series series = { "relative MSE", x, rough, count };
+    snprintf(file, sizeof file, "%s-curve", f->name);
     return page_plot_write(&p->page,
                            &(page_plot) { .file = file,
                                           .title = "Error against whole lobes by number of bands",

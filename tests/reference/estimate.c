@@ -132,7 +132,7 @@ static void monte_carlo_equals_quadrature_for_many_lights(void **state) {
     (void)state;
     int outside = 0, values = 0;
     for (int i = 0; i < 60; i++) {
-        const reference_cut cut = { .bands = i % 3 ? 0 : 3 + i / 3, .window = i % 2 };
+        const reference_cut cut = { .bands = i % 3 ? 0 : 3 + i / 3, .window = (lmp_window)(i % 2) };
         const reference_material material = { { 0.6, 0.3, 0.1 }, { 0.1, 0.4, 0.8 }, pow(1.2, i) };
         scene_light lights[12];
         random_lights(lights, 12);

@@ -38,7 +38,7 @@ static void build(stage *s) {
                     { { -3, 1, 2 }, 2, { 1, 1, 1 }, 0 } },
         .settings = { .width = WIDTH,
                       .height = HEIGHT,
-                      .camera = { "", { 0, 5, 0.01f }, { 0, 0, 0 }, { 0, 1, 0 }, 1 },
+                      .camera = { .eye = { 0, 5, 0.01f }, .up = { 0, 1, 0 }, .fov = 1 },
                       .samples = 256,
                       .seed = 5 },
     };
