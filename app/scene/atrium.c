@@ -74,7 +74,9 @@ static void add_materials(scene_builder *builder) {
     static const float tile_colors[3][3] = { { 0.62f, 0.56f, 0.47f },
                                              { 0.055f, 0.07f, 0.075f },
                                              { 0.36f, 0.075f, 0.05f } };
-    static const float gloss[4] = { 0.26f, 0.36f, 0.50f, 0.72f };
+    static const float gloss[4] = { 0.36f, 0.42f, 0.50f, 0.72f };
+    /* Part metal, or Schlick's 0.04 would hide the lamps in the floor at the bands of real time. */
+    static const float sheen[4] = { 0.60f, 0.45f, 0.25f, 0.0f };
     add_material(builder, "limestone", 0.46f, 0.38f, 0.29f, 0.85f, 0.0f);
     add_material(builder, "marble", 0.64f, 0.59f, 0.52f, 0.42f, 0.0f);
     add_material(builder, "trim", 0.56f, 0.48f, 0.38f, 0.65f, 0.0f);
@@ -88,7 +90,7 @@ static void add_materials(scene_builder *builder) {
     for (int color = 0; color < 3; color++)
         for (int i = 0; i < 4; i++)
             add_material(builder, gloss_names[color][i], tile_colors[color][0],
-                         tile_colors[color][1], tile_colors[color][2], gloss[i], 0.0f);
+                         tile_colors[color][1], tile_colors[color][2], gloss[i], sheen[i]);
 }
 
 /* --- columns and balusters ----------------------------------------------------------------------
