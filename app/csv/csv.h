@@ -21,7 +21,7 @@ typedef struct csv_reader {
 
 /* Opens a table ("-": standard input) whose first line must be `header`. */
 bool csv_open(csv_reader *reader, const char *path, const char *header, cli_error *error);
-/* The same from an open stream, which the reader then owns. */
+/* The same from an open stream, which the reader then owns; header NULL: there is none. */
 bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const char *header,
                      cli_error *error);
 void csv_close(csv_reader *reader);

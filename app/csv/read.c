@@ -76,6 +76,8 @@ bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const c
     reader->stream = stream;
     reader->name = name;
     reader->line_number = reader->begin = reader->end = 0;
+    if (!header)
+        return true;
     char *line;
     size_t length;
     const csv_result result = read_line(reader, &line, &length, error);

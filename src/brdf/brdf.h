@@ -12,6 +12,9 @@
 
 #define BRDF_PI 3.14159265358979323846
 
+/* Rings that resolve the cells of measured data: 0.7 degrees, where MERL's cells have 1. */
+#define LMP_BRDF_MEASURED_RINGS 128
+
 typedef struct brdf_phong {
     double reflectance[3], exponent;
 } brdf_phong;

@@ -111,7 +111,7 @@ lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, 
     memcpy(made->merl.shape, shape, sizeof shape);
     memcpy(made->info.shape, shape, sizeof shape);
     made->info.measured = true;
-    made->info.rings = 256;
+    made->info.rings = LMP_BRDF_MEASURED_RINGS;
     made->eval = eval_merl;
     *brdf = made;
     return LMP_OK;

@@ -422,7 +422,7 @@ lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, s
     }
     made->info.anisotropic = !made->rgl.isotropic;
     made->info.measured = true;
-    made->info.rings = 256;
+    made->info.rings = LMP_BRDF_MEASURED_RINGS;
     made->info.shape[0] = made->rgl.phi_count;
     made->info.shape[1] = made->rgl.theta_count;
     made->eval = lmp_rgl_eval;

@@ -1,0 +1,313 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion brdf - what is in a material, its values, its table, its picture, its other formats. */
+#include "app/command/brdf.h"
+#include "app/csv/csv.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* --- info ---------------------------------------------------------------------------------------
+ */
+
+static const char *const kind_names[] = { "Lambert",      "Phong",
+                                          "GGX",          "SGD (fit of a MERL material)",
+                                          "MERL .binary", "RGL .bsdf tensor file" };
+
+static void print_table_info(const lmp_brdf_table *table) {
+    static const char *const windows[] = { "none", "hanning", "lanczos" };
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    printf("bands      %d\n", info.bands);
+    printf("views      %d x %d azimuths%s\n", info.views, info.azimuths,
+           info.mirrored ? ", mirrored (m >= 0)" : "");
+    printf("window     %s of %g bands\n", windows[info.window], (double)info.window_size);
+    printf("quadrature %d rings, last doubling changed a view by %.2g of its largest\n", info.rings,
+           (double)info.change);
+    printf("\nalbedo     of the BRDF               of its series above the horizon\n");
+    printf("  theta_o  red     green   blue      red     green   blue\n");
+    for (int k = 0; k < 8; k++) {
+        const int view = k * (info.views - 1) / 7;
+        lmp_rgb a, b;
+        lmp_brdf_table_albedo(table, view, 0, &a, &b);
+        printf("  %6.2f   %.4f  %.4f  %.4f    %.4f  %.4f  %.4f\n",
+               (double)info.theta_step * view * 180 / pi, (double)a.r, (double)a.g, (double)a.b,
+               (double)b.r, (double)b.g, (double)b.b);
+    }
+}
+
+static void print_brdf_info(const material *m) {
+    const lmp_brdf_info info = lmp_brdf_describe(m->brdf);
+    if (info.kind == LMP_BRDF_MERL)
+        printf("cells      %d theta_h x %d theta_d x %d phi_d\n", info.shape[0], info.shape[1],
+               info.shape[2]);
+    if (info.kind == LMP_BRDF_RGL)
+        printf("nodes      %d phi_i x %d theta_i, %s\n", info.shape[0], info.shape[1],
+               info.spectral ? "spectral" : "RGB");
+    printf("isotropy   %s\n", info.anisotropic ? "anisotropic"
+                              : info.mirrored  ? "isotropic, mirror-symmetric"
+                                               : "isotropic");
+    printf("memory     %zu bytes\n", info.bytes);
+}
+
+static bool print_info(const brdf_options *o, const material *m, cli_error *error) {
+    printf("material   %s\n", m->name);
+    printf("format     %s\n",
+           m->table ? "Lampion table (.lmpt)" : kind_names[lmp_brdf_describe(m->brdf).kind]);
+    if (m->file_size)
+        printf("size       %zu bytes\n", m->file_size);
+    lmp_brdf_table *table = NULL;
+    if (m->brdf)
+        print_brdf_info(m);
+    if (!material_bake(m, &o->table, &table, error))
+        return false;
+    print_table_info(table);
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    double most = 0;
+    for (int view = 0; view < info.views; view++)
+        for (int azimuth = 0; azimuth < info.azimuths; azimuth++) {
+            lmp_rgb a, b;
+            lmp_brdf_table_albedo(table, view, azimuth, &a, &b);
+            most = fmax(most, fmax((double)a.r, fmax((double)a.g, (double)a.b)));
+        }
+    printf("\nenergy     largest albedo %.4f: %s\n", most,
+           most <= 1.0001 ? "conserved" : "MORE LEAVES THAN ARRIVES");
+    lmp_brdf_table_destroy(table);
+    return true;
+}
+
+/* --- eval ---------------------------------------------------------------------------------------
+ */
+
+static bool eval_rows(const material *m, csv_reader *reader, cli_error *error) {
+    static const char *const names[] = { "wi_x", "wi_y", "wi_z", "wo_x", "wo_y", "wo_z" };
+    float v[6];
+    csv_result result;
+    puts("r,g,b");
+    while ((result = csv_read_row(reader, names, 6, v, error)) == CSV_ROW) {
+        const lmp_vec3 wi = { v[0], v[1], v[2] }, wo = { v[3], v[4], v[5] };
+        const lmp_rgb f = lmp_brdf_eval(m->brdf, wi, wo);
+        printf("%.9g,%.9g,%.9g\n", (double)f.r, (double)f.g, (double)f.b);
+    }
+    return result == CSV_END;
+}
+
+/* The header line may be left out. */
+static bool evaluate(const brdf_options *o, const material *m, cli_error *error) {
+    (void)o;
+    if (!m->brdf)
+        return cli_fail(error, m->name, "is a table, which holds no values of f_r to evaluate");
+    const int first = getc(stdin);
+    ungetc(first, stdin);
+    static csv_reader reader;
+    if (!csv_open_stream(&reader, stdin, "standard input",
+                         first == 'w' ? "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z" : NULL, error))
+        return false;
+    const bool ok = eval_rows(m, &reader, error);
+    csv_close(&reader);
+    return ok;
+}
+
+/* --- bake, convert ------------------------------------------------------------------------------
+ */
+
+static bool bake(const brdf_options *o, const material *m, cli_error *error) {
+    if (!m->brdf)
+        return cli_fail(error, m->name, "is a table already");
+    lmp_brdf_table *table = NULL;
+    const bool ok =
+        material_bake(m, &o->table, &table, error) && material_write_table(table, o->output, error);
+    lmp_brdf_table_destroy(table);
+    return ok;
+}
+
+static bool convert(const brdf_options *o, const material *m, cli_error *error) {
+    const char *extension = strrchr(o->output, '.');
+    const bool merl = extension && strcmp(extension, ".binary") == 0;
+    if (!m->brdf)
+        return cli_fail(error, m->name, "is a table, which cannot become a BRDF again");
+    if (!merl && !(extension && strcmp(extension, ".bsdf") == 0))
+        return cli_fail(error, o->output, "unknown format (name it .binary or .bsdf)");
+    void *data = NULL;
+    size_t size = 0;
+    const lmp_result result = merl ? lmp_brdf_write_merl(m->brdf, NULL, &data, &size)
+                                   : lmp_brdf_write_rgl(m->brdf, NULL, &data, &size);
+    if (result != LMP_OK)
+        return cli_fail(error, o->output, "%s", lmp_result_text(result));
+    file_writer writer;
+    bool ok = file_write_begin(&writer, o->output, error);
+    if (ok) {
+        fwrite(data, 1, size, writer.stream);
+        ok = file_write_commit(&writer, error);
+    }
+    free(data);
+    return ok;
+}
+
+/* --- bands --------------------------------------------------------------------------------------
+ */
+
+/* What is left out by n bands, ‖f cos - series‖ / ‖f cos‖ over all views at 0, 20, 40 and 60
+ * degrees: left[n], n = 0 … LMP_BANDS_MAX. */
+static bool measure_bands(const material *m, double left[LMP_BANDS_MAX + 1], cli_error *error) {
+    enum { VIEWS = 4, RINGS = 512 };
+    const size_t plane = LMP_SH_COUNT(LMP_BANDS_MAX);
+    float *sh = malloc(3 * plane * sizeof *sh);
+    if (!sh)
+        return cli_fail(error, NULL, "out of memory");
+    double band[LMP_BANDS_MAX] = { 0 }, total = 0;
+    for (int v = 0; v < VIEWS; v++) {
+        const double theta = v * pi / 9;
+        const lmp_vec3 wo = { (float)sin(theta), 0, (float)cos(theta) };
+        if (lmp_brdf_project(NULL, m->brdf, wo, LMP_BANDS_MAX, RINGS, sh) != LMP_OK) {
+            free(sh);
+            return cli_fail(error, m->name, "out of memory");
+        }
+        for (int l = 0; l < LMP_BANDS_MAX; l++)
+            for (int i = l * l; i < (l + 1) * (l + 1); i++)
+                band[l] += (double)sh[plane + (size_t)i] * (double)sh[plane + (size_t)i];
+        /* the norm by the same rings: uniform in z is enough for a square of a smooth function */
+        for (int k = 0; k < RINGS; k++)
+            for (int j = 0; j < RINGS; j++) {
+                const double z = (k + 0.5) / RINGS, s = sqrt(1 - z * z);
+                const double phi = pi * (j + 0.5) / RINGS;
+                const double wi[3] = { s * cos(phi), s * sin(phi), z };
+                const double view[3] = { sin(theta), 0, cos(theta) };
+                double rgb[3];
+                lmp_brdf_eval_double(m->brdf, wi, view, rgb);
+                total += rgb[1] * z * rgb[1] * z * 2 * pi / ((double)RINGS * RINGS);
+            }
+    }
+    free(sh);
+    double kept = 0;
+    for (int n = 0; n <= LMP_BANDS_MAX; n++) {
+        left[n] = sqrt(fmax(0, 1 - kept / total));
+        if (n < LMP_BANDS_MAX)
+            kept += band[n];
+    }
+    return true;
+}
+
+static int bands_below(const double *left, double bound) {
+    for (int n = 1; n <= LMP_BANDS_MAX; n++)
+        if (left[n] <= bound)
+            return n;
+    return -1;
+}
+
+static bool study_bands(const char *name, cli_error *error) {
+    static const int columns[] = { 3, 5, 10, 20, 40, 80, 128 };
+    double left[LMP_BANDS_MAX + 1];
+    material m;
+    if (!material_open(name, &m, error))
+        return false;
+    bool ok = m.brdf || cli_fail(error, name, "is a table, which is cut already");
+    ok = ok && measure_bands(&m, left, error);
+    material_close(&m);
+    if (!ok)
+        return false;
+    printf("%s", name);
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
+        printf(",%.4f", left[columns[i]]);
+    const int ten = bands_below(left, 0.1), one = bands_below(left, 0.01);
+    ten > 0 ? printf(",%d", ten) : printf(",>%d", LMP_BANDS_MAX);
+    one > 0 ? printf(",%d\n", one) : printf(",>%d\n", LMP_BANDS_MAX);
+    return true;
+}
+
+/* --- the command --------------------------------------------------------------------------------
+ */
+
+static const struct {
+    const char *name;
+    bool (*run)(const brdf_options *, const material *, cli_error *);
+    bool writes;
+} actions[] = {
+    { "info", print_info, false }, { "eval", evaluate, false },  { "bake", bake, true },
+    { "plot", brdf_plot, true },   { "convert", convert, true },
+};
+
+static int run_action(const cli_command *command, const brdf_options *o, int count,
+                      char **operands) {
+    cli_error error;
+    if (strcmp(operands[0], "list") == 0 && count == 1) {
+        for (size_t i = 0; lmp_sgd_name(i); i++)
+            printf("sgd:%s\n", lmp_sgd_name(i));
+        return CLI_OK;
+    }
+    if (strcmp(operands[0], "bands") == 0 && count > 1) {
+        puts("material,3,5,10,20,40,80,128,bands_for_10_percent,bands_for_1_percent");
+        for (int i = 1; i < count; i++)
+            if (!study_bands(operands[i], &error))
+                return cli_report(&error);
+        return CLI_OK;
+    }
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
+        if (strcmp(operands[0], actions[i].name) != 0)
+            continue;
+        if (count != 2)
+            return cli_usage(command, "%s needs one MATERIAL, %d given", operands[0], count - 1);
+        if (actions[i].writes && !o->output)
+            return cli_usage(command, "%s needs -o FILE", operands[0]);
+        material m;
+        bool ok = material_open(operands[1], &m, &error);
+        if (ok) {
+            ok = actions[i].run(o, &m, &error);
+            material_close(&m);
+        }
+        return ok ? CLI_OK : cli_report(&error);
+    }
+    return cli_usage(command, "\"%s\" is not info, eval, bake, plot, convert, bands or list",
+                     operands[0]);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
+    brdf_options o = { .table = { .bands = LMP_BRDF_BANDS_DEFAULT,
+                                  .views = LMP_BRDF_VIEWS_DEFAULT,
+                                  .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT },
+                       .size = { 1200, 800 } };
+    int window = LMP_WINDOW_HANNING;
+    const cli_option options[] = {
+        { "output", 'o', CLI_TEXT, &o.output, "FILE",
+          "the table (.lmpt), picture (.png), or BRDF (.binary, .bsdf) to write", 0, 0, NULL,
+          NULL },
+        { "bands", 'n', CLI_INT, &o.table.bands, "N", "bands of spherical harmonics", 1,
+          LMP_BANDS_MAX, NULL, &o.bands_given },
+        { "views", 0, CLI_INT, &o.table.views, "N", "view angles of the table", 2, 1024, NULL,
+          NULL },
+        { "azimuths", 0, CLI_INT, &o.table.azimuths, "N", "view azimuths of an anisotropic table",
+          4, 256, NULL, NULL },
+        { "window", 0, CLI_CHOICE, &window, "WINDOW", "damps the ringing of few bands", 0, 0,
+          windows, NULL },
+        { "window-size", 0, CLI_FLOAT, &o.table.window_size, "BANDS",
+          "where the window falls to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
+        { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },
+        { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
+    };
+    int operand_count = 0, status = CLI_OK;
+    char **operands = NULL;
+    if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
+        return status;
+    if (operand_count == 0)
+        return cli_usage(command, "needs an action: info, eval, bake, plot, convert, bands, list");
+    if (o.table.azimuths % 2)
+        return cli_usage(command, "--azimuths must be even");
+    o.table.window = (lmp_window)window;
+    return run_action(command, &o, operand_count, operands);
+}
+
+const cli_command command_brdf = {
+    .name = "brdf",
+    .operands = "info|eval|bake|plot|convert|bands|list MATERIAL",
+    .summary = "show, evaluate, tabulate and convert measured materials",
+    .examples =
+        "lampion brdf info sgd:gold-metallic-paint\n"
+        "lampion brdf eval gold.binary\n"
+        "lampion brdf bake gold.binary -o gold.lmpt --bands 10 --views 64 --window hanning\n"
+        "lampion brdf plot ggx:0.3 -o ggx.png\n"
+        "lampion brdf convert sgd:red-fabric -o red-fabric.binary\n"
+        "lampion brdf bands sgd:red-fabric sgd:chrome",
+    .run = run,
+};

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/* brdf.h - what the files of `lampion brdf` share. */
+#ifndef LAMPION_COMMAND_BRDF_H
+#define LAMPION_COMMAND_BRDF_H
+
+#include "app/command/command.h"
+#include "app/material/material.h"
+
+typedef struct brdf_options {
+    const char *output;
+    int size[2];
+    bool bands_given;
+    lmp_brdf_table_desc table;
+} brdf_options;
+
+/* Polar plots of the lobes in the plane of incidence, a row a view: f_r cos theta_i as measured,
+ * then from its series at several numbers of bands. */
+bool brdf_plot(const brdf_options *options, const material *material, cli_error *error);
+
+#endif

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/material/material.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_LIMIT ((size_t)1 << 30)
+/* Goes into the keys of the cache: raise it when tables of the same material come out different. */
+#define CACHE_EPOCH 1
+
+void material_close(material *m) {
+    lmp_brdf_destroy(m->brdf);
+    lmp_brdf_table_destroy(m->table);
+    memset(m, 0, sizeof *m);
+}
+
+/* --- parametric names ---------------------------------------------------------------------------
+ */
+
+/* Reads 1 to `count` numbers divided by `separator`, up to ':' or the end, and steps over them.
+ * Returns how many there were; 0: not numbers. */
+static int take_numbers(const char **text, char separator, int count, float *values) {
+    const char *at = *text;
+    int taken = 0;
+    while (taken < count) {
+        size_t length = 0;
+        while (at[length] && at[length] != ':' && at[length] != separator)
+            length++;
+        double value;
+        if (!cli_number(at, length, &value))
+            return 0;
+        values[taken++] = (float)value;
+        at += length;
+        if (*at != separator)
+            break;
+        at++;
+    }
+    if (*at == ':')
+        at++;
+    else if (*at)
+        return 0;
+    *text = at;
+    return taken;
+}
+
+/* A colour if there is text left; it stays as it is if there is none. */
+static bool take_colour(const char **text, lmp_rgb *colour) {
+    float v[3];
+    if (!**text)
+        return true;
+    const int count = take_numbers(text, ',', 3, v);
+    if (count != 1 && count != 3)
+        return false;
+    *colour = count == 1 ? (lmp_rgb) { v[0], v[0], v[0] } : (lmp_rgb) { v[0], v[1], v[2] };
+    return true;
+}
+
+static bool finish(const char *name, const char *rest, lmp_result result, cli_error *error) {
+    if (*rest)
+        return cli_fail(error, name, "too much after its last number");
+    if (result != LMP_OK)
+        return cli_fail(error, name, "%s", lmp_result_text(result));
+    return true;
+}
+
+static bool open_lambert(const char *name, const char *text, material *m, cli_error *error) {
+    lmp_rgb albedo;
+    if (!*text || !take_colour(&text, &albedo))
+        return cli_fail(error, name, "is not lambert:COLOR (one number or R,G,B)");
+    return finish(name, text, lmp_brdf_create_lambert(NULL, albedo, &m->brdf), error);
+}
+
+static bool open_phong(const char *name, const char *text, material *m, cli_error *error) {
+    lmp_rgb reflectance = { 1, 1, 1 };
+    float exponent;
+    if (take_numbers(&text, ',', 1, &exponent) != 1 || !take_colour(&text, &reflectance))
+        return cli_fail(error, name, "is not phong:EXPONENT[:COLOR]");
+    return finish(name, text, lmp_brdf_create_phong(NULL, reflectance, exponent, &m->brdf), error);
+}
+
+static bool open_ggx(const char *name, const char *text, material *m, cli_error *error) {
+    lmp_ggx ggx = { .f0 = { 0.04f, 0.04f, 0.04f } };
+    float alpha[2] = { 0, 0 };
+    if (!take_numbers(&text, 'x', 2, alpha) || !take_colour(&text, &ggx.f0) ||
+        !take_colour(&text, &ggx.diffuse))
+        return cli_fail(error, name, "is not ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]");
+    ggx.alpha_x = alpha[0];
+    ggx.alpha_y = alpha[1];
+    return finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf), error);
+}
+
+/* --- SGD ----------------------------------------------------------------------------------------
+ */
+
+enum { SGD_NUMBERS = 33 };
+
+/* The numbers of one line of a table: material, alias, then three of each parameter. */
+static bool read_sgd_row(const char *line, lmp_sgd *sgd) {
+    double *const parameters[11] = { sgd->rho_d, sgd->rho_s, sgd->alpha, sgd->p,
+                                     sgd->f0,    sgd->f1,    sgd->k_ap,  sgd->lambda,
+                                     sgd->c,     sgd->k,     sgd->theta0 };
+    const char *at = line;
+    for (int i = 0; i < 2; i++) {
+        at = strchr(at, ',');
+        if (!at)
+            return false;
+        at++;
+    }
+    for (int i = 0; i < SGD_NUMBERS; i++) {
+        const size_t length = strcspn(at, ",\r\n");
+        if (!cli_number(at, length, &parameters[i / 3][i % 3]))
+            return false;
+        at += length + (at[length] == ',');
+    }
+    return true;
+}
+
+/* Whether one of the first two cells of a line is `name`. */
+static bool is_row_of(const char *line, const char *name) {
+    const size_t length = strlen(name);
+    for (int i = 0; i < 2; i++) {
+        const size_t cell = strcspn(line, ",\r\n");
+        if (cell == length && memcmp(line, name, length) == 0)
+            return true;
+        if (line[cell] != ',')
+            return false;
+        line += cell + 1;
+    }
+    return false;
+}
+
+static bool find_sgd_in_file(const char *path, const char *name, lmp_sgd *sgd, cli_error *error) {
+    void *data = NULL;
+    size_t size = 0;
+    if (!file_read(path, 1 << 24, &data, &size, error))
+        return false;
+    const char *line = data;
+    while (*line && !is_row_of(line, name)) {
+        line += strcspn(line, "\n");
+        line += *line == '\n';
+    }
+    bool ok = true;
+    if (!*line)
+        ok = cli_fail(error, path, "no material %s in this table", name);
+    else if (!read_sgd_row(line, sgd))
+        ok = cli_fail(error, path, "the row of %s has not 33 numbers after its names", name);
+    free(data);
+    return ok;
+}
+
+static bool find_sgd(const char *name, const char *text, lmp_sgd *sgd, cli_error *error) {
+    const char *colon = strrchr(text, ':');
+    if (colon) {
+        char path[4096];
+        if ((size_t)(colon - text) >= sizeof path)
+            return cli_fail(error, name, "the name is too long");
+        memcpy(path, text, (size_t)(colon - text));
+        path[colon - text] = '\0';
+        return find_sgd_in_file(path, colon + 1, sgd, error);
+    }
+    if (lmp_sgd_find(text, sgd) == LMP_OK)
+        return true;
+    const char *names[128] = { NULL };
+    for (size_t i = 0; i < 127 && lmp_sgd_name(i); i++)
+        names[i] = lmp_sgd_name(i);
+    const char *nearest = cli_nearest(text, names);
+    return nearest ? cli_fail(error, name, "no such SGD material (is it sgd:%s?)", nearest)
+                   : cli_fail(error, name, "no such SGD material (lampion brdf list names them)");
+}
+
+static bool open_sgd(const char *name, const char *text, material *m, cli_error *error) {
+    lmp_sgd sgd;
+    if (!find_sgd(name, text, &sgd, error))
+        return false;
+    file_hash_add(&m->hash, &sgd, sizeof sgd);
+    return finish(name, "", lmp_brdf_create_sgd(NULL, &sgd, &m->brdf), error);
+}
+
+/* --- files --------------------------------------------------------------------------------------
+ */
+
+static bool open_file(const char *path, material *m, cli_error *error) {
+    void *data = NULL;
+    size_t size = 0;
+    if (!file_read(path, FILE_LIMIT, &data, &size, error))
+        return false;
+    lmp_brdf_fault fault = { 0 };
+    lmp_result result;
+    if (size >= 4 && memcmp(data, "LMPT", 4) == 0)
+        result = lmp_brdf_table_read(NULL, data, size, &fault, &m->table);
+    else if (size >= 12 && memcmp(data, "tensor_file", 12) == 0)
+        result = lmp_brdf_read_rgl(NULL, data, size, &fault, &m->brdf);
+    else
+        result = lmp_brdf_read_merl(NULL, data, size, &fault, &m->brdf);
+    file_hash_add(&m->hash, data, size);
+    m->file_size = size;
+    free(data);
+    if (result != LMP_OK)
+        return cli_fail(error, path, "%s (byte %zu)", fault.text, fault.offset);
+    return true;
+}
+
+bool material_open(const char *name, material *m, cli_error *error) {
+    static const struct {
+        const char *prefix;
+        bool (*open)(const char *, const char *, material *, cli_error *);
+    } kinds[] = { { "lambert:", open_lambert },
+                  { "phong:", open_phong },
+                  { "ggx:", open_ggx },
+                  { "sgd:", open_sgd } };
+    memset(m, 0, sizeof *m);
+    m->name = name;
+    bool ok = false, found = false;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !found; i++) {
+        const size_t length = strlen(kinds[i].prefix);
+        if (strncmp(name, kinds[i].prefix, length) == 0) {
+            found = true;
+            file_hash_add(&m->hash, name, strlen(name));
+            ok = kinds[i].open(name, name + length, m, error);
+        }
+    }
+    if (!found)
+        ok = open_file(name, m, error);
+    if (!ok)
+        material_close(m);
+    return ok;
+}
+
+/* --- tables -------------------------------------------------------------------------------------
+ */
+
+static void run_parallel(void *user, size_t count, void (*task)(size_t index, void *data),
+                         void *data) {
+    (void)user;
+#pragma omp parallel for schedule(dynamic)
+    for (size_t i = 0; i < count; i++)
+        task(i, data);
+}
+
+static void show_progress(void *user, double done) {
+    cli_progress((const char *)user, done);
+}
+
+/* The cache file of a table; false where there is no cache. */
+static bool cache_path(const material *m, const lmp_brdf_table_desc *desc, char *path,
+                       size_t size) {
+    char directory[3900], key[33];
+    if (!file_cache_directory(directory, sizeof directory))
+        return false;
+    const struct {
+        int numbers[7];
+        float reals[2];
+    } parts = { { CACHE_EPOCH, desc->bands, desc->views, desc->azimuths, (int)desc->window,
+                  (int)desc->symmetry, desc->rings_max },
+                { desc->window_size, desc->tolerance } };
+    file_hash hash = m->hash;
+    file_hash_add(&hash, &parts, sizeof parts);
+    file_hash_text(&hash, key);
+    snprintf(path, size, "%s/%s.lmpt", directory, key);
+    return true;
+}
+
+static lmp_brdf_table *read_cached(const char *path) {
+    cli_error ignored;
+    lmp_brdf_table *table = NULL;
+    void *data = NULL;
+    size_t size = 0;
+    if (!file_read(path, FILE_LIMIT, &data, &size, &ignored))
+        return NULL;
+    lmp_brdf_table_read(NULL, data, size, NULL, &table);
+    free(data);
+    return table;
+}
+
+static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_error *error) {
+    const size_t size = lmp_brdf_table_size(from);
+    unsigned char *bytes = malloc(size);
+    if (!bytes)
+        return cli_fail(error, NULL, "out of memory");
+    lmp_brdf_table_write(from, bytes);
+    const lmp_result result = lmp_brdf_table_read(NULL, bytes, size, NULL, table);
+    free(bytes);
+    return result == LMP_OK || cli_fail(error, NULL, "%s", lmp_result_text(result));
+}
+
+bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_table **table,
+                   cli_error *error) {
+    char path[4096];
+    *table = NULL;
+    if (m->table)
+        return copy_table(m->table, table, error);
+    const bool cached = cache_path(m, desc, path, sizeof path);
+    if (cached && (*table = read_cached(path)))
+        return true;
+    static char what[] = "projecting the BRDF";
+    lmp_brdf_table_desc own = *desc;
+    own.parallel = run_parallel;
+    own.progress = show_progress;
+    own.user = what;
+    const lmp_result result = lmp_brdf_table_create(NULL, m->brdf, &own, table);
+    cli_progress_end();
+    if (result != LMP_OK)
+        return cli_fail(error, m->name, "%s", lmp_result_text(result));
+    cli_error ignored;
+    if (cached)
+        material_write_table(*table, path, &ignored);
+    return true;
+}
+
+bool material_write_table(const lmp_brdf_table *table, const char *path, cli_error *error) {
+    const size_t size = lmp_brdf_table_size(table);
+    unsigned char *bytes = malloc(size);
+    if (!bytes)
+        return cli_fail(error, path, "out of memory");
+    lmp_brdf_table_write(table, bytes);
+    file_writer writer;
+    bool ok = file_write_begin(&writer, path, error);
+    if (ok) {
+        fwrite(bytes, 1, size, writer.stream);
+        ok = file_write_commit(&writer, error);
+    }
+    free(bytes);
+    return ok;
+}

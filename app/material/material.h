@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: MIT */
+/* material.h - materials by name: files of measured BRDFs, tables, and parametric ones.
+ *
+ *     FILE.binary, FILE.bsdf, FILE.lmpt    told apart by their content
+ *     sgd:NAME, sgd:FILE.csv:NAME          the SGD fits of MERL: built in, or from a table
+ *     lambert:COLOR                        albedo
+ *     phong:EXPONENT[:COLOR]               reflectance 1
+ *     ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]   F0 0.04, diffuse 0
+ *
+ * A COLOR is one number or R,G,B. */
+#ifndef LAMPION_MATERIAL_H
+#define LAMPION_MATERIAL_H
+
+#include "app/cli/cli.h"
+#include "app/file/file.h"
+
+#include <lampion/brdf.h>
+
+#define MATERIAL_NAMES                                                                             \
+    "FILE.binary, FILE.bsdf, FILE.lmpt, sgd:NAME, lambert:COLOR, phong:EXPONENT or ggx:ALPHA"
+
+/* One of brdf and table is there. */
+typedef struct material {
+    lmp_brdf *brdf;
+    lmp_brdf_table *table;
+    const char *name;
+    size_t file_size; /* 0: not a file */
+    file_hash hash;   /* of what it was made from */
+} material;
+
+bool material_open(const char *name, material *material, cli_error *error);
+void material_close(material *material);
+
+/* A table of the material on all cores, with a progress bar, from the cache where it was made
+ * before. hooks of desc are set here. A material that is a table is copied: its bands and window
+ * are then its own. */
+bool material_bake(const material *material, const lmp_brdf_table_desc *desc,
+                   lmp_brdf_table **table, cli_error *error);
+
+/* Writes a table to a file. */
+bool material_write_table(const lmp_brdf_table *table, const char *path, cli_error *error);
+
+#endif

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+# lampion brdf: values through every format, tables, pictures, and what it refuses.
+set -eu
+. tests/house/common.sh
+export XDG_CACHE_HOME="$WORK/cache"
+
+# the same values from a material and from files of it
+cat >"$WORK/pairs" <<'END'
+wi_x,wi_y,wi_z,wo_x,wo_y,wo_z
+0,0,1,0,0.6,0.8
+0.6,0,0.8,-0.6,0,0.8
+0.48,0.64,0.6,-0.6,0,0.8
+END
+"$PROGRAM" brdf eval lambert:0.5,0.25,1 <"$WORK/pairs" >"$WORK/lambert"
+printf 'r,g,b\n' >"$WORK/expected"
+for i in 1 2 3; do printf '0.159154937,0.0795774683,0.318309873\n'; done >>"$WORK/expected"
+diff "$WORK/expected" "$WORK/lambert" || fail "values of a Lambert material"
+tail -n +2 "$WORK/pairs" | "$PROGRAM" brdf eval lambert:0.5,0.25,1 | diff "$WORK/expected" - ||
+    fail "the header line is not optional"
+"$PROGRAM" brdf convert lambert:0.5,0.25,1 -o "$WORK/l.binary"
+[ "$(wc -c <"$WORK/l.binary")" -eq 34992012 ] || fail "size of a MERL file"
+"$PROGRAM" brdf eval "$WORK/l.binary" <"$WORK/pairs" | diff "$WORK/expected" - ||
+    fail "values through a MERL file"
+
+# tables: the same from the cache, and what is in them
+"$PROGRAM" brdf bake phong:20 -o "$WORK/a.lmpt" --bands 6 --views 8
+"$PROGRAM" brdf bake phong:20 -o "$WORK/b.lmpt" --bands 6 --views 8
+cmp "$WORK/a.lmpt" "$WORK/b.lmpt" || fail "a table from the cache differs"
+"$PROGRAM" brdf info "$WORK/a.lmpt" | grep -q '^bands      6$' || fail "info of a table"
+"$PROGRAM" brdf info ggx:0.5x0.2 --views 4 --azimuths 4 | grep -q 'anisotropic' || fail "info"
+"$PROGRAM" brdf plot ggx:0.5 -o "$WORK/plot.png" --bands 8 --size 200x200
+[ -s "$WORK/plot.png" ] || fail "no plot"
+[ "$("$PROGRAM" brdf list | wc -l)" -eq 100 ] || fail "not 100 SGD materials"
+
+# refusals: one line that names the file, exit 1 (usage 2), no output left behind
+refuse() {
+    status=$1 text=$2
+    shift 2
+    code=0
+    "$PROGRAM" brdf "$@" >"$WORK/out" 2>"$WORK/err" </dev/null || code=$?
+    [ $code -eq $status ] || fail "brdf $*: exit $code"
+    grep -q -e "$text" "$WORK/err" || fail "brdf $*: $(cat "$WORK/err")"
+    [ $status -eq 2 ] || [ "$(wc -l <"$WORK/err")" -eq 1 ] || fail "brdf $*: more than one line"
+}
+refuse 1 'sgd:gold-metallic-paint?' info sgd:gold-metalic-paint
+refuse 1 'ggx:ALPHA' info ggx:rough
+refuse 1 'argument out of range' info ggx:7
+refuse 1 'missing.binary' info "$WORK/missing.binary"
+head -c 1000 "$WORK/l.binary" >"$WORK/short.binary"
+refuse 1 'short.binary: MERL dimensions 90 x 90 x 180 need 34992012 bytes, the file has 1000' \
+    info "$WORK/short.binary"
+printf 'tensor_file\000\001\000\003\000\000\000' >"$WORK/short.bsdf"
+refuse 1 'the directory ends' info "$WORK/short.bsdf"
+{ head -c 100 "$WORK/a.lmpt"; printf 'XXXX'; tail -c +105 "$WORK/a.lmpt"; } >"$WORK/damaged.lmpt"
+refuse 1 'checksum' info "$WORK/damaged.lmpt"
+refuse 1 'table' eval "$WORK/a.lmpt"
+refuse 1 'name it .binary or .bsdf' convert lambert:1 -o "$WORK/x.txt"
+[ ! -e "$WORK/x.txt" ] || fail "an output was left behind"
+refuse 2 'needs -o FILE' bake lambert:1
+refuse 2 'needs one MATERIAL' info
+refuse 2 'is not info' paint lambert:1
