@@ -85,8 +85,7 @@ static void tables_of_every_system_are_read(void **state) {
         "a,b\n1,2\n3,-4.5e0\n",
         "a,b\n1,2\n3,-4.5",
         "a,b\r\n1,2\r\n3,-4.5\r\n\r\n",
-        "\xEF\xBB\xBF"
-        "a,b\n+1,2.\n3,-.45e+1\n\n\n",
+        "\357\273\277a,b\n+1,2.\n3,-.45e+1\n\n\n",
     };
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         csv_result result;
