@@ -176,7 +176,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_compare = {
     .name = "compare",
     .operands = "PICTURE REFERENCE",
-    .summary = "Say how far a picture is from a reference",
+    .summary = "say how far a picture is from a reference",
     .examples = "lampion compare atrium.exr truth.exr\n"
                 "lampion compare a.png b.png --heatmap difference.png --fail-above max=0.01\n",
     .run = run,
