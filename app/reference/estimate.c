@@ -34,11 +34,11 @@ void reference_estimator_free(reference_estimator *estimator) {
     *estimator = (reference_estimator) { .candidates = NULL };
 }
 
-/* An upper bound of the mean of the lobe over the cap; of a cut lobe a guess that is never 0. */
-static double lobe_bound(const reference_lobe *lobe, const reference_cap *cap) {
+/* An upper bound of the mean of the lobe over the cap; of a cut series a guess that is never 0. */
+static double lobe_bound(const reference_lobe *lobe, bool cut, const reference_cap *cap) {
     const double nearest = fmax(reference_angle(lobe->axis, cap->axis) - cap->angle, 0);
     const double there = reference_lobe_at(lobe, nearest < REFERENCE_PI ? cos(nearest) : -1);
-    if (lobe->bands == 0)
+    if (!cut)
         return there;
     return fabs(there) + 0.05 * fabs(reference_lobe_at(lobe, 1));
 }
@@ -49,12 +49,12 @@ static double mean_of_product(const double a[3], const float b[3]) {
 
 /* The part of the samples of a lobe and a light that the lobe should draw: it is the better source
  * where it is narrower than the light. One that is rarely drawn from would only add rare values
- * that the standard error does not know of, so it is left out. Of a cut lobe there is nothing to
+ * that the standard error does not know of, so it is left out. Of a cut series there is nothing to
  * sample. */
-static double lobe_part(const reference_lobe *lobe, const reference_cap *cap) {
+static double lobe_part(const reference_lobe *lobe, bool cut, const reference_cap *cap) {
     const double width = 2 * REFERENCE_PI / (lobe->exponent + 1);
     const double part = cap->solid_angle / (cap->solid_angle + width);
-    if (lobe->bands || part < 0.02)
+    if (cut || part < 0.02)
         return 0;
     return part > 0.98 ? 1 : part;
 }
@@ -68,10 +68,11 @@ static double share(const reference_surface *surface, const scene_light *light,
     for (int k = 0; k < REFERENCE_LOBES; k++) {
         const reference_lobe *lobe = &surface->lobes[k];
         const double strength = mean_of_product(lobe->weight, light->radiance);
-        const double part = lobe_part(lobe, cap);
+        const double part = lobe_part(lobe, surface->cut, cap);
         if (!(strength > 0))
             continue;
-        const double most = strength * fmin(cap->solid_angle * lobe_bound(lobe, cap), 1);
+        const double most =
+            strength * fmin(cap->solid_angle * lobe_bound(lobe, surface->cut, cap), 1);
         by_light += most * (1 - part);
         by_lobe[k] += most * part;
         *any = *any || most > 0;
@@ -85,8 +86,7 @@ static void plan_samples(const reference_estimator *estimator, const reference_s
     *p = (plan) { .surface = surface, .candidates = estimator->candidates };
     for (size_t i = 0; i < estimator->light_count; i++) {
         const scene_light *light = &estimator->lights[i];
-        const reference_cap cap =
-            reference_cap_of(light, surface->position, surface->lobes[0].bands > 0);
+        const reference_cap cap = reference_cap_of(light, surface->position, surface->cut);
         bool any;
         const double part = share(surface, light, &cap, p->by_lobe, &any);
         if (!any)
@@ -166,7 +166,7 @@ static double gather(const reference_estimator *estimator, const plan *p, refere
 
 static void take_sample(const reference_estimator *estimator, const plan *p, uint64_t key,
                         int number, double value[3]) {
-    double u[3], reflected[3] = { 0 }, radiance[3] = { 0 }, density = 0, any = 0;
+    double u[3], reflected[3] = { 0 }, radiance[3] = { 0 }, density = 0;
     int sampled;
     for (int k = 0; k < 3; k++)
         u[k] = reference_random(key, 3 * (uint64_t)number + (uint64_t)k);
@@ -175,12 +175,13 @@ static void take_sample(const reference_estimator *estimator, const plan *p, uin
         const reference_lobe *lobe = &p->surface->lobes[k];
         const double at = reference_lobe_at(lobe, reference_dot(lobe->axis, w));
         density += p->by_lobe[k] * at;
-        any += fabs(at);
         for (int c = 0; c < 3; c++)
             reflected[c] += lobe->weight[c] * at;
     }
+    if (p->surface->measured)
+        reference_measured_at(p->surface->measured, w, reflected);
     value[0] = value[1] = value[2] = 0;
-    if (!(any > 0))
+    if (reflected[0] == 0 && reflected[1] == 0 && reflected[2] == 0)
         return;
     density += gather(estimator, p, w, sampled, radiance);
     for (int c = 0; c < 3 && density > 0; c++)
@@ -188,7 +189,10 @@ static void take_sample(const reference_estimator *estimator, const plan *p, uin
 }
 
 static double variance_of_mean(double sum, double sum2, int n) {
-    return n > 1 ? fmax(sum2 - sum * sum / n, 0) / n / (n - 1) : 0;
+    const double squares = sum2 - sum * sum / n;
+    if (n < 2 || squares < 0) /* a NaN stays one */
+        return 0;
+    return squares / n / (n - 1);
 }
 
 #define SAMPLES_BETWEEN_CHECKS 16

@@ -54,10 +54,26 @@ void reference_surface_set(reference_surface *surface, const reference_cut *cut,
         specular->weight[c] = material->specular[c];
     }
     diffuse->bands = specular->bands = 0;
+    surface->cut = cut->bands > 0;
+    surface->measured = NULL;
     if (cut->bands) {
         cut_lobe(diffuse, cut);
         cut_lobe(specular, cut);
     }
+}
+
+/* Neither too broad nor too narrow for most materials; the samples are weighted for it. */
+#define GUIDE_EXPONENT 40
+
+void reference_surface_measure(reference_surface *surface, const reference_measured *measured,
+                               reference_vec normal, reference_vec view) {
+    const reference_material guide = { { 1, 1, 1 }, { 0.5, 0.5, 0.5 }, GUIDE_EXPONENT };
+    const reference_cut whole = { .bands = 0 };
+    const reference_vec ray_origin = surface->ray_origin;
+    reference_surface_set(surface, &whole, &guide, surface->position, normal, view);
+    surface->ray_origin = ray_origin;
+    surface->measured = measured;
+    surface->cut = measured->source.table != NULL;
 }
 
 double reference_lobe_at(const reference_lobe *lobe, double cosine) {

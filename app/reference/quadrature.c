@@ -95,8 +95,7 @@ void reference_quadrature(const reference_surface *surface, const scene_light *l
                           double radiance[3]) {
     radiance[0] = radiance[1] = radiance[2] = 0;
     for (size_t i = 0; i < count; i++) {
-        const reference_cap cap =
-            reference_cap_of(&lights[i], surface->position, surface->lobes[0].bands > 0);
+        const reference_cap cap = reference_cap_of(&lights[i], surface->position, surface->cut);
         for (int k = 0; k < REFERENCE_LOBES; k++) {
             const reference_lobe *lobe = &surface->lobes[k];
             const double response = lobe_over_cap(lobe, &cap);

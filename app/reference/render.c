@@ -68,8 +68,14 @@ static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
     return reference_normalize(normal);
 }
 
+/* What a thread needs of its own. */
+typedef struct worker {
+    reference_estimator estimator;
+    reference_measured measured;
+} worker;
+
 /* Fills the surface and the light it emits itself. */
-static void describe(const frame *f, const reference_hit *hit, reference_vec view,
+static void describe(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
                      reference_surface *surface, double emission[3]) {
     const scene_material *material = &f->scene->materials[hit->material];
     double color[4], rough[4], glow[4], base[3];
@@ -82,16 +88,20 @@ static void describe(const frame *f, const reference_hit *hit, reference_vec vie
     }
     const reference_material lobes = reference_material_from_metallic_roughness(
         base, rough[2] * (double)material->metallic, rough[1] * (double)material->roughness);
-    reference_surface_set(surface, &f->settings->cut, &lobes, hit->position,
-                          mapped_normal(f, hit, material), view);
+    const reference_vec normal = mapped_normal(f, hit, material);
+    reference_surface_set(surface, &f->settings->cut, &lobes, hit->position, normal, view);
     surface->ray_origin = hit->ray_origin;
+    if (f->settings->material.brdf || f->settings->material.table) {
+        reference_measured_aim(&own->measured, normal, hit->tangent, view);
+        reference_surface_measure(surface, &own->measured, normal, view);
+    }
 }
 
 static void store(image *picture, size_t pixel, int channel, double value) {
     picture->rgb[3 * pixel + (size_t)channel] = (float)value;
 }
 
-static void trace_pixel(const frame *f, const reference_estimator *estimator, int x, int y) {
+static void trace_pixel(const frame *f, worker *own, int x, int y) {
     const reference_settings *settings = f->settings;
     const size_t pixel = (size_t)y * (size_t)settings->width + (size_t)x;
     const reference_vec direction = pixel_direction(f, x, y);
@@ -105,13 +115,14 @@ static void trace_pixel(const frame *f, const reference_estimator *estimator, in
     } else if (isfinite(hit.distance)) {
         const reference_stop stop = { settings->samples, settings->error };
         reference_surface surface;
-        describe(f, &hit, reference_scale(-1, direction), &surface, emission);
-        result =
-            reference_estimate(estimator, &surface, &stop, reference_hash(settings->seed, pixel));
+        describe(f, own, &hit, reference_scale(-1, direction), &surface, emission);
+        result = reference_estimate(&own->estimator, &surface, &stop,
+                                    reference_hash(settings->seed, pixel));
     }
+    const bool clamped = settings->cut.bands > 0 || settings->material.table;
     for (int c = 0; c < 3; c++) {
         /* Renderers clamp the sum of a ringing series at 0. */
-        const double mean = settings->cut.bands ? fmax(result.mean[c], 0) : result.mean[c];
+        const double mean = clamped && result.mean[c] < 0 ? 0 : result.mean[c];
         store(f->radiance, pixel, c, mean + emission[c]);
         store(f->standard_error, pixel, c, result.standard_error[c]);
     }
@@ -123,28 +134,30 @@ static bool trace_rows(const frame *f, int threads) {
     bool ok = true;
 #pragma omp parallel num_threads(threads)
     {
-        reference_estimator estimator;
+        worker own;
         const bool mine =
-            reference_estimator_create(&estimator, f->scene->lights, f->scene->light_count);
+            reference_estimator_create(&own.estimator, f->scene->lights, f->scene->light_count) &
+            reference_measured_create(&own.measured, &f->settings->material);
         if (!mine) {
 #pragma omp atomic write
             ok = false;
         }
         if (f->settings->shadows) {
-            estimator.visibility = reference_tracer_free_path;
-            estimator.visibility_user = (void *)(uintptr_t)f->tracer;
+            own.estimator.visibility = reference_tracer_free_path;
+            own.estimator.visibility_user = (void *)(uintptr_t)f->tracer;
         }
 #pragma omp for schedule(dynamic)
         for (int y = 0; y < f->settings->height; y++) {
             for (int x = 0; mine && x < f->settings->width; x++)
-                trace_pixel(f, &estimator, x, y);
+                trace_pixel(f, &own, x, y);
             int rows;
 #pragma omp atomic capture
             rows = ++done;
             if (omp_get_thread_num() == 0)
                 cli_progress("tracing", (double)rows / f->settings->height);
         }
-        reference_estimator_free(&estimator);
+        reference_estimator_free(&own.estimator);
+        reference_measured_free(&own.measured);
     }
     cli_progress_end();
     return ok;

@@ -4,6 +4,8 @@
 #include "app/reference/quadrature.h"
 #include "tests/oracle/check.h"
 
+#include <lampion/shade.h>
+
 #include <string.h>
 
 static const reference_cut whole = { .bands = 0 };
@@ -300,6 +302,71 @@ static void cutting_a_lobe_costs_what_the_theory_says(void **state) {
                      0.05);
 }
 
+static reference_result estimate_measured(const reference_material_source *source,
+                                          reference_vec view, const scene_light *lights,
+                                          size_t count) {
+    reference_measured measured;
+    reference_surface surface = surface_of(&whole, &white, view);
+    assert_true(reference_measured_create(&measured, source));
+    reference_measured_aim(&measured, up, (reference_vec) { 1, 0, 0 }, view);
+    reference_surface_measure(&surface, &measured, up, view);
+    const reference_result result = estimate(&surface, lights, count, 20000, 11);
+    reference_measured_free(&measured);
+    return result;
+}
+
+/* f_r cos(theta) of Lambert is the diffuse lobe; of Phong seen head-on it is a lobe of exponent
+ * e + 1 times (e+2)/(e+2). */
+static void brdfs_reflect_as_their_lobes(void **state) {
+    (void)state;
+    lmp_brdf *lambert = NULL, *phong = NULL;
+    scene_light lights[5];
+    random_lights(lights, 5);
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 0.5f, 0.25f, 1 }, &lambert), LMP_OK);
+    assert_int_equal(lmp_brdf_create_phong(NULL, (lmp_rgb) { 0.5f, 0.25f, 1 }, 20, &phong), LMP_OK);
+    const reference_material diffuse = { .diffuse = { 0.5, 0.25, 1 } };
+    const reference_material lobe = { .specular = { 0.5, 0.25, 1 }, .exponent = 21 };
+    for (int i = 0; i < 2; i++) {
+        const reference_material_source source = { i ? phong : lambert, NULL };
+        const reference_surface surface = surface_of(&whole, i ? &lobe : &diffuse, up);
+        const reference_result result = estimate_measured(&source, up, lights, 5);
+        double exact[3];
+        reference_quadrature(&surface, lights, 5, exact);
+        check_result(&result, exact);
+    }
+    lmp_brdf_destroy(lambert);
+    lmp_brdf_destroy(phong);
+}
+
+static void tables_reflect_as_the_library_shades_them(void **state) {
+    (void)state;
+    const lmp_ggx ggx = { 0.3f, 0, { 0.5f, 0.4f, 0.3f }, { 0.2f, 0.3f, 0.4f } };
+    const lmp_brdf_table_desc desc = { .bands = 7 };
+    lmp_brdf *brdf = NULL;
+    lmp_brdf_table *table = NULL;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    for (int i = 0; i < 6; i++) {
+        const reference_vec view = unit(0.4 * i - 1, 1, 0.3 * i);
+        const lmp_surface surface = { .normal = { 0, 1, 0 },
+                                      .view = { (float)view.x, (float)view.y, (float)view.z } };
+        scene_light lights[4];
+        lmp_light spheres[4];
+        random_lights(lights, 4);
+        for (int k = 0; k < 4; k++)
+            spheres[k] = scene_light_as_sphere(&lights[k]);
+        const lmp_rgb c = lmp_shade_table(table, &surface, (lmp_vec3) { 1, 0, 0 }, spheres, 4);
+        const reference_result result =
+            estimate_measured(&(reference_material_source) { NULL, table }, view, lights, 4);
+        const double shaded[3] = { (double)c.r, (double)c.g, (double)c.b };
+        for (int k = 0; k < 3; k++)
+            CHECK_WITHIN(fabs((result.mean[k] < 0 ? 0 : result.mean[k]) - shaded[k]),
+                         4 * result.standard_error[k] + 1e-4 * shaded[k]);
+    }
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
 static void windows_have_the_documented_weights(void **state) {
     (void)state;
     const double hanning[] = { 1, .9755, .9045, .7939, .6545, .5, .3455, .2061, .0955, .0245 };
@@ -343,6 +410,8 @@ int main(void) {
         cmocka_unit_test(the_series_of_a_lobe_is_its_definition),
         cmocka_unit_test(the_series_comes_back_as_the_lobe),
         cmocka_unit_test(cutting_a_lobe_costs_what_the_theory_says),
+        cmocka_unit_test(brdfs_reflect_as_their_lobes),
+        cmocka_unit_test(tables_reflect_as_the_library_shades_them),
         cmocka_unit_test(windows_have_the_documented_weights),
         cmocka_unit_test(metallic_roughness_makes_the_documented_lobes),
     };

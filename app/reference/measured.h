@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+/* measured.h - a BRDF, or the table of its cut series, seen from one surface point. */
+#ifndef LAMPION_REFERENCE_MEASURED_H
+#define LAMPION_REFERENCE_MEASURED_H
+
+#include "app/reference/vector.h"
+
+#include <lampion/brdf.h>
+#include <stdbool.h>
+
+/* What to reflect by instead of the scene's lobes: one of them, or neither. */
+typedef struct reference_material_source {
+    const lmp_brdf *brdf;
+    const lmp_brdf_table *table;
+} reference_material_source;
+
+/* One a thread, aimed anew for each point. */
+typedef struct reference_measured {
+    reference_material_source source;
+    lmp_brdf_table_info info;
+    float *coefficients; /* of the table's view */
+    reference_vec x, y, z;
+    double wo[3]; /* the view in the frame x, y, z */
+} reference_measured;
+
+/* False without memory. */
+bool reference_measured_create(reference_measured *measured,
+                               const reference_material_source *source);
+void reference_measured_free(reference_measured *measured);
+
+/* The vectors must be unit; the tangent is the material's x axis once it is square to the normal.
+ */
+void reference_measured_aim(reference_measured *measured, reference_vec normal,
+                            reference_vec tangent, reference_vec view);
+
+/* f_r cos(theta) of light from w, or the value of its series, which may be negative. */
+void reference_measured_at(const reference_measured *measured, reference_vec w, double rgb[3]);
+
+#endif
