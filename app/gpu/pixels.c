@@ -16,14 +16,16 @@ static lmp_rgb as_rgb(const vec4 v) {
 
 static void unpack(const shared_pixel *from, size_t count, gpu_pixel *to) {
     for (size_t i = 0; i < count; i++) {
-        to[i].kind = (gpu_kind)from[i].position_kind[3];
-        to[i].surface.position = as_vec3(from[i].position_kind);
-        to[i].surface.normal = as_vec3(from[i].normal_exponent);
-        to[i].surface.view = as_vec3(from[i].view);
-        to[i].material.diffuse = as_rgb(from[i].diffuse);
-        to[i].material.specular = as_rgb(from[i].specular);
-        to[i].material.exponent = from[i].normal_exponent[3];
-        to[i].emission = as_rgb(from[i].emission);
+        to[i] = (gpu_pixel) {
+            .kind = (gpu_kind)from[i].position_kind[3],
+            .surface = { .position = as_vec3(from[i].position_kind),
+                         .normal = as_vec3(from[i].normal_exponent),
+                         .view = as_vec3(from[i].view) },
+            .material = { .diffuse = as_rgb(from[i].diffuse),
+                          .specular = as_rgb(from[i].specular),
+                          .exponent = from[i].normal_exponent[3] },
+            .emission = as_rgb(from[i].emission),
+        };
     }
 }
 
