@@ -54,6 +54,28 @@ typedef struct lmp_quat {
     float x, y, z, w;
 } lmp_quat;
 
+/* Many vectors or numbers, wherever they are: element i is `stride` bytes after element i-1. Stride
+ * sizeof(float) reads three planes, sizeof(my_struct) the members of an array of structures, and 0
+ * the same element for every i. */
+typedef struct lmp_vec3_array {
+    const float *x, *y, *z;
+    size_t stride;
+} lmp_vec3_array;
+typedef struct lmp_float_array {
+    const float *at;
+    size_t stride;
+} lmp_float_array;
+
+/* An array of lmp_vec3, and one vector for every element. */
+static inline lmp_vec3_array lmp_vec3_array_of(const lmp_vec3 *vectors) {
+    const lmp_vec3_array array = { &vectors->x, &vectors->y, &vectors->z, sizeof *vectors };
+    return array;
+}
+static inline lmp_vec3_array lmp_vec3_array_same(const lmp_vec3 *vector) {
+    const lmp_vec3_array array = { &vector->x, &vector->y, &vector->z, 0 };
+    return array;
+}
+
 typedef enum lmp_result {
     LMP_OK = 0,
     LMP_ERROR_ARGUMENT, /* a value outside its documented range */
@@ -76,6 +98,27 @@ typedef struct lmp_allocator {
  * when all are done: how a host lends its threads to the library. */
 typedef void (*lmp_parallel)(void *user, size_t count, void (*task)(size_t index, void *data),
                              void *data);
+
+/* Instruction sets the batch functions (those that end in _n) are built for. Every build gives the
+ * same bits; the mask exists to compare their speed. */
+typedef enum lmp_cpu_flag {
+    LMP_CPU_SCALAR = 1, /* always there */
+    LMP_CPU_VECTOR = 2, /* 4 lanes: SSE2 or NEON, the base of the platform */
+    LMP_CPU_AVX2 = 4,   /* 8 lanes */
+    LMP_CPU_AVX512 = 8, /* 16 lanes: F, VL and DQ */
+    LMP_CPU_ALL = 15
+} lmp_cpu_flag;
+
+/* The lmp_cpu_flag bits that this machine has and this library was built with. */
+LMP_API unsigned lmp_cpu_flags(void);
+
+/* Limits the batch functions to the instruction sets in `mask` (scalar if none of them is here) and
+ * returns the flag of the one now in use. Before the first call the best is in use. Safe to call
+ * from any thread at any time: calls under way finish as they began. */
+LMP_API unsigned lmp_cpu_mask(unsigned mask);
+
+/* "scalar", "sse2", "neon", "avx2" or "avx512": the instruction set in use. Static storage. */
+LMP_API const char *lmp_cpu_name(void);
 
 /* The version the library was built as: major << 16 | minor << 8 | patch. */
 LMP_API uint32_t lmp_version(void);

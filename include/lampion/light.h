@@ -116,6 +116,53 @@ LMP_API void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, 
 LMP_API void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, int bands,
                                float *sh);
 
+/* --- batches (sh.h) -----------------------------------------------------------------------------
+ * Distances and radii are 0 or in 1e-15 … 1e15; geometry is otherwise free, as above. */
+
+/* Sphere lights, wherever their members are: lmp_spheres_of reads an array of lmp_light. Stride 0
+ * makes one value serve all. */
+typedef struct lmp_spheres {
+    lmp_vec3_array center;
+    lmp_float_array radius;
+    lmp_vec3_array radiance; /* red, green, blue */
+} lmp_spheres;
+static inline lmp_spheres lmp_spheres_of(const lmp_light *lights) {
+    const lmp_spheres spheres = {
+        { &lights->position.x, &lights->position.y, &lights->position.z, sizeof *lights },
+        { &lights->radius, sizeof *lights },
+        { &lights->radiance.r, &lights->radiance.g, &lights->radiance.b, sizeof *lights }
+    };
+    return spheres;
+}
+
+/* lmp_sphere_zonal of many pairs of radius and distance: `bands` values an element. */
+LMP_API void lmp_sphere_zonal_n(int bands, lmp_float_array radii, lmp_float_array distances,
+                                size_t count, lmp_sh_layout layout, size_t stride, float *zonal);
+
+/* lmp_sphere_project of sphere i at point i: LMP_SH_COUNT(bands) values an element, for radiance 1;
+ * radiance is not read. */
+LMP_API void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array points,
+                                  size_t count, lmp_sh_layout layout, size_t stride, float *sh);
+
+/* The same for every pair: element p * sphere_count + i is sphere i at point p. */
+LMP_API void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere_count,
+                                    lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
+                                    size_t stride, float *sh);
+
+/* lmp_light_project of the same spheres at many points: 3 * LMP_SH_COUNT(bands) values an element,
+ * red, then green, then blue. */
+LMP_API void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
+                                     lmp_vec3_array points, size_t point_count,
+                                     lmp_sh_layout layout, size_t stride, float *sh);
+
+/* The same, and the derivatives by the point's position, as lmp_sphere_project_gradient: gradient
+ * receives 9 * LMP_SH_COUNT(bands) values an element, d/dx of red, green, blue, then d/dy, d/dz. */
+LMP_API void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres,
+                                              size_t sphere_count, lmp_vec3_array points,
+                                              size_t point_count, lmp_sh_layout layout,
+                                              size_t stride, float *sh, size_t gradient_stride,
+                                              float *gradient);
+
 /* --- units ------------------------------------------------------------------------------------ */
 
 /* Of a sphere with uniform radiance L: power 4 pi² r² L, intensity pi r² L, both exact at any

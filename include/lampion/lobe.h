@@ -37,6 +37,15 @@ LMP_API void lmp_lobe_project(int bands, const float *lambda, lmp_vec3 axis, flo
 LMP_API lmp_rgb lmp_lobe_response(int bands, const float *lambda, lmp_vec3 axis,
                                   const lmp_light *lights, size_t count, lmp_vec3 point);
 
+/* lmp_lobe_response of the same spheres and lobe at many points, each with an axis of its own: 3
+ * values an element, red, green, blue (rows of stride 3 are an array of lmp_rgb). See sh.h,
+ * batches.
+ */
+LMP_API void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array axes,
+                                 const lmp_spheres *spheres, size_t sphere_count,
+                                 lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
+                                 size_t stride, float *response);
+
 #ifdef __cplusplus
 }
 #endif

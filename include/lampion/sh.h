@@ -122,6 +122,33 @@ LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
 LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b,
                              float *c);
 
+/* --- batches ------------------------------------------------------------------------------------
+ * The functions that end in _n, here and in light.h and lobe.h, do the work of their scalar twins
+ * for many elements at once, on the widest instruction set of the machine; the results agree up to
+ * rounding, and are the same bits on every machine. They keep nothing, so split the elements among
+ * threads as you like: no split changes a bit.
+ *
+ * A result of V values an element is laid out
+ *   LMP_SH_ROWS    element after element, as engines store it: value v at out[i * stride + v]
+ *   LMP_SH_PLANES  value after value, the faster one: out[v * stride + i]. Where 4 * stride is a
+ *                  power of two, planes compete for the same places of the cache: pad it.
+ * stride is in floats, 0 means tight: V for rows, count for planes. What lies between the elements
+ * is left alone. */
+typedef enum lmp_sh_layout { LMP_SH_ROWS = 0, LMP_SH_PLANES } lmp_sh_layout;
+
+/* lmp_sh_eval of many directions: LMP_SH_COUNT(bands) values an element. */
+LMP_API void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
+                           size_t stride, float *sh);
+
+/* lmp_sh_dot of many pairs of vectors of LMP_SH_COUNT(bands) values, both laid out alike; dots
+ * receives `count` values. Both layouts give the same bits. */
+LMP_API void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count,
+                          lmp_sh_layout layout, size_t stride, float *dots);
+
+/* lmp_sh_rotate of many vectors by the same matrices; sh and rotated are laid out alike. */
+LMP_API void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, size_t count,
+                             lmp_sh_layout layout, size_t stride, float *rotated);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,4 @@
+/* SPDX-License-Identifier: MIT */
+#define LMP_LANES   8
+#define LMP_KERNELS lmp_kernels_avx2
+#include "src/kernels/build.h"

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT */
+/* basis.h - Y_lm, and every sum over m of a function round an axis: L_lm = radial_l Y_lm(axis).
+ *
+ * Column m of the basis is q_l^m {C_m, S_m} (tables.h). Two orders of the same operations: by
+ * columns, with the recurrence in registers, where the destination takes any plane; and by bands,
+ * which completes the rows in their order. */
+#ifndef LAMPION_KERNELS_BASIS_H
+#define LAMPION_KERNELS_BASIS_H
+
+#include "src/base/tables.h"
+#include "src/kernels/layout.h"
+
+/* Up to this many bands the kernels are specialised: straight-line code. */
+#define BASIS_STRAIGHT 10
+
+/* Blocks that run side by side: the recurrence of one waits for itself. */
+#define BASIS_BLOCKS (LMP_LANES == 16 ? 4 : 2)
+
+/* Values that wait in planes of lanes before they go out as rows. */
+#define BASIS_WAITING 160
+
+/* The next of a column, q_l from q_(l-1) and q_(l-2). */
+LMP_INLINE vf basis_step(const float *a, const float *b, int l, int m, vf z, vf q1, vf q0) {
+    const size_t i = lmp_table_index(l, m);
+    if (l == m + 1)
+        return a[i] * z * q1;
+    return a[i] * z * q1 + b[i] * q0;
+}
+
+/* C_m + i S_m = (x + iy)^m from C_(m-1) + i S_(m-1). */
+LMP_INLINE void basis_turn(int m, vf x, vf y, vf *c, vf *s) {
+    if (m == 1) {
+        *c = x;
+        *s = y;
+        return;
+    }
+    const vf turned = x * *c - y * *s;
+    *s = x * *s + y * *c;
+    *c = turned;
+}
+
+/* Plane l*l+l±m at to + (l*l+l±m) * stride; radial NULL means 1 for every band. Straight-line code,
+ * for `bands` is a constant. */
+LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, float *to,
+                               size_t stride) {
+    const float *a = lmp_table_a, *b = lmp_table_b, *diagonal = lmp_table_diagonal;
+    LMP_OPAQUE(a);
+    LMP_OPAQUE(b);
+    LMP_OPAQUE(diagonal);
+    const vf x = axis[0], y = axis[1], z = axis[2];
+    /* Copied, for the stores below might otherwise change them. */
+    vf scale[BASIS_STRAIGHT];
+    float *middles[BASIS_STRAIGHT];
+    LMP_UNROLL for (int l = 0; l < bands; l++) {
+        if (radial)
+            scale[l] = radial[l];
+        middles[l] = to + (size_t)(l * l + l) * stride;
+        if (stride != LMP_LANES)
+            LMP_OPAQUE(middles[l]);
+    }
+    vf c = vf_set(1), s = vf_set(0);
+    LMP_UNROLL for (int m = 0; m < bands; m++) {
+        vf q0 = vf_set(0), q1 = vf_set(diagonal[m]);
+        if (m > 0)
+            basis_turn(m, x, y, &c, &s);
+        LMP_UNROLL for (int l = m; l < bands; l++) {
+            if (l > m) {
+                const vf q2 = basis_step(a, b, l, m, z, q1, q0);
+                q0 = q1;
+                q1 = q2;
+            }
+            const vf value = radial ? q1 * scale[l] : q1;
+            vf_store(middles[l] + (size_t)m * stride, m > 0 ? value * c : value);
+            if (m > 0)
+                vf_store(middles[l] - (size_t)m * stride, value * s);
+        }
+    }
+}
+
+/* The same for any number of bands. */
+LMP_INLINE void basis_columns(int bands, const vf axis[3], const vf *radial, float *to,
+                              size_t stride) {
+    const float *a = lmp_table_a, *b = lmp_table_b;
+    vf c = vf_set(1), s = vf_set(0);
+    for (int m = 0; m < bands; m++) {
+        vf q0 = vf_set(0), q1 = vf_set(lmp_table_diagonal[m]);
+        if (m > 0)
+            basis_turn(m, axis[0], axis[1], &c, &s);
+        for (int l = m; l < bands; l++) {
+            if (l > m) {
+                const vf q2 = basis_step(a, b, l, m, axis[2], q1, q0);
+                q0 = q1;
+                q1 = q2;
+            }
+            const vf value = radial ? q1 * radial[l] : q1;
+            const size_t middle = (size_t)(l * l + l);
+            vf_store(to + (middle + (size_t)m) * stride, m > 0 ? value * c : value);
+            if (m > 0)
+                vf_store(to + (middle - (size_t)m) * stride, value * s);
+        }
+    }
+}
+
+/* The same for BASIS_BLOCKS full blocks side by side and any number of bands. */
+LMP_INLINE void basis_columns_wide(int bands, vf (*axis)[3], vf (*radial)[LMP_BANDS_MAX], float *to,
+                                   size_t stride) {
+    const float *a = lmp_table_a, *b = lmp_table_b;
+    vf c[BASIS_BLOCKS] = { 0 }, s[BASIS_BLOCKS] = { 0 }, q0[BASIS_BLOCKS], q1[BASIS_BLOCKS];
+    for (int m = 0; m < bands; m++) {
+        LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
+            if (m > 0)
+                basis_turn(m, axis[k][0], axis[k][1], &c[k], &s[k]);
+            q1[k] = vf_set(lmp_table_diagonal[m]);
+            q0[k] = vf_set(0);
+        }
+        LMP_ROLLED for (int l = m; l < bands; l++) {
+            float *plus = to + (size_t)(l * l + l + m) * stride;
+            float *minus = to + (size_t)(l * l + l - m) * stride;
+            LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
+                const vf value = radial ? q1[k] * radial[k][l] : q1[k];
+                vf_store(plus + k * LMP_LANES, m > 0 ? value * c[k] : value);
+                if (m > 0)
+                    vf_store(minus + k * LMP_LANES, value * s[k]);
+            }
+            if (l + 1 == bands)
+                break;
+            LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
+                const vf q2 = l == m ? basis_step(a, b, m + 1, m, axis[k][2], q1[k], q0[k])
+                                     : basis_step(a, b, l + 1, m, axis[k][2], q1[k], q0[k]);
+                q0[k] = q1[k];
+                q1[k] = q2;
+            }
+        }
+    }
+}
+
+static inline void basis_bands(int bands, const vf axis[3], const vf *radial,
+                               const lmp_kernel_out *out, size_t element, size_t live) {
+    const vf x = axis[0], y = axis[1], z = axis[2];
+    const float *a = lmp_table_a, *b = lmp_table_b;
+    vf c[LMP_BANDS_MAX], s[LMP_BANDS_MAX], q0[LMP_BANDS_MAX], q1[LMP_BANDS_MAX];
+    float LMP_ALIGNED waiting[(BASIS_WAITING + 2 * LMP_BANDS_MAX) * LMP_LANES];
+    size_t first = 0, count = 0;
+    c[0] = vf_set(1);
+    s[0] = vf_set(0);
+    for (int l = 0; l < bands; l++) {
+        if (l > 0) {
+            c[l] = c[l - 1];
+            s[l] = s[l - 1];
+            basis_turn(l, x, y, &c[l], &s[l]);
+        }
+        q0[l] = vf_set(0);
+        q1[l] = vf_set(lmp_table_diagonal[l]);
+        float *middle = waiting + (count + (size_t)l) * LMP_LANES;
+        for (int m = 0; m <= l; m++) {
+            if (m < l) {
+                const vf q2 = basis_step(a, b, l, m, z, q1[m], q0[m]);
+                q0[m] = q1[m];
+                q1[m] = q2;
+            }
+            const vf value = radial ? q1[m] * radial[l] : q1[m];
+            vf_store(middle + m * LMP_LANES, m > 0 ? value * c[m] : value);
+            if (m > 0)
+                vf_store(middle - m * LMP_LANES, value * s[m]);
+        }
+        count += (size_t)(2 * l + 1);
+        /* Whole groups of 16 go, for their rows fill cache lines; the rest waits. */
+        const size_t ready = l + 1 == bands ? count : count >= BASIS_WAITING ? count & ~15u : 0;
+        layout_put(waiting, first, ready, out, element, live);
+        memmove(waiting, waiting + ready * LMP_LANES, (count - ready) * LMP_LANES * sizeof(float));
+        first += ready;
+        count -= ready;
+    }
+}
+
+/* The bands^2 values of `blocks` blocks. Bands from a constant make straight-line code. */
+LMP_INLINE void basis_put(int bands, int constant, int blocks, vf (*axis)[3],
+                          vf (*radial)[LMP_BANDS_MAX], const lmp_kernel_out *out, size_t element,
+                          size_t count) {
+    if (!constant && out->planar && element + BASIS_BLOCKS * LMP_LANES <= count) {
+        basis_columns_wide(bands, axis, radial, out->at + element, out->stride);
+        return;
+    }
+    LMP_ROLLED for (int k = 0; k < blocks; k++, element += LMP_LANES) {
+        const size_t live = layout_live(count, element);
+        const vf *one = radial ? radial[k] : NULL;
+        const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
+        float *to = out->at + element * (out->planar ? 1 : out->stride);
+        const size_t stride = out->planar ? out->stride : 1;
+        if (constant && direct) {
+            basis_straight(bands, axis[k], one, to, stride);
+        } else if (constant) {
+            float LMP_ALIGNED block[BASIS_STRAIGHT * BASIS_STRAIGHT * LMP_LANES];
+            basis_straight(bands, axis[k], one, block, LMP_LANES);
+            layout_put(block, 0, (size_t)(bands * bands), out, element, live);
+        } else if (direct) {
+            basis_columns(bands, axis[k], one, to, stride);
+        } else {
+            basis_bands(bands, axis[k], one, out, element, live);
+        }
+    }
+}
+
+/* Calls body(BANDS, 1, …) with BANDS a constant from 1 to 10, else body(bands, 0, …). */
+#define BASIS_SPECIALISE(bands, body, ...)                                                         \
+    switch (bands) {                                                                               \
+    case 1:                                                                                        \
+        body(1, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 2:                                                                                        \
+        body(2, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 3:                                                                                        \
+        body(3, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 4:                                                                                        \
+        body(4, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 5:                                                                                        \
+        body(5, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 6:                                                                                        \
+        body(6, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 7:                                                                                        \
+        body(7, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 8:                                                                                        \
+        body(8, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 9:                                                                                        \
+        body(9, 1, __VA_ARGS__);                                                                   \
+        break;                                                                                     \
+    case 10:                                                                                       \
+        body(10, 1, __VA_ARGS__);                                                                  \
+        break;                                                                                     \
+    default:                                                                                       \
+        body(bands, 0, __VA_ARGS__);                                                               \
+    }
+
+#endif

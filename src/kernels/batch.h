@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT */
+/* batch.h - from the caller's arrays to the kernels': chunks of elements, transposed to planes. */
+#ifndef LAMPION_KERNELS_BATCH_H
+#define LAMPION_KERNELS_BATCH_H
+
+#include "src/kernels/kernels.h"
+
+#include <string.h>
+
+/* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. */
+#define LMP_BATCH 256
+
+typedef struct lmp_batch_plane {
+    float at[LMP_BATCH] __attribute__((aligned(64)));
+} lmp_batch_plane;
+
+typedef struct lmp_batch_vec3 {
+    lmp_batch_plane x, y, z;
+} lmp_batch_vec3;
+
+static inline size_t lmp_batch_count(size_t count, size_t first) {
+    return count - first < LMP_BATCH ? count - first : LMP_BATCH;
+}
+
+/* Elements first … first+count-1; the lanes past them are 0. */
+static inline void lmp_batch_floats(const float *array, size_t stride, size_t first, size_t count,
+                                    lmp_batch_plane *plane) {
+    if (stride == sizeof(float))
+        memcpy(plane->at, array + first, count * sizeof(float));
+    else
+        for (size_t i = 0; i < count; i++)
+            memcpy(&plane->at[i], (const char *)array + (first + i) * stride, sizeof(float));
+    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        plane->at[i] = 0;
+}
+
+static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, size_t first,
+                                                size_t count, lmp_batch_vec3 *planes) {
+    const lmp_kernel_vec3 vectors = { planes->x.at, planes->y.at, planes->z.at };
+    lmp_batch_floats(array->x, array->stride, first, count, &planes->x);
+    lmp_batch_floats(array->y, array->stride, first, count, &planes->y);
+    lmp_batch_floats(array->z, array->stride, first, count, &planes->z);
+    return vectors;
+}
+
+/* The elements from `first` on of a result of `values` values an element. */
+static inline lmp_kernel_out lmp_batch_out(float *at, size_t values, size_t count, int planar,
+                                           size_t stride, size_t first) {
+    lmp_kernel_out out = { at, stride, planar };
+    if (!stride)
+        out.stride = planar ? count : values;
+    out.at += planar ? first : first * out.stride;
+    return out;
+}
+
+#endif

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/* build.h - one build of the kernels: the file that includes it sets LMP_LANES and LMP_KERNELS, and
+ * CMake its instruction set. */
+#include "src/kernels/gradient.h"
+#include "src/kernels/lobe.h"
+#include "src/kernels/project.h"
+#include "src/kernels/vectors.h"
+
+extern const lmp_kernels LMP_KERNELS;
+
+const lmp_kernels LMP_KERNELS = {
+#if LMP_LANES == 1
+    .name = "scalar",
+#elif LMP_LANES == 8
+    .name = "avx2",
+#elif LMP_LANES == 16
+    .name = "avx512",
+#elif defined(__SSE2__)
+    .name = "sse2",
+#else
+    .name = "neon",
+#endif
+    .lanes = LMP_LANES,
+    .eval = kernel_eval,
+    .dot = kernel_dot,
+    .rotate = kernel_rotate,
+    .zonal = kernel_zonal,
+    .project = kernel_project,
+    .accumulate = kernel_accumulate,
+    .gradient = kernel_gradient,
+    .lobe = kernel_lobe,
+};

@@ -1,0 +1,27 @@
+# One source, one build an instruction set (src/kernels/build.h). Not auto-vectorised: the kernels
+# say what is a vector, and the scalar build is the one to compare with.
+set(lampion_kernel_options -fno-tree-vectorize -fno-tree-slp-vectorize)
+if(CMAKE_C_COMPILER_ID MATCHES Clang)
+  set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize)
+endif()
+set(kernels ${PROJECT_SOURCE_DIR}/src/kernels)
+set_source_files_properties(${kernels}/scalar.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
+
+set(lampion_kernel_builds "")
+if(LAMPION_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|aarch64|arm64)$")
+  set(lampion_kernel_builds LMP_KERNELS_VECTOR)
+  set_source_files_properties(${kernels}/vector.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
+else()
+  list(REMOVE_ITEM lampion_sources ${kernels}/vector.c)
+endif()
+if(LAMPION_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  list(APPEND lampion_kernel_builds LMP_KERNELS_X86)
+  set_source_files_properties(${kernels}/avx2.c PROPERTIES
+    COMPILE_OPTIONS "${lampion_kernel_options};-mavx2")
+  set_source_files_properties(${kernels}/avx512.c PROPERTIES
+    COMPILE_OPTIONS "${lampion_kernel_options};-mavx512f;-mavx512vl;-mavx512dq;-mprefer-vector-width=512")
+else()
+  list(REMOVE_ITEM lampion_sources ${kernels}/avx2.c ${kernels}/avx512.c)
+endif()
+set_source_files_properties(${kernels}/kernels.c PROPERTIES
+  COMPILE_DEFINITIONS "${lampion_kernel_builds}")

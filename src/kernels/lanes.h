@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* lanes.h - LMP_LANES floats as one value, of exactly the width of the instruction set: a wider
+ * type than the registers is several times slower under gcc. */
+#ifndef LAMPION_KERNELS_LANES_H
+#define LAMPION_KERNELS_LANES_H
+
+#include <stdint.h>
+#include <string.h>
+
+#if LMP_LANES > 1 && (defined(__SSE2__) || defined(__AVX__))
+#include <immintrin.h>
+#elif LMP_LANES > 1 && defined(__ARM_NEON)
+#include <arm_neon.h>
+#elif LMP_LANES == 1
+#include <math.h>
+#endif
+
+#define LMP_INLINE static inline __attribute__((always_inline))
+
+/* Unrolls a loop of constant length whole; the specialised kernels are straight-line code. */
+#if defined(__clang__)
+#define LMP_UNROLL _Pragma("clang loop unroll(full)")
+#define LMP_ROLLED _Pragma("clang loop unroll(disable)")
+#else
+#define LMP_UNROLL _Pragma("GCC unroll 16")
+#define LMP_ROLLED _Pragma("GCC unroll 1")
+#endif
+
+/* Hides where a pointer comes from. Constants read through it stay broadcasting memory operands;
+ * otherwise the compilers hoist every one of them from the loop, and spill it as a whole vector. */
+#define LMP_OPAQUE(pointer) __asm__ volatile("" : "+r"(pointer))
+
+#define LMP_ALIGNED __attribute__((aligned(64)))
+
+#if LMP_LANES == 1
+
+typedef float vf;
+
+LMP_INLINE vf vf_sqrt(vf a) {
+    return sqrtf(a);
+}
+LMP_INLINE vf vf_max(vf a, vf b) {
+    return a > b ? a : b;
+}
+/* a < b ? yes : no */
+LMP_INLINE vf vf_select_less(vf a, vf b, vf yes, vf no) {
+    return a < b ? yes : no;
+}
+LMP_INLINE int vf_any_less(vf a, vf b) {
+    return a < b;
+}
+
+#else
+
+typedef float vf __attribute__((vector_size(4 * LMP_LANES)));
+typedef int32_t vi __attribute__((vector_size(4 * LMP_LANES)));
+
+LMP_INLINE vf vf_select_less(vf a, vf b, vf yes, vf no) {
+    const vi mask = (vi)(a < b);
+    return (vf)((mask & (vi)yes) | (~mask & (vi)no));
+}
+
+#if defined(__AVX512F__)
+LMP_INLINE vf vf_sqrt(vf a) {
+    return (vf)_mm512_sqrt_ps((__m512)a);
+}
+LMP_INLINE vf vf_max(vf a, vf b) {
+    return (vf)_mm512_max_ps((__m512)a, (__m512)b);
+}
+LMP_INLINE int vf_any_less(vf a, vf b) {
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0;
+}
+#elif defined(__AVX2__)
+LMP_INLINE vf vf_sqrt(vf a) {
+    return (vf)_mm256_sqrt_ps((__m256)a);
+}
+LMP_INLINE vf vf_max(vf a, vf b) {
+    return (vf)_mm256_max_ps((__m256)a, (__m256)b);
+}
+LMP_INLINE int vf_any_less(vf a, vf b) {
+    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ)) != 0;
+}
+#elif defined(__SSE2__)
+LMP_INLINE vf vf_sqrt(vf a) {
+    return (vf)_mm_sqrt_ps((__m128)a);
+}
+LMP_INLINE vf vf_max(vf a, vf b) {
+    return (vf)_mm_max_ps((__m128)a, (__m128)b);
+}
+LMP_INLINE int vf_any_less(vf a, vf b) {
+    return _mm_movemask_ps(_mm_cmplt_ps((__m128)a, (__m128)b)) != 0;
+}
+#else
+LMP_INLINE vf vf_sqrt(vf a) {
+    return (vf)vsqrtq_f32((float32x4_t)a);
+}
+LMP_INLINE vf vf_max(vf a, vf b) {
+    return vf_select_less(b, a, a, b);
+}
+LMP_INLINE int vf_any_less(vf a, vf b) {
+    return vmaxvq_u32(vcltq_f32((float32x4_t)a, (float32x4_t)b)) != 0;
+}
+#endif
+
+#endif
+
+/* s - 0 is s for every s, -0 too. */
+LMP_INLINE vf vf_set(float s) {
+    const vf zero = { 0 };
+    return s - zero;
+}
+LMP_INLINE vf vf_load(const float *from) {
+    vf v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+LMP_INLINE void vf_store(float *to, vf v) {
+    memcpy(to, &v, sizeof v);
+}
+
+#endif

@@ -1,0 +1,4 @@
+/* SPDX-License-Identifier: MIT */
+#define LMP_LANES   1
+#define LMP_KERNELS lmp_kernels_scalar
+#include "src/kernels/build.h"

@@ -1,0 +1,563 @@
+/* SPDX-License-Identifier: MIT */
+/* Every kernel, on every instruction set this machine has: against the oracle in double precision,
+ * and bit for bit against the scalar build and the committed checksums, which hold for every
+ * compiler. Memory round each output is guarded. */
+#include "src/kernels/kernels.h"
+#include "tests/oracle/check.h"
+#include "tests/oracle/oracle.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT = 67, LIGHTS = 7, GUARD = 64 };
+
+/* Elements 0 … SPECIAL-1 are worst cases, the rest random. Coordinates are multiples of 2^-10, so
+ * that centre - point is exact and the oracle sees the same geometry. */
+typedef struct inputs {
+    _Alignas(64) float center[3][COUNT + 16], point[3][COUNT + 16], axis[3][COUNT + 16];
+    _Alignas(64) float radius[COUNT + 16], distance[COUNT + 16];
+    _Alignas(64) float rgb[3][COUNT + 16];
+} inputs;
+
+static const float special[][4] = {
+    /* centre - point, radius */
+    { 0, 0, 1, 1 },          /* touching, at the pole */
+    { 3, 4, 0, 5 },          /* touching, on the horizon */
+    { 0, 0, 1, 2 },          /* inside */
+    { 0.25f, 0.5f, -1, 4 },  /* inside */
+    { 0, 0, 0, 1 },          /* at the centre */
+    { 0, 0, 0, 0 },          /* nothing */
+    { 1, 0, 0, 1e-6f },      /* tiny, on an axis */
+    { 0, -1, 0, 1e-6f },     /* tiny */
+    { 0, 0, -1, 0.5f },      /* south pole */
+    { 1024, 1, -3, 0.001f }, /* far */
+    { -1, 0, 0, 0.999f },    /* almost touching */
+    { 0.0009765625f, 0, 1, 0.25f },
+    { 1, 2, 2, 0 }, /* no size */
+};
+enum { SPECIAL = sizeof special / sizeof *special };
+
+/* The same numbers everywhere, for the checksums: bits of a linear congruence. */
+static uint64_t state;
+static float grid(float scale) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (float)((int)(state >> 53) - 1024) * scale;
+}
+
+static void set_seed(uint64_t seed) {
+    state = seed;
+}
+
+static inputs *inputs_create(uint64_t seed) {
+    inputs *in = calloc(1, sizeof *in);
+    assert_non_null(in);
+    set_seed(seed);
+    for (int i = 0; i < COUNT + 16; i++) {
+        float v[3], length = 0;
+        for (int k = 0; k < 3; k++) {
+            in->point[k][i] = grid(1.0f / 1024);
+            v[k] = i < SPECIAL ? special[i][k] : grid(1.0f / 256);
+            in->center[k][i] = in->point[k][i] + v[k];
+            in->axis[k][i] = grid(1.0f / 1024);
+            length += in->axis[k][i] * in->axis[k][i];
+            in->rgb[k][i] = 1 + grid(1.0f / 2048);
+        }
+        for (int k = 0; k < 3; k++)
+            in->axis[k][i] = length > 0 ? in->axis[k][i] / sqrtf(length) : k == 2 ? 1.0f : 0.0f;
+        in->distance[i] = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        const float share = 0.5f + grid(1.0f / 2200);
+        in->radius[i] = i < SPECIAL ? special[i][3] : in->distance[i] * share * share;
+    }
+    return in;
+}
+
+/* --- running a kernel ------------------------------------------------------------------------ */
+
+typedef enum kind { EVAL, DOT, ROTATE, ZONAL, PROJECT, ACCUMULATE, GRADIENT, LOBE, KINDS } kind;
+static const char *const kind_names[] = { "eval",    "dot",        "rotate",   "zonal",
+                                          "project", "accumulate", "gradient", "lobe" };
+
+static size_t values_of(kind which, int bands) {
+    const size_t n = LMP_SH_COUNT(bands);
+    switch (which) {
+    case DOT:
+        return 1;
+    case ZONAL:
+        return (size_t)bands;
+    case ACCUMULATE:
+        return 3 * n;
+    case GRADIENT:
+        return 12 * n;
+    case LOBE:
+        return 3;
+    default:
+        return n;
+    }
+}
+
+/* Lobes and coefficients that the kernels of those take. */
+static void make_lambda(int bands, float *lambda) {
+    for (int l = 0; l < bands; l++)
+        lambda[l] = 1 / (1 + 0.25f * (float)l);
+}
+
+static float *make_matrices(int bands) {
+    float *matrices = malloc(LMP_SH_ROTATION_COUNT(bands) * sizeof *matrices);
+    assert_non_null(matrices);
+    set_seed(bands > 0 ? (uint64_t)bands : 1);
+    for (size_t i = 0; i < LMP_SH_ROTATION_COUNT(bands); i++)
+        matrices[i] = grid(1.0f / 1024);
+    return matrices;
+}
+
+/* Coefficients are the same for both layouts: of element e, value v. */
+static float coefficient(size_t e, size_t v) {
+    set_seed(e * 7919 + v);
+    grid(1);
+    return grid(1.0f / 1024);
+}
+
+static float *make_vectors(size_t values, size_t count, int planar, size_t stride, size_t shift) {
+    float *at = malloc((planar ? values : count) * stride * sizeof *at + 64);
+    assert_non_null(at);
+    for (size_t e = 0; e < count; e++)
+        for (size_t v = 0; v < values; v++)
+            at[planar ? v * stride + e : e * stride + v] = coefficient(e + shift, v);
+    return at;
+}
+
+static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t count, int planar,
+                        const lmp_kernel_out *out) {
+    const size_t values = LMP_SH_COUNT(bands), stride = (planar ? count : values) + 3;
+    float *a = make_vectors(values, count, planar, stride, 0);
+    const lmp_kernel_in from_a = { a, stride, planar };
+    if (which == DOT) {
+        float *b = make_vectors(values, count, planar, stride, 1000);
+        const lmp_kernel_in from_b = { b, stride, planar };
+        k->dot(values, &from_a, &from_b, count, out->at);
+        free(b);
+    } else {
+        float *matrices = make_matrices(bands);
+        k->rotate(bands, matrices, &from_a, count, out);
+        free(matrices);
+    }
+    free(a);
+}
+
+static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                int planar, const lmp_kernel_out *out) {
+    const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
+    const lmp_kernel_vec3 center = { in->center[0], in->center[1], in->center[2] };
+    const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
+    const lmp_kernel_pairs pairs = { center, point, in->radius };
+    const lmp_kernel_lights lights = { { center.x, center.y, center.z, sizeof(float) },
+                                       { in->radius, sizeof(float) },
+                                       { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
+                                       LIGHTS };
+    /* Gradients follow the values: further on in a row, or in the planes after them. */
+    lmp_kernel_out gradient = *out;
+    gradient.at += 3 * LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
+    float lambda[LMP_BANDS_MAX];
+    make_lambda(bands, lambda);
+    switch (which) {
+    case EVAL:
+        k->eval(bands, &axis, count, out);
+        break;
+    case DOT:
+    case ROTATE:
+        run_vectors(k, which, bands, count, planar, out);
+        break;
+    case ZONAL:
+        k->zonal(bands, in->radius, in->distance, count, out);
+        break;
+    case PROJECT:
+        k->project(bands, &pairs, count, out);
+        break;
+    case ACCUMULATE:
+        k->accumulate(bands, &lights, &point, count, out);
+        break;
+    case GRADIENT:
+        k->gradient(bands, &lights, &point, count, out, &gradient);
+        break;
+    case LOBE:
+        k->lobe(bands, lambda, &axis, &lights, &point, count, out);
+        break;
+    case KINDS:
+        break;
+    }
+}
+
+/* Runs a kernel into guarded memory and returns its values as tight rows, or NULL if it wrote
+ * outside the output or left a value unwritten. */
+static float *results(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                      int planar) {
+    const size_t values = values_of(which, bands);
+    const size_t pad = which == DOT ? 0 : 5;
+    const size_t stride = (planar ? count : values) + pad, rows = planar ? values : count;
+    const size_t size = rows * stride + 2 * GUARD;
+    const uint32_t mark = 0x7fc0beef; /* a NaN that no kernel makes */
+    float *memory = aligned_alloc(64, (size * sizeof(float) + 63) / 64 * 64);
+    float *tight = malloc((count * values + 1) * sizeof(float));
+    assert_non_null(memory);
+    assert_non_null(tight);
+    for (size_t i = 0; i < size; i++)
+        memcpy(memory + i, &mark, sizeof mark);
+    const lmp_kernel_out out = { memory + GUARD, stride, planar };
+    run(k, which, bands, in, count, planar, &out);
+    int clean = 1;
+    for (size_t i = 0; i < size; i++) {
+        const size_t at = i < GUARD || stride == 0 ? size : i - GUARD;
+        const size_t row = stride ? at / stride : rows, column = stride ? at % stride : 0;
+        const int inside = row < rows && column < stride - pad;
+        uint32_t bits;
+        memcpy(&bits, memory + i, sizeof bits);
+        clean = clean && inside == (bits != mark);
+        if (inside)
+            tight[planar ? column * values + row : row * values + column] = memory[i];
+    }
+    free(memory);
+    if (!clean) {
+        free(tight);
+        return NULL;
+    }
+    return tight;
+}
+
+/* --- checks ------------------------------------------------------------------------------------
+ */
+
+static const int few_bands[] = { 1, 2, 3, 5, 10, 11, 33, 64, 65, 128 };
+enum { FEW = sizeof few_bands / sizeof *few_bands };
+
+static unsigned available(lmp_kernels tables[4]) {
+    unsigned count = 0;
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2)
+        if (lmp_cpu_flags() & flag)
+            assert_int_equal(lmp_kernels_init(&tables[count++], flag), flag);
+    return count;
+}
+
+/* The same bits as the scalar build, nothing but the output written. Prints what fails. */
+static bool agrees(const lmp_kernels *k, const lmp_kernels *scalar, kind which, int bands,
+                   const inputs *in, size_t count, int planar) {
+    const size_t size = count * values_of(which, bands) * sizeof(float);
+    float *expected = results(scalar, which, bands, in, count, planar);
+    float *actual = results(k, which, bands, in, count, planar);
+    const bool same = expected && actual && memcmp(expected, actual, size) == 0;
+    if (!same)
+        printf("%s %s: %d bands, %zu elements, %s: %s\n", k->name, kind_names[which], bands, count,
+               planar ? "planes" : "rows", expected && actual ? "other bits" : "wrong memory");
+    free(expected);
+    free(actual);
+    return same;
+}
+
+static bool agrees_everywhere(const lmp_kernels *k, const lmp_kernels *scalar, kind which,
+                              int bands, const inputs *in) {
+    const size_t lanes = (size_t)k->lanes;
+    const size_t counts[] = { 0, 1, lanes - 1, lanes, lanes + 1, 4 * lanes, 4 * lanes + 3, COUNT };
+    bool same = true;
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+        for (int planar = 0; planar < 2; planar++)
+            if (counts[c] <= COUNT && (bands < 64 || counts[c] <= lanes + 1))
+                same = agrees(k, scalar, which, bands, in, counts[c], planar) && same;
+    return same;
+}
+
+static void every_instruction_set_gives_the_same_bits(void **test) {
+    (void)test;
+    lmp_kernels tables[4];
+    const unsigned count = available(tables);
+    const uint64_t seed = (uint64_t)(check_random() * 1e9);
+    printf("inputs of seed %llu\n", (unsigned long long)seed);
+    inputs *in = inputs_create(seed);
+    bool same = true;
+    for (unsigned i = 0; i < count; i++)
+        for (int which = 0; which < KINDS; which++) {
+            for (int bands = 1; bands <= 20; bands++)
+                same = agrees_everywhere(&tables[i], &tables[0], (kind)which, bands, in) && same;
+            for (int b = 6; b < FEW; b++)
+                same = agrees_everywhere(&tables[i], &tables[0], (kind)which, few_bands[b], in) &&
+                       same;
+        }
+    free(in);
+    assert_true(same);
+}
+
+static void both_layouts_hold_the_same_bits(void **test) {
+    (void)test;
+    lmp_kernels scalar;
+    lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
+    inputs *in = inputs_create(5);
+    for (int which = 0; which < KINDS; which++)
+        for (int b = 0; b < 7; b++) {
+            float *rows = results(&scalar, (kind)which, few_bands[b], in, COUNT, 0);
+            float *planes = results(&scalar, (kind)which, few_bands[b], in, COUNT, 1);
+            assert_non_null(rows);
+            assert_non_null(planes);
+            assert_memory_equal(rows, planes,
+                                COUNT * values_of((kind)which, few_bands[b]) * sizeof(float));
+            free(rows);
+            free(planes);
+        }
+    free(in);
+}
+
+/* One ulp in one lane. */
+static lmp_kernels honest;
+static void wrong_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
+                          const lmp_kernel_out *out) {
+    honest.project(bands, pairs, count, out);
+    if (count > 2)
+        out->at[out->planar ? 2 : 2 * out->stride] =
+            nextafterf(out->at[out->planar ? 2 : 2 * out->stride], 1e9f);
+}
+static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
+                         const lmp_kernel_out *out) {
+    honest.project(bands, pairs, count, out);
+    out->at[-1] = 0;
+}
+
+static void a_wrong_kernel_fails_the_checks(void **test) {
+    (void)test;
+    lmp_kernels_init(&honest, LMP_CPU_ALL);
+    lmp_kernels scalar, wrong = honest;
+    lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
+    inputs *in = inputs_create(1);
+    assert_true(agrees(&honest, &scalar, PROJECT, 6, in, COUNT, 1));
+    wrong.project = wrong_project;
+    assert_false(agrees(&wrong, &scalar, PROJECT, 6, in, COUNT, 1));
+    assert_false(agrees(&wrong, &scalar, PROJECT, 6, in, COUNT, 0));
+    wrong.project = long_project;
+    assert_false(agrees(&wrong, &scalar, PROJECT, 6, in, COUNT, 1));
+    free(in);
+}
+
+/* --- against the oracle ------------------------------------------------------------------------
+ */
+
+/* Rounding of float32 in n bands (docs/accuracy.md), and what it does to cos a near the surface,
+ * where d - r cancels. */
+static double bound_of(int bands, double radius, double distance) {
+    const double alpha2 = fabs(distance * distance - radius * radius) /
+                          fmax(fmax(distance, radius) * fmax(distance, radius), 1e-30);
+    return 1e-6 + 1.5e-7 * bands * bands + fmin(6e-7 / sqrt(fmax(alpha2, 1e-30)), 1e-3);
+}
+
+static void widen(float *const from[3], int i, double to[3]) {
+    for (int k = 0; k < 3; k++)
+        to[k] = (double)from[k][i];
+}
+
+#define VECTOR(array) ((float *const[3]) { (array)[0], (array)[1], (array)[2] })
+
+static void check_element(int i, int bands, kind which, size_t values, const double *expected,
+                          const float *actual, double bound) {
+    const double error = check_error(values, expected, actual);
+    if (!(error <= bound))
+        printf("%s, %d bands, element %d\n", kind_names[which], bands, i);
+    CHECK_WITHIN(error, bound);
+}
+
+static void basis_zonal_and_project_match_double_precision(void **test) {
+    (void)test;
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(11);
+    double *expected = malloc(128 * 128 * sizeof *expected);
+    assert_non_null(expected);
+    for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 54) {
+        float *basis = results(&best, EVAL, bands, in, COUNT, 0);
+        float *zonal = results(&best, ZONAL, bands, in, COUNT, 0);
+        float *project = results(&best, PROJECT, bands, in, COUNT, 0);
+        const size_t n = LMP_SH_COUNT(bands);
+        for (int i = 0; i<COUNT; i += bands> 20 ? 5 : 1) {
+            double center[3], point[3], axis[3], v2 = 0;
+            widen(VECTOR(in->center), i, center);
+            widen(VECTOR(in->point), i, point);
+            widen(VECTOR(in->axis), i, axis);
+            for (int k = 0; k < 3; k++)
+                v2 += (center[k] - point[k]) * (center[k] - point[k]);
+            const double radius = (double)in->radius[i];
+            const double bound = bound_of(bands, radius, sqrt(v2));
+            oracle_sh_eval(bands, axis, expected);
+            check_element(i, bands, EVAL, n, expected, basis + (size_t)i * n, bound);
+            if (radius == 0 && v2 == 0) {
+                for (size_t j = 0; j < n; j++)
+                    assert_true(project[(size_t)i * n + j] == 0);
+                continue;
+            }
+            oracle_sphere(bands, center, radius, point, expected, NULL);
+            check_element(i, bands, PROJECT, n, expected, project + (size_t)i * n, bound);
+            /* The zonal coefficients are those along z. */
+            oracle_sphere(bands, (double[]) { 0, 0, (double)in->distance[i] }, radius,
+                          (double[]) { 0, 0, 0 }, expected, NULL);
+            for (int l = 1; l < bands; l++)
+                expected[l] = expected[l * l + l];
+            check_element(i, bands, ZONAL, (size_t)bands, expected, zonal + i * bands, 2e-6);
+        }
+        free(basis);
+        free(zonal);
+        free(project);
+    }
+    free(expected);
+    free(in);
+}
+
+/* A lobe's response from its definition, Σ lambda_l L_lm Y_lm(axis). */
+static double lobe_of(int bands, const float *lambda, const double *sh, const double *axis) {
+    double sum = 0;
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            sum += (double)lambda[l] * sh[LMP_SH_INDEX(l, m)] * axis[LMP_SH_INDEX(l, m)];
+    return sum;
+}
+
+/* Accumulates the special lights that the random points see: not one of them touches. */
+static void sums_gradients_and_lobes_match_double_precision(void **test) {
+    (void)test;
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(12);
+    double *sum = malloc(12 * 128 * 128 * sizeof *sum), *one = malloc(4 * 128 * 128 * sizeof *one);
+    double *axis_sh = malloc(128 * 128 * sizeof *axis_sh);
+    assert_true(sum && one && axis_sh);
+    for (int bands = 1; bands <= 128; bands += bands < 16 ? 1 : 56) {
+        const size_t n = LMP_SH_COUNT(bands);
+        float *total = results(&best, ACCUMULATE, bands, in, COUNT, 1);
+        float *slopes = results(&best, GRADIENT, bands, in, COUNT, 1);
+        float *lobes = results(&best, LOBE, bands, in, COUNT, 1), lambda[LMP_BANDS_MAX];
+        make_lambda(bands, lambda);
+        for (int i = SPECIAL; i<COUNT; i += bands> 16 ? 16 : 5) {
+            double point[3], axis[3], response[3] = { 0 }, scale = 0, nearest = 1e9;
+            memset(sum, 0, 12 * n * sizeof *sum);
+            widen(VECTOR(in->point), i, point);
+            widen(VECTOR(in->axis), i, axis);
+            oracle_sh_eval(bands, axis, axis_sh);
+            for (int light = 0; light < LIGHTS; light++) {
+                double center[3], v2 = 0;
+                const double r = (double)in->radius[light];
+                widen(VECTOR(in->center), light, center);
+                for (int k = 0; k < 3; k++)
+                    v2 += (center[k] - point[k]) * (center[k] - point[k]);
+                nearest = fmin(nearest, fabs(1 - r * r / v2));
+                oracle_sphere(bands, center, r, point, one, one + n);
+                const double lit = lobe_of(bands, lambda, one, axis_sh);
+                for (int c = 0; c < 3; c++) {
+                    const double rgb = (double)in->rgb[c][light];
+                    response[c] += rgb * lit;
+                    for (size_t j = 0; j < n; j++)
+                        for (size_t set = 0; set < 4; set++)
+                            sum[(3 * set + (size_t)c) * n + j] += rgb * one[set * n + j];
+                }
+            }
+            for (int l = 0; l < bands; l++)
+                scale += (double)lambda[l] * (2 * l + 1);
+            const double bound = bound_of(bands, sqrt(1 - fmin(nearest, 1)), 1);
+            check_element(i, bands, ACCUMULATE, 3 * n, sum, total + (size_t)i * 3 * n, bound);
+            for (int c = 0; c < 3; c++)
+                CHECK_WITHIN(fabs((double)lobes[3 * i + c] - response[c]), 3e-7 * LIGHTS * scale);
+            if (nearest > 0.05)
+                check_element(i, bands, GRADIENT, 12 * n, sum, slopes + (size_t)i * 12 * n,
+                              20 * bound);
+        }
+        free(total);
+        free(slopes);
+        free(lobes);
+    }
+    free(sum);
+    free(one);
+    free(axis_sh);
+    free(in);
+}
+
+static void rotation_and_dot_match_double_precision(void **test) {
+    (void)test;
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(13);
+    for (int b = 0; b < FEW; b++) {
+        const int bands = few_bands[b];
+        const size_t n = LMP_SH_COUNT(bands);
+        float *rotated = results(&best, ROTATE, bands, in, 18, 0);
+        float *dots = results(&best, DOT, bands, in, 18, 0), *matrices = make_matrices(bands);
+        for (size_t e = 0; e < 18; e++) {
+            const float *matrix = matrices;
+            double dot = 0, size = 0;
+            for (size_t v = 0; v < n; v++) {
+                dot += (double)coefficient(e, v) * (double)coefficient(e + 1000, v);
+                size += fabs((double)coefficient(e, v) * (double)coefficient(e + 1000, v));
+            }
+            CHECK_WITHIN(fabs(dot - (double)dots[e]), 1e-6 * size);
+            for (int l = 0; l < bands; matrix += (2 * l + 1) * (2 * l + 1), l++)
+                for (int i = 0; i<2 * l + 1; i += bands> 33 ? 9 : 1) {
+                    double value = 0;
+                    for (int j = 0; j < 2 * l + 1; j++)
+                        value += (double)matrix[i * (2 * l + 1) + j] *
+                                 (double)coefficient(e, (size_t)(l * l + j));
+                    CHECK_WITHIN(fabs(value - (double)rotated[e * n + (size_t)(l * l + i)]),
+                                 2e-7 * (2 * l + 1));
+                }
+        }
+        free(rotated);
+        free(dots);
+        free(matrices);
+    }
+    free(in);
+}
+
+/* --- the same bits from every compiler ---------------------------------------------------------
+ */
+
+static const uint32_t golden[KINDS][FEW] = {
+#include "tests/kernels/golden.h"
+};
+
+static uint32_t checksum(const float *values, size_t count) {
+    uint32_t sum = 2166136261u;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, values + i, sizeof bits);
+        sum = (sum ^ bits) * 16777619u;
+    }
+    return sum;
+}
+
+/* LAMPION_GOLDEN=1 prints the rows of golden.h. */
+static void every_compiler_gives_the_bits_of_the_checksums(void **test) {
+    (void)test;
+    lmp_kernels tables[4];
+    const unsigned count = available(tables);
+    inputs *in = inputs_create(2020);
+    for (unsigned i = 0; i < count; i++)
+        for (int which = 0; which < KINDS; which++)
+            for (int b = 0; b < FEW; b++) {
+                float *values = results(&tables[i], (kind)which, few_bands[b], in, 35, 1);
+                assert_non_null(values);
+                const uint32_t sum = checksum(values, 35 * values_of((kind)which, few_bands[b]));
+                free(values);
+                if (getenv("LAMPION_GOLDEN")) {
+                    if (i == 0)
+                        printf("%s0x%08xu,%s", b ? " " : "{ ", sum, b + 1 == FEW ? " },\n" : "");
+                } else {
+                    assert_int_equal(sum, golden[which][b]);
+                }
+            }
+    free(in);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_wrong_kernel_fails_the_checks),
+        cmocka_unit_test(both_layouts_hold_the_same_bits),
+        cmocka_unit_test(every_instruction_set_gives_the_same_bits),
+        cmocka_unit_test(basis_zonal_and_project_match_double_precision),
+        cmocka_unit_test(sums_gradients_and_lobes_match_double_precision),
+        cmocka_unit_test(rotation_and_dot_match_double_precision),
+        cmocka_unit_test(every_compiler_gives_the_bits_of_the_checksums),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
