@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* The batch functions of sh.h, light.h and lobe.h: the scalar functions' results whatever the
+ * layout, the strides and the chunk, and the masks that choose the kernels. */
+#include "src/kernels/kernels.h"
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT = 600, BANDS = 6, VALUES = BANDS * BANDS };
+
+static lmp_light lights[COUNT];
+static lmp_vec3 points[COUNT], axes[COUNT];
+static float out[COUNT * 12 * VALUES], other[COUNT * 12 * VALUES];
+
+static int fill(void **test) {
+    (void)test;
+    for (int i = 0; i < COUNT; i++) {
+        const lmp_vec3 way = check_random_direction();
+        const float d = (float)check_random_between(1, 4);
+        axes[i] = check_random_direction();
+        points[i] = (lmp_vec3) { (float)check_random(), (float)check_random(), 0 };
+        lights[i] = (lmp_light) { .kind = LMP_LIGHT_SPHERE,
+                                  .position = { points[i].x + d * way.x, points[i].y + d * way.y,
+                                                points[i].z + d * way.z },
+                                  .radius = (float)check_random_between(0.01, 0.3),
+                                  .radiance = { 1, 2, 3 } };
+    }
+    return 0;
+}
+
+static void check_same(const float *expected, const float *actual, size_t count) {
+    double wide[12 * VALUES];
+    for (size_t i = 0; i < count; i++)
+        wide[i] = (double)expected[i];
+    CHECK_WITHIN(check_error(count, wide, actual), 5e-6);
+}
+
+static void project_takes_structures_and_gives_rows(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0, out);
+    for (int i = 0; i < COUNT; i++) {
+        float sh[VALUES];
+        lmp_sphere_project(BANDS, lights[i].position, lights[i].radius, points[i], sh);
+        check_same(sh, out + i * VALUES, VALUES);
+    }
+}
+
+static void planes_are_rows_transposed(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    const size_t stride = COUNT + 8;
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0, out);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_PLANES, stride,
+                         other);
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t v = 0; v < VALUES; v++)
+            assert_memory_equal(&out[i * VALUES + v], &other[v * stride + i], sizeof(float));
+}
+
+static void all_pairs_are_every_sphere_at_every_point(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    lmp_sphere_project_all(BANDS, &spheres, 7, lmp_vec3_array_of(points), 80, LMP_SH_ROWS, 0, out);
+    for (size_t p = 0; p < 80; p++) {
+        lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_same(&points[p]), 7, LMP_SH_ROWS, 0,
+                             other);
+        assert_memory_equal(other, out + p * 7 * VALUES, 7 * VALUES * sizeof(float));
+    }
+}
+
+static void a_split_of_the_points_changes_no_bit(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0,
+                            out);
+    for (size_t first = 0, n = 1; first < COUNT; first += n, n = n * 2 + 1) {
+        const size_t part = first + n < COUNT ? n : COUNT - first;
+        lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points + first), part,
+                                LMP_SH_ROWS, 0, other + first * 3 * VALUES);
+    }
+    assert_memory_equal(out, other, COUNT * 3 * VALUES * sizeof(float));
+}
+
+static void accumulate_is_the_sum_of_the_lights(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    lmp_sphere_accumulate_n(BANDS, &spheres, 11, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0,
+                            out);
+    for (int i = 0; i < COUNT; i += 17) {
+        float sh[3 * VALUES];
+        lmp_light_project(lights, 11, points[i], BANDS, sh);
+        check_same(sh, out + i * 3 * VALUES, 3 * VALUES);
+    }
+    lmp_sphere_accumulate_n(BANDS, &spheres, 0, lmp_vec3_array_of(points), 3, LMP_SH_ROWS, 0, out);
+    for (int i = 0; i < 3 * 3 * VALUES; i++)
+        assert_true(out[i] == 0);
+}
+
+static void gradients_are_those_of_one_light(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights + 3);
+    lmp_sphere_accumulate_gradient_n(BANDS, &spheres, 1, lmp_vec3_array_of(points), COUNT,
+                                     LMP_SH_ROWS, 0, out, 0, other);
+    for (int i = 0; i < COUNT; i += 13) {
+        float sh[VALUES], gradient[3 * VALUES];
+        lmp_sphere_project_gradient(BANDS, lights[3].position, lights[3].radius, points[i], sh,
+                                    gradient);
+        check_same(sh, out + i * 3 * VALUES, VALUES);
+        for (int axis = 0; axis < 3; axis++) /* red is 1 */
+            check_same(gradient + axis * VALUES, other + (i * 9 + axis * 3) * VALUES, VALUES);
+    }
+}
+
+static void lobes_respond_as_one_by_one(void **test) {
+    (void)test;
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    float lambda[BANDS];
+    lmp_rgb response[COUNT];
+    lmp_lobe_phong(BANDS, 7, lambda);
+    lmp_lobe_response_n(BANDS, lambda, lmp_vec3_array_of(axes), &spheres, 9,
+                        lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0, &response[0].r);
+    for (int i = 0; i < COUNT; i++) {
+        const lmp_rgb one = lmp_lobe_response(BANDS, lambda, axes[i], lights, 9, points[i]);
+        CHECK_WITHIN((double)(response[i].b - one.b), 1e-5);
+        CHECK_WITHIN((double)(one.b - response[i].b), 1e-5);
+    }
+}
+
+static void basis_zonal_rotation_and_dot_are_the_scalar_ones(void **test) {
+    (void)test;
+    const lmp_quat turn = check_random_rotation();
+    static float matrices[LMP_SH_ROTATION_COUNT(BANDS)];
+    float dots[COUNT], distances[COUNT], sh[VALUES], turned[VALUES];
+    lmp_sh_rotation(BANDS, turn, matrices);
+    lmp_sh_eval_n(BANDS, lmp_vec3_array_of(axes), COUNT, LMP_SH_ROWS, 0, out);
+    lmp_sh_rotate_n(BANDS, matrices, out, COUNT, LMP_SH_ROWS, 0, other);
+    lmp_sh_dot_n(BANDS, out, other, COUNT, LMP_SH_ROWS, 0, dots);
+    for (int i = 0; i < COUNT; i++) {
+        lmp_sh_eval(BANDS, axes[i], sh);
+        check_same(sh, out + i * VALUES, VALUES);
+        lmp_sh_rotate(BANDS, matrices, sh, turned);
+        check_same(turned, other + i * VALUES, VALUES);
+        CHECK_WITHIN((double)(dots[i] - lmp_sh_dot(BANDS, sh, turned)), 1e-5);
+        distances[i] = 1 + lights[i].radius * (float)i;
+    }
+    const lmp_float_array radii = { &lights->radius, sizeof *lights };
+    lmp_sphere_zonal_n(BANDS, radii, (lmp_float_array) { distances, sizeof(float) }, COUNT,
+                       LMP_SH_ROWS, 0, out);
+    for (int i = 0; i < COUNT; i++) {
+        lmp_sphere_zonal(BANDS, lights[i].radius, distances[i], sh);
+        check_same(sh, out + i * BANDS, BANDS);
+    }
+}
+
+static void the_mask_chooses_the_kernels(void **test) {
+    (void)test;
+    const unsigned all = lmp_cpu_flags();
+    assert_true(all & LMP_CPU_SCALAR);
+    assert_int_equal(lmp_cpu_mask(LMP_CPU_SCALAR), LMP_CPU_SCALAR);
+    assert_string_equal(lmp_cpu_name(), "scalar");
+    assert_int_equal(lmp_cpu_mask(0), LMP_CPU_SCALAR);
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2)
+        assert_int_equal(lmp_cpu_mask(flag), all & flag ? flag : (unsigned)LMP_CPU_SCALAR);
+    assert_true(lmp_cpu_mask(LMP_CPU_ALL) * 2 > all);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(project_takes_structures_and_gives_rows),
+        cmocka_unit_test(planes_are_rows_transposed),
+        cmocka_unit_test(all_pairs_are_every_sphere_at_every_point),
+        cmocka_unit_test(a_split_of_the_points_changes_no_bit),
+        cmocka_unit_test(accumulate_is_the_sum_of_the_lights),
+        cmocka_unit_test(gradients_are_those_of_one_light),
+        cmocka_unit_test(lobes_respond_as_one_by_one),
+        cmocka_unit_test(basis_zonal_rotation_and_dot_are_the_scalar_ones),
+        cmocka_unit_test(the_mask_chooses_the_kernels),
+    };
+    return cmocka_run_group_tests(tests, fill, NULL);
+}
