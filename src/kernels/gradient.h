@@ -15,9 +15,6 @@
 
 #include "src/kernels/accumulate.h"
 
-/* |cos a| is held at this and up: the derivative is infinite on the sphere's surface. */
-#define GRADIENT_ALPHA_MIN 0.05f
-
 /* Planes of one (l, m): value, d/dx, d/dy, d/dz, each red, green, blue; of +m, then of -m. */
 #define GRADIENT_WIDTH 24
 
@@ -31,7 +28,7 @@ typedef struct gradient_light {
 } gradient_light;
 
 static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, size_t i,
-                                    const vf point[3], gradient_light *light) {
+                                    const vf point[3], float cos_min, gradient_light *light) {
     cap_lanes cap = lights_cap(lights, i, point, 1);
     cap_axis(&cap);
     light->x = cap.x;
@@ -40,8 +37,7 @@ static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, 
     light->rgb = lights_radiance(lights, i);
     cap_radial(bands, &cap, vf_set(LMP_KERNEL_PI), light->value);
     const vf per_distance = LMP_KERNEL_PI * cap.s2_per_d;
-    const vf outward =
-        (per_distance + per_distance) / vf_max(cap.alpha, vf_set(GRADIENT_ALPHA_MIN));
+    const vf outward = (per_distance + per_distance) / vf_max(cap.alpha, vf_set(cos_min));
     vf r = per_distance, r_difference = vf_set(0), p = vf_set(1), p_difference = vf_set(0);
     light->across[0] = vf_set(0);
     light->along[0] = outward;
@@ -121,8 +117,8 @@ static inline void gradient_columns(int bands, int first, int end, const gradien
 }
 
 static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
-                            const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out,
-                            const lmp_kernel_out *gradient) {
+                            const lmp_kernel_vec3 *points, float cos_min, size_t count,
+                            const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
     vf sums[LMP_TILE];
     gradient_light light;
     for (size_t e = 0; e < count; e += LMP_LANES) {
@@ -132,7 +128,7 @@ static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
         for (int first = 0, end; first < bands; first = end) {
             end = accumulate_tile(bands, first, GRADIENT_WIDTH, sums);
             for (size_t i = 0; i < lights->count; i++) {
-                gradient_prepare(bands, lights, i, point, &light);
+                gradient_prepare(bands, lights, i, point, cos_min, &light);
                 gradient_columns(bands, first, end, &light, sums);
             }
             accumulate_put(bands, first, end, 0, 12, 0, 3, sums, out, e, live);

@@ -12,7 +12,7 @@ extern const lmp_kernels lmp_kernels_avx2, lmp_kernels_avx512;
 #endif
 
 /* The only state of the library. Whoever finds it empty publishes the same value. */
-static _Atomic(const lmp_kernels *) kernels_in_use;
+static _Atomic(const lmp_kernels *) lmp_kernel_table;
 
 unsigned lmp_cpu_flags(void) {
     unsigned flags = LMP_CPU_SCALAR;
@@ -60,18 +60,18 @@ unsigned lmp_kernels_init(lmp_kernels *kernels, unsigned cpu_flags) {
 
 unsigned lmp_cpu_mask(unsigned mask) {
     unsigned flag;
-    atomic_store_explicit(&kernels_in_use, kernels_best(mask, &flag), memory_order_release);
+    atomic_store_explicit(&lmp_kernel_table, kernels_best(mask, &flag), memory_order_release);
     return flag;
 }
 
 const lmp_kernels *lmp_kernels_get(void) {
-    const lmp_kernels *kernels = atomic_load_explicit(&kernels_in_use, memory_order_acquire);
+    const lmp_kernels *kernels = atomic_load_explicit(&lmp_kernel_table, memory_order_acquire);
     if (!kernels) {
         unsigned flag;
         const lmp_kernels *none = NULL;
         kernels = kernels_best(LMP_CPU_ALL, &flag);
         /* A mask set meanwhile by another thread stands. */
-        if (!atomic_compare_exchange_strong(&kernels_in_use, &none, kernels))
+        if (!atomic_compare_exchange_strong(&lmp_kernel_table, &none, kernels))
             kernels = none;
     }
     return kernels;

@@ -121,6 +121,6 @@ void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres, siz
             lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
         const lmp_kernel_out slopes =
             lmp_batch_out(gradient, 9 * values, point_count, planar, gradient_stride, first);
-        kernels->gradient(bands, &lights, &vectors, n, &out, &slopes);
+        kernels->gradient(bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
     }
 }

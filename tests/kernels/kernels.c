@@ -180,7 +180,7 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         k->accumulate(bands, &lights, &point, count, out);
         break;
     case GRADIENT:
-        k->gradient(bands, &lights, &point, count, out, &gradient);
+        k->gradient(bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
         break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
