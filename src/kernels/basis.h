@@ -55,8 +55,7 @@ LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, fl
         if (radial)
             scale[l] = radial[l];
         middles[l] = to + (size_t)(l * l + l) * stride;
-        if (stride != LMP_LANES)
-            LMP_OPAQUE(middles[l]);
+        LMP_OPAQUE(middles[l]);
     }
     vf c = vf_set(1), s = vf_set(0);
     LMP_UNROLL for (int m = 0; m < bands; m++) {
@@ -186,18 +185,20 @@ LMP_INLINE void basis_put(int bands, int constant, int blocks, vf (*axis)[3],
         const vf *one = radial ? radial[k] : NULL;
         const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
         float *to = out->at + element * (out->planar ? 1 : out->stride);
-        const size_t stride = out->planar ? out->stride : 1;
-        if (constant && direct) {
-            basis_straight(bands, axis[k], one, to, stride);
-        } else if (constant) {
-            float LMP_ALIGNED block[BASIS_STRAIGHT * BASIS_STRAIGHT * LMP_LANES];
-            basis_straight(bands, axis[k], one, block, LMP_LANES);
-            layout_put(block, 0, (size_t)(bands * bands), out, element, live);
-        } else if (direct) {
-            basis_columns(bands, axis[k], one, to, stride);
-        } else {
-            basis_bands(bands, axis[k], one, out, element, live);
+        size_t stride = out->planar ? out->stride : 1;
+        float LMP_ALIGNED block[BASIS_STRAIGHT * BASIS_STRAIGHT * LMP_LANES];
+        if (constant && !direct) {
+            to = block;
+            stride = LMP_LANES;
         }
+        if (constant)
+            basis_straight(bands, axis[k], one, to, stride);
+        else if (direct)
+            basis_columns(bands, axis[k], one, to, stride);
+        else
+            basis_bands(bands, axis[k], one, out, element, live);
+        if (constant && !direct)
+            layout_put(block, 0, (size_t)(bands * bands), out, element, live);
     }
 }
 

@@ -102,27 +102,28 @@ LMP_INLINE void lobe_blocks(int bands, int monic, int blocks, const float *weigh
 LMP_INLINE void lobe_bands(int bands, int constant, const float *weights,
                            const lmp_kernel_vec3 *axes, const lmp_kernel_lights *lights,
                            const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out) {
-    size_t e = 0;
-    for (; e + (LOBE_BLOCKS - 1) * LMP_LANES < count; e += LOBE_BLOCKS * LMP_LANES) {
+    const size_t side = LOBE_BLOCKS * LMP_LANES;
+    for (size_t e = 0; e + side <= count; e += side) {
         if (constant || bands <= LMP_TABLE_MONIC_BANDS)
             lobe_blocks(bands, 1, LOBE_BLOCKS, weights, axes, lights, points, e, count, out);
         else
             lobe_blocks(bands, 0, LOBE_BLOCKS, weights, axes, lights, points, e, count, out);
-    }
-    for (; e < count; e += LMP_LANES) {
-        if (constant || bands <= LMP_TABLE_MONIC_BANDS)
-            lobe_blocks(bands, 1, 1, weights, axes, lights, points, e, count, out);
-        else
-            lobe_blocks(bands, 0, 1, weights, axes, lights, points, e, count, out);
     }
 }
 
 static void kernel_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                         const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
                         size_t count, const lmp_kernel_out *out) {
+    const size_t side = LOBE_BLOCKS * LMP_LANES;
     float weights[LMP_BANDS_MAX];
     lobe_weights(bands, bands <= LMP_TABLE_MONIC_BANDS, lambda, weights);
     BASIS_SPECIALISE(bands, lobe_bands, weights, axes, lights, points, count, out)
+    for (size_t e = count / side * side; e < count; e += LMP_LANES) {
+        if (bands <= LMP_TABLE_MONIC_BANDS)
+            lobe_blocks(bands, 1, 1, weights, axes, lights, points, e, count, out);
+        else
+            lobe_blocks(bands, 0, 1, weights, axes, lights, points, e, count, out);
+    }
 }
 
 #endif

@@ -1,0 +1,608 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion bench - what the batch kernels cost (docs/benchmarks.md). */
+#include "app/command/command.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+/* Sizes: outputs of a call fit the first cache (48 KiB), as a caller that uses them at once sees;
+ * LIGHTS lights go into each point. */
+enum { LIGHTS = 32, ELEMENTS_MAX = 480, OUTPUT_FLOATS = 6144, RUNS_MAX = 401 };
+
+static const int bands_measured[] = { 3, 5, 6, 8, 10, 20, 50, 128 };
+enum { BANDS_MEASURED = sizeof bands_measured / sizeof *bands_measured };
+
+/* What a kernel works on. */
+typedef struct bench_batch {
+    int bands;
+    lmp_sh_layout layout;
+    size_t count, stride;
+    lmp_vec3_array axes, points;
+    lmp_spheres spheres;
+    const float *distances, *lambda, *matrices, *vectors;
+    float *out;
+} bench_batch;
+
+typedef struct quartiles {
+    double lower, median, upper;
+} quartiles;
+
+typedef struct measurement {
+    const char *isa;
+    quartiles ns; /* a light-point pair */
+    double peak_fraction, vs_paper, vs_scalar;
+} measurement;
+
+/* One light a pair, or LIGHTS of them. */
+typedef struct bench_kernel {
+    const char *name;
+    size_t (*values)(int bands); /* of an element */
+    double (*slots)(int bands);  /* mul, add, div and sqrt a light-point pair */
+    void (*run)(const bench_batch *b);
+    void (*paper)(const bench_batch *b, size_t element);
+    int lights; /* pairs an element */
+} bench_kernel;
+
+/* --- the batch functions -----------------------------------------------------------------------
+ */
+
+static void run_basis(const bench_batch *b) {
+    lmp_sh_eval_n(b->bands, b->axes, b->count, b->layout, b->stride, b->out);
+}
+static void run_dot(const bench_batch *b) {
+    lmp_sh_dot_n(b->bands, b->vectors, b->vectors, b->count, b->layout, b->stride, b->out);
+}
+static void run_rotate(const bench_batch *b) {
+    lmp_sh_rotate_n(b->bands, b->matrices, b->vectors, b->count, b->layout, b->stride, b->out);
+}
+static void run_zonal(const bench_batch *b) {
+    const lmp_float_array distances = { b->distances, sizeof(float) };
+    lmp_sphere_zonal_n(b->bands, b->spheres.radius, distances, b->count, b->layout, b->stride,
+                       b->out);
+}
+static void run_project(const bench_batch *b) {
+    lmp_sphere_project_n(b->bands, &b->spheres, b->points, b->count, b->layout, b->stride, b->out);
+}
+static void run_accumulate(const bench_batch *b) {
+    lmp_sphere_accumulate_n(b->bands, &b->spheres, LIGHTS, b->points, b->count, b->layout,
+                            b->stride, b->out);
+}
+static void run_gradient(const bench_batch *b) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    float *slopes = b->out + 3 * n * (b->layout == LMP_SH_PLANES ? b->stride : b->count);
+    const size_t stride = b->layout == LMP_SH_PLANES ? b->stride : 0;
+    lmp_sphere_accumulate_gradient_n(b->bands, &b->spheres, LIGHTS, b->points, b->count, b->layout,
+                                     stride, b->out, stride, slopes);
+}
+static void run_lobe(const bench_batch *b) {
+    lmp_lobe_response_n(b->bands, b->lambda, b->axes, &b->spheres, LIGHTS, b->points, b->count,
+                        b->layout, b->stride, b->out);
+}
+
+/* --- the paper, one by one ---------------------------------------------------------------------
+ */
+
+static float coefficient_sink[12 * LMP_SH_COUNT(LMP_BANDS_MAX)];
+
+static lmp_vec3 vector_at(const lmp_vec3_array *array, size_t i) {
+    const size_t step = i * array->stride / sizeof(float);
+    return (lmp_vec3) { array->x[step], array->y[step], array->z[step] };
+}
+
+/* Eq. 12 as printed, then Eq. 13, at a point moved by `shift` along x, y or z. */
+static void paper_light(const bench_batch *b, size_t sphere, lmp_vec3 at, float *sh) {
+    const lmp_vec3 center = vector_at(&b->spheres.center, sphere);
+    const lmp_vec3 v = { center.x - at.x, center.y - at.y, center.z - at.z };
+    const float d = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z),
+                sine = b->spheres.radius.at[sphere] / d;
+    float zonal[LMP_BANDS_MAX];
+    lmp_zonal_printed(b->bands, sqrtf(1 - sine * sine), zonal);
+    lmp_sh_from_zonal(b->bands, zonal, (lmp_vec3) { v.x / d, v.y / d, v.z / d }, sh);
+}
+static void paper_basis(const bench_batch *b, size_t i) {
+    lmp_sh_eval(b->bands, vector_at(&b->axes, i), coefficient_sink);
+}
+static void paper_dot(const bench_batch *b, size_t i) {
+    const float *vector = b->vectors + i * LMP_SH_COUNT(b->bands);
+    coefficient_sink[0] = lmp_sh_dot(b->bands, vector, vector);
+}
+static void paper_rotate(const bench_batch *b, size_t i) {
+    lmp_sh_rotate(b->bands, b->matrices, b->vectors + i * LMP_SH_COUNT(b->bands), coefficient_sink);
+}
+static void paper_zonal(const bench_batch *b, size_t i) {
+    const float sine = b->spheres.radius.at[i] / b->distances[i];
+    lmp_zonal_printed(b->bands, sqrtf(1 - sine * sine), coefficient_sink);
+}
+static void paper_project(const bench_batch *b, size_t i) {
+    paper_light(b, i, vector_at(&b->points, i), coefficient_sink);
+}
+static void paper_sum(const bench_batch *b, size_t point, lmp_vec3 shift, float *sum) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    lmp_vec3 at = vector_at(&b->points, point);
+    at = (lmp_vec3) { at.x + shift.x, at.y + shift.y, at.z + shift.z };
+    memset(sum, 0, 3 * n * sizeof *sum);
+    for (size_t light = 0; light < LIGHTS; light++) {
+        static float sh[LMP_SH_COUNT(LMP_BANDS_MAX)];
+        const lmp_vec3 rgb = vector_at(&b->spheres.radiance, light);
+        paper_light(b, light, at, sh);
+        for (size_t i = 0; i < n; i++) {
+            sum[i] += rgb.x * sh[i];
+            sum[n + i] += rgb.y * sh[i];
+            sum[2 * n + i] += rgb.z * sh[i];
+        }
+    }
+}
+static void paper_accumulate(const bench_batch *b, size_t i) {
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+}
+/* The paper has no gradient: one-sided differences. */
+static void paper_gradient(const bench_batch *b, size_t i) {
+    const size_t n = 3 * LMP_SH_COUNT(b->bands);
+    const float h = 0.001f;
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    for (size_t axis = 0; axis < 3; axis++) {
+        float *slope = coefficient_sink + (1 + axis) * n;
+        paper_sum(b, i, (lmp_vec3) { axis == 0 ? h : 0, axis == 1 ? h : 0, axis == 2 ? h : 0 },
+                  slope);
+        for (size_t v = 0; v < n; v++)
+            slope[v] = (slope[v] - coefficient_sink[v]) / h;
+    }
+}
+static void paper_lobe(const bench_batch *b, size_t i) {
+    static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    const size_t n = LMP_SH_COUNT(b->bands);
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    lmp_lobe_project(b->bands, b->lambda, vector_at(&b->axes, i), lobe);
+    for (size_t c = 0; c < 3; c++)
+        coefficient_sink[c] = lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
+}
+
+/* --- operations: what src/kernels asks for, no FMA
+ * ------------------------------------------------ */
+
+static size_t values_basis(int n) {
+    return LMP_SH_COUNT(n);
+}
+static size_t values_zonal(int n) {
+    return (size_t)n;
+}
+static size_t values_rgb(int n) {
+    return 3 * LMP_SH_COUNT(n);
+}
+static size_t values_gradient(int n) {
+    return 12 * LMP_SH_COUNT(n);
+}
+static size_t values_lobe(int n) {
+    (void)n;
+    return 3;
+}
+
+/* Past the second band; entries (l, m) with m >= 0, and steps of their recurrences. */
+static double later(int n) {
+    return n > 2 ? n - 2 : 0;
+}
+static double entries(int n) {
+    return n * (n + 1) / 2.0;
+}
+static double steps(int n) {
+    return n * (n - 1) / 2.0;
+}
+static double slots_basis(int n) {
+    /* A column: 2 for its first step, 4 for the next; times C_m and S_m; C_m and S_m: 6. */
+    return 2 * (n - 1) + 4 * (steps(n) - (n - 1)) + 2 * steps(n) + 6 * later(n);
+}
+static double slots_dot(int n) {
+    return 2.0 * n * n + 15;
+}
+static double slots_rotate(int n) {
+    double slots = 0;
+    for (int side = 1; side < 2 * n; side += 2)
+        slots += side * (2.0 * side - 1);
+    return slots;
+}
+static double slots_zonal(int n) {
+    return 14 + 5 * later(n) + n;
+}
+static double slots_project(int n) {
+    return 24 + 5 * later(n) + slots_basis(n) + entries(n);
+}
+static double slots_accumulate(int n) {
+    return 24 + 11 * later(n) + 6 * n + entries(n) + 6 * n + 12 * steps(n) + 3 * steps(n) +
+           3.0 * n * n / LIGHTS;
+}
+static double slots_gradient(int n) {
+    return 29 + 16 * later(n) + 5 + 8 * n + 4 * steps(n) + 11 * entries(n) + 32 * n + 64 * steps(n);
+}
+static double slots_lobe(int n) {
+    return 19 + 6 + 2 + (n > 1 ? 3 : 0) + 11 * later(n) + 7;
+}
+
+static const bench_kernel kernels[] = {
+    { "project", values_basis, slots_project, run_project, paper_project, 1 },
+    { "accumulate", values_rgb, slots_accumulate, run_accumulate, paper_accumulate, LIGHTS },
+    { "gradient", values_gradient, slots_gradient, run_gradient, paper_gradient, LIGHTS },
+    { "lobe", values_lobe, slots_lobe, run_lobe, paper_lobe, LIGHTS },
+    { "zonal", values_zonal, slots_zonal, run_zonal, paper_zonal, 1 },
+    { "basis", values_basis, slots_basis, run_basis, paper_basis, 1 },
+    { "rotate", values_basis, slots_rotate, run_rotate, paper_rotate, 1 },
+    { "dot", values_basis, slots_dot, run_dot, paper_dot, 1 },
+};
+enum { KERNELS = sizeof kernels / sizeof *kernels };
+
+/* --- measuring ---------------------------------------------------------------------------------
+ */
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
+}
+
+/* ns a slot: independent multiply-adds on the units that also multiply, add, divide and take roots
+ * (multiplications where the instruction set has no FMA). */
+#if defined(__x86_64__)
+#define PEAK_LOOP(type, start, step)                                                               \
+    type a[10];                                                                                    \
+    const double from = now();                                                                     \
+    for (int i = 0; i < 10; i++)                                                                   \
+        a[i] = start;                                                                              \
+    for (int r = 0; r < 400; r++)                                                                  \
+        for (int i = 0; i < 10; i++) {                                                             \
+            a[i] = step;                                                                           \
+            __asm__ volatile("" : "+x"(a[i]));                                                     \
+        }                                                                                          \
+    return (now() - from) / 4000;
+__attribute__((target("avx512f"))) static double peak_avx512(void) {
+    const __m512 one = _mm512_set1_ps(1);
+    PEAK_LOOP(__m512, one, _mm512_fmadd_ps(a[i], one, one))
+}
+__attribute__((target("avx2,fma"))) static double peak_avx2(void) {
+    const __m256 one = _mm256_set1_ps(1);
+    PEAK_LOOP(__m256, one, _mm256_fmadd_ps(a[i], one, one))
+}
+static double peak_sse2(void) {
+    const __m128 one = _mm_set1_ps(1);
+    PEAK_LOOP(__m128, one, _mm_mul_ps(a[i], one))
+}
+static double bench_peak(unsigned flag) {
+    return flag == LMP_CPU_AVX512 ? peak_avx512()
+           : flag == LMP_CPU_AVX2 ? peak_avx2()
+                                  : peak_sse2();
+}
+#else
+typedef float peak_lanes __attribute__((vector_size(16)));
+static double bench_peak(unsigned flag) {
+    (void)flag;
+    peak_lanes a[10];
+    const double from = now();
+    for (int i = 0; i < 10; i++)
+        a[i] = (peak_lanes) { 1, 1, 1, 1 };
+    for (int r = 0; r < 400; r++)
+        for (int i = 0; i < 10; i++) {
+            a[i] = a[i] * 0.5f;
+            __asm__ volatile("" : "+w"(a[i]));
+        }
+    return (now() - from) / 4000;
+}
+#endif
+
+static int compare_doubles(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static quartiles quartiles_of(double *samples, int count) {
+    qsort(samples, (size_t)count, sizeof *samples, compare_doubles);
+    return (quartiles) { samples[count / 4], samples[count / 2], samples[3 * count / 4] };
+}
+
+static double time_calls(const bench_kernel *kernel, const bench_batch *b, int calls) {
+    const double start = now();
+    for (int i = 0; i < calls; i++)
+        kernel->run(b);
+    return (now() - start) / calls;
+}
+
+/* Calls that take about 40 µs, so that a run is short enough to fall between interruptions. */
+static int calls_of(const bench_kernel *kernel, const bench_batch *b) {
+    kernel->run(b);
+    const double one = time_calls(kernel, b, 1);
+    return one > 40000 ? 1 : (int)(40000 / (one + 1)) + 1;
+}
+
+/* ns a pair; the peak is measured between the runs, for other loads come and go. */
+static measurement measure(const bench_kernel *kernel, const bench_batch *b, unsigned flag,
+                           int runs) {
+    static double ns[RUNS_MAX], fraction[RUNS_MAX];
+    const double pairs = (double)b->count * kernel->lights;
+    const double lanes = flag == LMP_CPU_AVX512   ? 16
+                         : flag == LMP_CPU_AVX2   ? 8
+                         : flag == LMP_CPU_VECTOR ? 4
+                                                  : 1;
+    const int calls = calls_of(kernel, b);
+    for (int i = 0; i < runs; i++) {
+        const double before = bench_peak(flag);
+        ns[i] = time_calls(kernel, b, calls) / pairs;
+        const double after = bench_peak(flag), peak = before < after ? before : after;
+        fraction[i] = kernel->slots(b->bands) / lanes / ns[i] * peak;
+    }
+    measurement m = { .ns = quartiles_of(ns, runs) };
+    m.peak_fraction = quartiles_of(fraction, runs).median;
+    return m;
+}
+
+static double measure_paper(const bench_kernel *kernel, const bench_batch *b, int runs) {
+    static double ns[RUNS_MAX];
+    for (int i = 0; i < runs; i++) {
+        const double start = now();
+        for (size_t e = 0; e < 16; e++)
+            kernel->paper(b, e);
+        ns[i] = (now() - start) / 16 / kernel->lights;
+    }
+    return quartiles_of(ns, runs).median;
+}
+
+/* --- inputs ------------------------------------------------------------------------------------
+ */
+
+typedef struct bench_inputs {
+    float center[3][ELEMENTS_MAX], point[3][ELEMENTS_MAX], axis[3][ELEMENTS_MAX];
+    float radiance[3][ELEMENTS_MAX], radius[ELEMENTS_MAX], distance[ELEMENTS_MAX];
+    float lambda[LMP_BANDS_MAX];
+    float *out, *vectors, *matrices;
+} bench_inputs;
+
+static float uniform(uint32_t *state) {
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) / 16777216.0f;
+}
+
+static bool inputs_create(bench_inputs *in) {
+    const size_t values = 12 * (size_t)OUTPUT_FLOATS + 16 * 12 * LMP_SH_COUNT(LMP_BANDS_MAX) * 4;
+    uint32_t state = 1;
+    for (int i = 0; i < ELEMENTS_MAX; i++) {
+        float length = 0;
+        for (int k = 0; k < 3; k++) {
+            in->point[k][i] = uniform(&state);
+            in->center[k][i] = 2 + 3 * uniform(&state);
+            in->axis[k][i] = 2 * uniform(&state) - 1;
+            in->radiance[k][i] = 1 + uniform(&state);
+            length += in->axis[k][i] * in->axis[k][i];
+        }
+        for (int k = 0; k < 3; k++)
+            in->axis[k][i] /= sqrtf(length);
+        in->radius[i] = 0.05f + 0.5f * uniform(&state);
+        in->distance[i] = 1 + 3 * uniform(&state);
+    }
+    lmp_lobe_phong(LMP_BANDS_MAX, 20, in->lambda);
+    in->out = aligned_alloc(64, values * sizeof(float));
+    in->vectors = aligned_alloc(64, values * sizeof(float));
+    in->matrices = malloc(LMP_SH_ROTATION_COUNT(LMP_BANDS_MAX) * sizeof(float));
+    if (!in->out || !in->vectors || !in->matrices)
+        return false;
+    for (size_t i = 0; i < values; i++) {
+        in->out[i] = 0;
+        in->vectors[i] = uniform(&state);
+    }
+    lmp_sh_rotation(LMP_BANDS_MAX, (lmp_quat) { 0.5f, 0.5f, -0.5f, 0.5f }, in->matrices);
+    return true;
+}
+
+static lmp_vec3_array planes_of(float (*planes)[ELEMENTS_MAX]) {
+    return (lmp_vec3_array) { planes[0], planes[1], planes[2], sizeof(float) };
+}
+
+/* As many elements as keep the output in the first cache: a multiple of 48 lanes or of 16. */
+static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int bands,
+                            lmp_sh_layout layout) {
+    const size_t values = kernel->values(bands), fit = OUTPUT_FLOATS / values;
+    bench_batch b = { .bands = bands, .layout = layout };
+    b.count = fit >= ELEMENTS_MAX ? ELEMENTS_MAX : fit >= 48 ? fit / 48 * 48 : fit >= 32 ? 32 : 16;
+    /* A plane more than the elements, for planes whose distance is a power of two collide. */
+    b.stride = layout == LMP_SH_PLANES ? b.count + 16 : values;
+    b.axes = planes_of(in->axis);
+    b.points = planes_of(in->point);
+    b.spheres = (lmp_spheres) { planes_of(in->center),
+                                { in->radius, sizeof(float) },
+                                planes_of(in->radiance) };
+    b.distances = in->distance;
+    b.lambda = in->lambda;
+    b.matrices = in->matrices;
+    b.vectors = in->vectors;
+    b.out = in->out;
+    return b;
+}
+
+/* --- results -----------------------------------------------------------------------------------
+ */
+
+typedef struct bench_options {
+    bool json, full;
+    int mask, threads;
+} bench_options;
+
+static void print_row(const bench_options *o, bool first, const bench_kernel *kernel, int bands,
+                      lmp_sh_layout layout, const measurement *m) {
+    const char *name = layout == LMP_SH_PLANES ? "planar" : "rows";
+    if (o->json)
+        printf("%s    {\"kernel\": \"%s\", \"bands\": %d, \"isa\": \"%s\", \"layout\": \"%s\", "
+               "\"ns\": %.4g, \"ns_quartiles\": [%.4g, %.4g], \"peak_fraction\": %.3f, "
+               "\"vs_paper\": %.3g, \"vs_scalar\": %.3g}",
+               first ? "" : ",\n", kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower,
+               m->ns.upper, m->peak_fraction, m->vs_paper, m->vs_scalar);
+    else
+        printf("%-10s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9.3g\n", kernel->name,
+               bands, m->isa, name, m->ns.median, m->ns.lower, m->ns.upper, m->peak_fraction,
+               m->vs_paper, m->vs_scalar);
+    fflush(stdout);
+}
+
+static void measure_kernels(const bench_options *o, bench_inputs *in) {
+    const int runs = o->full ? 301 : 31;
+    bool first = true;
+    for (int k = 0; k < KERNELS; k++)
+        for (int n = 0; n < BANDS_MEASURED; n++)
+            for (int layout = LMP_SH_PLANES; layout >= LMP_SH_ROWS; layout--) {
+                const bench_batch b =
+                    batch_of(in, &kernels[k], bands_measured[n], (lmp_sh_layout)layout);
+                const double paper = measure_paper(&kernels[k], &b, o->full ? 31 : 5);
+                double scalar = 0;
+                for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+                    if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))
+                        continue;
+                    lmp_cpu_mask(flag);
+                    measurement m = measure(&kernels[k], &b, flag,
+                                            flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
+                    m.isa = lmp_cpu_name();
+                    m.vs_paper = paper / m.ns.median;
+                    scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
+                    m.vs_scalar = scalar / m.ns.median;
+                    print_row(o, first, &kernels[k], bands_measured[n], (lmp_sh_layout)layout, &m);
+                    first = false;
+                }
+            }
+}
+
+/* Points split among threads, each with an output of its own, on the best kernels of the mask. */
+static bool measure_threads(const bench_options *o, bench_inputs *in) {
+    const int most = o->threads ? o->threads : omp_get_max_threads();
+    const size_t room = 64 * 1200; /* of the widest batch here, padded */
+    float *outputs = aligned_alloc(64, (size_t)most * room * sizeof *outputs);
+    if (!outputs)
+        return false;
+    memset(outputs, 0, (size_t)most * room * sizeof *outputs);
+    lmp_cpu_mask((unsigned)o->mask);
+    for (int k = 0; k < 4; k++) {
+        double alone = 0;
+        for (int threads = 1; threads <= most; threads++) {
+            static double ns[RUNS_MAX];
+            bench_batch b = batch_of(in, &kernels[k], 10, LMP_SH_PLANES);
+            const int runs = 31, calls = 50 * calls_of(&kernels[k], &b);
+            for (int r = 0; r < runs; r++) {
+                const double start = now();
+#pragma omp parallel for num_threads(threads) schedule(static) firstprivate(b)
+                for (int i = 0; i < calls; i++) {
+                    b.out = outputs + (size_t)omp_get_thread_num() * room;
+                    kernels[k].run(&b);
+                }
+                ns[r] = (now() - start) / ((double)calls * (double)b.count * kernels[k].lights);
+            }
+            const double median = quartiles_of(ns, runs).median;
+            alone = threads == 1 ? median : alone;
+            if (o->json)
+                printf(
+                    "%s    {\"kernel\": \"%s\", \"bands\": 10, \"isa\": \"%s\", \"threads\": %d, "
+                    "\"ns\": %.4g, \"speedup\": %.3g}",
+                    k || threads > 1 ? ",\n" : "", kernels[k].name, lmp_cpu_name(), threads, median,
+                    alone / median);
+            else
+                printf("%-10s    10  %-7s %2d threads %10.4g ns  x %.2f\n", kernels[k].name,
+                       lmp_cpu_name(), threads, median, alone / median);
+        }
+    }
+}
+free(outputs);
+return true;
+}
+
+/* --- the command -------------------------------------------------------------------------------
+ */
+
+static void processor_name(char *name, size_t size) {
+    char line[256];
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    snprintf(name, size, "unknown processor");
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, "model name", 10) == 0 && strchr(line, ':')) {
+            snprintf(name, size, "%.*s", (int)strcspn(strchr(line, ':') + 2, "\n\""),
+                     strchr(line, ':') + 2);
+            break;
+        }
+    if (file)
+        fclose(file);
+}
+
+static void print_header(const bench_options *o) {
+    char name[160];
+    processor_name(name, sizeof name);
+    if (o->json) {
+        printf("{\n  \"cpu\": \"%s\",\n  \"compiler\": \"%s\",\n  \"flags\": \"%s\",\n"
+               "  \"commit\": \"%s\",\n  \"rows\": [\n",
+               name, __VERSION__, LAMPION_BUILD_FLAGS, LAMPION_COMMIT);
+        return;
+    }
+    printf("%s; compiler %s; %s; commit %s\n", name, __VERSION__, LAMPION_BUILD_FLAGS,
+           LAMPION_COMMIT);
+    printf("ns a light-point pair (%d lights a point where lights are summed): median, quartiles; "
+           "share of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each); "
+           "times the speed of the paper's\nEq. 12 and 13 one by one, and of the scalar build\n",
+           LIGHTS);
+    printf("%-10s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
+           "ns", "quartiles", "peak", "x paper", "x scalar");
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    bench_options o = { .mask = LMP_CPU_ALL };
+    const cli_option options[] = {
+        { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
+        { .name = "full", .kind = CLI_FLAG, .target = &o.full, .help = "ten times the runs" },
+        { .name = "cpu-mask",
+          .kind = CLI_INT,
+          .target = &o.mask,
+          .argument = "N",
+          .help = "instruction sets: the sum of 1 scalar, 2 SSE2 or NEON, 4 AVX2, 8 AVX-512",
+          .minimum = 1,
+          .maximum = LMP_CPU_ALL },
+        { .name = "threads",
+          .kind = CLI_INT,
+          .target = &o.threads,
+          .argument = "N",
+          .help = "most threads of the scaling rows; 0 = every processor",
+          .minimum = 0,
+          .maximum = 1024 },
+        { .name = NULL },
+    };
+    int count, status;
+    char **operands;
+    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+        return status;
+    if (count != 1 || strcmp(operands[0], "cpu") != 0)
+        return cli_usage(command, "what to measure: cpu");
+    static bench_inputs in;
+    cli_error error = { "" };
+    bool done = inputs_create(&in);
+    if (done) {
+        print_header(&o);
+        measure_kernels(&o, &in);
+        if (o.json)
+            printf("\n  ],\n  \"threads\": [\n");
+        done = measure_threads(&o, &in);
+        if (o.json)
+            printf("\n  ]\n}\n");
+    }
+    free(in.out);
+    free(in.vectors);
+    free(in.matrices);
+    if (!done) {
+        cli_fail(&error, NULL, "out of memory");
+        return cli_report(&error);
+    }
+    return CLI_OK;
+}
+
+const cli_command command_bench = {
+    .name = "bench",
+    .operands = "cpu",
+    .summary = "measure the batch kernels on every instruction set",
+    .examples = "  lampion bench cpu\n"
+                "  lampion bench cpu --cpu-mask 4 --json > avx2.json\n",
+    .run = run,
+};
