@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -249,28 +250,35 @@ static double now(void) {
 /* ns a slot: independent multiply-adds on the units that also multiply, add, divide and take roots
  * (multiplications where the instruction set has no FMA). */
 #if defined(__x86_64__)
-#define PEAK_LOOP(type, start, step)                                                               \
-    type a[10];                                                                                    \
+#define PEAK_STEP(a, step)                                                                         \
+    (a) = step(a, one, one);                                                                       \
+    __asm__ volatile("" : "+x"(a));
+#define PEAK_LOOP(type, step)                                                                      \
+    type a = one, b = one, c = one, d = one, e = one, f = one, g = one, h = one;                   \
     const double from = now();                                                                     \
-    for (int i = 0; i < 10; i++)                                                                   \
-        a[i] = start;                                                                              \
-    for (int r = 0; r < 400; r++)                                                                  \
-        for (int i = 0; i < 10; i++) {                                                             \
-            a[i] = step;                                                                           \
-            __asm__ volatile("" : "+x"(a[i]));                                                     \
-        }                                                                                          \
+    for (int r = 0; r < 500; r++) {                                                                \
+        PEAK_STEP(a, step)                                                                         \
+        PEAK_STEP(b, step)                                                                         \
+        PEAK_STEP(c, step)                                                                         \
+        PEAK_STEP(d, step)                                                                         \
+        PEAK_STEP(e, step)                                                                         \
+        PEAK_STEP(f, step)                                                                         \
+        PEAK_STEP(g, step)                                                                         \
+        PEAK_STEP(h, step)                                                                         \
+    }                                                                                              \
     return (now() - from) / 4000;
+#define PEAK_MULTIPLY(a, b, c) _mm_mul_ps(a, b)
 __attribute__((target("avx512f"))) static double peak_avx512(void) {
     const __m512 one = _mm512_set1_ps(1);
-    PEAK_LOOP(__m512, one, _mm512_fmadd_ps(a[i], one, one))
+    PEAK_LOOP(__m512, _mm512_fmadd_ps)
 }
 __attribute__((target("avx2,fma"))) static double peak_avx2(void) {
     const __m256 one = _mm256_set1_ps(1);
-    PEAK_LOOP(__m256, one, _mm256_fmadd_ps(a[i], one, one))
+    PEAK_LOOP(__m256, _mm256_fmadd_ps)
 }
 static double peak_sse2(void) {
     const __m128 one = _mm_set1_ps(1);
-    PEAK_LOOP(__m128, one, _mm_mul_ps(a[i], one))
+    PEAK_LOOP(__m128, PEAK_MULTIPLY)
 }
 static double bench_peak(unsigned flag) {
     return flag == LMP_CPU_AVX512 ? peak_avx512()
@@ -406,8 +414,9 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
     const size_t values = kernel->values(bands), fit = OUTPUT_FLOATS / values;
     bench_batch b = { .bands = bands, .layout = layout };
     b.count = fit >= ELEMENTS_MAX ? ELEMENTS_MAX : fit >= 48 ? fit / 48 * 48 : fit >= 32 ? 32 : 16;
-    /* A plane more than the elements, for planes whose distance is a power of two collide. */
-    b.stride = layout == LMP_SH_PLANES ? b.count + 16 : values;
+    /* An odd number of cache lines, for planes whose distance is a power of two collide. */
+    b.stride =
+        layout == LMP_SH_PLANES ? (b.count / 16 | 1) * 16 + (b.count / 16 % 2 ? 32 : 0) : values;
     b.axes = planes_of(in->axis);
     b.points = planes_of(in->point);
     b.spheres = (lmp_spheres) { planes_of(in->center),
@@ -508,9 +517,8 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
                        lmp_cpu_name(), threads, median, alone / median);
         }
     }
-}
-free(outputs);
-return true;
+    free(outputs);
+    return true;
 }
 
 /* --- the command -------------------------------------------------------------------------------

@@ -28,19 +28,24 @@ typedef struct project_row {
     float center[3], radius, point[3];
 } project_row;
 
-static lmp_vec3 to_vec3(const float v[3]) {
-    return (lmp_vec3) { v[0], v[1], v[2] };
-}
-
+/* Rows go to the batch kernels some at a time, on every processor. */
 static void project_rows(const project_row *rows, size_t count, int bands, float radiance,
                          float *coefficients) {
-    const size_t stride = LMP_SH_COUNT(bands);
+    enum { SOME = 256 };
+    const size_t stride = LMP_SH_COUNT(bands), parts = (count + SOME - 1) / SOME;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < count; i++) {
-        float *const sh = coefficients + i * stride;
-        lmp_sphere_project(bands, to_vec3(rows[i].center), rows[i].radius, to_vec3(rows[i].point),
-                           sh);
-        for (size_t k = 0; k < stride; k++)
+    for (size_t part = 0; part < parts; part++) {
+        const size_t first = part * SOME, some = count - first < SOME ? count - first : SOME;
+        const project_row *row = rows + first;
+        const lmp_spheres spheres = {
+            .center = { &row->center[0], &row->center[1], &row->center[2], sizeof *row },
+            .radius = { &row->radius, sizeof *row },
+        };
+        const lmp_vec3_array points = { &row->point[0], &row->point[1], &row->point[2],
+                                        sizeof *row };
+        float *sh = coefficients + first * stride;
+        lmp_sphere_project_n(bands, &spheres, points, some, LMP_SH_ROWS, 0, sh);
+        for (size_t k = 0; k < some * stride; k++)
             sh[k] *= radiance;
     }
 }

@@ -2,6 +2,7 @@
 #include "app/command/command.h"
 
 extern const cli_command command_basis;
+extern const cli_command command_bench;
 extern const cli_command command_brdf;
 extern const cli_command command_compare;
 extern const cli_command command_info;
@@ -11,6 +12,6 @@ extern const cli_command command_reference;
 extern const cli_command command_render;
 
 const cli_command *const command_table[] = {
-    &command_render,    &command_info,    &command_project, &command_brdf, &command_basis,
-    &command_reference, &command_compare, &command_paper,   NULL,
+    &command_render,    &command_info,    &command_project, &command_brdf,  &command_basis,
+    &command_reference, &command_compare, &command_paper,   &command_bench, NULL,
 };
