@@ -5,16 +5,30 @@ set -eu
 
 documents="README.md CONTRIBUTING.md CHANGELOG.md $(find docs -name '*.md')"
 
-# options_exist WHERE COMMAND WORD…: the command and its long options are known to its --help.
+# options_exist WHERE COMMAND WORD…: the command and its options are known to its --help, and no
+# word is left over that is neither an option's value nor an operand.
 options_exist() {
     where=$1 command=$2
     shift 2
     help=$("$PROGRAM" "$command" --help 2>/dev/null) || fail "$where: no command lampion $command"
+    operands=$(printf '%s\n' "$help" | sed -n 's/^Usage: lampion [a-z]* \[OPTION…\]//p' | wc -w)
+    value=no
     for word in "$@"; do
-        case $word in
-        --help) ;;
-        --*) printf '%s\n' "$help" | grep -q -- "^ .*${word%%=*}\( \|$\)" ||
-            fail "$where: lampion $command has no ${word%%=*}" ;;
+        case $value$word in
+        yes*) value=no ;;
+        no--help) ;;
+        no-*)
+            row=$(printf '%s\n' "$help" | grep -e "^ [-a-z, ]*${word%%=*}\([ ,]\|$\)" | head -n 1)
+            [ -n "$row" ] || fail "$where: lampion $command has no ${word%%=*}"
+            # one blank, then the name of a value
+            if printf '%s\n' "$row" | grep -q '^ *\(-., \)\{0,1\}--[a-z-]* [^ ]'; then
+                case $word in *=*) ;; *) value=yes ;; esac
+            fi
+            ;;
+        no*)
+            operands=$((operands - 1))
+            [ "$operands" -ge 0 ] || fail "$where: lampion $command takes no $word"
+            ;;
         esac
     done
 }
@@ -37,7 +51,7 @@ check_command() {
 }
 
 for document in $documents; do
-    code_blocks "$document" sh | sed 's/ #.*//; s/|.*lampion/ lampion/' >"$WORK/lines"
+    code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/' >"$WORK/lines"
     while read -r line; do
         check_command "$document" "$line"
     done <"$WORK/lines"
@@ -49,7 +63,7 @@ done
 
 # the examples of every --help
 for command in $("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
-    "$PROGRAM" "$command" --help | sed '1,/^Examples:/d; s/ #.*//' >"$WORK/lines"
+    "$PROGRAM" "$command" --help | sed '1,/^Examples:/d; s/ [#>].*//' >"$WORK/lines"
     while read -r line; do
         check_command "$command --help" "$line"
     done <"$WORK/lines"
