@@ -8,4 +8,7 @@
 /* All commands in the order of the help, NULL-terminated. */
 extern const cli_command *const command_table[];
 
+/* The names of lmp_window by its values, NULL-terminated: choices of --window. */
+extern const char *const command_windows[];
+
 #endif

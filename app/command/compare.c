@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 typedef struct compare_arguments {
     const char *paths[2]; /* picture, reference */
@@ -23,20 +22,18 @@ typedef struct limit {
 } limit;
 
 static bool is_exr(const char *path) {
-    const size_t length = strlen(path);
-    return length >= 4 && strcasecmp(path + length - 4, ".exr") == 0;
+    return image_format_of(path) == IMAGE_EXR;
 }
 
 /* "rmse=0.01". Returns false after a message. */
 static bool parse_limit(const cli_command *command, const char *text, limit *wanted) {
     const char *equals = strchr(text, '=');
-    char name[16], *end;
+    char name[16];
     snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - text) : 0, text);
     for (int m = 0; m < COMPARE_COUNT; m++)
         if (equals && strcmp(name, compare_metrics[m]) == 0) {
             wanted->metric = (compare_metric)m;
-            wanted->value = strtod(equals + 1, &end);
-            if (end != equals + 1 && *end == '\0' && !isnan(wanted->value))
+            if (cli_number(equals + 1, strlen(equals + 1), &wanted->value))
                 return true;
             cli_usage(command, "--fail-above %s: the part after = is not a number", text);
             return false;

@@ -3,8 +3,9 @@
 #include "app/command/command.h"
 #include "app/reference/quadrature.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct reference_arguments {
@@ -22,18 +23,11 @@ typedef struct reference_arguments {
     cli_list point_lights;
 } reference_arguments;
 
-static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
-
-static bool ends_with(const char *text, const char *end) {
-    const size_t length = strlen(text), tail = strlen(end);
-    return length >= tail && strcmp(text + length - tail, end) == 0;
-}
-
 /* A linear picture carries its standard error as a second layer. */
 static bool write_picture(const reference_arguments *a, const image *radiance,
                           const image *standard_error, cli_error *error) {
     const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
-    if (ends_with(a->output, ".exr"))
+    if (image_format_of(a->output) == IMAGE_EXR)
         return image_write_exr_layers(a->output, layers, 2, error);
     const float exposure = a->exposure_given ? a->exposure : image_auto_exposure(radiance);
     return image_write(radiance, a->output, exposure * image_exposure_of_stops(a->stops), error);
@@ -64,12 +58,14 @@ static bool parse_light(const char *text, scene_light *light, cli_error *error) 
     float values[7];
     const char *at = text;
     for (int i = 0; i < 7; i++) {
-        char *end;
-        values[i] = strtof(at, &end);
-        if (end == at || *end != (i < 6 ? ',' : '\0') || !isfinite(values[i]) ||
-            (i >= 3 && values[i] < 0) || (i == 3 && !(values[i] > 0)))
+        const size_t length = strcspn(at, ",");
+        const double largest = i < 4 ? (double)LMP_LENGTH_MAX : (double)FLT_MAX;
+        double value;
+        if (at[length] != (i < 6 ? ',' : '\0') || !cli_number(at, length, &value) ||
+            !(fabs(value) <= largest) || (i >= 3 && value < 0) || (i == 3 && !((float)value > 0)))
             return cli_fail(error, "--light", "\"%s\" is not X,Y,Z,RADIUS,R,G,B", text);
-        at = end + 1;
+        values[i] = (float)value;
+        at += length + 1;
     }
     *light = (scene_light) { .center = { values[0], values[1], values[2] },
                              .radius = values[3],
@@ -126,7 +122,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "output", 'o', CLI_TEXT, &a.output, "FILE",
           "the picture: .exr (linear, the standard error as layer \"stderr\") or .png", 0, 0, NULL,
           NULL },
-        { "size", 0, CLI_SIZE, a.size, "WIDTHxHEIGHT", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
+        { "size", 's', CLI_SIZE, a.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         SCENE_CAMERA_OPTION_ROWS(a.camera),
         { "spp", 0, CLI_INT, &a.settings.samples, "N",
           "light samples a pixel; with --error the most", 1, 1000000, NULL, NULL },
@@ -137,11 +133,11 @@ static int run(const cli_command *command, int argc, char **argv) {
           "seed of the noise: the same seed gives the same picture", 0, 0, NULL, NULL },
         { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
           "let surfaces hide lights (render does not)", 0, 0, NULL, NULL },
-        { "bands", 0, CLI_INT, &a.bands, "N",
+        { "bands", 'n', CLI_INT, &a.bands, "N",
           "cut the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX, NULL,
           NULL },
-        { "window", 0, CLI_CHOICE, &a.window, "KIND", "window of the cut lobes", 0, 0, windows,
-          NULL },
+        { "window", 0, CLI_CHOICE, &a.window, "KIND", "window of lobes cut by --bands", 0, 0,
+          command_windows, NULL },
         { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR",
           "of radiance in a .png; without it, automatic", 1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,

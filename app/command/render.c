@@ -8,13 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    PIXELS_MAX = 1 << 26,
-    REPEAT_MAX = 1000,
-    SAMPLES_MAX = 1024,
-    FRAMES_MAX = 100000,
-    PATH_SIZE = 4096
-};
+enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAMES_MAX = 100000, PATH_SIZE = 4096 };
 
 /* Everything the command line says. */
 typedef struct render_options {
@@ -197,7 +191,6 @@ static bool add_timings(job *j, cJSON *stats, cli_error *error) {
 }
 
 static bool print_stats(job *j, cli_error *error) {
-    static const char *const windows[] = { "none", "hanning", "lanczos" };
     const render_options *o = j->options;
     cJSON *stats = cJSON_CreateObject();
     cJSON_AddStringToObject(stats, "scene", j->world.origin);
@@ -205,7 +198,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
     cJSON_AddStringToObject(stats, "method", gpu_method_names[o->method]);
-    cJSON_AddStringToObject(stats, "window", windows[o->window]);
+    cJSON_AddStringToObject(stats, "window", command_windows[o->window]);
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
     cJSON_AddNumberToObject(stats, "exposure", (double)j->exposure);
@@ -258,8 +251,36 @@ static void close_job(job *j) {
     free(j->moved);
 }
 
-static int render(const cli_command *command, int argc, char **argv) {
-    static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
+/* What the table of options cannot say. */
+static int check_options(const cli_command *command, const render_options *o, int operand_count) {
+    const int bands_max = gpu_bands_max((gpu_method)o->method);
+    if (operand_count != 1)
+        return cli_usage(command, "one SCENE is needed, %d given", operand_count);
+    if (!o->output)
+        return cli_usage(command, "-o FILE is needed");
+    if (image_format_of(o->output) == IMAGE_UNKNOWN)
+        return cli_usage(command, "%s: unknown kind of picture (name it .png or .exr)", o->output);
+    if (strlen(o->output) > PATH_SIZE - 16)
+        return cli_usage(command, "the name of the picture is too long");
+    if ((long)o->size[0] * o->size[1] > IMAGE_PIXELS_MAX)
+        return cli_usage(command, "--size %dx%d: more than %d pixels", o->size[0], o->size[1],
+                         IMAGE_PIXELS_MAX);
+    if (o->bands > bands_max)
+        return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands,
+                         gpu_method_names[o->method], bands_max);
+    return CLI_OK;
+}
+
+static int render(const render_options *o, const char *name) {
+    cli_error error = { "" };
+    job all = { .options = o };
+    const bool ok = open_job(name, &all, &error) && render_frames(&all, &error) &&
+                    (!(o->stats || o->compare) || print_stats(&all, &error));
+    close_job(&all);
+    return ok ? CLI_OK : cli_report(&error);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
     render_options o = { .size = { 1280, 720 },
                          .bands = LMP_SHADE_BANDS_DEFAULT,
                          .window = LMP_WINDOW_HANNING,
@@ -267,132 +288,46 @@ static int render(const cli_command *command, int argc, char **argv) {
                          .repeat = 5,
                          .fps = 24 };
     const cli_option options[] = {
-        { .name = "output",
-          .letter = 'o',
-          .kind = CLI_TEXT,
-          .target = &o.output,
-          .argument = "FILE",
-          .help = "the picture: .png (tone-mapped) or .exr (linear)" },
-        { .name = "size",
-          .kind = CLI_SIZE,
-          .target = o.size,
-          .argument = "WxH",
-          .help = "pixels",
-          .minimum = 1,
-          .maximum = IMAGE_SIZE_MAX },
-        { .name = "bands",
-          .kind = CLI_INT,
-          .target = &o.bands,
-          .argument = "N",
-          .help = "bands of spherical harmonics",
-          .minimum = 1,
-          .maximum = GPU_BANDS_MAX },
-        { .name = "method",
-          .kind = CLI_CHOICE,
-          .target = &o.method,
-          .argument = "METHOD",
-          .help = "how to shade: zonal is fast, coefficients is the paper's",
-          .choices = gpu_method_names },
-        { .name = "window",
-          .kind = CLI_CHOICE,
-          .target = &o.window,
-          .argument = "WINDOW",
-          .help = "damps the ringing of few bands",
-          .choices = windows },
+        { "output", 'o', CLI_TEXT, &o.output, "FILE",
+          "the picture: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },
+        { "size", 's', CLI_SIZE, o.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
+        { "bands", 'n', CLI_INT, &o.bands, "N", "bands of spherical harmonics", 1, GPU_BANDS_MAX,
+          NULL, NULL },
+        { "method", 0, CLI_CHOICE, &o.method, "METHOD",
+          "how to shade: zonal is fast, coefficients is the paper's", 0, 0, gpu_method_names,
+          NULL },
+        { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
+          command_windows, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
-        { .name = "exposure",
-          .kind = CLI_FLOAT,
-          .target = &o.exposure,
-          .argument = "FACTOR",
-          .help = "of radiance; without it, automatic",
-          .minimum = 1e-12,
-          .maximum = 1e12,
-          .given = &o.exposure_given },
-        { .name = "ev",
-          .kind = CLI_FLOAT,
-          .target = &o.stops,
-          .argument = "STOPS",
-          .help = "brighter or darker by so many stops",
-          .minimum = -32,
-          .maximum = 32 },
-        { .name = "background",
-          .kind = CLI_VEC3,
-          .target = o.background,
-          .argument = "R,G,B",
-          .help = "radiance where nothing is" },
-        { .name = "frames",
-          .kind = CLI_INT,
-          .target = &o.frames,
-          .argument = "N",
-          .help = "numbered pictures (%04d in FILE) while the lights move",
-          .minimum = 0,
-          .maximum = FRAMES_MAX },
-        { .name = "fps",
-          .kind = CLI_FLOAT,
-          .target = &o.fps,
-          .argument = "RATE",
-          .help = "frames a second of their time",
-          .minimum = 0.01,
-          .maximum = 1000 },
-        { .name = "samples",
-          .kind = CLI_INT,
-          .target = &o.samples,
-          .argument = "N",
-          .help = "samples a pixel: 8 make smooth edges",
-          .minimum = 1,
-          .maximum = SAMPLES_MAX },
-        { .name = "stats",
-          .kind = CLI_FLAG,
-          .target = &o.stats,
-          .help = "print what was drawn and the time of each pass of a sample, as JSON" },
-        { .name = "repeat",
-          .kind = CLI_INT,
-          .target = &o.repeat,
-          .argument = "N",
-          .help = "frames whose median --stats takes",
-          .minimum = 1,
-          .maximum = REPEAT_MAX },
-        { .name = "compare-methods",
-          .kind = CLI_FLAG,
-          .target = &o.compare,
-          .help = "--stats times every method" },
-        { .name = "gl-device",
-          .kind = CLI_TEXT,
-          .target = &o.device,
-          .argument = "DEVICE",
-          .help = "a number, part of a name, or software" },
-        { 0 }
+        { "exposure", 0, CLI_FLOAT, &o.exposure, "FACTOR", "of radiance; without it, automatic",
+          1e-12, 1e12, NULL, &o.exposure_given },
+        { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
+          NULL, NULL },
+        { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
+          NULL, NULL },
+        { "frames", 0, CLI_INT, &o.frames, "N",
+          "numbered pictures (%04d in FILE) while the lights move", 0, FRAMES_MAX, NULL, NULL },
+        { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second of their time", 0.01, 1000, NULL,
+          NULL },
+        { "samples", 0, CLI_INT, &o.samples, "N", "samples a pixel: 8 make smooth edges", 1,
+          SAMPLES_MAX, NULL, NULL },
+        { "stats", 0, CLI_FLAG, &o.stats, NULL,
+          "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },
+        { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1, REPEAT_MAX,
+          NULL, NULL },
+        { "compare-methods", 0, CLI_FLAG, &o.compare, NULL, "--stats times every method", 0, 0,
+          NULL, NULL },
+        { "gl-device", 0, CLI_TEXT, &o.device, "DEVICE", "a number, part of a name, or software", 0,
+          0, NULL, NULL },
+        { .name = NULL },
     };
-    int operand_count = 0, status = CLI_OK;
-    char **operands = NULL;
+    int operand_count, status;
+    char **operands;
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
-    if (operand_count != 1)
-        return cli_usage(command, "one SCENE is needed, %d given", operand_count);
-    if (!o.output)
-        return cli_usage(command, "-o FILE is needed");
-    if (image_format_of(o.output) == IMAGE_UNKNOWN)
-        return cli_usage(command, "%s: unknown kind of picture (name it .png or .exr)", o.output);
-    if (strlen(o.output) > PATH_SIZE - 16)
-        return cli_usage(command, "the name of the picture is too long");
-    if ((long)o.size[0] * o.size[1] > PIXELS_MAX)
-        return cli_usage(command, "--size %dx%d: more than %d pixels", o.size[0], o.size[1],
-                         PIXELS_MAX);
-    for (int i = 0; i < 3; i++)
-        if (o.background[i] < 0)
-            return cli_usage(command, "--background: radiance is not negative");
-
-    if (o.bands > gpu_bands_max((gpu_method)o.method))
-        return cli_usage(command, "--bands %d: %s takes 1 to %d", o.bands,
-                         gpu_method_names[o.method], gpu_bands_max((gpu_method)o.method));
-
-    cli_error error = { "" };
-    job all = { .options = &o };
-    const bool ok = open_job(operands[0], &all, &error) && render_frames(&all, &error) &&
-                    (!(o.stats || o.compare) || print_stats(&all, &error));
-    close_job(&all);
-    return ok ? CLI_OK : cli_report(&error);
+    status = check_options(command, &o, operand_count);
+    return status == CLI_OK ? render(&o, operands[0]) : status;
 }
 
 const cli_command command_render = {
@@ -404,5 +339,5 @@ const cli_command command_render = {
         "lampion render scene.gltf --eye 0,2,5 --target 0,1,0 --size 1920x1080 -o scene.exr\n"
         "lampion render builtin:balls --frames 48 -o balls_%04d.png\n"
         "lampion render builtin:atrium --stats --compare-methods -o atrium.png\n",
-    .run = render,
+    .run = run,
 };

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/command.h"
 
+#include <lampion/sh.h>
+
 extern const cli_command command_basis;
 extern const cli_command command_bench;
 extern const cli_command command_brdf;
@@ -14,4 +16,11 @@ extern const cli_command command_render;
 const cli_command *const command_table[] = {
     &command_render,    &command_info,    &command_project, &command_brdf,  &command_basis,
     &command_reference, &command_compare, &command_paper,   &command_bench, NULL,
+};
+
+const char *const command_windows[] = {
+    [LMP_WINDOW_NONE] = "none",
+    [LMP_WINDOW_HANNING] = "hanning",
+    [LMP_WINDOW_LANCZOS] = "lanczos",
+    NULL,
 };

@@ -12,9 +12,10 @@
 
 bool image_create(image *picture, int width, int height, cli_error *error) {
     memset(picture, 0, sizeof *picture);
-    if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX)
-        return cli_fail(error, NULL, "a picture of %d x %d (1 to %d a side)", width, height,
-                        IMAGE_SIZE_MAX);
+    if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX ||
+        (long long)width * height > IMAGE_PIXELS_MAX)
+        return cli_fail(error, NULL, "a picture of %d x %d (1 to %d a side, %d pixels)", width,
+                        height, IMAGE_SIZE_MAX, IMAGE_PIXELS_MAX);
     picture->rgb = calloc((size_t)width * (size_t)height, 3 * sizeof *picture->rgb);
     if (!picture->rgb)
         return cli_fail(error, NULL, "out of memory for a picture of %d x %d", width, height);
@@ -180,8 +181,8 @@ bool image_read(const char *path, image *picture, cli_error *error) {
 bool image_create_read(const char *path, long long width, long long height, image *picture,
                        cli_error *error) {
     if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX ||
-        width * height > IMAGE_READ_PIXELS)
+        width * height > IMAGE_PIXELS_MAX)
         return cli_fail(error, path, "a picture of %lld x %lld is too large (%d a side, %d pixels)",
-                        width, height, IMAGE_SIZE_MAX, IMAGE_READ_PIXELS);
+                        width, height, IMAGE_SIZE_MAX, IMAGE_PIXELS_MAX);
     return image_create(picture, (int)width, (int)height, error);
 }

@@ -11,8 +11,8 @@ typedef struct image {
     float *rgb; /* 3 * width * height, malloc'ed */
 } image;
 
-#define IMAGE_SIZE_MAX    16384     /* pixels a side */
-#define IMAGE_READ_PIXELS (1 << 26) /* of a picture to read */
+#define IMAGE_SIZE_MAX   16384     /* pixels a side */
+#define IMAGE_PIXELS_MAX (1 << 26) /* of a picture */
 
 bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
@@ -58,7 +58,7 @@ bool image_write_exr_layers(const char *path, const image_layer *layers, int cou
 bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
                       cli_error *error);
 
-/* Reads (up to IMAGE_READ_PIXELS pixels) a .exr (R, G, B channels; linear) or an 8-bit .png (sRGB,
+/* Reads a .exr (R, G, B channels; linear) or an 8-bit .png (sRGB,
  * linearised). */
 bool image_read(const char *path, image *image, cli_error *error);
 
