@@ -35,9 +35,9 @@ static void describe_values(const cli_option *option, char *text, size_t size) {
                                      option->choices[i]);
         return;
     }
-    if (option->minimum == 0.0 && option->maximum == 0.0)
-        return;
-    if (option->maximum >= 1e30)
+    if (option->minimum == -option->maximum && (option->maximum == 0.0 || option->maximum > 1e9))
+        return; /* none, or none that anybody meets */
+    if (option->maximum > 1e9 && option->minimum >= 0.0)
         snprintf(text + used, size - used, "; at least %.7g", option->minimum);
     else
         snprintf(text + used, size - used, "; %.7g to %.7g", option->minimum, option->maximum);

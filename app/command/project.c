@@ -5,6 +5,7 @@
 
 #include <lampion/light.h>
 
+#include <math.h>
 #include <stdlib.h>
 
 #define COLUMNS 7
@@ -146,6 +147,10 @@ static csv_result block_read(block *b, csv_reader *reader, size_t *count, cli_er
         const csv_result result = csv_read_row(reader, column_names, COLUMNS, v, error);
         if (result != CSV_ROW)
             return result;
+        for (int i = 0; i < COLUMNS; i++)
+            if (!(fabsf(v[i]) <= LMP_LENGTH_MAX))
+                return csv_line_error(reader, error, "%s: %g is out of range (up to %g)",
+                                      column_names[i], (double)v[i], (double)LMP_LENGTH_MAX);
         if (v[3] < 0.0f)
             return csv_line_error(reader, error, "radius: %g is negative", (double)v[3]);
         b->rows[*count] = (project_row) { { v[0], v[1], v[2] }, v[3], { v[4], v[5], v[6] } };
@@ -210,14 +215,15 @@ static int project_batch(const project_options *o) {
 
 static int run(const cli_command *command, int argc, char **argv) {
     project_options o = { .radiance = 1.0f, .bands = 10 };
+    const double length_max = (double)LMP_LENGTH_MAX;
     const cli_option options[] = {
-        { "light", 'l', CLI_VEC3, o.light, "X,Y,Z", "centre of the light", 0, 0, NULL,
-          &o.light_given },
-        { "radius", 'r', CLI_FLOAT, &o.radius, "R", "its radius, in the same unit", 0, 3e38, NULL,
-          &o.radius_given },
-        { "point", 'p', CLI_VEC3, o.point, "X,Y,Z", "the point that is lit [0,0,0]", 0, 0, NULL,
-          &o.point_given },
-        { "radiance", 0, CLI_FLOAT, &o.radiance, "L", "radiance of the light", 0, 3e38, NULL,
+        { "light", 'l', CLI_VEC3, o.light, "X,Y,Z", "centre of the light", -length_max, length_max,
+          NULL, &o.light_given },
+        { "radius", 'r', CLI_FLOAT, &o.radius, "R", "its radius, in the same unit", 0, length_max,
+          NULL, &o.radius_given },
+        { "point", 'p', CLI_VEC3, o.point, "X,Y,Z", "the point that is lit [0,0,0]", -length_max,
+          length_max, NULL, &o.point_given },
+        { "radiance", 0, CLI_FLOAT, &o.radiance, "L", "radiance of the light", 0, 1e30, NULL,
           NULL },
         { "bands", 'n', CLI_INT, &o.bands, "N", "bands: N*N coefficients", 1, LMP_BANDS_MAX, NULL,
           NULL },

@@ -12,7 +12,6 @@
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <errno.h>
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -203,11 +202,11 @@ static bool check_made(const import_job *job, const scene_builder *builder, cli_
         if (meshes[i].material >= builder_count(builder, BLOB_MATERIALS))
             return cli_fail(error, job->path, "has a mesh whose material does not exist");
     for (size_t i = 0; i < builder_count(builder, BLOB_VERTICES); i++) {
-        float sum = 0.0f;
         for (int k = 0; k < 3; k++)
-            sum += fabsf(vertices[i].position[k]);
-        if (!(sum <= FLT_MAX))
-            return cli_fail(error, job->path, "has a vertex that is not at a finite place");
+            if (!(fabsf(vertices[i].position[k]) <= LMP_LENGTH_MAX))
+                return cli_fail(error, job->path,
+                                "has a vertex that is not at a finite place (up to %g)",
+                                (double)LMP_LENGTH_MAX);
     }
     if (builder_count(builder, BLOB_LIGHTS) > SCENE_LIGHTS_MAX)
         return cli_fail(error, job->path, "has %zu lights (at most %d)",

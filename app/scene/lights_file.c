@@ -69,9 +69,10 @@ static bool read_light(const lights_reader *reader, const cJSON *entry, scene_li
     const cJSON *intensity = cJSON_GetObjectItemCaseSensitive(entry, "intensity");
     if (!cJSON_IsArray(place) || !read_color(place, position))
         return fail_light(reader, "has no position of three numbers");
-    if (!cJSON_IsNumber(radius) || !(radius->valuedouble > 0.0) ||
-        !((float)radius->valuedouble > 0.0f) || !isfinite((float)radius->valuedouble))
+    if (!cJSON_IsNumber(radius) || !((float)radius->valuedouble > 0.0f))
         return fail_light(reader, "has no radius above 0");
+    if (!((float)radius->valuedouble <= LMP_LENGTH_MAX))
+        return fail_light(reader, "has a radius that is not finite, or above 1e17");
     if (!!radiance + !!power + !!intensity != 1)
         return fail_light(reader, "needs one of radiance, power and intensity");
     if (!read_color(radiance ? radiance : power ? power : intensity, color))
@@ -83,12 +84,26 @@ static bool read_light(const lights_reader *reader, const cJSON *entry, scene_li
         light->radiance[k] = radiance ? strength
                              : power  ? lmp_sphere_radiance_from_power(strength, light->radius)
                                       : lmp_sphere_radiance_from_intensity(strength, light->radius);
-        if (!isfinite(light->center[k]))
-            return fail_light(reader, "has a position that is not finite");
+        if (!(fabsf(light->center[k]) <= LMP_LENGTH_MAX))
+            return fail_light(reader, "has a position that is not finite, or beyond 1e17");
         if (!(light->radiance[k] >= 0.0f) || !isfinite(light->radiance[k]))
             return fail_light(reader, "has a strength that is negative or not finite");
     }
     return true;
+}
+
+/* One JSON value and nothing after it; `text` has a NUL past its end. */
+static cJSON *parse(const char *path, const char *text, size_t size, cli_error *error) {
+    const char *stop = text;
+    cJSON *root = cJSON_ParseWithLengthOpts(text, size + 1, &stop, true);
+    if (root && strlen(text) == size)
+        return root;
+    int line = 1;
+    for (const char *at = text; at < stop && *at; at++)
+        line += *at == '\n';
+    cli_fail(error, path, "is no valid JSON: line %d", line);
+    cJSON_Delete(root);
+    return NULL;
 }
 
 bool scene_add_lights_file(scene *s, const char *path, cli_error *error) {
@@ -96,15 +111,15 @@ bool scene_add_lights_file(scene *s, const char *path, cli_error *error) {
     size_t size;
     if (!file_read(path, FILE_LIMIT, &data, &size, error))
         return false;
-    cJSON *root = cJSON_ParseWithLength(data, size);
+    cJSON *root = parse(path, data, size, error);
     free(data);
+    if (!root)
+        return false;
     const cJSON *list =
         cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "lights") : NULL;
     lights_reader reader = { path, 0, error };
     bool ok = true;
-    if (!root)
-        ok = cli_fail(error, path, "is no valid JSON");
-    else if (!cJSON_IsArray(list))
+    if (!cJSON_IsArray(list))
         ok = cli_fail(error, path, "has no array \"lights\"");
     else if (cJSON_GetArraySize(root) != 1)
         ok = cli_fail(error, path, "has keys other than \"lights\"");

@@ -175,12 +175,16 @@ typedef struct scene_camera_options {
           .target = (variable).eye,                                                                \
           .argument = "X,Y,Z",                                                                     \
           .help = "where the camera is",                                                           \
+          .minimum = -(double)LMP_LENGTH_MAX,                                                      \
+          .maximum = (double)LMP_LENGTH_MAX,                                                       \
           .given = &(variable).eye_given },                                                        \
         { .name = "target",                                                                        \
           .kind = CLI_VEC3,                                                                        \
           .target = (variable).target,                                                             \
           .argument = "X,Y,Z",                                                                     \
           .help = "where it looks",                                                                \
+          .minimum = -(double)LMP_LENGTH_MAX,                                                      \
+          .maximum = (double)LMP_LENGTH_MAX,                                                       \
           .given = &(variable).target_given },                                                     \
     {                                                                                              \
         .name = "fov", .kind = CLI_FLOAT, .target = &(variable).fov, .argument = "DEGREES",        \

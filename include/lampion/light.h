@@ -15,7 +15,8 @@
  * sphere at the centre: sin²a = d²/r², cos a = -sqrt(1 - sin²a). That is a convention, not physics;
  * values are continuous everywhere, at the surface and at the centre too.
  *
- * Positions and radii must be finite, d and r below 1e18. */
+ * Coordinates and radii are at most LMP_LENGTH_MAX in magnitude. Lengths below 1e-18 lose digits,
+ * for their squares do, and may count as 0. */
 #ifndef LAMPION_LIGHT_H
 #define LAMPION_LIGHT_H
 
@@ -24,6 +25,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* So that the square of any distance is a float32. */
+#define LMP_LENGTH_MAX 1e17f
 
 typedef enum lmp_light_kind {
     LMP_LIGHT_SPHERE = 0,  /* position, radius, radiance */

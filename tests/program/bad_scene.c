@@ -268,6 +268,8 @@ static void impossible_nodes_are_refused(void **state) {
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "node 0");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is no valid JSON");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e300,1e300,1]}]", "finite");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"translation\":[2e17,0,0]}]",
+                         "finite place (up to");
     enum { DEEP = 20000 };
     char *deep = malloc(32 * DEEP);
     assert_non_null(deep);
@@ -378,6 +380,8 @@ static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) 
 #define GOOD "{\"position\":[0,1,0],\"radius\":1,\"radiance\":[1,1,1]}"
     assert_lights_refused("", "lights.json");
     assert_lights_refused("{\"lights\":[" GOOD, "is no valid JSON");
+    assert_lights_refused("{\n\"lights\":\n[NaN]}", "is no valid JSON: line 3");
+    assert_lights_refused("{\"lights\":[" GOOD "]} more", "is no valid JSON");
     assert_lights_refused("[]", "has no array");
     assert_lights_refused("{\"lights\":{}}", "has no array");
     assert_lights_refused("{\"lights\":[],\"lamps\":[]}", "has keys other");
@@ -389,7 +393,11 @@ static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) 
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":0,\"power\":1}]}",
                           "lights[0] has no radius above 0");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1e999,\"power\":1}]}",
-                          "lights[0] has no radius above 0");
+                          "lights[0] has a radius that is not finite");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":2e17,\"power\":1}]}",
+                          "lights[0] has a radius that is not finite, or above");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,2e17],\"radius\":1,\"power\":1}]}",
+                          "lights[0] has a position that is not finite, or beyond");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1e999,0],\"radius\":1,\"power\":1}]}",
                           "lights[0] has a position that is not finite");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":-1}]}",

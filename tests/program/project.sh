@@ -46,6 +46,10 @@ printf '%s\n' "$header" "$(tail -n 1 "$WORK/many")" | "$PROGRAM" project --batch
     tail -n 1 >"$WORK/last"
 tail -n 1 "$WORK/many-rows" | cmp - "$WORK/last" || fail "rows are out of order"
 
+# the farthest lights that are taken still have coefficients
+printf '%s\n1e17,1e17,1e17,1e17,-1e17,-1e17,-1e17\n' $header | "$PROGRAM" project --batch - --bands 2 >"$WORK/far"
+grep -Eq 'nan|inf' "$WORK/far" && fail "the farthest light: $(tail -n 1 "$WORK/far")"
+
 # refuse STATUS MESSAGE ARGUMENT…: one line, as said; no coefficient on a usage error.
 refuse() {
     expected=$1 message=$2
@@ -56,7 +60,7 @@ refuse() {
 }
 see="; see lampion project --help"
 refuse 2 "lampion project: needs --light X,Y,Z and --radius R, or --batch FILE$see"
-refuse 2 "lampion project: --radius: -1 is out of range (0 to 3e+38)$see" --radius -1
+refuse 2 "lampion project: --radius: -1 is out of range (0 to 1e+17)$see" --radius -1
 refuse 2 "lampion project: --batch prints csv only$see" --batch x --format json
 refuse 2 "lampion project: --batch takes lights and points from its table alone$see" --batch x --point 0,0,0
 refuse 2 "lampion project: \"x\" is not an option$see" x
@@ -64,6 +68,8 @@ refuse 1 "lampion: standard input: is empty (its first line must be $header)" --
 refuse 1 "lampion: $WORK/nothing: No such file or directory" --batch "$WORK/nothing"
 printf '%s\n1,2,3,-0.5,0,0,0\n' $header >"$WORK/negative"
 refuse 1 "lampion: $WORK/negative: line 2: radius: -0.5 is negative" --batch "$WORK/negative"
+printf '%s\n1,2,3,1,0,0,0\n0,2e17,0,1,0,0,0\n' $header >"$WORK/far"
+refuse 1 "lampion: $WORK/far: line 3: light_y: 2e+17 is out of range (up to 1e+17)" --batch "$WORK/far"
 printf '%s\n1,2,3,1,0,0,0\n1,2,3,1,0,0,0,9\n' $header >"$WORK/wide"
 refuse 1 "lampion: $WORK/wide: line 3: has 8 columns, not 7" --batch "$WORK/wide"
 printf '%s,c_0\n1,2,3,1,0,0,0,9\n' $header >"$WORK/header"
