@@ -165,7 +165,7 @@ bool gpu_context_create(const char *device, gpu_context *context, cli_error *err
         return cli_fail(error, NULL, "no libEGL.so.1 on this machine (%s)", packages);
     const char *client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!client || !strstr(client, "EGL_EXT_platform_base"))
-        return cli_fail(error, NULL, "EGL is too old: no platform displays (%s)", packages);
+        return cli_fail(error, NULL, "EGL has no driver, or is too old (%s)", packages);
     EGLDeviceEXT devices[DEVICES_MAX];
     const int count = list_devices(client, devices);
 
@@ -177,7 +177,8 @@ bool gpu_context_create(const char *device, gpu_context *context, cli_error *err
         if (*end)
             return open_named(device, devices, count, context, error);
         if (index < 0 || index >= count)
-            return cli_fail(error, device, "no such OpenGL device (there are %d, from 0)", count);
+            return cli_fail(error, device, "no such OpenGL device: EGL lists %d, numbered from 0",
+                            count);
         return open_device(devices[index], context, error);
     }
     for (int i = 0; i < count; i++) {
