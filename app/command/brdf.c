@@ -17,12 +17,11 @@ static const char *const kind_names[] = { "Lambert",      "Phong",
                                           "MERL .binary", "RGL .bsdf tensor file" };
 
 static void print_table_info(const lmp_brdf_table *table) {
-    static const char *const windows[] = { "none", "hanning", "lanczos" };
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     printf("bands      %d\n", info.bands);
     printf("views      %d x %d azimuths%s\n", info.views, info.azimuths,
            info.mirrored ? ", mirrored (m >= 0)" : "");
-    printf("window     %s of %g bands\n", windows[info.window], (double)info.window_size);
+    printf("window     %s of %g bands\n", command_windows[info.window], (double)info.window_size);
     printf("quadrature %d rings, last doubling changed a view by %.2g of its largest\n", info.rings,
            (double)info.change);
     printf("\nalbedo     of the BRDF               of its series above the horizon\n");
@@ -263,7 +262,6 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    static const char *const windows[] = { "none", "hanning", "lanczos", NULL };
     brdf_options o = { .table = { .bands = LMP_BRDF_BANDS_DEFAULT,
                                   .views = LMP_BRDF_VIEWS_DEFAULT,
                                   .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT },
@@ -280,7 +278,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "azimuths", 0, CLI_INT, &o.table.azimuths, "N", "view azimuths of an anisotropic table",
           4, 256, NULL, NULL },
         { "window", 0, CLI_CHOICE, &window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          windows, NULL },
+          command_windows, NULL },
         { "window-size", 0, CLI_FLOAT, &o.table.window_size, "BANDS",
           "where the window falls to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
         { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },
@@ -300,7 +298,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 
 const cli_command command_brdf = {
     .name = "brdf",
-    .operands = "info|eval|bake|plot|convert|bands|list MATERIAL",
+    .operands = "info|eval|bake|plot|convert|bands|list MATERIAL…",
     .summary = "show, evaluate, tabulate and convert measured materials",
     .examples =
         "lampion brdf info sgd:gold-metallic-paint\n"
