@@ -11,7 +11,7 @@ options_exist() {
     where=$1 command=$2
     shift 2
     help=$("$PROGRAM" "$command" --help 2>/dev/null) || fail "$where: no command lampion $command"
-    operands=$(printf '%s\n' "$help" | sed -n 's/^Usage: lampion [a-z]* \[OPTION…\]//p' | wc -w)
+    operands=$(printf '%s\n' "$help" | sed -n 's/^Usage: lampion [a-z]* \[OPTION…\]//p' | sed 's/.*…$/& & & &/' | wc -w)
     value=no
     for word in "$@"; do
         case $value$word in
