@@ -73,7 +73,7 @@ void reference_surface_measure(reference_surface *surface, const reference_measu
     reference_surface_set(surface, &whole, &guide, surface->position, normal, view);
     surface->ray_origin = ray_origin;
     surface->measured = measured;
-    surface->cut = measured->source.table != NULL;
+    surface->cut = measured->source->table != NULL;
 }
 
 double reference_lobe_at(const reference_lobe *lobe, double cosine) {

@@ -4,12 +4,14 @@
 #include <stdlib.h>
 
 bool reference_measured_create(reference_measured *measured,
-                               const reference_material_source *source) {
-    *measured = (reference_measured) { .source = *source };
-    if (!source->table)
-        return true;
-    measured->info = lmp_brdf_table_describe(source->table);
-    measured->coefficients = malloc(3 * measured->info.count * sizeof(float));
+                               const reference_material_source *sources, size_t count) {
+    size_t largest = 1;
+    for (size_t i = 0; i < count; i++) {
+        const lmp_brdf_table *table = sources[i].table;
+        const size_t needed = table ? lmp_brdf_table_describe(table).count : 0;
+        largest = needed > largest ? needed : largest;
+    }
+    *measured = (reference_measured) { .coefficients = malloc(3 * largest * sizeof(float)) };
     return measured->coefficients != NULL;
 }
 
@@ -26,19 +28,21 @@ static reference_vec flatten(reference_vec v, reference_vec normal) {
                                          : reference_around(normal, 0, 1, 0);
 }
 
-void reference_measured_aim(reference_measured *measured, reference_vec normal,
-                            reference_vec tangent, reference_vec view) {
+void reference_measured_aim(reference_measured *measured, const reference_material_source *source,
+                            reference_vec normal, reference_vec tangent, reference_vec view) {
     const reference_vec x = flatten(tangent, normal), y = reference_cross(normal, x);
     const double turn = atan2(reference_dot(view, y), reference_dot(view, x));
+    measured->source = source;
     measured->z = normal;
-    measured->x = measured->source.table ? flatten(view, normal) : x;
+    measured->x = source->table ? flatten(view, normal) : x;
     measured->y = reference_cross(normal, measured->x);
     measured->wo[0] = reference_dot(view, measured->x);
     measured->wo[1] = reference_dot(view, measured->y);
     measured->wo[2] = reference_dot(view, normal);
-    if (measured->source.table)
-        lmp_brdf_table_view(measured->source.table, (float)measured->wo[2], (float)turn,
-                            measured->coefficients);
+    if (!source->table)
+        return;
+    measured->info = lmp_brdf_table_describe(source->table);
+    lmp_brdf_table_view(source->table, (float)measured->wo[2], (float)turn, measured->coefficients);
 }
 
 /* Adds value times the coefficient of (l, m), which a mirrored table holds for m >= 0 alone. */
@@ -78,13 +82,13 @@ void reference_measured_at(const reference_measured *measured, reference_vec w, 
     const double wi[3] = { reference_dot(w, measured->x), reference_dot(w, measured->y),
                            reference_dot(w, measured->z) };
     rgb[0] = rgb[1] = rgb[2] = 0;
-    if (measured->source.table) {
+    if (measured->source->table) {
         series_at(measured, wi, rgb);
         return;
     }
     if (wi[2] <= 0 || measured->wo[2] <= 0)
         return;
-    lmp_brdf_eval_double(measured->source.brdf, wi, measured->wo, rgb);
+    lmp_brdf_eval_double(measured->source->brdf, wi, measured->wo, rgb);
     for (int c = 0; c < 3; c++)
         rgb[c] *= wi[2];
 }

@@ -91,8 +91,10 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     const reference_vec normal = mapped_normal(f, hit, material);
     reference_surface_set(surface, &f->settings->cut, &lobes, hit->position, normal, view);
     surface->ray_origin = hit->ray_origin;
-    if (f->settings->material.brdf || f->settings->material.table) {
-        reference_measured_aim(&own->measured, normal, hit->tangent, view);
+    const reference_material_source *source =
+        f->settings->materials ? &f->settings->materials[hit->material] : NULL;
+    if (source && (source->brdf || source->table)) {
+        reference_measured_aim(&own->measured, source, normal, hit->tangent, view);
         reference_surface_measure(surface, &own->measured, normal, view);
     }
 }
@@ -109,6 +111,7 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
     const scene_light *light = seen_light(f, direction, hit.distance);
     reference_result result = { .samples = 0 };
     double emission[3] = { 0 };
+    bool clamped = false;
     if (light) {
         for (int c = 0; c < 3; c++)
             emission[c] = (double)light->radiance[c];
@@ -116,10 +119,10 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
         const reference_stop stop = { settings->samples, settings->error };
         reference_surface surface;
         describe(f, own, &hit, reference_scale(-1, direction), &surface, emission);
+        clamped = surface.cut;
         result = reference_estimate(&own->estimator, &surface, &stop,
                                     reference_hash(settings->seed, pixel));
     }
-    const bool clamped = settings->cut.bands > 0 || settings->material.table;
     for (int c = 0; c < 3; c++) {
         /* Renderers clamp the sum of a ringing series at 0. */
         const double mean = clamped && result.mean[c] < 0 ? 0 : result.mean[c];
@@ -137,7 +140,8 @@ static bool trace_rows(const frame *f, int threads) {
         worker own;
         const bool mine =
             reference_estimator_create(&own.estimator, f->scene->lights, f->scene->light_count) &
-            reference_measured_create(&own.measured, &f->settings->material);
+            reference_measured_create(&own.measured, f->settings->materials,
+                                      f->settings->materials ? f->scene->material_count : 0);
         if (!mine) {
 #pragma omp atomic write
             ok = false;

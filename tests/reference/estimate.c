@@ -307,8 +307,8 @@ static reference_result estimate_measured(const reference_material_source *sourc
                                           size_t count) {
     reference_measured measured;
     reference_surface surface = surface_of(&whole, &white, view);
-    assert_true(reference_measured_create(&measured, source));
-    reference_measured_aim(&measured, up, (reference_vec) { 1, 0, 0 }, view);
+    assert_true(reference_measured_create(&measured, source, 1));
+    reference_measured_aim(&measured, source, up, (reference_vec) { 1, 0, 0 }, view);
     reference_surface_measure(&surface, &measured, up, view);
     const reference_result result = estimate(&surface, lights, count, 20000, 11);
     reference_measured_free(&measured);
