@@ -10,11 +10,15 @@
 
 #define BAR_WIDTH   30
 #define DRAW_PERIOD 0.1 /* seconds */
+#define SAY_AFTER   2.0 /* seconds before the time left is worth saying */
 
 /* One bar a program: whoever holds the flag draws, other threads pass by. */
 static atomic_flag drawing = ATOMIC_FLAG_INIT;
 static double last_draw;
 static bool drawn;
+
+/* Where the work at hand was seen first; work that goes back has begun anew. */
+static double first_time, first_done, last_done = 1.0;
 
 static bool is_terminal(void) {
     const char *const kind = getenv("TERM");
@@ -27,13 +31,27 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void draw(const char *what, double done) {
+/* Writes how long the rest takes at the pace so far, or nothing while that cannot be known. */
+static void say_time_left(double time, double done, char *text, size_t size) {
+    const double spent = time - first_time, rate = (done - first_done) / spent;
+    text[0] = '\0';
+    if (spent < SAY_AFTER || !(rate > 0.0))
+        return;
+    const double left = (1.0 - done) / rate;
+    if (left < 3600.0)
+        snprintf(text, size, ", %d:%02d left", (int)left / 60, (int)left % 60);
+    else
+        snprintf(text, size, ", %.1f h left", left / 3600.0);
+}
+
+static void draw(const char *what, double time, double done) {
     const double part = done >= 0.0 && done <= 1.0 ? done : done > 1.0 ? 1.0 : 0.0;
-    char bar[BAR_WIDTH + 1];
+    char bar[BAR_WIDTH + 1], left[48];
     memset(bar, ' ', BAR_WIDTH);
     memset(bar, '=', (size_t)(part * BAR_WIDTH));
     bar[BAR_WIDTH] = '\0';
-    fprintf(stderr, "\r%.40s [%s] %3.0f%%", what, bar, 100.0 * part);
+    say_time_left(time, part, left, sizeof left);
+    fprintf(stderr, "\r%.40s [%s] %3.0f%%%s\033[K", what, bar, 100.0 * part, left);
     fflush(stderr);
 }
 
@@ -41,8 +59,13 @@ void cli_progress(const char *what, double done) {
     if (atomic_flag_test_and_set(&drawing))
         return;
     const double time = now();
+    if (done < last_done) {
+        first_time = time;
+        first_done = done;
+    }
+    last_done = done;
     if (time - last_draw >= DRAW_PERIOD && is_terminal()) {
-        draw(what, done);
+        draw(what, time, done);
         last_draw = time;
         drawn = true;
     }
@@ -55,5 +78,6 @@ void cli_progress_end(void) {
     if (drawn)
         fputs("\r\033[K", stderr);
     drawn = false;
+    last_done = 1.0;
     atomic_flag_clear(&drawing);
 }
