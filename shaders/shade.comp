@@ -9,6 +9,9 @@
 #include "lampion.glsl"
 
 #include "pixel.glsl"
+#ifdef TABLE_FULL
+#include "table.glsl"
+#endif
 
 layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
 layout(binding = 0, rgba32f) uniform writeonly restrict image2D hdr;
@@ -25,5 +28,9 @@ void main() {
         pixel p = pixel_read(at);
         radiance = SHADE(p.surface, p.material) + pixel_emission(at);
     }
+#ifdef TABLE_FULL
+    if (kind >= SHARED_KIND_TABLE)
+        radiance = shade_table(pixel_read(at).surface, kind - SHARED_KIND_TABLE) + pixel_emission(at);
+#endif
     imageStore(hdr, at, vec4(radiance, 1.0));
 }

@@ -26,6 +26,9 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_LIGHTS   1
 #define SHARED_MATERIAL 2
 
+/* Storage block of the tables (table.glsl). */
+#define SHARED_TABLES 1
+
 /* Texture units of the materials' maps, and of the G-buffer in the passes that read it. */
 #define SHARED_BASE_COLOR         0
 #define SHARED_METALLIC_ROUGHNESS 1
@@ -43,6 +46,7 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_KIND_NONE    0
 #define SHARED_KIND_SURFACE 1
 #define SHARED_KIND_LIGHT   2
+#define SHARED_KIND_TABLE   3 /* and up: a surface of table number kind - 3 */
 
 /* Side of the square of pixels one compute group shades: 64 threads. */
 #define SHARED_GROUP 8
@@ -80,7 +84,7 @@ SHARED_END(shared_lights);
 /* Of a map: matrix is KHR_texture_transform's, row-major. maps: 1 where a map is bound. */
 SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 base_color;
-    vec4 emission;
+    vec4 emission; /* w: kind */
     vec4 factors; /* metallic, roughness, normal scale, alpha cutoff */
     vec4 maps;    /* base colour, metallic-roughness, normal, emission */
     vec4 matrix[4];

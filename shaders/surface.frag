@@ -56,6 +56,6 @@ void main() {
 
     out_base_metallic = vec4(base.rgb, metallic);
     out_normal = gbuffer_encode_normal(n);
-    out_roughness_kind = vec2(roughness, gbuffer_encode_kind(SHARED_KIND_SURFACE));
+    out_roughness_kind = vec2(roughness, gbuffer_encode_kind(int(emission.w)));
     out_emission = emitted;
 }

@@ -26,7 +26,7 @@ void main() {
     o.diffuse = vec4(p.material.diffuse, 0.0);
     o.specular = vec4(p.material.specular, 0.0);
     o.emission = vec4(kind == SHARED_KIND_LIGHT     ? pixel_light_radiance(at)
-                      : kind == SHARED_KIND_SURFACE ? pixel_emission(at)
+                      : kind != SHARED_KIND_NONE    ? pixel_emission(at)
                                                     : background.rgb,
                       0.0);
     pixels[(at.y - first_row) * int(size_lights.x) + at.x] = o;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/command.h"
+#include "app/command/materials.h"
 #include "app/gpu/gpu.h"
 
 #include <cjson/cJSON.h>
@@ -18,6 +19,7 @@ typedef struct render_options {
     bool exposure_given, stats, compare;
     scene_camera_options camera;
     scene_lights_options lights;
+    cli_list materials;
 } render_options;
 
 /* Everything that is open while rendering. */
@@ -28,6 +30,7 @@ typedef struct job {
     gpu_renderer *renderer;
     gpu_frame frame;
     scene_light *moved;
+    materials materials;
     float exposure;
 } job;
 
@@ -241,11 +244,13 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return cli_fail(error, NULL, "out of memory");
-    return j->renderer != NULL;
+    return j->renderer && materials_apply(&o->materials, &j->world, o->bands, (lmp_window)o->window,
+                                          j->renderer, &j->materials, error);
 }
 
 static void close_job(job *j) {
     gpu_renderer_destroy(j->renderer);
+    materials_free(&j->materials);
     gpu_context_destroy(&j->context);
     scene_free(&j->world);
     free(j->moved);
@@ -300,6 +305,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           command_windows, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
+        MATERIALS_OPTION_ROW(o.materials),
         { "exposure", 0, CLI_FLOAT, &o.exposure, "FACTOR", "of radiance; without it, automatic",
           1e-12, 1e12, NULL, &o.exposure_given },
         { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,

@@ -68,6 +68,13 @@ typedef struct gpu_renderer gpu_renderer;
 gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *scene, cli_error *error);
 void gpu_renderer_destroy(gpu_renderer *renderer);
 
+/* Shades materials of the scene by tables instead: uses[i] is the table of material i, or -1. The
+ * tables must outlive the renderer; all have the bands of the frames to come. They are shaded by
+ * the method of coefficients whatever the frame's is. */
+#define GPU_TABLES_MAX 64
+bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables, int count,
+                    const int *uses, size_t material_count, cli_error *error);
+
 /* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number
  * of bands and a window. times may be NULL, and then nothing waits for the device. */
 bool gpu_render(gpu_renderer *renderer, const gpu_frame *frame, gpu_times *times, cli_error *error);

@@ -46,6 +46,9 @@ bool gpu_mesh_create(const gpu_context *context, const scene *scene, gpu_mesh *m
                      cli_error *error);
 void gpu_mesh_destroy(gpu_mesh *mesh);
 
+/* What pixels of a material are: SHARED_KIND_SURFACE, or SHARED_KIND_TABLE and up. */
+void gpu_mesh_set_kind(const gpu_mesh *mesh, size_t material, int kind);
+
 /* Draws what the frustum of clip_from_world may hold, with the two variants of surface.frag. */
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked);
 
@@ -59,6 +62,7 @@ typedef struct gpu_variant {
     gpu_method method;
     int bands;
     lmp_window window;
+    int tables; /* 0 without, 1 mirrored ones, 2 any */
     GLuint program;
 } gpu_variant;
 
@@ -71,9 +75,13 @@ struct gpu_renderer {
     GLuint frame_block, lights_block, empty_array;
     int width, height; /* of the targets below */
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
-    GLuint timestamps[GPU_TIMESTAMPS]; /* hardware */
-    double marks[GPU_TIMESTAMPS];      /* software, milliseconds */
-    float near;                        /* distance of the near plane */
+    GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */
+    double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
+    const lmp_brdf_table *tables[GPU_TABLES_MAX]; /* not owned */
+    int table_count, table_bands;
+    bool tables_full; /* not all mirrored */
+    GLuint tables_buffer;
+    float near; /* distance of the near plane */
 };
 
 /* Binds the G-buffer's textures and the blocks for a compute pass. */

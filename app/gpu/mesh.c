@@ -58,6 +58,7 @@ static void fill_material(const scene_material *source, const gpu_mesh *mesh,
     memset(block, 0, sizeof *block);
     memcpy(block->base_color, source->base_color, sizeof source->base_color);
     memcpy(block->emission, source->emission, sizeof source->emission);
+    block->emission[3] = SHARED_KIND_SURFACE;
     block->factors[0] = source->metallic;
     block->factors[1] = source->roughness;
     block->factors[2] = source->normal_scale;
@@ -88,10 +89,20 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
         fill_material(&world->materials[i], mesh, &mesh->materials[i], &block);
         memcpy(blocks + i * stride, &block, sizeof block);
     }
-    mesh->material_blocks = upload(blocks, (world->material_count + 1) * stride);
+    glCreateBuffers(1, &mesh->material_blocks);
+    glNamedBufferStorage(mesh->material_blocks, (GLsizeiptr)((world->material_count + 1) * stride),
+                         blocks, GL_DYNAMIC_STORAGE_BIT);
     mesh->material_stride = (GLsizeiptr)stride;
     free(blocks);
     return true;
+}
+
+void gpu_mesh_set_kind(const gpu_mesh *mesh, size_t material, int kind) {
+    const float value = (float)kind;
+    glNamedBufferSubData(mesh->material_blocks,
+                         (GLintptr)material * mesh->material_stride +
+                             (GLintptr)(offsetof(shared_material, emission) + 3 * sizeof value),
+                         sizeof value, &value);
 }
 
 /* --- triangles ----------------------------------------------------------------------------------

@@ -14,16 +14,19 @@ static lmp_rgb as_rgb(const vec4 v) {
     return (lmp_rgb) { v[0], v[1], v[2] };
 }
 
-static void unpack(const shared_pixel *from, size_t count, gpu_pixel *to) {
+static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count, gpu_pixel *to) {
     for (size_t i = 0; i < count; i++) {
+        const int kind = (int)from[i].position_kind[3];
+        const bool by_table = kind >= SHARED_KIND_TABLE;
         to[i] = (gpu_pixel) {
-            .kind = (gpu_kind)from[i].position_kind[3],
+            .kind = by_table ? GPU_KIND_SURFACE : (gpu_kind)kind,
             .surface = { .position = as_vec3(from[i].position_kind),
                          .normal = as_vec3(from[i].normal_exponent),
                          .view = as_vec3(from[i].view) },
             .material = { .diffuse = as_rgb(from[i].diffuse),
                           .specular = as_rgb(from[i].specular),
-                          .exponent = from[i].normal_exponent[3] },
+                          .exponent = from[i].normal_exponent[3],
+                          .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL },
             .emission = as_rgb(from[i].emission),
         };
     }
@@ -45,7 +48,7 @@ static bool read_strips(gpu_renderer *r, GLuint buffer, int rows, gpu_pixel *pix
         const shared_pixel *mapped = glMapNamedBufferRange(buffer, 0, size, GL_MAP_READ_BIT);
         if (!mapped)
             return false;
-        unpack(mapped, strip, pixels + (size_t)first * width);
+        unpack(r, mapped, strip, pixels + (size_t)first * width);
         glUnmapNamedBuffer(buffer);
     }
     return true;

@@ -93,6 +93,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
             glDeleteProgram(programs[i]);
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
+    glDeleteBuffers(1, &r->tables_buffer);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
     free(r);
@@ -238,9 +239,16 @@ static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
  */
 
 static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
+    const int tables = r->table_count == 0 ? 0 : r->tables_full ? 2 : 1;
+    if (tables && r->table_bands != frame->bands) {
+        cli_fail(error, NULL, "the tables of the materials have %d bands, the picture %d",
+                 r->table_bands, frame->bands);
+        return 0;
+    }
     for (int i = 0; i < r->variant_count; i++) {
         const gpu_variant *v = &r->variants[i];
-        if (v->method == frame->method && v->bands == frame->bands && v->window == frame->window)
+        if (v->method == frame->method && v->bands == frame->bands && v->window == frame->window &&
+            v->tables == tables)
             return v->program;
     }
     if (frame->bands < 1 || frame->bands > gpu_bands_max(frame->method)) {
@@ -248,12 +256,14 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
                  gpu_method_names[frame->method], gpu_bands_max(frame->method));
         return 0;
     }
+    static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
+                                                 "#define TABLE_FULL 1\n" };
     char defines[256];
     snprintf(defines, sizeof defines,
              "#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
-             "#define LMP_ALPHA_MIN %.9g\n",
+             "#define LMP_ALPHA_MIN %.9g\n%s",
              method_functions[frame->method], frame->bands, (int)frame->window,
-             (double)LMP_ALPHA_MIN);
+             (double)LMP_ALPHA_MIN, table_defines[tables]);
     const gpu_stage stage = { GL_COMPUTE_SHADER, "shade.comp" };
     const GLuint program = gpu_program(&stage, 1, defines, error);
     if (!program)
@@ -261,7 +271,7 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     if (r->variant_count == GPU_VARIANTS)
         glDeleteProgram(r->variants[--r->variant_count].program);
     r->variants[r->variant_count++] =
-        (gpu_variant) { frame->method, frame->bands, frame->window, program };
+        (gpu_variant) { frame->method, frame->bands, frame->window, tables, program };
     return program;
 }
 
@@ -311,6 +321,8 @@ static GLuint groups(int pixels) {
 
 static void shade(const gpu_renderer *r, GLuint program) {
     gpu_bind_gbuffer(r);
+    if (r->table_count)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
     glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
     glUseProgram(program);
     glDispatchCompute(groups(r->width), groups(r->height), 1);

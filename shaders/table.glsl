@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT */
+/* table.glsl - surfaces shaded by tabulated BRDFs: lmp_shade_table of the library, straight-line.
+ *
+ * TABLE_FULL is 0 where every table is mirror-symmetric: then half the coefficients do.
+ * table_values begins with a vec4 a table: its first value, rows over theta_o from 0 to pi/2, and
+ * columns over phi_o. Then the tables, [column][row][coefficient], all of LMP_BANDS bands; rows and
+ * columns are so many that linear interpolation between them follows the library's cubic. */
+layout(std430, binding = SHARED_TABLES) readonly restrict buffer tables_block {
+    vec4 table_values[];
+};
+
+#if TABLE_FULL
+#define TABLE_COUNT       LMP_SH_COUNT
+#define TABLE_INDEX(l, m) (l * l + l + m)
+#else
+#define TABLE_COUNT       (LMP_BANDS * (LMP_BANDS + 1) / 2)
+#define TABLE_INDEX(l, m) (l * (l + 1) / 2 + m)
+#endif
+
+/* v without its part along n, made unit; `otherwise` where nothing is left. */
+vec3 table_flatten(vec3 v, vec3 n, vec3 otherwise) {
+    vec3 rest = v - dot(v, n) * n;
+    float length2 = dot(rest, rest);
+    return length2 > 1e-12 * dot(v, v) ? rest * inversesqrt(length2) : otherwise;
+}
+
+/* First values of the four rows round a view, and their weights. */
+void table_rows(int table, float cos_theta, float phi, out ivec4 first, out vec4 weight) {
+    ivec3 shape = ivec3(table_values[table].xyz);
+    float row = acos(clamp(cos_theta, 0.0, 1.0)) * (2.0 / LMP_PI) * float(shape.y - 1);
+    float column = shape.z > 1 ? fract(phi * (0.5 / LMP_PI)) * float(shape.z) : 0.0;
+    int r = min(int(row), shape.y - 2), c = min(int(column), shape.z - 1);
+    vec2 f = vec2(row - float(r), column - float(c));
+    int near = shape.x + (c * shape.y + r) * TABLE_COUNT;
+    int far = shape.x + (((c + 1) % shape.z) * shape.y + r) * TABLE_COUNT;
+    first = ivec4(near, near + TABLE_COUNT, far, far + TABLE_COUNT);
+    weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+}
+
+vec3 shade_table(lmp_surface surface, int table) {
+    vec3 n = surface.normal;
+    vec3 side = table_flatten(cross(vec3(0.0, 1.0, 0.0), n), n,
+                              table_flatten(vec3(1.0, 0.0, 0.0), n, vec3(1.0, 0.0, 0.0)));
+    vec3 x = table_flatten(surface.view, n, side), y = cross(n, x);
+
+    vec3 sum[LMP_SH_COUNT];
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        sum[LMP_INDEX(l, m)] = vec3(0.0);                                                          \
+        sum[LMP_INDEX(l, -m)] = vec3(0.0);                                                         \
+    }
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+
+    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
+        vec4 sphere = LMP_LIGHT_SPHERE(i);
+        vec3 to = sphere.xyz - surface.position, radiance = LMP_LIGHT_RADIANCE(i);
+        float sh[LMP_SH_COUNT];
+        lmp_sphere_project(vec4(dot(to, x), dot(to, y), dot(to, n), sphere.w), vec3(0.0), sh);
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        sum[LMP_INDEX(l, m)] += radiance * sh[LMP_INDEX(l, m)];                                    \
+        if (TABLE_FULL == 1 && m > 0)                                                              \
+            sum[LMP_INDEX(l, -m)] += radiance * sh[LMP_INDEX(l, -m)];                              \
+    }
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+        LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+    }
+
+    ivec4 first;
+    vec4 weight;
+    table_rows(table, dot(surface.view, n), atan(dot(x, cross(n, side)), dot(x, side)), first,
+               weight);
+    vec3 reflected = vec3(0.0);
+#define TABLE_AT(i)                                                                                \
+    (weight.x * table_values[first.x + i].rgb + weight.y * table_values[first.y + i].rgb +         \
+     TABLE_FAR(i))
+#if TABLE_FULL
+#define TABLE_FAR(i)                                                                               \
+    (weight.z * table_values[first.z + i].rgb + weight.w * table_values[first.w + i].rgb)
+#else
+#define TABLE_FAR(i) 0.0
+#endif
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        reflected += sum[LMP_INDEX(l, m)] * TABLE_AT(TABLE_INDEX(l, m));                           \
+        if (TABLE_FULL == 1 && m > 0)                                                              \
+            reflected += sum[LMP_INDEX(l, -m)] * TABLE_AT(TABLE_INDEX(l, -m));                     \
+    }
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+    return max(reflected, vec3(0.0));
+}
