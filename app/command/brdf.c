@@ -147,6 +147,23 @@ static bool convert(const brdf_options *o, const material *m, cli_error *error) 
 /* --- bands --------------------------------------------------------------------------------------
  */
 
+/* ∫ (f_r cos theta_i)² dw of green for one view; uniform in theta, for lobes at the pole are
+ * narrow. */
+static double norm2(const lmp_brdf *brdf, double theta_o) {
+    enum { THETAS = 2048, AZIMUTHS = 512 };
+    const double wo[3] = { sin(theta_o), 0, cos(theta_o) };
+    double sum = 0;
+    for (int k = 0; k < THETAS; k++)
+        for (int j = 0; j < AZIMUTHS; j++) {
+            const double theta = pi / 2 * (k + 0.5) / THETAS, phi = pi * (j + 0.5) / AZIMUTHS;
+            const double wi[3] = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
+            double rgb[3];
+            lmp_brdf_eval_double(brdf, wi, wo, rgb);
+            sum += rgb[1] * wi[2] * rgb[1] * wi[2] * sin(theta);
+        }
+    return sum * (pi / 2 / THETAS) * (2 * pi / AZIMUTHS);
+}
+
 /* What is left out by n bands, ‖f cos - series‖ / ‖f cos‖ over all views at 0, 20, 40 and 60
  * degrees: left[n], n = 0 … LMP_BANDS_MAX. */
 static bool measure_bands(const material *m, double left[LMP_BANDS_MAX + 1], cli_error *error) {
@@ -166,17 +183,7 @@ static bool measure_bands(const material *m, double left[LMP_BANDS_MAX + 1], cli
         for (int l = 0; l < LMP_BANDS_MAX; l++)
             for (int i = l * l; i < (l + 1) * (l + 1); i++)
                 band[l] += (double)sh[plane + (size_t)i] * (double)sh[plane + (size_t)i];
-        /* the norm by the same rings: uniform in z is enough for a square of a smooth function */
-        for (int k = 0; k < RINGS; k++)
-            for (int j = 0; j < RINGS; j++) {
-                const double z = (k + 0.5) / RINGS, s = sqrt(1 - z * z);
-                const double phi = pi * (j + 0.5) / RINGS;
-                const double wi[3] = { s * cos(phi), s * sin(phi), z };
-                const double view[3] = { sin(theta), 0, cos(theta) };
-                double rgb[3];
-                lmp_brdf_eval_double(m->brdf, wi, view, rgb);
-                total += rgb[1] * z * rgb[1] * z * 2 * pi / ((double)RINGS * RINGS);
-            }
+        total += norm2(m->brdf, theta);
     }
     free(sh);
     double kept = 0;
