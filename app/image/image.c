@@ -50,16 +50,27 @@ static size_t fill_histogram(const image *picture, size_t histogram[BINS]) {
     return lit;
 }
 
+/* The bin below which `wanted` pixels lie. */
+static int find_bin(const size_t histogram[BINS], double wanted) {
+    double below = 0;
+    int bin = 0;
+    while (bin < BINS - 1 && (below += (double)histogram[bin]) < wanted)
+        bin++;
+    return bin;
+}
+
 float image_auto_exposure(const image *picture) {
     static const double middle_grey = 0.18, trimmed = 0.05;
+    enum { RANGE = 8 }; /* stops */
     size_t histogram[BINS] = { 0 };
     const size_t lit = fill_histogram(picture, histogram);
     const double low = trimmed * (double)lit, high = (double)lit - low;
+    const int first = find_bin(histogram, high) - RANGE * BINS_A_STOP;
     double below = 0, weight = 0, sum = 0;
     for (int bin = 0; bin < BINS; bin++) {
         const double above = below + (double)histogram[bin];
         const double inside = fmin(above, high) - fmax(below, low);
-        if (inside > 0) {
+        if (bin >= first && inside > 0) {
             sum += inside * ((bin + 0.5) / BINS_A_STOP - STOPS);
             weight += inside;
         }

@@ -18,7 +18,8 @@ bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
 
 /* The exposure (a factor on radiance) that maps the log-average of what is lit to middle grey:
- * black pixels, and the darkest and brightest twentieth, do not count. 1 for a black picture. */
+ * the darkest and brightest twentieth, and pixels 8 stops darker than these, do not count: the tail
+ * of a sharp lobe is as good as black. 1 for a black picture. */
 float image_auto_exposure(const image *image);
 
 /* The factor that an exposure of `stops` EV means: 2^stops. */

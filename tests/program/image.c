@@ -169,6 +169,10 @@ static void exposure_puts_what_is_lit_at_middle_grey(void **state) {
     picture.rgb[VALUES - 1] = NAN;
     picture.rgb[VALUES - 4] = INFINITY;
     CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
+    /* nor does what is black beside the rest */
+    for (size_t i = 0; i < VALUES / 2; i++)
+        picture.rgb[i] = 1e-5f;
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
     fill(&picture, 0);
     assert_true(image_auto_exposure(&picture) == 1);
     CHECK_WITHIN(fabs((double)image_exposure_of_stops(-2) - 0.25), 1e-7);
