@@ -10,9 +10,9 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#define BUILTIN_PREFIX   "builtin:"
-#define DEFAULT_FOV      0.7854f /* 45° */
-#define FRAMING_DISTANCE 1.05f   /* of an automatic camera, 1: the bounding sphere just fits */
+#define BUILTIN_PREFIX "builtin:"
+#define DEFAULT_FOV    0.7854f /* 45° */
+#define FRAMING_SHARE  0.9f    /* of the picture that an automatic camera fills at most */
 
 static bool load_builtin(const char *name, scene *s, cli_error *error) {
     scene_builder builder = { 0 };
@@ -45,6 +45,22 @@ void scene_free(scene *s) {
     memset(s, 0, sizeof *s);
 }
 
+/* From how far away in the direction `from` every triangle fits into the picture. */
+static float framing_distance(const scene *s, lmp_vec3 center, lmp_vec3 from, float aspect) {
+    const lmp_vec3 right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), from), from);
+    const lmp_vec3 up = vec_cross(from, right);
+    const float slope = FRAMING_SHARE * tanf(0.5f * DEFAULT_FOV);
+    float radius = 1e-6f, distance = 0.0f;
+    for (size_t i = 0; i < s->index_count; i++) {
+        const lmp_vec3 p = vec_sub(vec_load(s->vertices[s->indices[i]].position), center);
+        const float side = fmaxf(fabsf(vec_dot(right, p)) / aspect, fabsf(vec_dot(up, p)));
+        distance = fmaxf(distance, side / slope + vec_dot(from, p));
+        radius = fmaxf(radius, vec_length(p));
+    }
+    /* nor may the camera stand inside */
+    return fmaxf(distance, radius);
+}
+
 scene_camera scene_default_camera(const scene *s, float aspect) {
     if (s->camera_count > 0) {
         scene_camera first = s->cameras[0];
@@ -53,13 +69,9 @@ scene_camera scene_default_camera(const scene *s, float aspect) {
         return first;
     }
     const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
-    const lmp_vec3 center = vec_scale(vec_add(lo, hi), 0.5f);
-    const float radius = 0.5f * vec_length(vec_sub(hi, lo));
-    /* The smaller of the two half angles must hold the bounding sphere. */
-    const float half = 0.5f * DEFAULT_FOV;
-    const float narrow = aspect < 1.0f ? atanf(tanf(half) * aspect) : half;
-    const float distance = FRAMING_DISTANCE * fmaxf(radius, 1e-6f) / sinf(narrow);
+    const lmp_vec3 center = vec_add(vec_scale(lo, 0.5f), vec_scale(hi, 0.5f));
     const lmp_vec3 from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f));
+    const float distance = framing_distance(s, center, from, aspect > 0.0f ? aspect : 1.0f);
     scene_camera camera = { .name = "framed", .up = { 0.0f, 1.0f, 0.0f }, .fov = DEFAULT_FOV };
     vec_store(center, camera.target);
     vec_store(vec_add(center, vec_scale(from, distance)), camera.eye);

@@ -357,6 +357,52 @@ static void a_scene_without_lights_gets_hidden_studio_lights(void **state) {
     scene_free(&s);
 }
 
+/* The largest coordinate in the picture, 1 at its edges, of what the camera sees. */
+static double filled(const scene *s, const scene_camera *camera, double aspect) {
+    double f[3], r[3], u[3], length = 0, largest = 0;
+    for (int k = 0; k < 3; k++)
+        f[k] = (double)camera->target[k] - (double)camera->eye[k];
+    for (int k = 0; k < 3; k++)
+        length += f[k] * f[k];
+    for (int k = 0; k < 3; k++)
+        f[k] /= sqrt(length);
+    const double across = sqrt(f[0] * f[0] + f[2] * f[2]);
+    r[0] = -f[2] / across, r[1] = 0, r[2] = f[0] / across;
+    for (int k = 0; k < 3; k++)
+        u[k] = r[(k + 1) % 3] * f[(k + 2) % 3] - r[(k + 2) % 3] * f[(k + 1) % 3];
+    for (size_t i = 0; i < s->vertex_count; i++) {
+        double x = 0, y = 0, z = 0;
+        for (int k = 0; k < 3; k++) {
+            const double p = (double)s->vertices[i].position[k] - (double)camera->eye[k];
+            x += r[k] * p;
+            y += u[k] * p;
+            z += f[k] * p;
+        }
+        assert_true(z > 0);
+        const double slope = z * tan(0.5 * (double)camera->fov);
+        largest = fmax(largest, fmax(fabs(x) / (slope * aspect), fabs(y) / slope));
+    }
+    return largest;
+}
+
+static void a_scene_without_cameras_fills_nine_tenths_of_the_picture(void **state) {
+    (void)state;
+    static const char *const shapes[] = {
+        "v 0 0 0\nv 1 0 0\nv 0 5 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 3 2 4\n",
+        "v -100 7 0\nv 100 7 0\nv 0 7 3\nf 1 2 3\n",
+        "v 1e-3 0 0\nv 0 1e-3 0\nv 0 0 0\nf 1 2 3\n",
+    };
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        write_text("framed.obj", shapes[i]);
+        scene s = load(in_folder("framed.obj"), true);
+        for (float aspect = 0.5f; aspect < 3.0f; aspect *= 2.0f) {
+            const scene_camera camera = scene_default_camera(&s, aspect);
+            CHECK_NEAR(0.9, filled(&s, &camera, (double)aspect), 1e-3);
+        }
+        scene_free(&s);
+    }
+}
+
 static void a_narrow_picture_widens_the_camera_s_view(void **state) {
     (void)state;
     scene s = load("builtin:balls", false);
@@ -411,6 +457,7 @@ int main(void) {
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
         cmocka_unit_test(a_scene_without_lights_gets_hidden_studio_lights),
+        cmocka_unit_test(a_scene_without_cameras_fills_nine_tenths_of_the_picture),
         cmocka_unit_test(a_narrow_picture_widens_the_camera_s_view),
         cmocka_unit_test(moving_lights_close_their_orbits_inside_the_scene),
     };
