@@ -14,8 +14,8 @@ static bool unknown_slot(const scene *world, const char *slot, cli_error *error)
     return cli_fail(error, world->origin, "no material \"%s\" (it has: %s)", slot, names);
 }
 
-/* Gives the materials named like the slot the table `table`. */
-static bool use_table(const scene *world, const char *text, size_t slot_length, int table,
+/* Notes that the materials named like the slot are replaced by entry `entry`. */
+static bool use_entry(const scene *world, const char *text, size_t slot_length, int entry,
                       int *uses, cli_error *error) {
     char slot[SCENE_NAME_SIZE] = "";
     bool found = false;
@@ -24,52 +24,57 @@ static bool use_table(const scene *world, const char *text, size_t slot_length, 
     memcpy(slot, text, slot_length);
     for (size_t i = 0; i < world->material_count; i++)
         if (strcmp(world->materials[i].name, slot) == 0) {
-            uses[i] = table;
+            uses[i] = entry;
             found = true;
         }
     return found || unknown_slot(world, slot, error);
 }
 
-static bool bake(const char *name, int bands, lmp_window window, lmp_brdf_table **table,
-                 cli_error *error) {
+bool materials_open(const cli_list *list, const scene *world, materials *all, cli_error *error) {
+    *all = (materials) { .count = 0 };
+    if (list->count == 0)
+        return true;
+    all->uses = malloc((world->material_count + 1) * sizeof *all->uses);
+    if (!all->uses)
+        return cli_fail(error, NULL, "out of memory");
+    for (size_t i = 0; i < world->material_count; i++)
+        all->uses[i] = -1;
+    for (int i = 0; i < list->count; i++) {
+        const char *text = list->items[i], *equals = strchr(text, '=');
+        if (!equals)
+            return cli_fail(error, text, "--material is SLOT=MATERIAL");
+        if (!use_entry(world, text, (size_t)(equals - text), i, all->uses, error) ||
+            !material_open(equals + 1, &all->opened[i], error))
+            return false;
+        all->count++;
+    }
+    return true;
+}
+
+bool materials_bake(materials *all, int bands, lmp_window window, cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = bands,
                                        .views = LMP_BRDF_VIEWS_DEFAULT,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
                                        .window = window };
-    material m;
-    if (!material_open(name, &m, error))
-        return false;
-    const bool ok = material_bake(&m, &desc, table, error);
-    material_close(&m);
-    return ok;
+    for (int i = 0; i < all->count; i++)
+        if (!material_bake(&all->opened[i], &desc, &all->tables[i], error))
+            return false;
+    return true;
 }
 
 bool materials_apply(const cli_list *list, const scene *world, int bands, lmp_window window,
                      gpu_renderer *renderer, materials *all, cli_error *error) {
-    memset(all, 0, sizeof *all);
-    if (list->count == 0)
-        return true;
-    int *uses = malloc((world->material_count + 1) * sizeof *uses);
-    if (!uses)
-        return cli_fail(error, NULL, "out of memory");
-    for (size_t i = 0; i < world->material_count; i++)
-        uses[i] = -1;
-    bool ok = true;
-    for (int i = 0; i < list->count && ok; i++) {
-        const char *text = list->items[i], *equals = strchr(text, '=');
-        ok = equals ? use_table(world, text, (size_t)(equals - text), i, uses, error) &&
-                          bake(equals + 1, bands, window, &all->tables[i], error)
-                    : cli_fail(error, text, "--material is SLOT=MATERIAL");
-        all->count += ok;
-    }
-    ok = ok && gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
-                              uses, world->material_count, error);
-    free(uses);
-    return ok;
+    if (!materials_open(list, world, all, error) || !materials_bake(all, bands, window, error))
+        return false;
+    return all->count == 0 || gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables,
+                                             all->count, all->uses, world->material_count, error);
 }
 
 void materials_free(materials *all) {
-    for (int i = 0; i < all->count; i++)
+    for (int i = 0; i < all->count; i++) {
         lmp_brdf_table_destroy(all->tables[i]);
-    all->count = 0;
+        material_close(&all->opened[i]);
+    }
+    free(all->uses);
+    *all = (materials) { .count = 0 };
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* materials.h - the option --material SLOT=MATERIAL: materials of a scene replaced by tables. */
+/* materials.h - the option --material SLOT=MATERIAL: materials of a scene replaced. */
 #ifndef LAMPION_COMMAND_MATERIALS_H
 #define LAMPION_COMMAND_MATERIALS_H
 
@@ -13,12 +13,21 @@
     }
 
 typedef struct materials {
-    lmp_brdf_table *tables[GPU_TABLES_MAX];
+    material opened[GPU_TABLES_MAX];
+    lmp_brdf_table *tables[GPU_TABLES_MAX]; /* NULL before materials_bake */
     int count;
+    int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
 } materials;
 
-/* Makes a table for each of the list, and has the renderer shade by them. An unknown slot is an
- * error that lists those there are. */
+/* Opens each of the list. An unknown slot is an error that lists those there are. On failure too,
+ * *materials is to be freed. */
+bool materials_open(const cli_list *list, const scene *scene, materials *materials,
+                    cli_error *error);
+
+/* Makes a table of each. */
+bool materials_bake(materials *materials, int bands, lmp_window window, cli_error *error);
+
+/* Both, and has the renderer shade by the tables. */
 bool materials_apply(const cli_list *list, const scene *scene, int bands, lmp_window window,
                      gpu_renderer *renderer, materials *materials, cli_error *error);
 /* After the renderer. */

@@ -36,7 +36,8 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "sponza", 0, CLI_TEXT, &settings.sponza, "FILE", "the scene of figure 5", 0, 0, NULL,
           NULL },
         { "step", 0, CLI_LIST, &settings.steps, "NAME",
-          "only this step, of: basis lights cap integral operations table san-miguel sponza cost; "
+          "only this step, of: basis lights cap integral operations table san-miguel sponza "
+          "materials cost; "
           "may be repeated",
           0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },

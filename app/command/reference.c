@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/reference.h"
 #include "app/command/command.h"
+#include "app/command/materials.h"
 #include "app/reference/quadrature.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct reference_arguments {
@@ -13,6 +15,7 @@ typedef struct reference_arguments {
     int size[2];
     scene_camera_options camera;
     scene_lights_options lights;
+    cli_list materials;
     reference_settings settings;
     int bands, window;
     float error, exposure, stops;
@@ -33,22 +36,47 @@ static bool write_picture(const reference_arguments *a, const image *radiance,
     return image_write(radiance, a->output, exposure * image_exposure_of_stops(a->stops), error);
 }
 
+/* The materials as the oracle takes them: cut ones as tables. The array is the caller's. */
+static bool choose_materials(reference_arguments *a, const scene *world, materials *all,
+                             reference_material_source **sources, cli_error *error) {
+    const reference_cut *cut = &a->settings.cut;
+    if (!materials_open(&a->materials, world, all, error) ||
+        (cut->bands && !materials_bake(all, cut->bands, cut->window, error)))
+        return false;
+    if (all->count == 0)
+        return true;
+    a->settings.materials = *sources = calloc(world->material_count + 1, sizeof **sources);
+    if (!*sources)
+        return cli_fail(error, NULL, "out of memory");
+    for (size_t i = 0; i < world->material_count; i++) {
+        const int use = all->uses[i];
+        if (use < 0)
+            continue;
+        (*sources)[i].table = cut->bands ? all->tables[use] : all->opened[use].table;
+        (*sources)[i].brdf = cut->bands ? NULL : all->opened[use].brdf;
+    }
+    return true;
+}
+
 static bool render(reference_arguments *a, const char *name, cli_error *error) {
     scene world;
-    image radiance, standard_error;
+    image radiance = { .rgb = NULL }, standard_error = { .rgb = NULL };
     reference_settings *settings = &a->settings;
+    reference_material_source *sources = NULL;
+    materials all = { .count = 0 };
     if (!scene_load(name, NULL, &world, error))
         return false;
-    bool ok = scene_apply_lights(&world, &a->lights, error) &&
-              scene_place_camera(&world, &a->camera, a->size, &settings->camera, error);
     settings->width = a->size[0];
     settings->height = a->size[1];
-    if (ok && reference_render(&world, settings, &radiance, &standard_error, error)) {
-        ok = write_picture(a, &radiance, &standard_error, error);
-        image_free(&radiance);
-        image_free(&standard_error);
-    } else
-        ok = false;
+    const bool ok = scene_apply_lights(&world, &a->lights, error) &&
+                    scene_place_camera(&world, &a->camera, a->size, &settings->camera, error) &&
+                    choose_materials(a, &world, &all, &sources, error) &&
+                    reference_render(&world, settings, &radiance, &standard_error, error) &&
+                    write_picture(a, &radiance, &standard_error, error);
+    image_free(&radiance);
+    image_free(&standard_error);
+    free(sources);
+    materials_free(&all);
     scene_free(&world);
     return ok;
 }
@@ -75,17 +103,17 @@ static bool parse_light(const char *text, scene_light *light, cli_error *error) 
 
 static bool solve_point(const reference_arguments *a, cli_error *error) {
     scene_light lights[sizeof a->point_lights.items / sizeof *a->point_lights.items];
-    reference_material material = { .exponent = (double)a->exponent };
+    reference_material lobes = { .exponent = (double)a->exponent };
     reference_surface surface;
     double radiance[3];
     for (int i = 0; i < a->point_lights.count; i++)
         if (!parse_light(a->point_lights.items[i], &lights[i], error))
             return false;
     for (int c = 0; c < 3; c++) {
-        material.diffuse[c] = (double)a->diffuse[c];
-        material.specular[c] = (double)a->specular[c];
+        lobes.diffuse[c] = (double)a->diffuse[c];
+        lobes.specular[c] = (double)a->specular[c];
     }
-    reference_surface_set(&surface, &a->settings.cut, &material, reference_from_floats(a->point),
+    reference_surface_set(&surface, &a->settings.cut, &lobes, reference_from_floats(a->point),
                           reference_normalize(reference_from_floats(a->normal)),
                           reference_normalize(reference_from_floats(a->view)));
     reference_quadrature(&surface, lights, (size_t)a->point_lights.count, radiance);
@@ -124,6 +152,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL },
         { "size", 's', CLI_SIZE, a.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         SCENE_CAMERA_OPTION_ROWS(a.camera),
+        MATERIALS_OPTION_ROW(a.materials),
         { "spp", 0, CLI_INT, &a.settings.samples, "N",
           "light samples a pixel; with --error the most", 1, 1000000, NULL, NULL },
         { "error", 0, CLI_FLOAT, &a.error, "E",

@@ -19,6 +19,7 @@ static const paper_step steps[] = {
     { "table", "Section 4.2: analytic or tabulated", paper_step_table },
     { "san-miguel", "Figure 1: ten lights, ten bands", paper_step_san_miguel },
     { "sponza", "Figure 5: thirty lights, five and eight bands", paper_step_sponza },
+    { "materials", "Figure 6: measured materials", paper_step_materials },
     { "cost", "What band limiting costs", paper_step_cost },
 };
 #define STEPS ((int)(sizeof steps / sizeof *steps))
@@ -57,6 +58,16 @@ bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...) {
     if (p->options->run(argc - 1, argv + 1) != CLI_OK)
         return cli_fail(error, NULL, "the command \"%s\" failed", line);
     return true;
+}
+
+bool paper_compare(const char *picture, const char *truth, compare_result *result,
+                   cli_error *error) {
+    image a = { .rgb = NULL }, b = { .rgb = NULL };
+    const bool ok = image_read(picture, &a, error) && image_read(truth, &b, error) &&
+                    compare_images(&a, &b, 0, result, error);
+    image_free(&a);
+    image_free(&b);
+    return ok;
 }
 
 double paper_now(void) {

@@ -4,6 +4,7 @@
 #ifndef LAMPION_PAPER_H
 #define LAMPION_PAPER_H
 
+#include "app/compare/compare.h"
 #include "app/paper/page.h"
 
 /* Runs a command line of the program ("render builtin:atrium …"); returns its exit status. */
@@ -45,12 +46,17 @@ bool paper_step_operations(paper *p, cli_error *error);
 bool paper_step_table(paper *p, cli_error *error);
 bool paper_step_san_miguel(paper *p, cli_error *error);
 bool paper_step_sponza(paper *p, cli_error *error);
+bool paper_step_materials(paper *p, cli_error *error);
 bool paper_step_cost(paper *p, cli_error *error);
 
 /* Runs a command line of the program, its words separated by single blanks; `show` puts it on the
  * page. */
 bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+
+/* Compares two files of pictures. */
+bool paper_compare(const char *picture, const char *truth, compare_result *result,
+                   cli_error *error);
 
 /* Seconds of a steady clock. */
 double paper_now(void);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* The paper's pictures: made by `render`, timed, and judged by `reference`. */
-#include "app/compare/compare.h"
 #include "app/gpu/gpu.h"
 #include "app/paper/paper.h"
 
@@ -89,16 +88,6 @@ static bool time_figure(paper *p, const figure *f, cli_error *error) {
     return ok;
 }
 
-static bool compare_files(const char *picture, const char *truth, compare_result *result,
-                          cli_error *error) {
-    image a = { .rgb = NULL }, b = { .rgb = NULL };
-    const bool ok = image_read(picture, &a, error) && image_read(truth, &b, error) &&
-                    compare_images(&a, &b, 0, result, error);
-    image_free(&a);
-    image_free(&b);
-    return ok;
-}
-
 /* The error of each number of bands against the ground truth, and that of a second ground truth of
  * other noise: no smaller error can be told from noise. */
 static bool judge(paper *p, const figure *f, cli_error *error) {
@@ -122,7 +111,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
         if (!paper_run(p, false, error,
                        "render %s %s --size %dx%d --bands %d --window hanning -o %s", f->scene,
                        f->lights, f->width, f->height, f->bands[count], ours) ||
-            !compare_files(ours, picture, &result, error))
+            !paper_compare(ours, picture, &result, error))
             return false;
         x[count] = f->bands[count];
         rough[count] = result.values[COMPARE_RELMSE];
@@ -132,7 +121,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
     }
     char again[64];
     snprintf(again, sizeof again, "%s-again.exr", f->name);
-    if (!compare_files(again, picture, &result, error))
+    if (!paper_compare(again, picture, &result, error))
         return false;
     page_table_row(&table, "noise alone|%.3e|%.5f|%.3g at %d×%d", result.values[COMPARE_RELMSE],
                    result.values[COMPARE_SSIM], result.values[COMPARE_MAX], result.max_x,
