@@ -48,6 +48,7 @@ static const lmp_kernels *kernels_best(unsigned flags, unsigned *flag) {
         return &lmp_kernels_vector;
     }
 #endif
+    (void)flags; /* read by none where scalar is all there is */
     *flag = LMP_CPU_SCALAR;
     return &lmp_kernels_scalar;
 }
