@@ -20,6 +20,9 @@ void page_text(paper_page *page, const char *format, ...) __attribute__((format(
 /* The command that made what follows. */
 void page_command(paper_page *page, const char *command);
 void page_failure(paper_page *page, const char *text);
+/* Pictures between these stand side by side where there is room. */
+void page_row_begin(paper_page *page);
+void page_row_end(paper_page *page);
 void page_picture(paper_page *page, const char *file, const char *caption);
 
 /* A table, written to FILE.csv too. Cells are separated by '|'. */
