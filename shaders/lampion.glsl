@@ -47,6 +47,8 @@
 
 #define LMP_PI       3.14159265358979
 #define LMP_SH_COUNT (LMP_BANDS * LMP_BANDS)
+/* coefficients with m >= 0, all that a function symmetric to y has */
+#define LMP_HALF_COUNT (LMP_BANDS * (LMP_BANDS + 1) / 2)
 
 /* A point to shade; view points to the viewer. */
 struct lmp_surface {
@@ -102,6 +104,7 @@ struct lmp_cap {
 /* Indices that stay legal in the blocks the constant tests remove. */
 #define LMP_BAND(l)     (l < LMP_BANDS ? l : 0)
 #define LMP_INDEX(l, m) (l < LMP_BANDS && l >= (m < 0 ? -(m) : m) ? l * l + l + m : 0)
+#define LMP_HALF_INDEX(l, m) (LMP_INSIDE(l, m) ? l * (l + 1) / 2 + m : 0)
 
 /* Weight of band l under LMP_WINDOW; a constant for a constant l. */
 float lmp_window_weight(int l) {
@@ -200,6 +203,19 @@ void lmp_cap_zonal(lmp_cap cap, out float R[LMP_BANDS]) {
 #undef LMP_STEP
 }
 
+/* What multiplies pi Y_lm(axis) in the coefficients of a cap of radiance 1, band by band. */
+void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
+    lmp_cap_zonal(cap, R);
+    R[0] = cap.base;
+    if (LMP_BANDS > 1)
+        R[LMP_BAND(1)] = cap.strength;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS)                                                                             \
+        R[LMP_BAND(l)] *= cap.strength;
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+}
+
 /* Y_lm(w) (paper Eq. 1), in Cartesian form: no angles, no poles. */
 void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {
     float c = 1.0, s = 0.0, diagonal = sqrt(0.25 / LMP_PI), q, q1, q2, t;
@@ -233,14 +249,13 @@ void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {
 void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
     lmp_cap cap = lmp_cap_of_sphere(sphere, point);
     float R[LMP_BANDS];
-    lmp_cap_zonal(cap, R);
+    lmp_cap_series(cap, R);
     lmp_sh_eval(cap.axis, sh);
-    sh[0] *= LMP_PI * cap.base;
 #define LMP_ROW(l, m)                                                                              \
-    if (l > 0 && LMP_INSIDE(l, m)) {                                                               \
-        sh[LMP_INDEX(l, m)] *= LMP_PI * cap.strength * R[LMP_BAND(l)];                             \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        sh[LMP_INDEX(l, m)] *= LMP_PI * R[LMP_BAND(l)];                                            \
         if (m > 0)                                                                                 \
-            sh[LMP_INDEX(l, -m)] *= LMP_PI * cap.strength * R[LMP_BAND(l)];                        \
+            sh[LMP_INDEX(l, -m)] *= LMP_PI * R[LMP_BAND(l)];                                       \
     }
 #define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
     LMP_FOR_COLUMNS(LMP_COLUMN)
@@ -313,109 +328,108 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
     return max(sum, vec3(0.0));
 }
 
-/* The same by the paper's method: the LMP_SH_COUNT coefficients of all lights are summed, then
- * multiplied with those of the material.
+/* The same by the paper's method: the coefficients of all lights are summed, then multiplied with
+ * those of the material.
  *
- * Y_lm is carried as q_l(z) times the real and imaginary part of (x + iy)^m, with q_l monic; the
- * squares of its norms are applied once, to the sums. */
+ * Both lobes lie in the plane of normal and view. In a frame whose z is the normal and whose x lies
+ * in that plane their coefficients vanish for m < 0, so only the others are summed; the lights'
+ * directions are brought into that frame, which is cheaper than rotating coefficients. Y_lm is
+ * carried as q_l(z) times the real part of (x + iy)^m, with q_l monic; the squares of its norms are
+ * applied once, to the sums. */
 vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
-    vec3 sum[LMP_SH_COUNT];
+    vec3 normal = surface.normal, view = surface.view;
+    vec3 tangent = view - normal * dot(view, normal);
+    tangent = dot(tangent, tangent) > 1e-12 ? normalize(tangent)
+              : abs(normal.x) < 0.5         ? normalize(cross(normal, vec3(1.0, 0.0, 0.0)))
+                                            : normalize(cross(normal, vec3(0.0, 1.0, 0.0)));
+    mat3 world_to_local = transpose(mat3(tangent, cross(normal, tangent), normal));
+
+    vec3 sum[LMP_HALF_COUNT];
 #define LMP_ROW(l, m)                                                                              \
-    if (LMP_INSIDE(l, m)) {                                                                        \
-        sum[LMP_INDEX(l, m)] = vec3(0.0);                                                          \
-        sum[LMP_INDEX(l, -m)] = vec3(0.0);                                                         \
-    }
+    if (LMP_INSIDE(l, m))                                                                          \
+        sum[LMP_HALF_INDEX(l, m)] = vec3(0.0);
 #define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
 #undef LMP_ROW
 
     float q, q1, q2, c, s, t;
-    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
-        vec3 radiance = LMP_LIGHT_RADIANCE(i), rgb;
-        vec3 w = cap.axis;
-        float R[LMP_BANDS];
-        lmp_cap_zonal(cap, R);
-        R[0] = cap.base;
-#define LMP_STEP(l)                                                                                \
-    if (l < LMP_BANDS)                                                                             \
-        R[LMP_BAND(l)] *= cap.strength;
-        if (LMP_BANDS > 1)
-            R[LMP_BAND(1)] *= cap.strength;
-        LMP_FOR_BANDS(LMP_STEP)
-#undef LMP_STEP
-        c = 1.0;
-        s = 0.0;
-#define LMP_MONIC(l, m, z)                                                                         \
+#define LMP_MONIC(l, m, z, q, q1, q2)                                                              \
     q = l == m ? 1.0                                                                               \
                : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
     q2 = q1;                                                                                       \
     q1 = q;
-#define LMP_POWER(m, w)                                                                            \
-    t = w.x * c - w.y * s;                                                                         \
-    s = w.x * s + w.y * c;                                                                         \
-    c = t;
+
+    /* Two lights at once: each sum is read and written half as often. An odd last light is paired
+     * with darkness. */
+    for (int i = 0; i < LMP_LIGHT_COUNT; i += 2) {
+        int j = min(i + 1, LMP_LIGHT_COUNT - 1);
+        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
+        lmp_cap cap2 = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(j), surface.position);
+        vec3 w = world_to_local * cap.axis, w2 = world_to_local * cap2.axis;
+        float R[LMP_BANDS], R2[LMP_BANDS];
+        lmp_cap_series(cap, R);
+        lmp_cap_series(cap2, R2);
+        /* the light's colour times (x + iy)^m */
+        vec3 real = LMP_LIGHT_RADIANCE(i), imaginary = vec3(0.0), product;
+        vec3 real2 = i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_RADIANCE(j) : vec3(0.0);
+        vec3 imaginary2 = vec3(0.0);
+        float p, p1, p2;
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        LMP_MONIC(l, m, w.z)                                                                       \
-        rgb = radiance * (q * R[LMP_BAND(l)]);                                                     \
-        sum[LMP_INDEX(l, m)] += rgb * c;                                                           \
-        if (m > 0)                                                                                 \
-            sum[LMP_INDEX(l, -m)] += rgb * s;                                                      \
+        LMP_MONIC(l, m, w.z, q, q1, q2)                                                            \
+        LMP_MONIC(l, m, w2.z, p, p1, p2)                                                           \
+        sum[LMP_HALF_INDEX(l, m)] +=                                                               \
+            real * (q * R[LMP_BAND(l)]) + real2 * (p * R2[LMP_BAND(l)]);                           \
     }
+#define LMP_POWER(w, real, imaginary)                                                              \
+    product = w.x * real - w.y * imaginary;                                                        \
+    imaginary = w.x * imaginary + w.y * real;                                                      \
+    real = product;
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
-        q1 = q2 = 0.0;                                                                             \
+        q1 = q2 = p1 = p2 = 0.0;                                                                   \
         LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
-        LMP_POWER(m, w)                                                                            \
+        LMP_POWER(w, real, imaginary)                                                              \
+        LMP_POWER(w2, real2, imaginary2)                                                           \
     }
         LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
+#undef LMP_POWER
 #undef LMP_ROW
     }
 
-    vec3 mirror = reflect(-surface.view, surface.normal), reflected = vec3(0.0);
     float diffuse[LMP_BANDS], glossy[LMP_BANDS];
     lmp_lobe_diffuse(diffuse);
     lmp_lobe_phong(material.exponent, glossy);
-    float norm = 0.0, diagonal;
-    vec3 w, along, part;
+    vec2 mirror = vec2(-dot(view, tangent), dot(view, normal)); /* its x and z; y is 0 */
+    vec3 gathered_diffuse = vec3(0.0), gathered_glossy = vec3(0.0);
+    float power = 1.0, diagonal = 0.25, norm = 0.0;
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        LMP_MONIC(l, m, w.z)                                                                       \
+        LMP_MONIC(l, m, mirror.y, q, q1, q2)                                                       \
         norm = l == m ? diagonal                                                                   \
                       : norm * float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m);           \
-        along = sum[LMP_INDEX(l, m)] * c;                                                          \
-        if (m > 0)                                                                                 \
-            along += sum[LMP_INDEX(l, -m)] * s;                                                    \
-        part += along * (norm * q * lambda[LMP_BAND(l)]);                                          \
+        gathered_glossy +=                                                                         \
+            sum[LMP_HALF_INDEX(l, m)] * (power * norm * q * glossy[LMP_BAND(l)]);                  \
+        if (m == 0) {                                                                              \
+            LMP_MONIC(l, m, 1.0, c, s, t)                                                          \
+            gathered_diffuse += sum[LMP_HALF_INDEX(l, m)] * (norm * c * diffuse[LMP_BAND(l)]);     \
+        }                                                                                          \
     }
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
-        q1 = q2 = 0.0;                                                                             \
+        q1 = q2 = s = t = 0.0;                                                                     \
         LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
         diagonal *= m == 0 ? 3.0 : float(2 * m + 3) / float(2 * m + 2);                            \
-        LMP_POWER(m, w)                                                                            \
+        power *= mirror.x;                                                                         \
     }
-#define LMP_LOBE(axis, factors, color)                                                             \
-    {                                                                                              \
-        float lambda[LMP_BANDS] = factors;                                                         \
-        w = axis;                                                                                  \
-        c = 1.0;                                                                                   \
-        s = 0.0;                                                                                   \
-        diagonal = 0.25;                                                                           \
-        part = vec3(0.0);                                                                          \
-        LMP_FOR_COLUMNS(LMP_COLUMN)                                                                \
-        reflected += color * part;                                                                 \
-    }
-    LMP_LOBE(surface.normal, diffuse, material.diffuse / LMP_PI)
-    LMP_LOBE(mirror, glossy, material.specular)
-#undef LMP_LOBE
+    LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
 #undef LMP_ROW
-#undef LMP_POWER
 #undef LMP_MONIC
+    vec3 reflected =
+        material.diffuse / LMP_PI * gathered_diffuse + material.specular * gathered_glossy;
     return max(reflected, vec3(0.0));
 }
 
