@@ -92,7 +92,7 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
 }
 SHARED_END(shared_material);
 
-/* What gpu_read_surfaces brings back of a pixel: lmp_surface and lmp_material as evaluated. */
+/* What gpu_read_pixels brings back of a pixel: lmp_surface and lmp_material as evaluated. */
 #ifdef LAMPION_SHADER
 struct shared_pixel {
 #else

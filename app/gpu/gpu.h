@@ -25,7 +25,7 @@ typedef struct gpu_context {
 } gpu_context;
 
 /* A context without a window, current on return. device: NULL takes the first hardware device, else
- * software; "software"; a number as gpu_list_devices counts; or a part of a device's name.
+ * software; "software"; a number in EGL's list of devices, from 0; or a part of a device's name.
  *
  * Errors name what was found and the Debian package that is missing. The environment variable
  * LAMPION_GL_DEBUG=fatal makes OpenGL check every call and abort on the first complaint. */
