@@ -89,9 +89,6 @@ bool gpu_read_rgb8(gpu_renderer *renderer, float exposure, unsigned char *rgb8, 
 /* The HDR target, linear; *image is created. */
 bool gpu_read_image(gpu_renderer *renderer, image *image, cli_error *error);
 
-/* The GL name of the HDR target, for passes of one's own. */
-unsigned gpu_hdr_texture(const gpu_renderer *renderer);
-
 /* --- what the shaders see ----------------------------------------------------------------------
  */
 

@@ -457,7 +457,3 @@ bool gpu_read_image(gpu_renderer *r, image *picture, cli_error *error) {
     glGetTextureImage(r->hdr, 0, GL_RGB, GL_FLOAT, (GLsizei)size, picture->rgb);
     return true;
 }
-
-unsigned gpu_hdr_texture(const gpu_renderer *r) {
-    return r->hdr;
-}

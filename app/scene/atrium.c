@@ -10,8 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-#define PI 3.14159265f
-
 #define BAY         3.0f /* from column to column */
 #define BAYS_LONG   8    /* along the court, times the parameter tiles */
 #define BAYS_ACROSS 3

@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265f
-
 static uint32_t add_material(scene_builder *builder, const char *name, float r, float g, float b,
                              float roughness, float metallic) {
     const uint32_t index = (uint32_t)builder_count(builder, BLOB_MATERIALS);

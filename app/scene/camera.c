@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* The camera a command line asks for. */
 #include "app/scene/scene.h"
+#include "app/scene/vector.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979f
 
 static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
                         cli_error *error) {

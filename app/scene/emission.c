@@ -3,8 +3,6 @@
 
 #include "app/scene/vector.h"
 
-#define PI 3.14159265358979
-
 static double triangle_area(const scene_vertex *vertices, const uint32_t *corners) {
     const lmp_vec3 a = vec_load(vertices[corners[0]].position);
     const lmp_vec3 b = vec_load(vertices[corners[1]].position);
@@ -51,8 +49,8 @@ bool emission_add_lights(scene_builder *builder, const char *subject, cli_error 
         light->radius = radius;
         vec_store(center, light->center);
         for (int k = 0; k < 3; k++)
-            light->radiance[k] = (float)(sides * area * PI * (double)emission[k] /
-                                         (4.0 * PI * PI * (double)radius * (double)radius));
+            light->radiance[k] = (float)(sides * area * M_PI * (double)emission[k] /
+                                         (4.0 * M_PI * M_PI * (double)radius * (double)radius));
     }
     return true;
 }

@@ -5,8 +5,6 @@
 
 #include <string.h>
 
-#define PI 3.14159265358979
-
 /* Lights without a radius in their extras: relative to the diagonal of the scene's bounds. */
 #define DEFAULT_RADIUS 0.01
 /* A directional light becomes a sphere this many diagonals away with the sun's radius of 0.27°. */
@@ -71,7 +69,7 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     const double fov = strcmp(gltf_text(entry, "type"), "orthographic") == 0
                            ? wide
                            : gltf_number(gltf_member(entry, "perspective"), "yfov", 0.7854);
-    if (!(fov > 0.0 && fov < PI))
+    if (!(fov > 0.0 && fov < M_PI))
         return cli_fail(error, document->subject,
                         "is no valid glTF: camera %ld has an impossible field of view", index);
     camera->fov = (float)fmin(fov, 3.1);
@@ -114,7 +112,7 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
     light->radius = (float)radius;
     for (int k = 0; k < 3; k++) {
         light->center[k] = (float)center[k];
-        light->radiance[k] = (float)(strength * color[k] / (PI * radius * radius));
+        light->radiance[k] = (float)(strength * color[k] / (M_PI * radius * radius));
     }
     return true;
 }

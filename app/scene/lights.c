@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265f
-
 /* Random lights: radii relative to the scene's size, and the mean irradiance (a white light spread
  * over the scene's bounding sphere) that their powers add up to. */
 #define RANDOM_RADIUS_SMALL 0.008f

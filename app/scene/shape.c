@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI          3.14159265f
 #define CREASE_COS  0.64f /* 50° */
 #define PROFILE_MAX 128
 

@@ -7,6 +7,8 @@
 
 #include <math.h>
 
+#define PI 3.14159265f /* M_PI is the double */
+
 static inline lmp_vec3 vec(float x, float y, float z) {
     return (lmp_vec3) { x, y, z };
 }
