@@ -12,7 +12,7 @@
 #define LAMPION_SHADE_H
 
 #include <lampion/brdf.h>
-#include <lampion/lobe.h>
+#include <lampion/response.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -72,6 +72,37 @@ LMP_API lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_ma
  * anisotropic table needs it. Zero means the horizontal one, y up x normal */
 LMP_API lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
                                 lmp_vec3 tangent, const lmp_light *lights, size_t count);
+
+/* lmp_shade from a response of the same bands and window, within the response's error: its cost
+ * does not depend on the bands. */
+LMP_API lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_material *material,
+                                        const lmp_surface *surface, const lmp_light *lights,
+                                        size_t count);
+
+/* --- many surfaces -------------------------------------------------------------------------------
+ * Vectorised over the surfaces; the same values as one by one, to rounding. The same bits on every
+ * instruction set. Split the surfaces among your threads. */
+
+/* Members of lmp_surface and lmp_material, wherever they are (base.h); x, y, z of the two
+ * reflectances are red, green, blue. */
+typedef struct lmp_surfaces {
+    lmp_vec3_array position, normal, view;
+    lmp_vec3_array diffuse, specular;
+    lmp_float_array exponent;
+    const lmp_brdf_table *const *table; /* of the first surface; NULL: all have lobes */
+    size_t table_stride; /* bytes from one to the next; such surfaces go one by one */
+} lmp_surfaces;
+
+/* Reflected radiance of `count` surfaces under the sum of the lights.
+ *
+ * settings may be NULL (defaults). rgb_stride is the number of floats from one surface's red to the
+ * next one's, 3 and up; 0 means 3. rgb must not overlap what is read */
+LMP_API void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                         size_t count, const lmp_light *lights, size_t light_count,
+                         size_t rgb_stride, float *rgb);
+LMP_API void lmp_shade_preintegrated_n(const lmp_response *response, const lmp_surfaces *surfaces,
+                                       size_t count, const lmp_light *lights, size_t light_count,
+                                       size_t rgb_stride, float *rgb);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #include "src/kernels/gradient.h"
 #include "src/kernels/lobe.h"
 #include "src/kernels/project.h"
+#include "src/kernels/shade.h"
 #include "src/kernels/vectors.h"
 
 extern const lmp_kernels LMP_KERNELS;
@@ -29,4 +30,6 @@ const lmp_kernels LMP_KERNELS = {
     .accumulate = kernel_accumulate,
     .gradient = kernel_gradient,
     .lobe = kernel_lobe,
+    .shade_zonal = kernel_shade_zonal,
+    .shade_response = kernel_shade_response,
 };

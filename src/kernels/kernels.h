@@ -45,6 +45,36 @@ typedef struct lmp_kernel_lights {
     size_t count;
 } lmp_kernel_lights;
 
+/* A response (lampion/response.h), and where lobes lie in it (src/response/eval.h): an array a
+ * member, readable like planes. */
+typedef struct lmp_kernel_response {
+    const int16_t *pairs;
+} lmp_kernel_response;
+
+typedef struct lmp_kernel_places {
+    const uint32_t *first, *columns; /* of the cell, in pairs */
+    const float *share, *density, *lobe_angle;
+} lmp_kernel_places;
+
+/* Surfaces to shade: the axes of a diffuse and of a Phong lobe each. */
+typedef struct lmp_kernel_surfaces {
+    lmp_kernel_vec3 point, normal, mirror;
+    const float *exponent;
+} lmp_kernel_surfaces;
+
+/* A sphere; or with w = 0 a cap of any kind, seen alike from every point: x, y, z its direction,
+ * radius the sine of its half angle. scale is a plane of factors of its radiance, or NULL. */
+typedef struct lmp_kernel_light {
+    float x, y, z, w, radius;
+    lmp_rgb radiance;
+    const float *scale;
+} lmp_kernel_light;
+
+/* What the lobes gather, in planes of red, green, blue; added to. */
+typedef struct lmp_kernel_gathered {
+    float *diffuse[3], *specular[3];
+} lmp_kernel_gathered;
+
 typedef struct lmp_kernels {
     const char *name;
     int lanes;
@@ -76,7 +106,20 @@ typedef struct lmp_kernels {
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
                  const lmp_kernel_out *out);
+    /* Adds what the lobes, cut to `bands` bands with window[l] and diffuse[l] the factors of the
+     * diffuse lobe of integral 1, gather from the lights. */
+    void (*shade_zonal)(int bands, const float *window, const float *diffuse,
+                        const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                        size_t light_count, size_t count, const lmp_kernel_gathered *gathered);
+    /* The same from a response; `diffuse` is one place, LMP_KERNEL_LANES_MAX times. */
+    void (*shade_response)(const lmp_kernel_response *response, const lmp_kernel_places *diffuse,
+                           const lmp_kernel_places *specular, const lmp_kernel_surfaces *surfaces,
+                           const lmp_kernel_light *lights, size_t light_count, size_t count,
+                           const lmp_kernel_gathered *gathered);
 } lmp_kernels;
+
+/* Unit of the coefficients of a response; lampion/response.h publishes it. */
+#define LMP_KERNEL_RESPONSE_UNIT (2.0f / 32767.0f)
 
 /* Fills the table with the best build among `cpu_flags` (lmp_cpu_flag, base.h) that this library
  * and machine have; scalar when there is none. Returns the flag of the build taken. */

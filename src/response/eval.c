@@ -17,7 +17,7 @@ void lmp_response_seek(const lmp_response_info *info, float exponent, lmp_respon
     const int k = (int)fminf(slice, (float)info->cell_count - 1);
     const lmp_response_cell *cell = &info->cells[k];
     *place = (lmp_response_place) {
-        .pairs = info->coefficients + 2 * (size_t)cell->first,
+        .first = cell->first,
         .columns = cell->columns,
         .share = slice - (float)k,
         .density = lmp_response_density(cell, exponent),
@@ -34,7 +34,8 @@ static void spline_weights(float x, float w[4]) {
     w[3] = x * x * x / 6;
 }
 
-float lmp_response_at(const lmp_response_place *place, float one_minus, float cosine) {
+float lmp_response_at(const lmp_response_info *info, const lmp_response_place *place,
+                      float one_minus, float cosine) {
     const float across = lmp_response_angle(1 - fabsf(cosine));
     const float g = cosine < 0 ? (float)LMP_RESPONSE_PI - across : across;
     const float x = g * place->density, y = lmp_response_angle(one_minus) * place->density;
@@ -43,7 +44,8 @@ float lmp_response_at(const lmp_response_place *place, float one_minus, float co
     spline_weights(x - (float)column, wx);
     spline_weights(y - (float)row, wy);
     for (size_t i = 0; i < 4; i++) {
-        const int16_t *pair = place->pairs + 2 * ((row + i) * place->columns + column);
+        const int16_t *pair =
+            info->coefficients + 2 * (place->first + (row + i) * place->columns + column);
         for (size_t j = 0; j < 4; j++)
             sum +=
                 wy[i] * wx[j] *
@@ -60,5 +62,5 @@ float lmp_response_eval(const lmp_response *response, float exponent, float one_
     const lmp_response_info info = lmp_response_describe(response);
     lmp_response_place place;
     lmp_response_seek(&info, exponent, &place);
-    return lmp_response_at(&place, one_minus, fminf(fmaxf(cosine, -1), 1));
+    return lmp_response_at(&info, &place, one_minus, fminf(fmaxf(cosine, -1), 1));
 }

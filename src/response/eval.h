@@ -3,6 +3,8 @@
 #ifndef LAMPION_RESPONSE_EVAL_H
 #define LAMPION_RESPONSE_EVAL_H
 
+#include "src/kernels/angle.h"
+
 #include <lampion/response.h>
 
 #include <math.h>
@@ -13,17 +15,17 @@
 
 /* Where an exponent lies. */
 typedef struct lmp_response_place {
-    const int16_t *pairs; /* of the cell */
-    uint32_t columns;
-    float share;      /* of the second slice */
-    float density;    /* 1/step */
-    float lobe_angle; /* sr */
+    uint32_t first, columns; /* of the cell, in pairs */
+    float share;             /* of the second slice */
+    float density;           /* 1/step */
+    float lobe_angle;        /* sr */
 } lmp_response_place;
 
 void lmp_response_seek(const lmp_response_info *info, float exponent, lmp_response_place *place);
 
 /* lmp_response_eval at a place; cosine in -1 … 1. */
-float lmp_response_at(const lmp_response_place *place, float one_minus, float cosine);
+float lmp_response_at(const lmp_response_info *info, const lmp_response_place *place,
+                      float one_minus, float cosine);
 
 /* 1/step of a cell's grid at an exponent. */
 float lmp_response_density(const lmp_response_cell *cell, float exponent);
@@ -31,19 +33,9 @@ float lmp_response_density(const lmp_response_cell *cell, float exponent);
 /* The lobe's own solid angle, by which values are scaled. */
 float lmp_response_lobe_angle(const lmp_response_info *info, float exponent);
 
-/* acos(1 - y), y in 0 … 1, to 3e-8 and relatively as exact for small y (Abramowitz and Stegun
- * 4.4.46). */
+/* acos(1 - y), y in 0 … 1. */
 static inline float lmp_response_angle(float y) {
-    const float x = 1 - y;
-    float p = -0.0012624911f;
-    p = p * x + 0.0066700901f;
-    p = p * x - 0.0170881256f;
-    p = p * x + 0.0308918810f;
-    p = p * x - 0.0501743046f;
-    p = p * x + 0.0889789874f;
-    p = p * x - 0.2145988016f;
-    p = p * x + 1.5707963050f;
-    return sqrtf(y) * p;
+    return sqrtf(y) * LMP_ANGLE(1 - y);
 }
 
 #endif

@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: MIT */
+/* shade.h - what the lobes of many surfaces gather from many lights (shade.h of the API): lanes are
+ * surfaces, each with its own normal, mirror direction and exponent; lights are broadcast.
+ *
+ * Of each light a surface needs two numbers: what the diffuse and the Phong lobe answer to its cap.
+ * `zonal` sums bands; `response` reads them from a table of B-spline coefficients. */
+#ifndef LAMPION_KERNELS_SHADE_H
+#define LAMPION_KERNELS_SHADE_H
+
+#include "src/kernels/accumulate.h"
+#include "src/kernels/angle.h"
+
+/* --- lights ----------------------------------------------------------------------------------- */
+
+/* A cap of at most a hemisphere round (x, y, z), and light from everywhere (lmp_cap). */
+typedef struct shade_cap {
+    vf x, y, z, t;
+    vf strength, mean, ambient; /* of radiance 1; mean = strength R_0, the cap's solid angle */
+} shade_cap;
+
+LMP_INLINE shade_cap shade_sphere(const lmp_kernel_light *light, size_t e, const vf point[3]) {
+    cap_lanes sphere = cap_from(light->x - light->w * point[0], light->y - light->w * point[1],
+                                light->z - light->w * point[2], vf_set(light->radius), 0);
+    cap_axis(&sphere);
+    shade_cap cap = { sphere.x,
+                      sphere.y,
+                      sphere.z,
+                      sphere.t,
+                      LMP_KERNEL_PI * sphere.s2,
+                      (2 * LMP_KERNEL_PI) * sphere.t,
+                      vf_set(0) };
+    if (__builtin_expect(sphere.inside, 0)) {
+        /* even is -1 inside: the complementary cap is taken away from light all around. */
+        cap.x = cap.x * sphere.even;
+        cap.y = cap.y * sphere.even;
+        cap.z = cap.z * sphere.even;
+        cap.strength = cap.strength * sphere.even;
+        cap.mean = cap.mean * sphere.even;
+        cap.ambient = (vf_set(1) - sphere.even) * 0.5f;
+    }
+    if (__builtin_expect(light->scale != NULL, 0)) {
+        const vf scale = vf_load(light->scale + e);
+        cap.strength = cap.strength * scale;
+        cap.mean = cap.mean * scale;
+        cap.ambient = cap.ambient * scale;
+    }
+    return cap;
+}
+
+/* What both lobes of a block of surfaces have gathered: red, green, blue. */
+typedef struct shade_sums {
+    vf diffuse[3], specular[3];
+} shade_sums;
+
+LMP_INLINE void shade_gather(lmp_rgb rgb, vf diffuse, vf specular, shade_sums *sums) {
+    sums->diffuse[0] = sums->diffuse[0] + rgb.r * diffuse;
+    sums->diffuse[1] = sums->diffuse[1] + rgb.g * diffuse;
+    sums->diffuse[2] = sums->diffuse[2] + rgb.b * diffuse;
+    sums->specular[0] = sums->specular[0] + rgb.r * specular;
+    sums->specular[1] = sums->specular[1] + rgb.g * specular;
+    sums->specular[2] = sums->specular[2] + rgb.b * specular;
+}
+
+LMP_INLINE void shade_planes(const lmp_kernel_vec3 *planes, size_t e, vf to[3]) {
+    to[0] = vf_load(planes->x + e);
+    to[1] = vf_load(planes->y + e);
+    to[2] = vf_load(planes->z + e);
+}
+
+LMP_INLINE void shade_sums_load(const lmp_kernel_gathered *gathered, size_t e, shade_sums *sums) {
+    for (int c = 0; c < 3; c++) {
+        sums->diffuse[c] = vf_load(gathered->diffuse[c] + e);
+        sums->specular[c] = vf_load(gathered->specular[c] + e);
+    }
+}
+
+LMP_INLINE void shade_sums_store(const shade_sums *sums, size_t e,
+                                 const lmp_kernel_gathered *gathered) {
+    for (int c = 0; c < 3; c++) {
+        vf_store(gathered->diffuse[c] + e, sums->diffuse[c]);
+        vf_store(gathered->specular[c] + e, sums->specular[c]);
+    }
+}
+
+LMP_INLINE vf shade_dot(const vf a[3], const shade_cap *cap) {
+    return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
+}
+
+/* --- zonal ------------------------------------------------------------------------------------ */
+
+/* Up to so many bands all recurrences run in monic form, x p_(l-1) - c_l p_(l-2): the product of
+ * two monic polynomials then stays a normal float. */
+#define ZONAL_MONIC_BANDS 48
+
+/* Blocks of surfaces that run side by side: the recurrences of one wait for themselves. */
+#define ZONAL_BLOCKS (LMP_LANES == 1 ? 1 : 2)
+
+/* What is the same for every surface. Members go by band; the factors of R_l P_l hold their norms.
+ * Even bands of the diffuse lobe take two steps at once:
+ * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4). One more band, of weight 0, makes pairs. */
+typedef struct zonal_tables {
+    float diffuse[LMP_BANDS_MAX + 2], phong[LMP_BANDS_MAX + 2];
+    float cap[LMP_BANDS_MAX + 2];
+    float even_a[LMP_BANDS_MAX + 2], even_b[LMP_BANDS_MAX + 2], even_c[LMP_BANDS_MAX + 2];
+} zonal_tables;
+
+/* P_l = t_l u P_(l-1) - d_l P_(l-2), or in monic form t = 1. */
+LMP_INLINE double zonal_t(int monic, int l) {
+    return monic ? 1 : (2 * l - 1) / (double)l;
+}
+LMP_INLINE double zonal_d(int monic, int l) {
+    return monic ? (l - 1) * (l - 1) / (double)((2 * l - 1) * (2 * l - 3)) : (l - 1) / (double)l;
+}
+
+static inline void zonal_prepare(int bands, int monic, const float *window, const float *diffuse,
+                                 zonal_tables *tables) {
+    memset(tables, 0, sizeof *tables);
+    double norm_p = 1, norm_r = 1;
+    for (int l = 0; l < bands + bands % 2; l++) {
+        if (monic && l >= 1)
+            norm_p *= (2 * l - 1) / (double)l;
+        if (monic && l >= 2) {
+            /* R_l = (2l-1)/(l+1) alpha R_(l-1) - (l-2)/(l+1) R_(l-2) */
+            norm_r *= (2 * l - 1) / (double)(l + 1);
+            tables->cap[l] =
+                l == 2 ? 0.f : (float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3)));
+        }
+        if (l < bands) {
+            const double scale = (2 * l + 1) / (4 * 3.14159265358979324) * norm_p * norm_r;
+            tables->phong[l] = (float)(scale * (double)window[l]);
+            tables->diffuse[l] = (float)(scale * (double)window[l] * (double)diffuse[l]);
+        }
+        if (l >= 2) {
+            const double t2 = zonal_t(monic, l), t1 = zonal_t(monic, l - 1);
+            const double d2 = zonal_d(monic, l), d1 = zonal_d(monic, l - 1);
+            const double down = l == 2 ? 0 : t2 * d1 / zonal_t(monic, l - 2);
+            tables->even_a[l] = (float)(t2 * t1);
+            tables->even_b[l] = (float)(down + d2);
+            tables->even_c[l] = l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2));
+        }
+    }
+}
+
+/* A block of surfaces and what it has gathered. */
+typedef struct zonal_block {
+    vf point[3], normal[3], mirror[3];
+    vf weights[LMP_BANDS_MAX + 1]; /* of R_l P_l of the Phong lobe */
+    shade_sums sums;
+} zonal_block;
+
+/* lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), of the lobe that integrates to 1. */
+LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, vf *weights) {
+    vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
+    weights[0] = before * tables->phong[0];
+    LMP_ROLLED for (int l = 1; l <= bands; l++) {
+        weights[l] = lambda * tables->phong[l];
+        const vf next = before * ((exponent - (float)(l - 1)) / (exponent + (float)(l + 2)));
+        before = lambda;
+        lambda = next;
+    }
+}
+
+/* One step of R_l, from r1 = R_(l-1) and r0: its predecessor, or in difference form R_(l-1) -
+ * R_(l-2), which costs more and keeps more bands exact. */
+LMP_INLINE void zonal_cap_step(int monic, const float *cap, int l, vf x, vf *r1, vf *r0) {
+    if (monic) {
+        const vf r2 = x * *r1 - cap[l] * *r0;
+        *r0 = *r1;
+        *r1 = r2;
+    } else {
+        *r0 = lmp_table_cap_d[l] * *r0 - lmp_table_cap_t[l] * (x * *r1);
+        *r1 = *r1 + *r0;
+    }
+}
+
+LMP_INLINE void zonal_lobe_step(int monic, int l, vf v, vf *q1, vf *q0) {
+    const vf q2 = monic ? v * *q1 - lmp_table_monic[l] * *q0
+                        : lmp_table_legendre_t[l] * (v * *q1) - lmp_table_legendre_d[l] * *q0;
+    *q0 = *q1;
+    *q1 = q2;
+}
+
+LMP_INLINE void zonal_light(int bands, int monic, int blocks, const zonal_tables *tables,
+                            const lmp_kernel_light *light, size_t e, zonal_block *block) {
+    shade_cap cap[ZONAL_BLOCKS];
+    vf x[ZONAL_BLOCKS], v[ZONAL_BLOCKS], square[ZONAL_BLOCKS], r0[ZONAL_BLOCKS], r1[ZONAL_BLOCKS];
+    vf p0[ZONAL_BLOCKS], p1[ZONAL_BLOCKS], q0[ZONAL_BLOCKS], q1[ZONAL_BLOCKS];
+    vf diffuse[ZONAL_BLOCKS], specular[ZONAL_BLOCKS];
+    LMP_UNROLL for (int k = 0; k < blocks; k++) {
+        cap[k] = shade_sphere(light, e + (size_t)k * LMP_LANES, block[k].point);
+        const vf u = shade_dot(block[k].normal, &cap[k]);
+        v[k] = shade_dot(block[k].mirror, &cap[k]);
+        x[k] = monic ? vf_set(1) - cap[k].t : cap[k].t;
+        square[k] = u * u;
+        r0[k] = vf_set(0);
+        r1[k] = vf_set(1);
+        p0[k] = vf_set(0);
+        p1[k] = vf_set(1);
+        q0[k] = vf_set(1);
+        q1[k] = v[k];
+        diffuse[k] = tables->diffuse[1] * u;
+        specular[k] = block[k].weights[1] * v[k];
+    }
+    LMP_ROLLED for (int l = 2; l < bands; l += 2) {
+        LMP_UNROLL for (int k = 0; k < blocks; k++) {
+            zonal_cap_step(monic, tables->cap, l, x[k], &r1[k], &r0[k]);
+            zonal_lobe_step(monic, l, v[k], &q1[k], &q0[k]);
+            const vf p2 = (tables->even_a[l] * square[k] - tables->even_b[l]) * p1[k] -
+                          tables->even_c[l] * p0[k];
+            p0[k] = p1[k];
+            p1[k] = p2;
+            diffuse[k] = diffuse[k] + tables->diffuse[l] * (r1[k] * p2);
+            specular[k] = specular[k] + block[k].weights[l] * (r1[k] * q1[k]);
+            zonal_cap_step(monic, tables->cap, l + 1, x[k], &r1[k], &r0[k]);
+            zonal_lobe_step(monic, l + 1, v[k], &q1[k], &q0[k]);
+            specular[k] = specular[k] + block[k].weights[l + 1] * (r1[k] * q1[k]);
+        }
+    }
+    const lmp_rgb rgb = light->radiance;
+    LMP_UNROLL for (int k = 0; k < blocks; k++) {
+        const vf zero = cap[k].mean + (4 * LMP_KERNEL_PI) * cap[k].ambient;
+        shade_gather(rgb, cap[k].strength * diffuse[k] + tables->diffuse[0] * zero,
+                     cap[k].strength * specular[k] + block[k].weights[0] * zero, &block[k].sums);
+    }
+}
+
+LMP_INLINE void zonal_blocks(int bands, int monic, int blocks, const zonal_tables *tables,
+                             const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                             size_t light_count, size_t element,
+                             const lmp_kernel_gathered *gathered) {
+    zonal_block block[ZONAL_BLOCKS];
+    LMP_UNROLL for (int k = 0; k < blocks; k++) {
+        const size_t e = element + (size_t)k * LMP_LANES;
+        shade_sums_load(gathered, e, &block[k].sums);
+        shade_planes(&surfaces->point, e, block[k].point);
+        shade_planes(&surfaces->normal, e, block[k].normal);
+        shade_planes(&surfaces->mirror, e, block[k].mirror);
+        zonal_phong(bands, tables, vf_load(surfaces->exponent + e), block[k].weights);
+    }
+    for (size_t i = 0; i < light_count; i++)
+        zonal_light(bands, monic, blocks, tables, &lights[i], element, block);
+    LMP_UNROLL for (int k = 0; k < blocks; k++)
+        shade_sums_store(&block[k].sums, element + (size_t)k * LMP_LANES, gathered);
+}
+
+LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
+                          const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                          size_t light_count, size_t count, const lmp_kernel_gathered *gathered) {
+    size_t e = 0;
+    for (; e + (ZONAL_BLOCKS - 1) * LMP_LANES < count; e += ZONAL_BLOCKS * LMP_LANES)
+        zonal_blocks(bands, monic, ZONAL_BLOCKS, tables, surfaces, lights, light_count, e,
+                     gathered);
+    for (; e < count; e += LMP_LANES)
+        zonal_blocks(bands, monic, 1, tables, surfaces, lights, light_count, e, gathered);
+}
+
+static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
+                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                               size_t light_count, size_t count,
+                               const lmp_kernel_gathered *gathered) {
+    zonal_tables tables;
+    const int monic = bands <= ZONAL_MONIC_BANDS;
+    zonal_prepare(bands, monic, window, diffuse, &tables);
+    if (monic)
+        zonal_all(bands, 1, &tables, surfaces, lights, light_count, count, gathered);
+    else
+        zonal_all(bands, 0, &tables, surfaces, lights, light_count, count, gathered);
+}
+
+/* --- response --------------------------------------------------------------------------------- */
+
+/* The integers of a reading: B-spline weights of four columns, two slices each, in units of
+ * 1/SPLINE_ONE; products with the table's 16-bit values are summed exactly, so every build agrees.
+ */
+#define SPLINE_ONE 32767.0f
+
+/* The cubic B-spline's weights of four neighbours, the point x past the second, times 6. */
+LMP_INLINE void spline_weights(vf x, vf w[4]) {
+    const vf y = 1 - x;
+    w[0] = y * y * y;
+    w[1] = 4 + 3 * (x * x) * (x - 2);
+    w[2] = 4 + 3 * (y * y) * (y - 2);
+    w[3] = x * x * x;
+}
+
+/* Where the lobes of a block lie, and which coefficients a light reads of them. */
+typedef struct response_lanes {
+    const int16_t *cell[LMP_LANES];
+    size_t row_pairs[LMP_LANES];
+    vf share, density, angle;
+} response_lanes;
+
+/* Weights of a reading, one quarter of a row a lane: columns' pairs, then rows. */
+typedef struct response_reading {
+    int16_t columns[LMP_LANES][8] LMP_ALIGNED;
+    float rows[4][LMP_LANES] LMP_ALIGNED;
+    const int16_t *from[LMP_LANES];
+} response_reading;
+
+#if LMP_LANES == 1
+typedef int32_t vi;
+LMP_INLINE vi vi_from(vf x) {
+    return (vi)x;
+}
+LMP_INLINE vf vf_from(vi x) {
+    return (vf)x;
+}
+#else
+LMP_INLINE vi vi_from(vf x) {
+    return __builtin_convertvector(x, vi);
+}
+LMP_INLINE vf vf_from(vi x) {
+    return __builtin_convertvector(x, vf);
+}
+#endif
+
+LMP_INLINE void response_aim(const response_lanes *lobe, vf g, vf a, response_reading *reading) {
+    const vf x = g * lobe->density, y = a * lobe->density;
+    const vi column = vi_from(x), row = vi_from(y);
+    vf across[4], down[4], lanes[4];
+    spline_weights(x - vf_from(column), across);
+    spline_weights(y - vf_from(row), down);
+    const vf second = lobe->share * (SPLINE_ONE / 6), first = (1 - lobe->share) * (SPLINE_ONE / 6);
+    for (int i = 0; i < 4; i++) {
+        vf_store(reading->rows[i], down[i] * (LMP_KERNEL_RESPONSE_UNIT / 6 / SPLINE_ONE));
+        const vi low = vi_from(across[i] * first + 0.5f), high = vi_from(across[i] * second + 0.5f);
+        const vi pair = low | high << 16;
+        memcpy(&lanes[i], &pair, sizeof pair);
+    }
+#if LMP_LANES > 1
+    layout_transpose4(lanes);
+    for (int e = 0; e < LMP_LANES; e++)
+        layout_store_quarter((float *)(void *)reading->columns[e], lanes[e % 4], e / 4);
+#else
+    memcpy(reading->columns[0], lanes, sizeof lanes);
+#endif
+    int32_t columns[LMP_LANES], rows[LMP_LANES];
+    memcpy(columns, &column, sizeof columns);
+    memcpy(rows, &row, sizeof rows);
+    for (int e = 0; e < LMP_LANES; e++)
+        reading->from[e] =
+            lobe->cell[e] + 2 * ((size_t)rows[e] * lobe->row_pairs[e] + (size_t)columns[e]);
+}
+
+/* sums[j] = the four rows' values of column j, their two slices mixed. */
+#if LMP_LANES > 1 && defined(__SSE2__)
+LMP_INLINE void response_lane(const response_lanes *lobe, const response_reading *reading, int e,
+                              float sums[4]) {
+    const __m128i weights = _mm_load_si128((const __m128i *)(const void *)reading->columns[e]);
+    __m128 sum = _mm_setzero_ps();
+    for (int i = 0; i < 4; i++) {
+        const __m128i row = _mm_loadu_si128(
+            (const __m128i *)(const void *)(reading->from[e] + 2 * (size_t)i * lobe->row_pairs[e]));
+        sum = _mm_add_ps(sum, _mm_mul_ps(_mm_set1_ps(reading->rows[i][e]),
+                                         _mm_cvtepi32_ps(_mm_madd_epi16(row, weights))));
+    }
+    _mm_store_ps(sums, sum);
+}
+#else
+LMP_INLINE void response_lane(const response_lanes *lobe, const response_reading *reading, int e,
+                              float sums[4]) {
+    for (int j = 0; j < 4; j++)
+        sums[j] = 0;
+    for (int i = 0; i < 4; i++) {
+        const int16_t *row = reading->from[e] + 2 * (size_t)i * lobe->row_pairs[e];
+        for (int j = 0; j < 4; j++)
+            sums[j] +=
+                reading->rows[i][e] * (float)(row[2 * j] * reading->columns[e][2 * j] +
+                                              row[2 * j + 1] * reading->columns[e][2 * j + 1]);
+    }
+}
+#endif
+
+/* The lobe's answer to a cap of strength R_0 = mean 1, times the two solid angles. */
+LMP_INLINE vf response_read(const response_lanes *lobe, vf g, vf a) {
+    response_reading reading;
+    float sums[LMP_LANES][4] LMP_ALIGNED;
+    response_aim(lobe, g, a, &reading);
+    for (int e = 0; e < LMP_LANES; e++)
+        response_lane(lobe, &reading, e, sums[e]);
+#if LMP_LANES > 1
+    vf v[4];
+    for (int i = 0; i < 4; i++)
+        for (int q = 0; q < LMP_LANES / 4; q++)
+            memcpy((char *)&v[i] + 16 * q, sums[4 * q + i], 16);
+    layout_transpose4(v);
+    return (v[0] + v[1]) + (v[2] + v[3]);
+#else
+    return (sums[0][0] + sums[0][1]) + (sums[0][2] + sums[0][3]);
+#endif
+}
+
+/* acos(u), u in -1 … 1 but for rounding. */
+LMP_INLINE vf shade_angle(vf u) {
+    const vf zero = vf_set(0), beside = vf_max(u, -u), y = vf_max(1 - beside, zero);
+    const vf across = vf_sqrt(y) * LMP_ANGLE(1 - y);
+    return vf_select_less(u, zero, LMP_KERNEL_PI - across, across);
+}
+
+LMP_INLINE void response_lanes_load(const lmp_kernel_response *response,
+                                    const lmp_kernel_places *places, size_t e,
+                                    response_lanes *lanes) {
+    for (size_t i = 0; i < LMP_LANES; i++) {
+        lanes->cell[i] = response->pairs + 2 * (size_t)places->first[e + i];
+        lanes->row_pairs[i] = places->columns[e + i];
+    }
+    lanes->share = vf_load(places->share + e);
+    lanes->density = vf_load(places->density + e);
+    lanes->angle = vf_load(places->lobe_angle + e);
+}
+
+static void kernel_shade_response(const lmp_kernel_response *response,
+                                  const lmp_kernel_places *diffuse,
+                                  const lmp_kernel_places *specular,
+                                  const lmp_kernel_surfaces *surfaces,
+                                  const lmp_kernel_light *lights, size_t light_count, size_t count,
+                                  const lmp_kernel_gathered *gathered) {
+    response_lanes broad, sharp;
+    response_lanes_load(response, diffuse, 0, &broad);
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        vf point[3], normal[3], mirror[3];
+        shade_sums sums;
+        shade_sums_load(gathered, e, &sums);
+        shade_planes(&surfaces->point, e, point);
+        shade_planes(&surfaces->normal, e, normal);
+        shade_planes(&surfaces->mirror, e, mirror);
+        response_lanes_load(response, specular, e, &sharp);
+        for (size_t i = 0; i < light_count; i++) {
+            const shade_cap cap = shade_sphere(&lights[i], e, point);
+            const vf a = vf_sqrt(cap.t) * LMP_ANGLE(1 - cap.t), covered = 2 * LMP_KERNEL_PI * cap.t;
+            const vf d = response_read(&broad, shade_angle(shade_dot(normal, &cap)), a);
+            const vf s = response_read(&sharp, shade_angle(shade_dot(mirror, &cap)), a);
+            /* One division for both: mean over the cap = reading / (cap's + lobe's angle). */
+            const vf wide = covered + broad.angle, narrow = covered + sharp.angle;
+            const vf each = cap.mean / (wide * narrow);
+            shade_gather(lights[i].radiance, d * narrow * each + cap.ambient,
+                         s * wide * each + cap.ambient, &sums);
+        }
+        shade_sums_store(&sums, e, gathered);
+    }
+}
+
+#endif

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/* Shading of many surfaces against shading of one. */
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { COUNT = 331, LIGHTS = 41 };
+
+/* An array of structures, and what comes out, as a host may keep them. */
+typedef struct vertex {
+    lmp_surface surface;
+    lmp_material material;
+} vertex;
+
+static vertex vertices[COUNT];
+static lmp_light lights[LIGHTS];
+
+static float between(double a, double b) {
+    return (float)check_random_between(a, b);
+}
+
+static lmp_rgb color(void) {
+    return (lmp_rgb) { between(0, 1), between(0, 1), between(0, 1) };
+}
+
+static lmp_vec3 place(float size) {
+    return (lmp_vec3) { between(-size, size), between(-size, size), between(-size, size) };
+}
+
+/* Spheres alone, or lights of all kinds; some spheres hold some of the surfaces. */
+static void scatter(bool all_kinds) {
+    for (int i = 0; i < COUNT; i++) {
+        vertices[i].surface =
+            (lmp_surface) { place(1), check_random_direction(), check_random_direction() };
+        vertices[i].material = (lmp_material) { .diffuse = color(),
+                                                .specular = color(),
+                                                .exponent = powf(10, between(0, 3.5)) };
+    }
+    for (int i = 0; i < LIGHTS; i++) {
+        lights[i] = (lmp_light) { .position = place(3),
+                                  .direction = check_random_direction(),
+                                  .radius = between(0.001, 0.8),
+                                  .angle = between(0.01, 2.5),
+                                  .inner = 0.3f,
+                                  .outer = 1.2f,
+                                  .radiance = color(),
+                                  .ground = color() };
+        if (all_kinds)
+            lights[i].kind = (lmp_light_kind)(i % 6);
+    }
+}
+
+static lmp_surfaces interleaved(void) {
+    const lmp_material *m = &vertices[0].material;
+    const lmp_surface *s = &vertices[0].surface;
+    return (lmp_surfaces) {
+        .position = { &s->position.x, &s->position.y, &s->position.z, sizeof(vertex) },
+        .normal = { &s->normal.x, &s->normal.y, &s->normal.z, sizeof(vertex) },
+        .view = { &s->view.x, &s->view.y, &s->view.z, sizeof(vertex) },
+        .diffuse = { &m->diffuse.r, &m->diffuse.g, &m->diffuse.b, sizeof(vertex) },
+        .specular = { &m->specular.r, &m->specular.g, &m->specular.b, sizeof(vertex) },
+        .exponent = { &m->exponent, sizeof(vertex) },
+    };
+}
+
+/* The largest difference from the reference, in units of the largest value. */
+static double difference(const float *rgb, size_t stride,
+                         lmp_rgb (*reference)(const vertex *v, const void *user),
+                         const void *user) {
+    double largest = 0, error = 0;
+    for (int i = 0; i < COUNT; i++) {
+        const lmp_rgb c = reference(&vertices[i], user);
+        const float expected[3] = { c.r, c.g, c.b };
+        for (size_t k = 0; k < 3; k++) {
+            const double d = fabs((double)rgb[(size_t)i * stride + k] - (double)expected[k]);
+            if (!(d <= error))
+                error = d;
+            largest = fmax(largest, (double)expected[k]);
+        }
+    }
+    return error / largest;
+}
+
+static lmp_rgb by_bands(const vertex *v, const void *settings) {
+    return lmp_shade(settings, &v->material, &v->surface, lights, LIGHTS);
+}
+
+/* Straight from lmp_response_eval, light by light. */
+static lmp_rgb by_response(const vertex *v, const void *response) {
+    const lmp_vec3 n = v->surface.normal, e = v->surface.view;
+    const float twice = 2 * (n.x * e.x + n.y * e.y + n.z * e.z);
+    const lmp_vec3 r = { twice * n.x - e.x, twice * n.y - e.y, twice * n.z - e.z };
+    double sum[3] = { 0, 0, 0 };
+    for (int i = 0; i < LIGHTS; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], v->surface.position, &cap);
+        const lmp_vec3 w = cap.axis;
+        const float diffuse =
+            lmp_response_eval(response, 1, cap.one_minus, n.x * w.x + n.y * w.y + n.z * w.z);
+        const float specular = lmp_response_eval(response, v->material.exponent, cap.one_minus,
+                                                 r.x * w.x + r.y * w.y + r.z * w.z);
+        const lmp_rgb d = v->material.diffuse, s = v->material.specular;
+        sum[0] += (double)(cap.strength.r * (d.r * diffuse + s.r * specular) +
+                           cap.ambient.r * (d.r + s.r));
+        sum[1] += (double)(cap.strength.g * (d.g * diffuse + s.g * specular) +
+                           cap.ambient.g * (d.g + s.g));
+        sum[2] += (double)(cap.strength.b * (d.b * diffuse + s.b * specular) +
+                           cap.ambient.b * (d.b + s.b));
+    }
+    return (lmp_rgb) { (float)fmax(sum[0], 0), (float)fmax(sum[1], 0), (float)fmax(sum[2], 0) };
+}
+
+static void many_surfaces_are_shaded_as_one_is(void **state) {
+    (void)state;
+    static float rgb[COUNT * 4];
+    const lmp_surfaces surfaces = interleaved();
+    const int bands[] = { 1, 2, 3, 8, 9, 20, 47, 48, 49, 100, 128 };
+    for (size_t b = 0; b < sizeof bands / sizeof bands[0]; b++) {
+        for (int kinds = 0; kinds < 2; kinds++) {
+            scatter(kinds != 0);
+            const lmp_shade_settings settings = { .bands = bands[b],
+                                                  .window = (lmp_window)(b % 3) };
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 4, rgb);
+            CHECK_WITHIN(difference(rgb, 4, by_bands, &settings), 3e-4);
+        }
+    }
+}
+
+static void many_surfaces_are_read_from_a_response_as_one_is(void **state) {
+    (void)state;
+    static float rgb[COUNT * 3];
+    const lmp_surfaces surfaces = interleaved();
+    const int bands[] = { 1, 2, 8, 50 };
+    for (size_t b = 0; b < sizeof bands / sizeof bands[0]; b++) {
+        lmp_response *response;
+        const lmp_response_desc desc = { .bands = bands[b] };
+        const lmp_shade_settings settings = { .bands = bands[b] };
+        assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+        for (int kinds = 0; kinds < 2; kinds++) {
+            scatter(kinds != 0);
+            lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+            CHECK_WITHIN(difference(rgb, 3, by_response, response), 1e-4);
+            /* Its own largest value may miss the peak of a light, which the error is a part of. */
+            CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 1e-2);
+        }
+        lmp_response_destroy(response);
+    }
+}
+
+static void every_instruction_set_gives_the_same_bits(void **state) {
+    (void)state;
+    static float first[2][COUNT * 3], rgb[2][COUNT * 3];
+    const lmp_surfaces surfaces = interleaved();
+    lmp_response *response;
+    assert_int_equal(lmp_response_create(NULL, NULL, &response), LMP_OK);
+    scatter(true);
+    for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
+        if (lmp_cpu_mask(flag) != flag)
+            continue;
+        lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, 0, rgb[0]);
+        lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb[1]);
+        if (flag == LMP_CPU_SCALAR)
+            memcpy(first, rgb, sizeof rgb);
+        assert_memory_equal(first, rgb, sizeof rgb);
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+    lmp_response_destroy(response);
+}
+
+static void any_count_and_any_stride_writes_only_its_own(void **state) {
+    (void)state;
+    static float whole[COUNT * 3], some[COUNT * 5];
+    const lmp_surfaces surfaces = interleaved();
+    scatter(true);
+    lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, 0, whole);
+    for (size_t count = 0; count < 40; count++) {
+        for (size_t i = 0; i < COUNT * 5; i++)
+            some[i] = -7;
+        lmp_shade_n(NULL, &surfaces, count, lights, LIGHTS, 5, some);
+        for (size_t i = 0; i < COUNT * 5; i++)
+            if (i / 5 < count && i % 5 < 3)
+                assert_memory_equal(&some[i], &whole[i / 5 * 3 + i % 5], sizeof(float));
+            else
+                assert_true(some[i] > -7.5f && some[i] < -6.5f);
+    }
+    lmp_shade_n(NULL, &surfaces, 2, NULL, 0, 0, some);
+    for (int i = 0; i < 6; i++)
+        CHECK_WITHIN(fabsf(some[i]), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(many_surfaces_are_shaded_as_one_is),
+        cmocka_unit_test(many_surfaces_are_read_from_a_response_as_one_is),
+        cmocka_unit_test(every_instruction_set_gives_the_same_bits),
+        cmocka_unit_test(any_count_and_any_stride_writes_only_its_own),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
