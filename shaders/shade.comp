@@ -8,6 +8,22 @@
 #define LMP_LIGHT_RADIANCE(i) lights[i].radiance.rgb
 #include "lampion.glsl"
 
+#ifdef SHADE_RESPONSE
+layout(std430, binding = SHARED_RESPONSE_PAIRS) readonly buffer response_pairs {
+    uint pairs[];
+};
+layout(std430, binding = SHARED_RESPONSE) readonly buffer response_block {
+    vec4 shape;
+    vec4 cells[SHARED_RESPONSE_CELLS];
+    float warp[SHARED_RESPONSE_WARP];
+};
+#define LMP_RESPONSE_PAIR(i) pairs[i]
+#define LMP_RESPONSE_CELL(i) cells[i]
+#define LMP_RESPONSE_WARP(i) warp[i]
+#define LMP_RESPONSE_SHAPE   shape
+#include "response.glsl"
+#endif
+
 #include "pixel.glsl"
 #ifdef TABLE_FULL
 #include "table.glsl"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion bench - what the batch kernels cost (docs/benchmarks.md). */
+#include "app/command/bench.h"
 #include "app/command/command.h"
 
 #include <lampion/lampion.h>
@@ -558,6 +559,8 @@ static void print_header(const bench_options *o) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
+    if (argc > 1 && strcmp(argv[1], "gpu") == 0)
+        return bench_gpu(command, argc - 1, argv + 1);
     bench_options o = { .mask = LMP_CPU_ALL };
     const cli_option options[] = {
         { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
@@ -583,7 +586,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (count != 1 || strcmp(operands[0], "cpu") != 0)
-        return cli_usage(command, "what to measure: cpu");
+        return cli_usage(command, "what to measure: cpu or gpu");
     static bench_inputs in;
     cli_error error = { "" };
     bool done = inputs_create(&in);
@@ -608,9 +611,10 @@ static int run(const cli_command *command, int argc, char **argv) {
 
 const cli_command command_bench = {
     .name = "bench",
-    .operands = "cpu",
+    .operands = "cpu|gpu",
     .summary = "measure the batch kernels on every instruction set",
     .examples = "  lampion bench cpu\n"
-                "  lampion bench cpu --cpu-mask 4 --json > avx2.json\n",
+                "  lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
+                "  lampion bench gpu --size 600x816\n",
     .run = run,
 };

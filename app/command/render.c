@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/command.h"
 #include "app/command/materials.h"
-#include "app/gpu/gpu.h"
+#include "app/device/device.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -14,7 +14,7 @@ enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAMES_MAX = 100000, PATH_SIZE = 4
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device;
-    int size[2], bands, method, window, frames, repeat, samples;
+    int size[2], bands, method, window, device_kind, frames, repeat, samples;
     float exposure, stops, fps, background[3];
     bool exposure_given, stats, compare;
     scene_camera_options camera;
@@ -29,6 +29,8 @@ typedef struct job {
     gpu_context context;
     gpu_renderer *renderer;
     gpu_frame frame;
+    device_kind shading;
+    lmp_response *response; /* of the preintegrated method */
     scene_light *moved;
     materials materials;
     float exposure;
@@ -147,8 +149,8 @@ static double median(double *values, int count) {
 
 /* Medians over the repetitions of one method, after a frame that warms it up. */
 static cJSON *measure(job *j, gpu_method method, cli_error *error) {
-    enum { PASSES = 4 };
-    static const char *const names[PASSES] = { "gbuffer", "shade", "tonemap", "total" };
+    enum { PASSES = 5 };
+    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade", "tonemap", "total" };
     static double samples[PASSES][REPEAT_MAX];
     gpu_frame frame = j->frame;
     frame.method = method;
@@ -161,7 +163,8 @@ static cJSON *measure(job *j, gpu_method method, cli_error *error) {
         ok = gpu_render(j->renderer, &frame, &times, error) &&
              gpu_read_rgb8(j->renderer, j->exposure, rgb8, &times, error);
         if (ok) {
-            const double passes[PASSES] = { times.gbuffer, times.shade, times.tone, times.total };
+            const double passes[PASSES] = { times.gbuffer, times.transfer, times.shade, times.tone,
+                                            times.total };
             for (int p = 0; p < PASSES; p++)
                 samples[p][i] = passes[p];
         }
@@ -175,11 +178,18 @@ static cJSON *measure(job *j, gpu_method method, cli_error *error) {
     return milliseconds;
 }
 
+/* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
+static bool compared(const job *j, gpu_method method) {
+    if (method == (gpu_method)j->options->method)
+        return true;
+    return j->options->compare && device_bands_max(j->shading, method) >= j->options->bands;
+}
+
 static bool add_timings(job *j, cJSON *stats, cli_error *error) {
     cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
     double shade[GPU_METHODS] = { 0 };
     for (int m = 0; m < GPU_METHODS; m++) {
-        if (!j->options->compare && m != j->options->method)
+        if (!compared(j, (gpu_method)m))
             continue;
         cJSON *passes = measure(j, (gpu_method)m, error);
         if (!passes)
@@ -187,7 +197,7 @@ static bool add_timings(job *j, cJSON *stats, cli_error *error) {
         shade[m] = cJSON_GetObjectItem(passes, "shade")->valuedouble;
         cJSON_AddItemToObject(timings, gpu_method_names[m], passes);
     }
-    if (j->options->compare && shade[GPU_METHOD_ZONAL] > 0)
+    if (shade[GPU_METHOD_COEFFICIENTS] > 0 && shade[GPU_METHOD_ZONAL] > 0)
         cJSON_AddNumberToObject(stats, "zonal_speedup",
                                 shade[GPU_METHOD_COEFFICIENTS] / shade[GPU_METHOD_ZONAL]);
     return true;
@@ -209,6 +219,10 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddStringToObject(stats, "driver", j->context.driver);
     cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
     cJSON_AddNumberToObject(stats, "repeat", o->repeat);
+    cJSON_AddStringToObject(stats, "shading", device_names[j->shading]);
+    if (j->response)
+        cJSON_AddNumberToObject(stats, "response_bytes",
+                                (double)lmp_response_describe(j->response).bytes);
     const bool ok = add_timings(j, stats, error);
     char *text = ok ? cJSON_Print(stats) : NULL;
     if (text)
@@ -221,6 +235,24 @@ static bool print_stats(job *j, cli_error *error) {
 /* --- the command --------------------------------------------------------------------------------
  */
 
+/* Chooses where to shade, and has the response ready that the preintegrated method reads. */
+static bool settle_shading(job *j, cli_error *error) {
+    const render_options *o = j->options;
+    const gpu_method method = (gpu_method)o->method;
+    const bool chosen = o->device_kind != DEVICE_AUTO || !o->compare;
+    j->shading = chosen ? device_choose((device_kind)o->device_kind, &j->context, method, o->bands)
+                        : DEVICE_GPU;
+    if (o->bands > device_bands_max(j->shading, method))
+        return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
+                        o->bands, gpu_method_names[method]);
+    j->frame.host = j->shading == DEVICE_CPU ? device_shade : NULL;
+    if (method != GPU_METHOD_PREINTEGRATED && !o->compare)
+        return true;
+    const bool ok = device_response(o->bands, (lmp_window)o->window, &j->response, error);
+    j->frame.response = j->response;
+    return ok;
+}
+
 static bool open_job(const char *name, job *j, cli_error *error) {
     const render_options *o = j->options;
     char path[PATH_SIZE];
@@ -229,7 +261,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
         !scene_load(name, &(scene_options) { 0 }, &j->world, error) ||
         !scene_apply_lights(&j->world, &o->lights, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
-        !gpu_context_create(o->device, &j->context, error))
+        !gpu_context_create(o->device, &j->context, error) || !settle_shading(j, error))
         return false;
     j->renderer = gpu_renderer_create(&j->context, &j->world, error);
     j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
@@ -253,12 +285,16 @@ static void close_job(job *j) {
     materials_free(&j->materials);
     gpu_context_destroy(&j->context);
     scene_free(&j->world);
+    lmp_response_destroy(j->response);
     free(j->moved);
 }
 
 /* What the table of options cannot say. */
 static int check_options(const cli_command *command, const render_options *o, int operand_count) {
-    const int bands_max = gpu_bands_max((gpu_method)o->method);
+    const gpu_method method = (gpu_method)o->method;
+    const device_kind widest = device_bands_max(DEVICE_CPU, method) ? DEVICE_CPU : DEVICE_GPU;
+    const device_kind device = o->device_kind == DEVICE_AUTO ? widest : (device_kind)o->device_kind;
+    const int bands_max = device_bands_max(device, method);
     if (operand_count != 1)
         return cli_usage(command, "one SCENE is needed, %d given", operand_count);
     if (!o->output)
@@ -270,6 +306,9 @@ static int check_options(const cli_command *command, const render_options *o, in
     if ((long)o->size[0] * o->size[1] > IMAGE_PIXELS_MAX)
         return cli_usage(command, "--size %dx%d: more than %d pixels", o->size[0], o->size[1],
                          IMAGE_PIXELS_MAX);
+    if (bands_max == 0)
+        return cli_usage(command, "--device cpu runs zonal and preintegrated, not %s",
+                         gpu_method_names[method]);
     if (o->bands > bands_max)
         return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands,
                          gpu_method_names[o->method], bands_max);
@@ -296,11 +335,14 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "output", 'o', CLI_TEXT, &o.output, "FILE",
           "the picture: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },
         { "size", 's', CLI_SIZE, o.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
-        { "bands", 'n', CLI_INT, &o.bands, "N", "bands of spherical harmonics", 1, GPU_BANDS_MAX,
+        { "bands", 'n', CLI_INT, &o.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
           NULL, NULL },
         { "method", 0, CLI_CHOICE, &o.method, "METHOD",
-          "how to shade: zonal is fast, coefficients is the paper's", 0, 0, gpu_method_names,
-          NULL },
+          "how to shade: zonal is fast, preintegrated costs the same at any number of bands, "
+          "coefficients is the paper's",
+          0, 0, gpu_method_names, NULL },
+        { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE",
+          "where to shade: auto is the CPU where OpenGL is software", 0, 0, device_names, NULL },
         { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
           command_windows, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
@@ -344,6 +386,7 @@ const cli_command command_render = {
         "lampion render builtin:atrium --random-lights 30 --seed 7 --bands 8 -o atrium.png\n"
         "lampion render scene.gltf --eye 0,2,5 --target 0,1,0 --size 1920x1080 -o scene.exr\n"
         "lampion render builtin:balls --frames 48 -o balls_%04d.png\n"
+        "lampion render builtin:balls --bands 100 --method preintegrated -o balls.png\n"
         "lampion render builtin:atrium --stats --compare-methods -o atrium.png\n",
     .run = run,
 };

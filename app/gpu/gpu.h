@@ -38,8 +38,22 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error);
 /* --- a scene on the device ---------------------------------------------------------------------
  */
 
-typedef enum gpu_method { GPU_METHOD_ZONAL, GPU_METHOD_COEFFICIENTS, GPU_METHODS } gpu_method;
+typedef enum gpu_method {
+    GPU_METHOD_ZONAL,
+    GPU_METHOD_COEFFICIENTS,
+    GPU_METHOD_PREINTEGRATED,
+    GPU_METHODS,
+    GPU_METHOD_PAPER =
+        GPU_METHODS /* the paper's fragment shader, to be timed: no name, 1 … 20 bands */
+} gpu_method;
 extern const char *const gpu_method_names[GPU_METHODS + 1]; /* NULL-terminated */
+
+struct gpu_frame;
+struct gpu_pixel;
+
+/* Shades on the host: rgb receives the radiance of width * height pixels, rows from the top. */
+typedef bool (*gpu_host_shader)(const struct gpu_frame *frame, const struct gpu_pixel *pixels,
+                                float *rgb, cli_error *error);
 
 /* What to draw. */
 typedef struct gpu_frame {
@@ -51,8 +65,10 @@ typedef struct gpu_frame {
     const scene_light *lights;
     size_t light_count; /* <= SCENE_LIGHTS_MAX */
     float background[3];
-    int samples;            /* a pixel, spread over it; 0 means 1, in its middle */
-    float samples_exposure; /* the mean suits a picture of this exposure; 0: the plain mean */
+    int samples;                  /* a pixel, spread over it; 0 means 1, in its middle */
+    const lmp_response *response; /* of GPU_METHOD_PREINTEGRATED, its bands and window */
+    gpu_host_shader host;         /* instead of the compute pass, or NULL */
+    float samples_exposure;       /* the mean suits a picture of this exposure; 0: the plain mean */
 } gpu_frame;
 
 int gpu_bands_max(gpu_method method);
@@ -60,6 +76,7 @@ int gpu_bands_max(gpu_method method);
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
 typedef struct gpu_times {
     double gbuffer, shade, tone, total;
+    double transfer; /* pixels to a host shader and back, part of the total */
 } gpu_times;
 
 typedef struct gpu_renderer gpu_renderer;

@@ -73,6 +73,9 @@ struct gpu_renderer {
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, empty_array;
+    GLuint response_blocks[2];    /* coefficients, the rest */
+    const lmp_response *response; /* what they hold */
+    int response_bands;
     int width, height; /* of the targets below */
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
     GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */

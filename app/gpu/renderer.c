@@ -7,12 +7,16 @@
 #include <string.h>
 #include <time.h>
 
-const char *const gpu_method_names[GPU_METHODS + 1] = { "zonal", "coefficients", NULL };
-static const char *const method_functions[GPU_METHODS] = { "lmp_shade_zonal",
-                                                           "lmp_shade_coefficients" };
+const char *const gpu_method_names[GPU_METHODS + 1] = { "zonal", "coefficients", "preintegrated",
+                                                        NULL };
+static const char *const method_functions[GPU_METHODS + 1] = { "lmp_shade_zonal",
+                                                               "lmp_shade_coefficients",
+                                                               "lmp_shade_preintegrated", "paper" };
 
 int gpu_bands_max(gpu_method method) {
-    return method == GPU_METHOD_COEFFICIENTS ? GPU_COEFFICIENTS_MAX : GPU_BANDS_MAX;
+    return method == GPU_METHOD_COEFFICIENTS || method == GPU_METHOD_PAPER ? GPU_COEFFICIENTS_MAX
+           : method == GPU_METHOD_PREINTEGRATED                            ? LMP_BANDS_MAX
+                                                                           : GPU_BANDS_MAX;
 }
 
 /* The near plane's distance as a part of the scene's extent. Depth is reversed and in float32, so
@@ -94,6 +98,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
     glDeleteBuffers(1, &r->tables_buffer);
+    glDeleteBuffers(2, r->response_blocks);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
     free(r);
@@ -247,25 +252,35 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     }
     for (int i = 0; i < r->variant_count; i++) {
         const gpu_variant *v = &r->variants[i];
-        if (v->method == frame->method && v->bands == frame->bands && v->window == frame->window &&
-            v->tables == tables)
+        const bool same = v->bands == frame->bands && v->window == frame->window;
+        if (v->method == frame->method && v->tables == tables &&
+            (same || (v->method == GPU_METHOD_PREINTEGRATED && !tables)))
             return v->program;
     }
-    if (frame->bands < 1 || frame->bands > gpu_bands_max(frame->method)) {
+    const int bands_max = tables && frame->method == GPU_METHOD_PREINTEGRATED
+                              ? GPU_BANDS_MAX /* the tables are summed by bands */
+                              : gpu_bands_max(frame->method);
+    if (frame->bands < 1 || frame->bands > bands_max) {
         cli_fail(error, NULL, "%d bands: the shader of %s takes 1 to %d", frame->bands,
-                 gpu_method_names[frame->method], gpu_bands_max(frame->method));
+                 gpu_method_names[frame->method], bands_max);
         return 0;
     }
     static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
                                                  "#define TABLE_FULL 1\n" };
     char defines[256];
     snprintf(defines, sizeof defines,
-             "#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
+             "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
              "#define LMP_ALPHA_MIN %.9g\n%s",
-             method_functions[frame->method], frame->bands, (int)frame->window,
-             (double)LMP_ALPHA_MIN, table_defines[tables]);
-    const gpu_stage stage = { GL_COMPUTE_SHADER, "shade.comp" };
-    const GLuint program = gpu_program(&stage, 1, defines, error);
+             frame->method == GPU_METHOD_PREINTEGRATED ? "#define SHADE_RESPONSE\n" : "",
+             method_functions[frame->method],
+             frame->method == GPU_METHOD_PREINTEGRATED && !tables ? 1 : frame->bands,
+             (int)frame->window, (double)LMP_ALPHA_MIN, table_defines[tables]);
+    const gpu_stage compute = { GL_COMPUTE_SHADER, "shade.comp" };
+    const gpu_stage paper[] = { { GL_VERTEX_SHADER, "screen.vert" },
+                                { GL_FRAGMENT_SHADER, "paper.frag" } };
+    const GLuint program = frame->method == GPU_METHOD_PAPER
+                               ? gpu_program(paper, 2, defines, error)
+                               : gpu_program(&compute, 1, defines, error);
     if (!program)
         return 0;
     if (r->variant_count == GPU_VARIANTS)
@@ -319,12 +334,48 @@ static GLuint groups(int pixels) {
     return (GLuint)(pixels + SHARED_GROUP - 1) / SHARED_GROUP;
 }
 
-static void shade(const gpu_renderer *r, GLuint program) {
+/* A response is uploaded once, and again when another one takes its place. */
+static void bind_response(gpu_renderer *r, const lmp_response *response) {
+    const lmp_response_info info = lmp_response_describe(response);
+    const GLsizeiptr pairs = (GLsizeiptr)(info.pair_count * 2 * sizeof(int16_t));
+    if (r->response != response || r->response_bands != info.bands) {
+        shared_response block = { .shape = { info.width2, (float)info.cell_count, 0, 0 } };
+        for (uint32_t i = 0; i < info.cell_count && i < SHARED_RESPONSE_CELLS; i++) {
+            const lmp_response_cell *cell = &info.cells[i];
+            block.cells[i][0] = cell->scale;
+            block.cells[i][1] = cell->offset;
+            memcpy(&block.cells[i][2], &cell->first, sizeof cell->first);
+            memcpy(&block.cells[i][3], &cell->columns, sizeof cell->columns);
+        }
+        memcpy(block.warp, info.warp, LMP_RESPONSE_WARP_COUNT * sizeof(float));
+        glDeleteBuffers(2, r->response_blocks);
+        glCreateBuffers(2, r->response_blocks);
+        glNamedBufferStorage(r->response_blocks[0], pairs, info.coefficients, 0);
+        glNamedBufferStorage(r->response_blocks[1], sizeof block, &block, 0);
+        r->response = response;
+        r->response_bands = info.bands;
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_RESPONSE_PAIRS, r->response_blocks[0]);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_RESPONSE, r->response_blocks[1]);
+}
+
+static void shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
+    if (frame->method == GPU_METHOD_PREINTEGRATED)
+        bind_response(r, frame->response);
     gpu_bind_gbuffer(r);
     if (r->table_count)
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
-    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
     glUseProgram(program);
+    if (frame->method == GPU_METHOD_PAPER) {
+        glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->hdr, 0);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, r->ldr_framebuffer);
+        glViewport(0, 0, r->width, r->height);
+        glBindVertexArray(r->empty_array);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->ldr, 0);
+        return;
+    }
+    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
     glDispatchCompute(groups(r->width), groups(r->height), 1);
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
@@ -332,16 +383,20 @@ static void shade(const gpu_renderer *r, GLuint program) {
 /* --- timing -------------------------------------------------------------------------------------
  */
 
+static double wall_clock(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
 /* Marks an instant of the frame: a query on hardware, a finished wait on software. */
 static void mark(gpu_renderer *r, int index) {
     if (!r->context.software) {
         glQueryCounter(r->timestamps[index], GL_TIMESTAMP);
         return;
     }
-    struct timespec now;
     glFinish();
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    r->marks[index] = 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+    r->marks[index] = wall_clock();
 }
 
 static double marked(const gpu_renderer *r, int index) {
@@ -350,6 +405,30 @@ static double marked(const gpu_renderer *r, int index) {
     GLuint64 nanoseconds = 0;
     glGetQueryObjectui64v(r->timestamps[index], GL_QUERY_RESULT, &nanoseconds);
     return 1e-6 * (double)nanoseconds;
+}
+
+/* The pixels go to the host and come back as radiance. */
+static bool shade_host(gpu_renderer *r, const gpu_frame *frame, gpu_times *times,
+                       cli_error *error) {
+    gpu_pixel *pixels = NULL;
+    float *rgb = malloc(3 * sizeof *rgb * (size_t)r->width * (size_t)r->height);
+    const double start = wall_clock();
+    bool ok = (rgb || cli_fail(error, NULL, "out of memory")) && gpu_read_pixels(r, &pixels, error);
+    const double read = wall_clock();
+    ok = ok && frame->host(frame, pixels, rgb, error);
+    const double shaded = wall_clock();
+    if (ok) {
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGB, GL_FLOAT, rgb);
+    }
+    if (times) {
+        glFinish();
+        times->shade += shaded - read;
+        times->transfer += read - start + wall_clock() - shaded;
+    }
+    free(pixels);
+    free(rgb);
+    return ok;
 }
 
 /* One sample of every pixel into the HDR target. */
@@ -366,13 +445,14 @@ static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GL
     draw_gbuffer(r, frame, &block);
     if (times)
         mark(r, 1);
-    shade(r, program);
+    if (!frame->host)
+        shade(r, frame, program);
     if (times) {
         mark(r, 2);
         times->gbuffer += marked(r, 1) - marked(r, 0);
-        times->shade += marked(r, 2) - marked(r, 1);
+        times->shade += frame->host ? 0 : marked(r, 2) - marked(r, 1);
     }
-    return true;
+    return !frame->host || shade_host(r, frame, times, error);
 }
 
 /* Adds the HDR target to the sums; the last sample leaves the mean there. */
@@ -393,8 +473,10 @@ bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_e
     if (frame->light_count > SHARED_LIGHTS_MAX)
         return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
                         SHARED_LIGHTS_MAX);
-    const GLuint program = find_variant(r, frame, error);
-    if (!program || !create_targets(r, frame->width, frame->height, error))
+    if (frame->method == GPU_METHOD_PREINTEGRATED && !frame->response)
+        return cli_fail(error, NULL, "preintegrated shading without a response");
+    const GLuint program = frame->host ? 0 : find_variant(r, frame, error);
+    if ((!frame->host && !program) || !create_targets(r, frame->width, frame->height, error))
         return false;
     upload_lights(r, frame);
     if (times)
@@ -406,7 +488,7 @@ bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_e
             resolve_sample(r, frame, i);
     }
     if (times)
-        times->total = times->gbuffer + times->shade;
+        times->total = times->gbuffer + times->shade + times->transfer;
     return true;
 }
 
@@ -433,7 +515,7 @@ bool gpu_read_rgb8(gpu_renderer *r, float exposure, unsigned char *rgb8, gpu_tim
     if (times) {
         mark(r, 4);
         times->tone = marked(r, 4) - marked(r, 3);
-        times->total = times->gbuffer + times->shade + times->tone;
+        times->total = times->gbuffer + times->shade + times->transfer + times->tone;
     }
     const size_t size = 3 * (size_t)r->width * (size_t)r->height;
     if (size > INT32_MAX)

@@ -66,7 +66,7 @@ static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli
         page_table_begin(&p->page, &table, file,
                          "bands|method|ms, median of 5|paper, ms at full size on RTX 2080", error);
     for (int i = 0; ok && f->shown[i]; i++)
-        for (int m = GPU_METHODS - 1; ok && m >= 0; m--) {
+        for (int m = GPU_METHOD_COEFFICIENTS; ok && m >= 0; m--) {
             double ms;
             ok = time_frame(context, &world, f, f->shown[i], (gpu_method)m, &ms, error);
             if (ok)

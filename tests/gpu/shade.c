@@ -109,7 +109,7 @@ static void every_method_agrees_on(const char *name, int random_lights, bool kee
     const scene_lights_options lights = { .random_count = random_lights, .seed = 7, .keep = keep };
     expect(scene_apply_lights(&world, &lights, &error), &error);
     gpu_renderer *renderer = open_renderer(&world);
-    for (int m = 0; m < GPU_METHODS; m++)
+    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++)
         for (int b = 0; b < BAND_COUNTS; b++) {
             gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
             frame.method = (gpu_method)m;
@@ -155,7 +155,7 @@ static void with_balls(void (*check)(scene *world, gpu_renderer *renderer)) {
 }
 
 static void check_with(const char *name, gpu_renderer *renderer, gpu_frame frame) {
-    for (int m = 0; m < GPU_METHODS; m++) {
+    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
         frame.method = (gpu_method)m;
         expect_agreement(name, renderer, &frame);
     }
@@ -238,13 +238,13 @@ static void windows_agree_with_lmp_shade(void **state) {
 }
 
 static void check_bytes(scene *world, gpu_renderer *renderer) {
-    static unsigned char bytes[GPU_METHODS][3 * PIXELS];
+    static unsigned char bytes[GPU_METHOD_PREINTEGRATED][3 * PIXELS];
     cli_error error = { "" };
     gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
     image picture = render_image(renderer, &frame);
     const float exposure = image_auto_exposure(&picture);
     image_free(&picture);
-    for (int m = 0; m < GPU_METHODS; m++) {
+    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
         frame.method = (gpu_method)m;
         expect(gpu_render(renderer, &frame, NULL, &error), &error);
         expect(gpu_read_rgb8(renderer, exposure, bytes[m], NULL, &error), &error);

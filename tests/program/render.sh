@@ -47,7 +47,7 @@ refused 2 builtin:ball
 refused 2 builtin:ball -o "$WORK/x.gif"
 refused 2 builtin:ball -o "$WORK/x.png" --size 0x10
 refused 2 builtin:ball -o "$WORK/x.png" --size 16384x16384
-refused 2 builtin:ball -o "$WORK/x.png" --bands 33
+refused 2 builtin:ball -o "$WORK/x.png" --bands 129
 refused 2 builtin:ball -o "$WORK/x.png" --bands 21 --method coefficients
 refused 2 builtin:ball -o "$WORK/x.png" --eye nan,0,0
 refused 2 builtin:ball -o "$WORK/x.png" --background 1,-1,0

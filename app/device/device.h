@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/* device.h - shading on the CPU: the G-buffer's pixels through the library's batch kernels, on all
+ * cores; and the responses both devices read, cached on disk. */
+#ifndef LAMPION_DEVICE_H
+#define LAMPION_DEVICE_H
+
+#include "app/gpu/gpu.h"
+
+/* Where the shading of a frame runs. */
+typedef enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_CPU, DEVICES } device_kind;
+extern const char *const device_names[DEVICES + 1]; /* NULL-terminated */
+
+/* The most bands a method takes there; 0 where it does not run: the CPU has zonal and
+ * preintegrated.
+ */
+int device_bands_max(device_kind device, gpu_method method);
+
+/* AUTO: the GPU; but the CPU, if it has the method, where OpenGL is software or the bands are too
+ * many for a shader. */
+device_kind device_choose(device_kind wanted, const gpu_context *context, gpu_method method,
+                          int bands);
+
+/* The response of so many bands from the cache, or computed on all cores with a progress bar and
+ * cached. Free with lmp_response_destroy. */
+bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error);
+
+/* gpu_frame.host: shades the frame's pixels by its method, bands, window, lights and response. */
+bool device_shade(const gpu_frame *frame, const gpu_pixel *pixels, float *rgb, cli_error *error);
+
+#endif

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT */
+/* response.glsl - shading from a response (lampion/response.h): two readings a light, whatever the
+ * number of bands. Include it after lampion.glsl.
+ *
+ * Define before including, all of what lmp_response_describe returns:
+ *   LMP_RESPONSE_PAIR(i)   uint: the two 16-bit coefficients of pair i, the first slice's low
+ *   LMP_RESPONSE_CELL(i)   vec4: scale and offset of cell i; the bits of first and columns
+ *   LMP_RESPONSE_WARP(i)   float: entry i of the warp, 0 … 320
+ *   LMP_RESPONSE_SHAPE     vec4: width2, the number of cells */
+#ifndef LAMPION_RESPONSE_GLSL
+#define LAMPION_RESPONSE_GLSL
+
+#define LMP_RESPONSE_UNIT (2.0 / 32767.0)
+
+/* Where the lobe of an exponent lies. */
+struct lmp_place {
+    uint first, columns;
+    float share, density, angle;
+};
+
+lmp_place lmp_response_seek(float exponent) {
+    float entry =
+        min(float(floatBitsToInt(1.0 + exponent) - floatBitsToInt(1.0)) / 524288.0, 320.0);
+    int i = int(min(entry, 319.0));
+    float slice = mix(LMP_RESPONSE_WARP(i), LMP_RESPONSE_WARP(i + 1), entry - float(i));
+    int k = int(min(slice, LMP_RESPONSE_SHAPE.y - 1.0));
+    vec4 cell = LMP_RESPONSE_CELL(k);
+    lmp_place place;
+    place.first = floatBitsToUint(cell.z);
+    place.columns = floatBitsToUint(cell.w);
+    place.share = slice - float(k);
+    place.density = cell.x * sqrt(exponent + 1.5) + cell.y;
+    place.angle = LMP_PI * (1.0 / (exponent + 1.0) + LMP_RESPONSE_SHAPE.x);
+    return place;
+}
+
+/* acos(1 - y) / sqrt(y), of x = 1 - y in 0 … 1 (Abramowitz and Stegun 4.4.46). */
+float lmp_angle(float x) {
+    float p = -0.0012624911;
+    p = p * x + 0.0066700901;
+    p = p * x - 0.0170881256;
+    p = p * x + 0.0308918810;
+    p = p * x - 0.0501743046;
+    p = p * x + 0.0889789874;
+    p = p * x - 0.2145988016;
+    return p * x + 1.5707963050;
+}
+
+float lmp_angle_of_cosine(float u) {
+    float y = max(1.0 - abs(u), 0.0), across = sqrt(y) * lmp_angle(1.0 - y);
+    return u < 0.0 ? LMP_PI - across : across;
+}
+
+/* The cubic B-spline's weights of four neighbours, the point x past the second. */
+vec4 lmp_spline(float x) {
+    float y = 1.0 - x;
+    return vec4(y * y * y, 4.0 + 3.0 * x * x * (x - 2.0), 4.0 + 3.0 * y * y * (y - 2.0),
+                x * x * x) /
+           6.0;
+}
+
+/* Both slices of a pair, mixed. */
+float lmp_response_pair(lmp_place place, uint i) {
+    uint bits = LMP_RESPONSE_PAIR(i);
+    return mix(float(int(bits << 16u) >> 16), float(int(bits) >> 16), place.share);
+}
+
+/* The lobe's mean over a cap, times the cap's solid angle plus the lobe's. */
+float lmp_response_read(lmp_place place, float g, float a) {
+    float x = g * place.density, y = a * place.density;
+    uint at = place.first + uint(y) * place.columns + uint(x);
+    vec4 across = lmp_spline(fract(x)), down = lmp_spline(fract(y)), row;
+#define LMP_ROW(i)                                                                                 \
+    row[i] = dot(across, vec4(lmp_response_pair(place, at), lmp_response_pair(place, at + 1u),     \
+                              lmp_response_pair(place, at + 2u),                                   \
+                              lmp_response_pair(place, at + 3u)));                                 \
+    at += place.columns;
+    LMP_ROW(0)
+    LMP_ROW(1)
+    LMP_ROW(2)
+    LMP_ROW(3)
+#undef LMP_ROW
+    return dot(down, row) * LMP_RESPONSE_UNIT;
+}
+
+#ifdef LMP_LIGHT_COUNT
+/* lmp_shade_zonal, within the response's error. */
+vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_material material) {
+    lmp_place diffuse = lmp_response_seek(1.0), specular = lmp_response_seek(material.exponent);
+    vec3 mirror = reflect(-surface.view, surface.normal), sum = vec3(0.0);
+    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
+        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
+        /* inside a sphere: light all around less the complementary cap */
+        bool inside = cap.strength < 0.0;
+        float t = cap.one_minus, all_around = inside ? 1.0 : 0.0;
+        float covered = 2.0 * LMP_PI * t, mean = inside ? -covered : covered;
+        float a = sqrt(t) * lmp_angle(1.0 - t);
+        float d = lmp_response_read(diffuse, lmp_angle_of_cosine(dot(cap.axis, surface.normal)), a);
+        float s = lmp_response_read(specular, lmp_angle_of_cosine(dot(cap.axis, mirror)), a);
+        d = d * mean / (covered + diffuse.angle) + all_around;
+        s = s * mean / (covered + specular.angle) + all_around;
+        sum += LMP_LIGHT_RADIANCE(i) * (material.diffuse * d + material.specular * s);
+    }
+    return max(sum, vec3(0.0));
+}
+#endif
+#endif

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT */
+/* The same picture from both shading devices and every method, in 8 bits. */
+#include "app/device/device.h"
+#include "tests/gpu/device.h"
+
+#include <stdlib.h>
+
+enum { WIDTH = 160, HEIGHT = 90, PIXELS = WIDTH * HEIGHT };
+
+static unsigned char first[3 * PIXELS], second[3 * PIXELS];
+
+static void draw(gpu_renderer *renderer, const gpu_frame *frame, unsigned char *rgb8) {
+    cli_error error = { "" };
+    expect(gpu_render(renderer, frame, NULL, &error), &error);
+    expect(gpu_read_rgb8(renderer, 1, rgb8, NULL, &error), &error);
+}
+
+/* Pixels of which some channel differs by more than `levels`. */
+static int beyond(int levels) {
+    int count = 0;
+    for (size_t i = 0; i < PIXELS; i++) {
+        int worst = 0;
+        for (size_t k = 0; k < 3; k++) {
+            const int d = abs(first[3 * i + k] - second[3 * i + k]);
+            worst = d > worst ? d : worst;
+        }
+        count += worst > levels;
+    }
+    return count;
+}
+
+typedef struct stage {
+    scene world;
+    gpu_renderer *renderer;
+    gpu_frame frame;
+} stage;
+
+static void open_stage(stage *s, const char *name) {
+    cli_error error = { "" };
+    expect(scene_load(name, &(scene_options) { .no_cache = true }, &s->world, &error), &error);
+    expect(scene_apply_lights(&s->world, &(scene_lights_options) { .random_count = 20, .seed = 7 },
+                              &error),
+           &error);
+    s->renderer = open_renderer(&s->world);
+    s->frame = frame_of(&s->world, WIDTH, HEIGHT);
+}
+
+static void close_stage(stage *s) {
+    gpu_renderer_destroy(s->renderer);
+    scene_free(&s->world);
+}
+
+static lmp_response *response_of(const gpu_frame *frame) {
+    lmp_response *response;
+    const lmp_response_desc desc = { .bands = frame->bands, .window = frame->window };
+    assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+    return response;
+}
+
+static void both_devices_draw_the_same_picture(void **state) {
+    (void)state;
+    const char *const scenes[] = { "builtin:atrium", "builtin:balls" };
+    for (int i = 0; i < 2; i++) {
+        stage s;
+        open_stage(&s, scenes[i]);
+        lmp_response *response = response_of(&s.frame);
+        s.frame.response = response;
+        for (int m = 0; m < GPU_METHODS; m++) {
+            s.frame.method = (gpu_method)m;
+            if (device_bands_max(DEVICE_CPU, s.frame.method) < s.frame.bands)
+                continue;
+            s.frame.host = NULL;
+            draw(s.renderer, &s.frame, first);
+            s.frame.host = device_shade;
+            draw(s.renderer, &s.frame, second);
+            assert_int_equal(beyond(1), 0);
+        }
+        lmp_response_destroy(response);
+        close_stage(&s);
+    }
+}
+
+static void preintegrated_pictures_are_those_of_coefficients(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s, "builtin:balls");
+    const int bands[] = { 5, 8, 12 };
+    for (int b = 0; b < 3; b++) {
+        s.frame.bands = bands[b];
+        s.frame.method = GPU_METHOD_COEFFICIENTS;
+        draw(s.renderer, &s.frame, first);
+        lmp_response *response = response_of(&s.frame);
+        s.frame.response = response;
+        s.frame.method = GPU_METHOD_PREINTEGRATED;
+        draw(s.renderer, &s.frame, second);
+        assert_true(beyond(1) <= PIXELS / 1000);
+        assert_int_equal(beyond(2), 0);
+        lmp_response_destroy(response);
+    }
+    close_stage(&s);
+}
+
+static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s, "builtin:balls");
+    s.frame.bands = 100;
+    s.frame.host = device_shade;
+    draw(s.renderer, &s.frame, first);
+    lmp_response *response = response_of(&s.frame);
+    s.frame.response = response;
+    s.frame.method = GPU_METHOD_PREINTEGRATED;
+    draw(s.renderer, &s.frame, second);
+    assert_true(beyond(1) <= PIXELS / 1000);
+    assert_int_equal(beyond(2), 0);
+    lmp_response_destroy(response);
+    close_stage(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(both_devices_draw_the_same_picture),
+        cmocka_unit_test(preintegrated_pictures_are_those_of_coefficients),
+        cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_responses),
+    };
+    return cmocka_run_group_tests(tests, open_device, close_device);
+}
