@@ -615,6 +615,6 @@ const cli_command command_bench = {
     .summary = "measure the batch kernels on every instruction set",
     .examples = "  lampion bench cpu\n"
                 "  lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
-                "  lampion bench gpu --size 600x816\n",
+                "  lampion bench gpu --json > gpu.json\n",
     .run = run,
 };
