@@ -39,7 +39,7 @@ typedef struct lmp_response_desc {
     void *user;                                /* of both hooks */
 } lmp_response_desc;
 #define LMP_RESPONSE_ERROR_DEFAULT 0.005f
-#define LMP_RESPONSE_ERROR_MIN     0.0005f
+#define LMP_RESPONSE_ERROR_MIN     0.002f
 
 /* allocator and desc may be NULL; *response is NULL on failure. LMP_ERROR_ARGUMENT: a member
  * outside its range. Immutable: share it freely. */
