@@ -613,8 +613,8 @@ const cli_command command_bench = {
     .name = "bench",
     .operands = "cpu|gpu",
     .summary = "measure the batch kernels on every instruction set",
-    .examples = "  lampion bench cpu\n"
-                "  lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
-                "  lampion bench gpu --json > gpu.json\n",
+    .examples = "lampion bench cpu\n"
+                "lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
+                "lampion bench gpu --json > gpu.json\n",
     .run = run,
 };
