@@ -27,7 +27,8 @@ static lmp_rgb color(void) {
 }
 
 static lmp_vec3 place(float size) {
-    return (lmp_vec3) { between(-size, size), between(-size, size), between(-size, size) };
+    return (lmp_vec3) { between(-(double)size, (double)size), between(-(double)size, (double)size),
+                        between(-(double)size, (double)size) };
 }
 
 /* Spheres alone, or lights of all kinds; some spheres hold some of the surfaces. */
