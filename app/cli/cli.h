@@ -69,6 +69,10 @@ typedef struct cli_command {
 bool cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
                int *operand_count, char ***operands, int *status);
 
+/* The row of --cpu-mask. Every command takes it, and cli_parse obeys it (lmp_cpu_mask); a command
+ * whose table has the row gets the number instead. */
+cli_option cli_cpu_mask(int *mask);
+
 /* Prints "lampion COMMAND: message" and where to find help; returns CLI_USAGE. */
 int cli_usage(const cli_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/cli/option.h"
 
+#include <lampion/base.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -108,6 +110,13 @@ void option_help(const cli_command *command, const cli_option *options) {
            command->operands);
     for (const cli_option *option = options; option->name; option++)
         print_option(option);
+    int mask = LMP_CPU_ALL;
+    const cli_option cpu_mask = cli_cpu_mask(&mask);
+    const cli_option *own = options;
+    while (own->name && strcmp(own->name, cpu_mask.name) != 0)
+        own++;
+    if (!own->name)
+        print_option(&cpu_mask);
     print_option(&(cli_option) { .name = "help", .letter = 'h', .help = "this text" });
     printf("\nExamples:\n");
     for (const char *line = command->examples; *line;) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/cli/option.h"
 
+#include <lampion/base.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -37,9 +39,9 @@ static const cli_option *find_option(const cli_option *options, char *word, char
 }
 
 static int unknown_option(const cli_command *command, const cli_option *options, const char *word) {
-    const char *names[NAMES_MAX] = { "help" };
-    for (int i = 0; options[i].name && i < NAMES_MAX - 2; i++)
-        names[i + 1] = options[i].name;
+    const char *names[NAMES_MAX] = { "help", "cpu-mask" };
+    for (int i = 0; options[i].name && i < NAMES_MAX - 3; i++)
+        names[i + 2] = options[i].name;
     const int length = (int)strcspn(word, "=");
     char name[64] = "";
     if (word[1] == '-')
@@ -51,11 +53,25 @@ static int unknown_option(const cli_command *command, const cli_option *options,
     return cli_usage(command, "unknown option %.*s", length, word);
 }
 
+cli_option cli_cpu_mask(int *mask) {
+    return (cli_option) {
+        .name = "cpu-mask",
+        .kind = CLI_INT,
+        .target = mask,
+        .argument = "N",
+        .help = "instruction sets: the sum of 1 scalar, 2 SSE2 or NEON, 4 AVX2, 8 AVX-512",
+        .minimum = LMP_CPU_SCALAR,
+        .maximum = LMP_CPU_ALL,
+    };
+}
+
 /* Takes one option, and its value from the next word if need be; CLI_OK or CLI_USAGE. */
-static int take_option(const cli_command *command, const cli_option *options, char *word,
-                       arguments *rest) {
+static int take_option(const cli_command *command, const cli_option *options,
+                       const cli_option *common, char *word, arguments *rest) {
     char *value = NULL;
-    const cli_option *const option = find_option(options, word, &value);
+    const cli_option *option = find_option(options, word, &value);
+    if (!option)
+        option = find_option(common, word, &value);
     if (!option)
         return unknown_option(command, options, word);
     if (option->kind == CLI_FLAG && value)
@@ -85,16 +101,21 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
         return false;
     }
     arguments rest = { argv + 1, argv + argc };
-    bool options_end = false;
+    bool options_end = false, masked = false;
+    int mask = LMP_CPU_ALL;
+    cli_option common[] = { cli_cpu_mask(&mask), { .name = NULL } };
+    common[0].given = &masked;
     while (rest.next < rest.end) {
         char *const word = *rest.next++;
         if (options_end || word[0] != '-' || word[1] == '\0') {
             (*operands)[(*operand_count)++] = word;
         } else if (strcmp(word, "--") == 0) {
             options_end = true;
-        } else if ((*status = take_option(command, options, word, &rest)) != CLI_OK) {
+        } else if ((*status = take_option(command, options, common, word, &rest)) != CLI_OK) {
             return false;
         }
     }
+    if (masked)
+        lmp_cpu_mask((unsigned)mask);
     return true;
 }

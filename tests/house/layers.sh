@@ -19,7 +19,7 @@ may_include() {
     shade) echo base kernels sh light lobe brdf response shade ;;
     field) echo base kernels sh light lobe brdf response shade field ;;
     lampion) echo base sh light lobe brdf response shade field kernels ;;
-    app/cli) echo app/cli ;;
+    app/cli) echo app/cli base ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
     app/image) echo app/cli app/file app/image shaders

@@ -37,6 +37,14 @@ tail -n 1 "$WORK/table" | cmp - "$WORK/text" || fail "text is not the table's ro
     cmp - "$WORK/text" || fail "json is not the table's row"
 [ "$(head -n 1 "$WORK/table")" = "$(seq -s, -f 'c_%g' 0 15)" ] || fail "the header of the table"
 
+# every instruction set prints the same
+for mask in 1 2 4 8; do
+    "$PROGRAM" project "$@" --format csv --cpu-mask $mask | cmp - "$WORK/table" || fail "mask $mask"
+done
+for mask in 0 16 avx2; do
+    if "$PROGRAM" project "$@" --cpu-mask $mask >"$WORK/out" 2>&1; then fail "mask $mask"; fi
+done
+
 # a table of many blocks comes out complete and in order
 awk -v header=$header 'BEGIN { print header; for (i = 1; i <= 20000; i++) print i % 7 ",0,3," i / 20000 ",0,0,0" }' \
     </dev/null >"$WORK/many"
