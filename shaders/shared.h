@@ -92,8 +92,8 @@ SHARED_END(shared_lights);
 SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 base_color;
     vec4 emission; /* w: kind */
-    vec4 factors; /* metallic, roughness, normal scale, alpha cutoff */
-    vec4 maps;    /* base colour, metallic-roughness, normal, emission */
+    vec4 factors;  /* metallic, roughness, normal scale, alpha cutoff */
+    vec4 maps;     /* base colour, metallic-roughness, normal, emission */
     vec4 matrix[4];
     vec4 offset[4];
 }
