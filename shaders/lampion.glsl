@@ -367,31 +367,34 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
         lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
         lmp_cap cap2 = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(j), surface.position);
         vec3 w = world_to_local * cap.axis, w2 = world_to_local * cap2.axis;
+        vec3 radiance = LMP_LIGHT_RADIANCE(i);
+        vec3 radiance2 = i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_RADIANCE(j) : vec3(0.0);
         float R[LMP_BANDS], R2[LMP_BANDS];
         lmp_cap_series(cap, R);
         lmp_cap_series(cap2, R2);
-        /* the light's colour times (x + iy)^m */
-        vec3 real = LMP_LIGHT_RADIANCE(i), imaginary = vec3(0.0), product;
-        vec3 real2 = i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_RADIANCE(j) : vec3(0.0);
-        vec3 imaginary2 = vec3(0.0);
-        float p, p1, p2;
+        float c2 = 1.0, s2 = 0.0, p, p1, p2;
+        vec3 color, color2; /* radiance times the real part of (x + iy)^m */
+        c = 1.0;
+        s = 0.0;
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         LMP_MONIC(l, m, w.z, q, q1, q2)                                                            \
         LMP_MONIC(l, m, w2.z, p, p1, p2)                                                           \
         sum[LMP_HALF_INDEX(l, m)] +=                                                               \
-            real * (q * R[LMP_BAND(l)]) + real2 * (p * R2[LMP_BAND(l)]);                           \
+            color * (q * R[LMP_BAND(l)]) + color2 * (p * R2[LMP_BAND(l)]);                         \
     }
-#define LMP_POWER(w, real, imaginary)                                                              \
-    product = w.x * real - w.y * imaginary;                                                        \
-    imaginary = w.x * imaginary + w.y * real;                                                      \
-    real = product;
+#define LMP_POWER(w, c, s)                                                                         \
+    t = w.x * c - w.y * s;                                                                         \
+    s = w.x * s + w.y * c;                                                                         \
+    c = t;
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
         q1 = q2 = p1 = p2 = 0.0;                                                                   \
+        color = radiance * c;                                                                      \
+        color2 = radiance2 * c2;                                                                   \
         LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
-        LMP_POWER(w, real, imaginary)                                                              \
-        LMP_POWER(w2, real2, imaginary2)                                                           \
+        LMP_POWER(w, c, s)                                                                         \
+        LMP_POWER(w2, c2, s2)                                                                      \
     }
         LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
