@@ -137,9 +137,9 @@ static bool trace_rows(const frame *f, int threads) {
     bool ok = true;
 #pragma omp parallel num_threads(threads)
     {
-        worker own;
+        worker own = { .measured = { .coefficients = NULL } };
         const bool mine =
-            reference_estimator_create(&own.estimator, f->scene->lights, f->scene->light_count) &
+            reference_estimator_create(&own.estimator, f->scene->lights, f->scene->light_count) &&
             reference_measured_create(&own.measured, f->settings->materials,
                                       f->settings->materials ? f->scene->material_count : 0);
         if (!mine) {
