@@ -16,8 +16,13 @@
 /* Blocks that run side by side: the recurrence of one waits for itself. */
 #define BASIS_BLOCKS (LMP_LANES == 16 ? 4 : 2)
 
-/* Values that wait in planes of lanes before they go out as rows. */
-#define BASIS_WAITING 160
+/* Values that wait in planes of lanes before they go out as rows; a band and 15 at least. */
+#define BASIS_WAITING 272
+
+/* Where a column stands. */
+typedef struct basis_column {
+    vf q0, q1, c, s;
+} basis_column;
 
 /* The next of a column, q_l from q_(l-1) and q_(l-2). */
 LMP_INLINE vf basis_step(const float *a, const float *b, int l, int m, vf z, vf q1, vf q0) {
@@ -133,42 +138,54 @@ LMP_INLINE void basis_columns_wide(int bands, vf (*axis)[3], vf (*radial)[LMP_BA
     }
 }
 
+/* Bands first … end-1 into planes l*l+l±m - from: column by column, which stand at q0, q1, c, s. */
+LMP_INLINE void basis_stretch(int first, int end, const vf axis[3], const vf *radial,
+                              basis_column *columns, float *planes, int from) {
+    const float *a = lmp_table_a, *b = lmp_table_b;
+    for (int m = 0; m < end; m++) {
+        basis_column column = columns[m];
+        int l = first;
+        if (m >= first) {
+            l = m;
+            column.q0 = vf_set(0);
+            column.q1 = vf_set(lmp_table_diagonal[m]);
+            column.c = m > 0 ? columns[m - 1].c : vf_set(1);
+            column.s = m > 0 ? columns[m - 1].s : vf_set(0);
+            if (m > 0)
+                basis_turn(m, axis[0], axis[1], &column.c, &column.s);
+        }
+        for (; l < end; l++) {
+            float *middle = planes + (l * l + l - from) * LMP_LANES;
+            if (l > m) {
+                const vf q2 = basis_step(a, b, l, m, axis[2], column.q1, column.q0);
+                column.q0 = column.q1;
+                column.q1 = q2;
+            }
+            const vf value = radial ? column.q1 * radial[l] : column.q1;
+            vf_store(middle + m * LMP_LANES, m > 0 ? value * column.c : value);
+            if (m > 0)
+                vf_store(middle - m * LMP_LANES, value * column.s);
+        }
+        columns[m] = column;
+    }
+}
+
 static inline void basis_bands(int bands, const vf axis[3], const vf *radial,
                                const lmp_kernel_out *out, size_t element, size_t live) {
-    const vf x = axis[0], y = axis[1], z = axis[2];
-    const float *a = lmp_table_a, *b = lmp_table_b;
-    vf c[LMP_BANDS_MAX], s[LMP_BANDS_MAX], q0[LMP_BANDS_MAX], q1[LMP_BANDS_MAX];
-    float LMP_ALIGNED waiting[(BASIS_WAITING + 2 * LMP_BANDS_MAX) * LMP_LANES];
-    size_t first = 0, count = 0;
-    c[0] = vf_set(1);
-    s[0] = vf_set(0);
-    for (int l = 0; l < bands; l++) {
-        if (l > 0) {
-            c[l] = c[l - 1];
-            s[l] = s[l - 1];
-            basis_turn(l, x, y, &c[l], &s[l]);
-        }
-        q0[l] = vf_set(0);
-        q1[l] = vf_set(lmp_table_diagonal[l]);
-        float *middle = waiting + (count + (size_t)l) * LMP_LANES;
-        for (int m = 0; m <= l; m++) {
-            if (m < l) {
-                const vf q2 = basis_step(a, b, l, m, z, q1[m], q0[m]);
-                q0[m] = q1[m];
-                q1[m] = q2;
-            }
-            const vf value = radial ? q1[m] * radial[l] : q1[m];
-            vf_store(middle + m * LMP_LANES, m > 0 ? value * c[m] : value);
-            if (m > 0)
-                vf_store(middle - m * LMP_LANES, value * s[m]);
-        }
-        count += (size_t)(2 * l + 1);
+    basis_column columns[LMP_BANDS_MAX];
+    float LMP_ALIGNED waiting[BASIS_WAITING * LMP_LANES];
+    int sent = 0;
+    for (int first = 0, end; first < bands; first = end) {
+        end = first + 1;
+        while (end < bands && (end + 1) * (end + 1) - sent <= BASIS_WAITING)
+            end++;
+        basis_stretch(first, end, axis, radial, columns, waiting, sent);
         /* Whole groups of 16 go, for their rows fill cache lines; the rest waits. */
-        const size_t ready = l + 1 == bands ? count : count >= BASIS_WAITING ? count & ~15u : 0;
-        layout_put(waiting, first, ready, out, element, live);
-        memmove(waiting, waiting + ready * LMP_LANES, (count - ready) * LMP_LANES * sizeof(float));
-        first += ready;
-        count -= ready;
+        const int ready = end == bands ? end * end - sent : (end * end - sent) & ~15;
+        layout_put(waiting, (size_t)sent, (size_t)ready, out, element, live);
+        memmove(waiting, waiting + ready * LMP_LANES,
+                (size_t)(end * end - sent - ready) * LMP_LANES * sizeof(float));
+        sent += ready;
     }
 }
 

@@ -54,16 +54,26 @@ static inline void layout_rows(const float *block, size_t values, float *rows, s
         vf t[16];
         LMP_UNROLL for (int i = 0; i < 16; i++) t[i] = vf_load(block + (v + (size_t)i) * LMP_LANES);
         LMP_UNROLL for (int i = 0; i < 16; i += 4) layout_transpose4(t + i);
-        /* A cache line after the other: the store buffer merges neighbours. */
-        LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) LMP_UNROLL for (int i = 0; i < 4; i++)
-            layout_store_quarter(rows + (size_t)e * stride + v + 4 * i, t[4 * i + e % 4], e / 4);
+        /* A cache line after the other: the store buffer merges neighbours. The row is hidden, for
+         * the compilers would hold all sixteen, in vector registers if need be. */
+        float *row = rows + v;
+        LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
+            LMP_UNROLL for (int i = 0; i < 4; i++)
+                layout_store_quarter(row + 4 * i, t[4 * i + e % 4], e / 4);
+            row += stride;
+            LMP_OPAQUE(row);
+        }
     }
     for (; live == LMP_LANES && v + 4 <= values; v += 4) {
         vf t[4];
         LMP_UNROLL for (int i = 0; i < 4; i++) t[i] = vf_load(block + (v + (size_t)i) * LMP_LANES);
         layout_transpose4(t);
-        LMP_UNROLL for (int e = 0; e < LMP_LANES; e++)
-            layout_store_quarter(rows + (size_t)e * stride + v, t[e % 4], e / 4);
+        float *row = rows + v;
+        LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
+            layout_store_quarter(row, t[e % 4], e / 4);
+            row += stride;
+            LMP_OPAQUE(row);
+        }
     }
 #endif
     for (; v < values; v++)
