@@ -6,7 +6,7 @@
 
 #define FILE_LIMIT ((size_t)1 << 30)
 /* Goes into the keys of the cache: raise it when tables of the same material come out different. */
-#define CACHE_EPOCH 1
+#define CACHE_EPOCH 2
 
 void material_close(material *m) {
     lmp_brdf_destroy(m->brdf);

@@ -12,9 +12,6 @@
 
 #define BRDF_PI 3.14159265358979323846
 
-/* Rings that resolve the cells of measured data: 0.7 degrees, where MERL's cells have 1. */
-#define LMP_BRDF_MEASURED_RINGS 128
-
 typedef struct brdf_phong {
     double reflectance[3], exponent;
 } brdf_phong;
@@ -52,8 +49,12 @@ typedef struct brdf_rgl {
 struct lmp_brdf {
     lmp_allocator allocator;
     lmp_brdf_info info;
+    int rings_per_band; /* of a table by default, at least, where info.rings limits them */
     /* f_r of unit vectors above the surface; b is where a cosine was folded in by the file */
     void (*eval)(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]);
+    /* the mean of eval and its mirror image under y -> -y, a lying in the x-z plane; may be NULL */
+    void (*eval_mirrored)(const lmp_brdf *brdf, const double a[3], const double b[3],
+                          double rgb[3]);
     union {
         double lambert[3];
         brdf_phong phong;

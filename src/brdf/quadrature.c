@@ -28,7 +28,7 @@ static void legendre_ring(int bands, double z, double *row) {
 lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int rings,
                                       brdf_quadrature *quadrature) {
     const size_t n = (size_t)bands, k = (size_t)rings, half = brdf_half_count(bands);
-    double *block = lmp_heap_allocate(heap, (2 * k + 4 * k * n + k * half) * sizeof *block);
+    double *block = lmp_heap_allocate(heap, (6 * k + 4 * k * n + k * half) * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     *quadrature = (brdf_quadrature) { .bands = bands,
@@ -36,9 +36,11 @@ lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int 
                                       .azimuths = 2 * rings,
                                       .z = block,
                                       .weight = block + k,
-                                      .cosine = block + 2 * k,
-                                      .sine = block + 2 * k + 2 * k * n,
-                                      .legendre = block + 2 * k + 4 * k * n,
+                                      .x = block + 2 * k,
+                                      .y = block + 4 * k,
+                                      .cosine = block + 6 * k,
+                                      .sine = block + 6 * k + 2 * k * n,
+                                      .legendre = block + 6 * k + 4 * k * n,
                                       .block = block };
     for (size_t i = 0; i < k; i++) {
         double node, weight;
@@ -47,18 +49,28 @@ lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int 
         quadrature->weight[i] = weight / 2 * z * 2 * BRDF_PI / quadrature->azimuths;
         legendre_ring(bands, z, quadrature->legendre + i * half);
     }
-    for (size_t j = 0; j < 2 * k; j++)
+    for (size_t j = 0; j < 2 * k; j++) {
+        const double phi = BRDF_PI * (double)(2 * j + 1) / (double)(2 * k);
+        quadrature->x[j] = cos(phi);
+        quadrature->y[j] = sin(phi);
         for (size_t m = 0; m < n; m++) {
-            const double phi = BRDF_PI * (double)((2 * j + 1) * m % (4 * k)) / (double)(2 * k);
-            quadrature->cosine[j * n + m] = cos(phi);
-            quadrature->sine[j * n + m] = sin(phi);
+            const double angle = BRDF_PI * (double)((2 * j + 1) * m % (4 * k)) / (double)(2 * k);
+            quadrature->cosine[j * n + m] = cos(angle);
+            quadrature->sine[j * n + m] = sin(angle);
         }
+    }
     return LMP_OK;
 }
 
 void lmp_brdf_quadrature_destroy(const lmp_allocator *heap, brdf_quadrature *quadrature) {
     lmp_heap_release(heap, quadrature->block);
     quadrature->block = NULL;
+}
+
+/* Whether the half turn y > 0 says all: only cosines are wanted, and f_r is symmetric or knows its
+ * mirrored mean. */
+static bool is_halved(const brdf_projection *p) {
+    return p->mirrored && (p->brdf->info.mirrored || p->brdf->eval_mirrored);
 }
 
 /* Σ_j f(phi_j) cos(m phi_j), and with sin, of one ring. */
@@ -71,13 +83,14 @@ static void transform_ring(const brdf_projection *p, const brdf_quadrature *q, d
     for (int j = 0; j < count; j++) {
         const double *c = q->cosine + (size_t)j * (size_t)bands;
         const double *d = q->sine + (size_t)j * (size_t)bands;
-        /* the azimuth itself, for it is not in the table of one band */
-        const double phi = BRDF_PI * (2 * j + 1) / q->azimuths;
-        const double x = s * cos(phi), y = s * sin(phi);
+        const double x = s * q->x[j], y = s * q->y[j];
         const double light[3] = { p->turn[0] * x - p->turn[1] * y, p->turn[1] * x + p->turn[0] * y,
                                   z };
         double rgb[3];
-        p->brdf->eval(p->brdf, p->view, light, rgb);
+        if (p->mirrored && p->brdf->eval_mirrored)
+            p->brdf->eval_mirrored(p->brdf, p->view, light, rgb);
+        else
+            p->brdf->eval(p->brdf, p->view, light, rgb);
         for (int channel = 0; channel < 3; channel++) {
             for (int m = 0; m < bands; m++)
                 cosine[channel][m] += rgb[channel] * c[m];
@@ -92,7 +105,7 @@ void lmp_brdf_project_view(const brdf_projection *projection, const brdf_quadrat
                            double *cosine, double *sine) {
     const int bands = quadrature->bands;
     const size_t half = brdf_half_count(bands);
-    const bool halved = projection->mirrored && projection->brdf->info.mirrored;
+    const bool halved = is_halved(projection);
     const int count = halved ? quadrature->azimuths / 2 : quadrature->azimuths;
     memset(cosine, 0, 3 * half * sizeof *cosine);
     if (!projection->mirrored)

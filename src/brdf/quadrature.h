@@ -9,6 +9,7 @@
 typedef struct brdf_quadrature {
     int bands, rings, azimuths; /* azimuths = 2 rings, at half steps: symmetric under y -> -y */
     double *z, *weight;         /* [rings]; the weight includes z and 2 pi / azimuths */
+    double *x, *y;              /* [azimuths]: cos phi, sin phi */
     double *cosine, *sine;      /* [azimuths][bands]: of m phi */
     double *legendre;           /* [rings][half_count]: Y_lm / cos(m phi), by m */
     void *block;

@@ -6,6 +6,10 @@
 
 #define DIMENSIONS_MAX 8
 
+/* Rings of 0.7 degrees for samples that are interpolated. */
+#define RINGS          128
+#define RINGS_PER_BAND 2
+
 /* Fields of the format; the first are those this reader uses. */
 typedef enum rgl_field_id {
     FIELD_THETA,
@@ -422,7 +426,8 @@ lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, s
     }
     made->info.anisotropic = !made->rgl.isotropic;
     made->info.measured = true;
-    made->info.rings = LMP_BRDF_MEASURED_RINGS;
+    made->info.rings = RINGS;
+    made->rings_per_band = RINGS_PER_BAND;
     made->info.shape[0] = made->rgl.phi_count;
     made->info.shape[1] = made->rgl.theta_count;
     made->eval = lmp_rgl_eval;

@@ -212,7 +212,8 @@ static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
     desc->tolerance = desc->tolerance != 0 ? desc->tolerance : TOLERANCE_DEFAULT;
     if (!desc->rings_max) {
         desc->rings_max = brdf->info.rings ? brdf->info.rings : RINGS_DEFAULT;
-        desc->rings_max = desc->rings_max > 2 * desc->bands ? desc->rings_max : 2 * desc->bands;
+        while (desc->rings_max < brdf->rings_per_band * desc->bands)
+            desc->rings_max *= 2;
     }
     const bool azimuths = desc->azimuths == 1 ||
                           (within(desc->azimuths, 4, BRDF_AZIMUTHS_MAX) && desc->azimuths % 2 == 0);

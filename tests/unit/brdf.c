@@ -244,6 +244,119 @@ static void rgl_round_trips_to_its_grid(void **state) {
     round_trips(lmp_brdf_write_rgl, lmp_brdf_read_rgl, bounds);
 }
 
+/* The pair of directions at the centre of a cell of a full file (Matusik et al. 2003), h in x-z. */
+static void merl_centre(int theta_h, int theta_d, int phi_d, double a[3], double b[3]) {
+    const double root = (theta_h + 0.5) / 90, h = ORACLE_PI / 2 * root * root;
+    const double d = ORACLE_PI / 2 * (theta_d + 0.5) / 90, phi = ORACLE_PI * (phi_d + 0.5) / 180;
+    const double x = sin(d) * cos(phi), y = sin(d) * sin(phi), z = cos(d);
+    a[0] = cos(h) * x + sin(h) * z;
+    a[1] = y;
+    a[2] = cos(h) * z - sin(h) * x;
+    b[0] = -cos(h) * x + sin(h) * z;
+    b[1] = -y;
+    b[2] = cos(h) * z + sin(h) * x;
+}
+
+static void merl_cell_centres_are_exact(void **state) {
+    (void)state;
+    enum { CELLS = 90 * 90 * 180, TRIES = 20000 };
+    static const double scale[3] = { 1.0 / 1500, 1.15 / 1500, 1.66 / 1500 };
+    static const int32_t shape[3] = { 90, 90, 180 };
+    unsigned char *bytes = malloc(LMP_MERL_SIZE);
+    assert_non_null(bytes);
+    memcpy(bytes, shape, sizeof shape);
+    double value;
+    for (int i = 0; i < 3 * CELLS; i++) {
+        value = check_random();
+        memcpy(bytes + 12 + 8 * (size_t)i, &value, sizeof value);
+    }
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_brdf_read_merl(NULL, bytes, LMP_MERL_SIZE, NULL, &brdf), LMP_OK);
+    int above = 0;
+    for (int n = 0; n < TRIES; n++) {
+        const int i = (int)(90 * check_random()), j = (int)(90 * check_random());
+        const int k = (int)(180 * check_random());
+        double a[3], b[3], rgb[3];
+        merl_centre(i, j, k, a, b);
+        if (a[2] <= 0 || b[2] <= 0)
+            continue;
+        above++;
+        lmp_brdf_eval_double(brdf, a, b, rgb);
+        for (size_t c = 0; c < 3; c++) {
+            memcpy(&value, bytes + 12 + 8 * (c * CELLS + (size_t)((i * 90 + j) * 180 + k)),
+                   sizeof value);
+            assert_true(rgb[c] == (double)(float)(value * scale[c]));
+        }
+    }
+    assert_true(above > TRIES / 4);
+    lmp_brdf_destroy(brdf);
+    free(bytes);
+}
+
+/* --- memory ------------------------------------------------------------------------------------
+ */
+
+typedef lmp_result (*attempt)(const lmp_allocator *allocator);
+
+static lmp_result make_every_kind(const lmp_allocator *allocator) {
+    lmp_sgd parameters;
+    assert_int_equal(lmp_sgd_find("gold-metallic-paint", &parameters), LMP_OK);
+    const lmp_ggx desc = { .alpha_x = 0.5f };
+    lmp_brdf *brdfs[4] = { NULL };
+    lmp_result results[4] = {
+        lmp_brdf_create_lambert(allocator, (lmp_rgb) { 1, 1, 1 }, &brdfs[0]),
+        lmp_brdf_create_phong(allocator, (lmp_rgb) { 1, 1, 1 }, 5, &brdfs[1]),
+        lmp_brdf_create_ggx(allocator, &desc, &brdfs[2]),
+        lmp_brdf_create_sgd(allocator, &parameters, &brdfs[3]),
+    };
+    lmp_result worst = LMP_OK;
+    for (int i = 0; i < 4; i++) {
+        assert_true((brdfs[i] == NULL) == (results[i] != LMP_OK));
+        worst = results[i] != LMP_OK ? results[i] : worst;
+        lmp_brdf_destroy(brdfs[i]);
+    }
+    return worst;
+}
+
+static lmp_result read_small_merl(const lmp_allocator *allocator);
+
+static lmp_result write_with(const lmp_allocator *allocator, writer write) {
+    lmp_brdf *brdf = lambert();
+    void *data = NULL;
+    size_t size = 0;
+    const lmp_result result = write(brdf, allocator, &data, &size);
+    assert_true((data == NULL) == (result != LMP_OK));
+    if (data)
+        allocator->release(data, allocator->user);
+    lmp_brdf_destroy(brdf);
+    return result;
+}
+
+static lmp_result write_merl(const lmp_allocator *allocator) {
+    return write_with(allocator, lmp_brdf_write_merl);
+}
+
+static lmp_result write_rgl(const lmp_allocator *allocator) {
+    return write_with(allocator, lmp_brdf_write_rgl);
+}
+
+static void every_failing_allocation_is_reported(void **state) {
+    (void)state;
+    static const attempt attempts[] = { make_every_kind, read_small_merl, write_merl, write_rgl };
+    for (size_t i = 0; i < sizeof attempts / sizeof *attempts; i++)
+        for (int refuse = 0;; refuse++) {
+            check_heap heap = { .refuse = refuse };
+            const lmp_allocator allocator = check_allocator(&heap);
+            const lmp_result result = attempts[i](&allocator);
+            assert_int_equal(heap.live, 0);
+            if (result == LMP_OK) {
+                assert_true(refuse > 0);
+                break;
+            }
+            assert_int_equal(result, LMP_ERROR_MEMORY);
+        }
+}
+
 /* --- bad bytes ---------------------------------------------------------------------------------
  */
 
@@ -256,6 +369,15 @@ static void small_merl(unsigned char bytes[SMALL_MERL]) {
         const double value = i + 1;
         memcpy(bytes + 12 + 8 * i, &value, sizeof value);
     }
+}
+
+static lmp_result read_small_merl(const lmp_allocator *allocator) {
+    unsigned char bytes[SMALL_MERL];
+    small_merl(bytes);
+    lmp_brdf *brdf = NULL;
+    const lmp_result result = lmp_brdf_read_merl(allocator, bytes, sizeof bytes, NULL, &brdf);
+    lmp_brdf_destroy(brdf);
+    return result;
 }
 
 static void expect_fault(reader read, const void *data, size_t size, const char *text) {
@@ -287,9 +409,13 @@ static void damaged_merl_is_refused_with_its_reason(void **state) {
     small_merl(bytes);
     expect_fault(lmp_brdf_read_merl, bytes, 11, "12 bytes");
     expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL - 1, "need 588 bytes");
-    const double nan = (double)NAN;
-    memcpy(bytes + 12 + 8 * 30, &nan, sizeof nan);
-    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "cell 6 of channel 1");
+    const double bad[3] = { (double)NAN, (double)INFINITY, (double)-INFINITY };
+    for (int i = 0; i < 3; i++) {
+        memcpy(bytes + 12 + 8 * 30, &bad[i], sizeof bad[i]);
+        expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "cell 6 of channel 1");
+    }
+    for (size_t length = 0; length < SMALL_MERL; length++)
+        expect_fault(lmp_brdf_read_merl, bytes, length, length < 12 ? "12 bytes" : "need 588");
     const int32_t zero = 0, huge = 0x7fffffff, negative = -90;
     memcpy(bytes, &zero, 4);
     expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is 0");
@@ -324,6 +450,8 @@ int main(void) {
         cmocka_unit_test(every_sgd_material_is_finite_everywhere),
         cmocka_unit_test(merl_round_trips_to_its_cells),
         cmocka_unit_test(rgl_round_trips_to_its_grid),
+        cmocka_unit_test(merl_cell_centres_are_exact),
+        cmocka_unit_test(every_failing_allocation_is_reported),
         cmocka_unit_test(merl_cells_read_exactly),
         cmocka_unit_test(damaged_merl_is_refused_with_its_reason),
         cmocka_unit_test(negative_merl_cells_are_black),

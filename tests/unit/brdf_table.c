@@ -219,6 +219,44 @@ static void turned_lobes_have_rotated_coefficients(void **state) {
     lmp_brdf_destroy(b);
 }
 
+/* Measured noise: the table of m >= 0 averages f_r with its image, which is the cosine part of the
+ * whole. */
+static void mirrored_tables_of_measurements_are_their_even_part(void **state) {
+    (void)state;
+    enum { CELLS = 6 * 5 * 9, BANDS = 7, VIEWS = 5 };
+    unsigned char bytes[12 + 24 * CELLS];
+    const int32_t shape[3] = { 6, 5, 9 };
+    memcpy(bytes, shape, sizeof shape);
+    for (size_t i = 0; i < 3 * CELLS; i++) {
+        const double value = 1500 * check_random();
+        memcpy(bytes + 12 + 8 * i, &value, sizeof value);
+    }
+    lmp_brdf *brdf = NULL;
+    lmp_brdf_table *tables[2] = { NULL };
+    assert_int_equal(lmp_brdf_read_merl(NULL, bytes, sizeof bytes, NULL, &brdf), LMP_OK);
+    lmp_brdf_table_desc desc = { .bands = BANDS, .views = VIEWS, .rings_max = 64 };
+    for (int i = 0; i < 2; i++) {
+        desc.symmetry = i == 0 ? LMP_BRDF_SYMMETRY_NONE : LMP_BRDF_SYMMETRY_MIRROR;
+        assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &tables[i]), LMP_OK);
+    }
+    const float *whole = lmp_brdf_table_coefficients(tables[0]);
+    const float *even = lmp_brdf_table_coefficients(tables[1]);
+    double odd = 0;
+    for (int plane = 0; plane < 3 * VIEWS; plane++, whole += BANDS * BANDS)
+        for (int l = 0; l < BANDS; l++)
+            for (int m = 0; m <= l; m++) {
+                /* seen head-on every phi_d is 0, on an edge between cells */
+                const float change = plane < 3 ? 0 : fabsf(*even - whole[LMP_SH_INDEX(l, m)]);
+                CHECK_WITHIN(change, 1e-6);
+                even++;
+                odd = fmax(odd, m > 0 ? fabs((double)whole[LMP_SH_INDEX(l, -m)]) : 0);
+            }
+    assert_true(odd > 1e-3);
+    lmp_brdf_table_destroy(tables[0]);
+    lmp_brdf_table_destroy(tables[1]);
+    lmp_brdf_destroy(brdf);
+}
+
 /* --- hooks -------------------------------------------------------------------------------------
  */
 
@@ -375,6 +413,53 @@ static void damaged_tables_are_refused_with_their_reason(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
+static void every_truncation_and_bit_of_a_table_is_noticed(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(5);
+    const lmp_brdf_table_desc desc = { .bands = 2, .views = 2, .rings_max = 16 };
+    size_t size = 0;
+    unsigned char *bytes = written(brdf, &desc, &size);
+    lmp_brdf_table *table = NULL;
+    for (size_t length = 0; length < size; length++) {
+        /* an exact block, so that a sanitizer sees any over-read */
+        unsigned char *copy = malloc(length > 0 ? length : 1);
+        assert_non_null(copy);
+        memcpy(copy, bytes, length);
+        assert_int_equal(lmp_brdf_table_read(NULL, copy, length, NULL, &table), LMP_ERROR_FORMAT);
+        assert_null(table);
+        free(copy);
+    }
+    for (size_t bit = 0; bit < 8 * size; bit++) {
+        bytes[bit / 8] = (unsigned char)(bytes[bit / 8] ^ 1u << bit % 8);
+        assert_int_not_equal(lmp_brdf_table_read(NULL, bytes, size, NULL, &table), LMP_OK);
+        assert_null(table);
+        bytes[bit / 8] = (unsigned char)(bytes[bit / 8] ^ 1u << bit % 8);
+    }
+    check_heap heap = { .refuse = 0 };
+    const lmp_allocator allocator = check_allocator(&heap);
+    assert_int_equal(lmp_brdf_table_read(&allocator, bytes, size, NULL, &table), LMP_ERROR_MEMORY);
+    assert_null(table);
+    assert_int_equal(lmp_brdf_table_read(NULL, bytes, size, NULL, &table), LMP_OK);
+    lmp_brdf_table_destroy(table);
+    free(bytes);
+    lmp_brdf_destroy(brdf);
+}
+
+static void every_failing_allocation_of_a_projection_is_reported(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(5);
+    float sh[12];
+    for (int refuse = 0; refuse < 3; refuse++) {
+        check_heap heap = { .refuse = refuse };
+        const lmp_allocator allocator = check_allocator(&heap);
+        const lmp_vec3 up = { 0, 0, 1 };
+        assert_int_equal(lmp_brdf_project(&allocator, brdf, up, 2, 16, sh),
+                         refuse < 2 ? LMP_ERROR_MEMORY : LMP_OK);
+        assert_int_equal(heap.live, 0);
+    }
+    lmp_brdf_destroy(brdf);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lambert_matches_the_vectors),
@@ -390,6 +475,9 @@ int main(void) {
         cmocka_unit_test(descriptions_out_of_range_are_refused),
         cmocka_unit_test(files_of_tables_round_trip),
         cmocka_unit_test(damaged_tables_are_refused_with_their_reason),
+        cmocka_unit_test(every_truncation_and_bit_of_a_table_is_noticed),
+        cmocka_unit_test(every_failing_allocation_of_a_projection_is_reported),
+        cmocka_unit_test(mirrored_tables_of_measurements_are_their_even_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
