@@ -18,7 +18,10 @@
 #define LMP_INLINE static inline __attribute__((always_inline))
 
 /* Unrolls a loop of constant length whole; the specialised kernels are straight-line code. */
-#if defined(__clang__)
+#if !defined(__OPTIMIZE__)
+#define LMP_UNROLL
+#define LMP_ROLLED
+#elif defined(__clang__)
 #define LMP_UNROLL _Pragma("clang loop unroll(full)")
 #define LMP_ROLLED _Pragma("clang loop unroll(disable)")
 #else

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* Lights files: all of a file's lights or none, finite and in range. */
+#include "app/scene/scene.h"
+#include "fuzz/file.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static void check(const scene_light *light) {
+    for (int i = 0; i < 3; i++)
+        if (!isfinite(light->center[i]) || !(light->radiance[i] >= 0) ||
+            !isfinite(light->radiance[i]))
+            abort();
+    if (!(light->radius >= 0) || !isfinite(light->radius))
+        abort();
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static scene world;
+    cli_error error;
+    char path[64];
+    if (!world.block && !scene_load("builtin:ball", NULL, &world, &error))
+        abort();
+    scene_clear_lights(&world);
+    if (!fuzz_file_write(data, size, ".json", path))
+        abort();
+    if (!scene_add_lights_file(&world, path, &error) && world.light_count != 0)
+        abort();
+    unlink(path);
+    for (size_t i = 0; i < world.light_count; i++)
+        check(&world.lights[i]);
+    return 0;
+}
