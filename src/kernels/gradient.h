@@ -70,47 +70,54 @@ static inline void gradient_column(int bands, int m, vf z, vf *q) {
     }
 }
 
-LMP_INLINE void gradient_add(vf *sums, lmp_rgb rgb, vf value) {
-    sums[0] = sums[0] + rgb.r * value;
-    sums[1] = sums[1] + rgb.g * value;
-    sums[2] = sums[2] + rgb.b * value;
+/* (l, m) for one light: of +m the value, d/dx, d/dy, d/dz, then of -m. */
+LMP_INLINE void gradient_entry(const gradient_light *light, int l, int m, vf q, vf slope,
+                               vf term[8]) {
+    const vf c = light->c[m], s = light->s[m], x = light->x, y = light->y, z = light->z;
+    const vf mc = m ? (float)m * light->c[m - 1] : vf_set(0);
+    const vf ms = m ? (float)m * light->s[m - 1] : vf_set(0);
+    const vf across = light->across[l] * q, tilt = light->across[l] * slope;
+    const vf along = light->along[l] * q + (float)m * across + z * tilt;
+    const vf value = light->value[l] * q, up = z * along - tilt;
+    term[0] = value * c;
+    term[1] = x * c * along - mc * across;
+    term[2] = y * c * along + ms * across;
+    term[3] = c * up;
+    term[4] = value * s;
+    term[5] = x * s * along - ms * across;
+    term[6] = y * s * along - mc * across;
+    term[7] = s * up;
 }
 
 /* Columns first … end-1; the sums of a column follow those of the column below it. */
-static inline void gradient_columns(int bands, int first, int end, const gradient_light *light,
-                                    vf *sums) {
-    vf columns[2][LMP_BANDS_MAX], *q = columns[0], *above = columns[1];
-    const vf x = light->x, y = light->y, z = light->z;
-    if (end < bands)
-        gradient_column(bands, end, z, above);
+LMP_INLINE void gradient_columns(int bands, int first, int end, int at_once,
+                                 const gradient_light *light, vf *sums) {
+    vf columns[2][ACCUMULATE_LIGHTS][LMP_BANDS_MAX];
+    vf(*q)[LMP_BANDS_MAX] = columns[0], (*above)[LMP_BANDS_MAX] = columns[1];
+    for (int k = 0; end < bands && k < at_once; k++)
+        gradient_column(bands, end, light[k].z, above[k]);
     for (int m = first; m < end; m++)
         sums += (bands - m) * GRADIENT_WIDTH;
     for (int m = end - 1; m >= first; m--) {
-        gradient_column(bands, m, z, q);
+        for (int k = 0; k < at_once; k++)
+            gradient_column(bands, m, light[k].z, q[k]);
         sums -= (bands - m) * GRADIENT_WIDTH;
-        const size_t base = lmp_table_index(m, m);
-        const vf c = light->c[m], s = light->s[m];
-        const vf xc = x * c, yc = y * c, xs = x * s, ys = y * s;
-        const vf mc = m ? (float)m * light->c[m - 1] : vf_set(0);
-        const vf ms = m ? (float)m * light->s[m - 1] : vf_set(0);
+        const float *slopes = lmp_table_slope + lmp_table_index(m, m);
         for (int l = m; l < bands; l++) {
-            vf *sum = sums + (l - m) * GRADIENT_WIDTH;
-            const vf slope = l > m ? lmp_table_slope[base + (size_t)(l - m)] * above[l] : vf_set(0);
-            const vf across = light->across[l] * q[l], tilt = light->across[l] * slope;
-            const vf along = light->along[l] * q[l] + (float)m * across + z * tilt;
-            const vf value = light->value[l] * q[l], up = z * along - tilt;
-            gradient_add(sum, light->rgb, value * c);
-            gradient_add(sum + 3, light->rgb, xc * along - mc * across);
-            gradient_add(sum + 6, light->rgb, yc * along + ms * across);
-            gradient_add(sum + 9, light->rgb, c * up);
-            if (m == 0)
-                continue;
-            gradient_add(sum + 12, light->rgb, value * s);
-            gradient_add(sum + 15, light->rgb, xs * along - ms * across);
-            gradient_add(sum + 18, light->rgb, ys * along - mc * across);
-            gradient_add(sum + 21, light->rgb, s * up);
+            vf *sum = sums + (l - m) * GRADIENT_WIDTH, term[ACCUMULATE_LIGHTS][8];
+            LMP_UNROLL for (int k = 0; k < at_once; k++) gradient_entry(
+                &light[k], l, m, q[k][l], l > m ? slopes[l - m] * above[k][l] : vf_set(0), term[k]);
+            LMP_UNROLL for (int i = 0; i < 8; i++) {
+                if (m == 0 && i == 4)
+                    break;
+                LMP_UNROLL for (int k = 0; k < at_once; k++) {
+                    sum[3 * i] = sum[3 * i] + light[k].rgb.r * term[k][i];
+                    sum[3 * i + 1] = sum[3 * i + 1] + light[k].rgb.g * term[k][i];
+                    sum[3 * i + 2] = sum[3 * i + 2] + light[k].rgb.b * term[k][i];
+                }
+            }
         }
-        vf *swap = q;
+        vf(*const swap)[LMP_BANDS_MAX] = q;
         q = above;
         above = swap;
     }
@@ -120,16 +127,22 @@ static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
                             const lmp_kernel_vec3 *points, float cos_min, size_t count,
                             const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
     vf sums[LMP_TILE];
-    gradient_light light;
+    gradient_light light[ACCUMULATE_LIGHTS];
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
                               vf_load(points->z + e) };
         const size_t live = layout_live(count, e);
         for (int first = 0, end; first < bands; first = end) {
             end = accumulate_tile(bands, first, GRADIENT_WIDTH, sums);
-            for (size_t i = 0; i < lights->count; i++) {
-                gradient_prepare(bands, lights, i, point, cos_min, &light);
-                gradient_columns(bands, first, end, &light, sums);
+            size_t i = 0;
+            for (; i + ACCUMULATE_LIGHTS <= lights->count; i += ACCUMULATE_LIGHTS) {
+                for (size_t k = 0; k < ACCUMULATE_LIGHTS; k++)
+                    gradient_prepare(bands, lights, i + k, point, cos_min, &light[k]);
+                gradient_columns(bands, first, end, ACCUMULATE_LIGHTS, light, sums);
+            }
+            for (; i < lights->count; i++) {
+                gradient_prepare(bands, lights, i, point, cos_min, &light[0]);
+                gradient_columns(bands, first, end, 1, light, sums);
             }
             accumulate_put(bands, first, end, 0, 12, 0, 3, sums, out, e, live);
             accumulate_put(bands, first, end, 0, 12, 3, 9, sums, gradient, e, live);
