@@ -9,7 +9,8 @@
 #define FORMAT_VERSION 1u
 #define HEADER         32u
 #define CHECKSUM       4u
-#define DENSITY_MAX    1024 /* nodes a radian; pair counts then fit 32 bits */
+/* Nodes a radian: three times what 128 bands take, and 1024 cells of it count below 2^32 pairs. */
+#define DENSITY_MAX 512
 static const unsigned char magic[8] = { 'L', 'M', 'P', 'R', 0x0d, 0x0a, 0x1a, 0x0a };
 
 static size_t plan_size(uint32_t cells) {

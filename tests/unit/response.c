@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/bytes.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/lampion.h>
@@ -341,6 +342,34 @@ static void damaged_bytes_are_refused(void **state) {
     free(bytes);
 }
 
+/* 841 cells of 1599 x 3194 pairs are 192950 more than 2^32: a file of the small number must not
+ * pass for the large one. */
+static void cells_that_outgrow_their_count_are_refused(void **state) {
+    (void)state;
+    enum { CELLS = 841, PAIRS = 192950 };
+    const lmp_response_desc desc = { .bands = 2, .error = 0.1f };
+    lmp_response *response, *copy;
+    assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+    size_t size;
+    unsigned char *head = written(response, &size);
+    lmp_response_destroy(response);
+    const size_t plan = 32 + 4 * LMP_RESPONSE_WARP_COUNT;
+    size = plan + 8 * CELLS + 4 * PAIRS + 4;
+    unsigned char *bytes = calloc(size, 1), *p = bytes + 28;
+    assert_non_null(bytes);
+    memcpy(bytes, head, 28);
+    p = lmp_bytes_store_u32(p, CELLS);
+    for (int i = 0; i < LMP_RESPONSE_WARP_COUNT; i++)
+        p = lmp_bytes_store_f32(p, (float)(CELLS * i) / (LMP_RESPONSE_WARP_COUNT - 1));
+    for (int k = 0; k < CELLS; k++)
+        p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 0), 1015.42f);
+    sign(bytes, size);
+    assert_int_equal(lmp_response_read(NULL, bytes, size, &copy), LMP_ERROR_FORMAT);
+    assert_null(copy);
+    free(bytes);
+    free(head);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(responses_match_the_series_within_their_error),
@@ -354,6 +383,7 @@ int main(void) {
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
         cmocka_unit_test(bytes_read_back_are_the_same_response),
         cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(cells_that_outgrow_their_count_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
