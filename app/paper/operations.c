@@ -128,10 +128,13 @@ static const struct {
 
 bool paper_step_operations(paper *p, cli_error *error) {
     page_table table;
-    page_text(&p->page,
-              "Each form is evaluated through functions that count. As in the paper, sines, "
-              "cosines and their powers are given to the closed forms. Eq. 13 costs the first "
-              "three forms one multiplication a band more, which the library's has included.");
+    page_text(
+        &p->page,
+        "Each form is evaluated through functions that count. As in the paper, sines, "
+        "cosines and their powers are given to the closed forms. Eq. 13 costs the first "
+        "three forms one multiplication a band more, which the library's has included. The paper "
+        "does not print its recurrence's simplified steps; the ones here, with constants "
+        "folded, need one addition and one multiplication less than it says.");
     if (!page_table_begin(&p->page, &table, "operations",
                           "form|bands|additions|multiplications|divisions|paper, add/mul|"
                           "largest error",

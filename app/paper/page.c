@@ -11,7 +11,7 @@ static const char style[] =
     "#ccd2d9;padding-top:.8em}figure{margin:1em 0}img{max-width:100%;height:auto;display:block}"
     "figcaption{color:#555d66;font-size:14px;margin-top:.3em}pre{background:#f1f3f5;padding:.6em "
     ".8em;overflow-x:auto;font-size:13px;white-space:pre-wrap;overflow-wrap:anywhere}"
-    ".row{display:flex;flex-wrap:wrap;gap:0 1em}"
+    ".row{display:flex;flex-wrap:wrap;gap:0 1em}.row figure{flex:1 1 200px}"
     ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px;margin:.6em 0}"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid #dde1e6;white-space:nowrap}"
     "th:first-child,td:first-child{text-align:left}th{background:#f1f3f5}"

@@ -97,7 +97,7 @@ static void introduce(paper *p) {
                "Figures, tables and claims of P. Mézières and M. Paulin, <em>Projection efficace "
                "de lumières sphériques sur les harmoniques sphériques</em> (JFIG 2020), made anew "
                "by <code>lampion paper</code>. Every number on this page was computed in this run; "
-               "each figure stands under the command that made it.");
+               "each section begins with the command that makes it alone.");
     page_text(&p->page,
               "Machine: %s, %ld processors. The paper's: Intel Xeon 2.10 GHz, RTX 2080. %s",
               processor, sysconf(_SC_NPROCESSORS_ONLN),
@@ -109,11 +109,15 @@ static void introduce(paper *p) {
 static void run_steps(paper *p, int *failures) {
     for (int i = 0; i < STEPS; i++) {
         cli_error error = { "" };
+        char again[64];
         const double start = paper_now();
         if (!wanted(p, i))
             continue;
         cli_progress(steps[i].name, (double)i / STEPS);
         page_section(&p->page, steps[i].title);
+        snprintf(again, sizeof again, "lampion paper -o DIR --step %s%s", steps[i].name,
+                 p->options->full ? " --full" : "");
+        page_command(&p->page, again);
         if (!steps[i].run(p, &error)) {
             page_failure(&p->page, error.text);
             fprintf(stderr, "lampion: %s: %s\n", steps[i].name, error.text);

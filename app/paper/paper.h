@@ -5,6 +5,7 @@
 #define LAMPION_PAPER_H
 
 #include "app/compare/compare.h"
+#include "app/gpu/gpu.h"
 #include "app/paper/page.h"
 
 /* Runs a command line of the program ("render builtin:atrium …"); returns its exit status. */
@@ -57,6 +58,19 @@ bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
 /* Compares two files of pictures. */
 bool paper_compare(const char *picture, const char *truth, compare_result *result,
                    cli_error *error);
+
+/* Milliseconds of a frame's shading pass and of all of it: medians. */
+typedef struct paper_times {
+    double shade, total;
+} paper_times;
+
+/* On the device of `context`, for the scene's lights, seen by its default camera. `material`
+ * replaces the scene's material SLOT by SLOT=MATERIAL; NULL: none. */
+bool paper_time_frame(const gpu_context *context, const scene *world, const gpu_frame *frame,
+                      const char *material, paper_times *times, cli_error *error);
+
+/* A paragraph that names the device. */
+void paper_name_device(paper *p, const gpu_context *context, int width, int height);
 
 /* Seconds of a steady clock. */
 double paper_now(void);

@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The paper's pictures: made by `render`, timed, and judged by `reference`. */
-#include "app/gpu/gpu.h"
 #include "app/paper/paper.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { BANDS_MAX = 8, RUNS = 5 };
+enum { BANDS_MAX = 8 };
 
 /* A figure of the paper. */
 typedef struct figure {
@@ -20,38 +15,15 @@ typedef struct figure {
     int samples;                  /* of the ground truth */
 } figure;
 
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Median milliseconds of a frame by the method, on the device of `context`. */
-static bool time_frame(const gpu_context *context, const scene *world, const figure *f, int bands,
-                       gpu_method method, double *milliseconds, cli_error *error) {
-    double totals[RUNS];
-    const gpu_frame frame = { .width = f->width,
-                              .height = f->height,
-                              .camera =
-                                  scene_default_camera(world, (float)f->width / (float)f->height),
-                              .method = method,
-                              .bands = bands,
-                              .window = LMP_WINDOW_HANNING,
-                              .lights = world->lights,
-                              .light_count = world->light_count };
-    gpu_renderer *renderer = gpu_renderer_create(context, world, error);
-    gpu_times times;
-    bool ok = renderer && gpu_render(renderer, &frame, &times, error);
-    for (int i = 0; ok && i < RUNS; i++) {
-        ok = gpu_render(renderer, &frame, &times, error);
-        totals[i] = times.total;
-    }
-    gpu_renderer_destroy(renderer);
-    if (!ok)
-        return false;
-    qsort(totals, RUNS, sizeof *totals, by_value);
-    *milliseconds = totals[RUNS / 2];
-    return true;
-}
+/* The paper's own shader beside the library's. */
+static const struct {
+    gpu_method method;
+    const char *name;
+} methods[] = {
+    { GPU_METHOD_PAPER, "the paper's shader" },
+    { GPU_METHOD_COEFFICIENTS, "library: coefficients" },
+    { GPU_METHOD_ZONAL, "library: zonal" },
+};
 
 static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli_error *error) {
     scene world;
@@ -61,17 +33,21 @@ static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli
     snprintf(file, sizeof file, "%s-times", f->name);
     if (!scene_load(f->scene, &(scene_options) { .no_cache = false }, &world, error))
         return false;
-    bool ok =
-        scene_apply_lights(&world, &lights, error) &&
-        page_table_begin(&p->page, &table, file,
-                         "bands|method|ms, median of 5|paper, ms at full size on RTX 2080", error);
+    bool ok = scene_apply_lights(&world, &lights, error) &&
+              page_table_begin(&p->page, &table, file,
+                               "bands|method|shading, ms|frame, ms|paper, ms", error);
     for (int i = 0; ok && f->shown[i]; i++)
-        for (int m = GPU_METHOD_COEFFICIENTS; ok && m >= 0; m--) {
-            double ms;
-            ok = time_frame(context, &world, f, f->shown[i], (gpu_method)m, &ms, error);
+        for (size_t m = 0; ok && m < sizeof methods / sizeof *methods; m++) {
+            const gpu_frame frame = { .width = f->width,
+                                      .height = f->height,
+                                      .method = methods[m].method,
+                                      .bands = f->shown[i],
+                                      .window = LMP_WINDOW_HANNING };
+            paper_times ms;
+            ok = paper_time_frame(context, &world, &frame, NULL, &ms, error);
             if (ok)
-                page_table_row(&table, "%d|%s|%.1f|%s", f->shown[i], gpu_method_names[m], ms,
-                               f->paper[i]);
+                page_table_row(&table, "%d|%s|%.1f|%.1f|%s", f->shown[i], methods[m].name, ms.shade,
+                               ms.total, f->paper[i]);
         }
     scene_free(&world);
     return ok && page_table_end(&table, error);
@@ -81,8 +57,7 @@ static bool time_figure(paper *p, const figure *f, cli_error *error) {
     gpu_context context;
     if (!gpu_context_create(NULL, &context, error))
         return false;
-    page_text(&p->page, "Frame times at %dx%d on <code>%s</code> (%s):", f->width, f->height,
-              context.device, context.software ? "software, wall clock" : "timer queries");
+    paper_name_device(p, &context, f->width, f->height);
     const bool ok = time_rows(p, &context, f, error);
     gpu_context_destroy(&context);
     return ok;
@@ -128,7 +103,14 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
                    result.max_y);
     if (!page_table_end(&table, error))
         return false;
-    const plot_series series = { "relative MSE", x, rough, count };
+    double noise[BANDS_MAX];
+    for (int i = 0; i < count; i++)
+        noise[i] = result.values[COMPARE_RELMSE];
+    const plot_series series[] = { { "against truth", x, rough, count },
+                                   { "noise alone", x, noise, count } };
+    page_text(&p->page,
+              "“Noise alone” compares two ground truths of other seeds. The largest error is often "
+              "one pixel on an edge where rasteriser and ray see different surfaces.");
     snprintf(file, sizeof file, "%s-curve", f->name);
     return page_plot_write(&p->page,
                            &(page_plot) { .file = file,
@@ -136,8 +118,8 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
                                           .x_label = "bands",
                                           .y_label = "relative MSE",
                                           .log_y = true,
-                                          .series = &series,
-                                          .series_count = 1 },
+                                          .series = series,
+                                          .series_count = 2 },
                            error);
 }
 
