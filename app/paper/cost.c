@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { ANGLES = 48, CUTS = 9 };
+enum { ANGLES = 91, CUTS = 9, RATIOS = 14 }; /* 90 degrees is one of the angles */
 
 static const int cuts[CUTS] = { 2, 3, 5, 8, 10, 15, 20, 30, 50 };
 
@@ -115,7 +115,69 @@ static bool plot_windows(paper *p, cli_error *error) {
                    error);
 }
 
+/* The light comes nearer: cap and coefficients know its distance by r/d alone. */
+static bool plot_distance(paper *p, cli_error *error) {
+    static const char *const names[] = { "diffuse, 3", "diffuse, 5", "diffuse, 10",
+                                         "e = 50, 5",  "e = 50, 10", "e = 50, 20" };
+    const double exponents[] = { 1, 1, 1, 50, 50, 50 };
+    const int bands[] = { 3, 5, 10, 5, 10, 20 };
+    const double ratios[RATIOS] = { 0.01, 0.02, 0.05, 0.1, 0.2, 0.3,  0.4,
+                                    0.5,  0.6,  0.7,  0.8, 0.9, 0.97, 0.999 };
+    double y[6][RATIOS];
+    plot_series series[6];
+#pragma omp parallel for schedule(dynamic)
+    for (int r = 0; r < RATIOS; r++)
+        for (int i = 0; i < 6; i++) {
+            const setting s = { exponents[i], ratios[r], LMP_WINDOW_NONE };
+            double exact[ANGLES];
+            exact_responses(&s, exact);
+            y[i][r] = measure(&s, exact, bands[i]).largest;
+        }
+    for (int i = 0; i < 6; i++)
+        series[i] = (plot_series) { names[i], ratios, y[i], RATIOS };
+    return page_plot_write(&p->page,
+                           &(page_plot) { .file = "cost-distance",
+                                          .title = "Error by r/d, from far to near, no window",
+                                          .x_label = "r/d",
+                                          .y_label = "largest error / peak",
+                                          .log_x = true,
+                                          .log_y = true,
+                                          .series = series,
+                                          .series_count = 6 },
+                           error);
+}
+
+/* The response itself as the light moves away from the lobe's axis. */
+static bool plot_angles(paper *p, const char *file, const char *title, double exponent,
+                        const int bands[3], cli_error *error) {
+    double x[ANGLES], y[5][ANGLES];
+    char names[5][32] = { "exact" };
+    plot_series series[5];
+    const double ratio = 0.2;
+    const double peak = response(&(setting) { exponent, ratio, LMP_WINDOW_NONE }, 0, 0);
+    for (int k = 0; k < 5; k++) {
+        const setting s = { exponent, ratio, k == 4 ? LMP_WINDOW_HANNING : LMP_WINDOW_NONE };
+        const int n = k == 0 ? 0 : k == 4 ? bands[2] : bands[k - 1];
+        if (k > 0)
+            snprintf(names[k], sizeof names[k], "%d bands%s", n, k == 4 ? ", Hanning" : "");
+        for (int i = 0; i < ANGLES; i++) {
+            x[i] = 180.0 * i / (ANGLES - 1);
+            y[k][i] = response(&s, n, REFERENCE_PI * i / (ANGLES - 1)) / peak;
+        }
+        series[k] = (plot_series) { names[k], x, y[k], ANGLES };
+    }
+    return page_plot_write(&p->page,
+                           &(page_plot) { .file = file,
+                                          .title = title,
+                                          .x_label = "degrees from the lobe's axis to the light",
+                                          .y_label = "response / exact peak",
+                                          .series = series,
+                                          .series_count = 5 },
+                           error);
+}
+
 static bool tabulate(paper *p, cli_error *error) {
+    const char *const names[] = { "diffuse", "50", "1000" };
     const double exponents[] = { 1, 50, 1000 }, ratios[] = { 0.9, 0.3, 0.03 };
     const int bands[] = { 5, 10, 20 };
     page_table table;
@@ -131,7 +193,7 @@ static bool tabulate(paper *p, cli_error *error) {
                     double exact[ANGLES];
                     exact_responses(&s, exact);
                     const outcome o = measure(&s, exact, bands[b]);
-                    page_table_row(&table, "%g|%g|%d|%s|%.1e|%.3f|%.2f|%.1e", s.exponent, s.ratio,
+                    page_table_row(&table, "%s|%g|%d|%s|%.1e|%.3f|%.2f|%.1e", names[e], s.ratio,
                                    bands[b], w ? "Hanning" : "none", o.largest, -o.negative, o.peak,
                                    o.grazing);
                 }
@@ -144,8 +206,12 @@ bool paper_step_cost(paper *p, cli_error *error) {
               "at %d angles between the lobe's axis and the light. Errors are parts of the exact "
               "response's peak.",
               ANGLES);
-    if (!plot_exponents(p, error) || !plot_sizes(p, error) || !plot_windows(p, error) ||
-        !tabulate(p, error))
+    if (!plot_angles(p, "cost-diffuse", "Diffuse surface, r/d = 0.2", 1, (int[]) { 3, 5, 10 },
+                     error) ||
+        !plot_angles(p, "cost-lobe", "Lobe of exponent 50, r/d = 0.2", 50, (int[]) { 5, 10, 20 },
+                     error) ||
+        !plot_exponents(p, error) || !plot_sizes(p, error) || !plot_distance(p, error) ||
+        !plot_windows(p, error) || !tabulate(p, error))
         return false;
     page_text(
         &p->page,
