@@ -185,13 +185,13 @@ void lmp_lobe_phong(float e, out float lambda[LMP_BANDS]) {
 #undef LMP_STEP
 }
 
-/* R_1 … R_(LMP_BANDS-1) of a cap by their differences, which keeps far lights exact; R[0] is
- * base/strength's place and left 0. */
-void lmp_cap_zonal(lmp_cap cap, out float R[LMP_BANDS]) {
-    float r = 1.0, difference = 0.0;
-    R[0] = 0.0;
+/* What multiplies pi Y_lm(axis) in the coefficients of a cap of radiance 1, band by band: strength
+ * R_l, R_l by its differences, which keeps far lights exact. */
+void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
+    float r = cap.strength, difference = 0.0;
+    R[0] = cap.base;
     if (LMP_BANDS > 1)
-        R[LMP_BAND(1)] = 1.0;
+        R[LMP_BAND(1)] = r;
 #define LMP_STEP(l)                                                                                \
     if (l < LMP_BANDS) {                                                                           \
         difference = float(l - 2) / float(l + 1) * difference -                                    \
@@ -199,19 +199,6 @@ void lmp_cap_zonal(lmp_cap cap, out float R[LMP_BANDS]) {
         r += difference;                                                                           \
         R[LMP_BAND(l)] = r;                                                                        \
     }
-    LMP_FOR_BANDS(LMP_STEP)
-#undef LMP_STEP
-}
-
-/* What multiplies pi Y_lm(axis) in the coefficients of a cap of radiance 1, band by band. */
-void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
-    lmp_cap_zonal(cap, R);
-    R[0] = cap.base;
-    if (LMP_BANDS > 1)
-        R[LMP_BAND(1)] = cap.strength;
-#define LMP_STEP(l)                                                                                \
-    if (l < LMP_BANDS)                                                                             \
-        R[LMP_BAND(l)] *= cap.strength;
     LMP_FOR_BANDS(LMP_STEP)
 #undef LMP_STEP
 }
@@ -353,7 +340,7 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
 #undef LMP_COLUMN
 #undef LMP_ROW
 
-    float q, q1, q2, c, s, t;
+    float q, q1, q2, c, d, s, t;
 #define LMP_MONIC(l, m, z, q, q1, q2)                                                              \
     q = l == m ? 1.0                                                                               \
                : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
@@ -372,10 +359,11 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
         float R[LMP_BANDS], R2[LMP_BANDS];
         lmp_cap_series(cap, R);
         lmp_cap_series(cap2, R2);
-        float c2 = 1.0, s2 = 0.0, p, p1, p2;
-        vec3 color, color2; /* radiance times the real part of (x + iy)^m */
-        c = 1.0;
-        s = 0.0;
+        /* c and c1: the real parts of (x + iy)^m and of the next power */
+        float c1 = w.x, c2 = w2.x, p, p1, p2;
+        float around = w.x * w.x + w.y * w.y, around2 = w2.x * w2.x + w2.y * w2.y;
+        vec3 color, color2;
+        c = d = 1.0;
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         LMP_MONIC(l, m, w.z, q, q1, q2)                                                            \
@@ -383,18 +371,18 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
         sum[LMP_HALF_INDEX(l, m)] +=                                                               \
             color * (q * R[LMP_BAND(l)]) + color2 * (p * R2[LMP_BAND(l)]);                         \
     }
-#define LMP_POWER(w, c, s)                                                                         \
-    t = w.x * c - w.y * s;                                                                         \
-    s = w.x * s + w.y * c;                                                                         \
-    c = t;
+#define LMP_POWER(x, around, c, next)                                                              \
+    t = 2.0 * x * next - around * c;                                                               \
+    c = next;                                                                                      \
+    next = t;
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
         q1 = q2 = p1 = p2 = 0.0;                                                                   \
         color = radiance * c;                                                                      \
-        color2 = radiance2 * c2;                                                                   \
+        color2 = radiance2 * d;                                                                    \
         LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
-        LMP_POWER(w, c, s)                                                                         \
-        LMP_POWER(w2, c2, s2)                                                                      \
+        LMP_POWER(w.x, around, c, c1)                                                              \
+        LMP_POWER(w2.x, around2, d, c2)                                                            \
     }
         LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
