@@ -315,6 +315,16 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
     return max(sum, vec3(0.0));
 }
 
+/* From the world to the frame whose z is the normal and in whose x-z plane the viewer is, x >= 0. */
+mat3 lmp_view_frame(lmp_surface surface) {
+    vec3 normal = surface.normal;
+    vec3 tangent = surface.view - normal * dot(surface.view, normal);
+    tangent = dot(tangent, tangent) > 1e-12 ? normalize(tangent)
+              : abs(normal.x) < 0.5         ? normalize(cross(normal, vec3(1.0, 0.0, 0.0)))
+                                            : normalize(cross(normal, vec3(0.0, 1.0, 0.0)));
+    return transpose(mat3(tangent, cross(normal, tangent), normal));
+}
+
 /* The same by the paper's method: the coefficients of all lights are summed, then multiplied with
  * those of the material.
  *
@@ -324,12 +334,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
  * carried as q_l(z) times the real part of (x + iy)^m, with q_l monic; the squares of its norms are
  * applied once, to the sums. */
 vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
-    vec3 normal = surface.normal, view = surface.view;
-    vec3 tangent = view - normal * dot(view, normal);
-    tangent = dot(tangent, tangent) > 1e-12 ? normalize(tangent)
-              : abs(normal.x) < 0.5         ? normalize(cross(normal, vec3(1.0, 0.0, 0.0)))
-                                            : normalize(cross(normal, vec3(0.0, 1.0, 0.0)));
-    mat3 world_to_local = transpose(mat3(tangent, cross(normal, tangent), normal));
+    mat3 world_to_local = lmp_view_frame(surface);
 
     vec3 sum[LMP_HALF_COUNT];
 #define LMP_ROW(l, m)                                                                              \
@@ -393,7 +398,8 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
     float diffuse[LMP_BANDS], glossy[LMP_BANDS];
     lmp_lobe_diffuse(diffuse);
     lmp_lobe_phong(material.exponent, glossy);
-    vec2 mirror = vec2(-dot(view, tangent), dot(view, normal)); /* its x and z; y is 0 */
+    /* x and z of the mirror direction; its y is 0 */
+    vec2 mirror = vec2(-1.0, 1.0) * (world_to_local * surface.view).xz;
     vec3 gathered_diffuse = vec3(0.0), gathered_glossy = vec3(0.0);
     float power = 1.0, diagonal = 0.25, norm = 0.0;
 #define LMP_ROW(l, m)                                                                              \
