@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Scenes and lights files that are truncated, damaged or malicious: the program says so in one
  * line, exits with 1, and leaves nothing behind. */
-#include "tests/oracle/check.h"
+#include "tests/program/folder.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -10,25 +10,6 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-static char folder[] = "/tmp/lampion-bad-XXXXXX";
-
-static const char *in_folder(const char *name) {
-    static char path[512];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void write_bytes(const char *name, const void *data, size_t size) {
-    FILE *file = fopen(in_folder(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(data, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
-static void write_text(const char *name, const char *text) {
-    write_bytes(name, text, strlen(text));
-}
 
 static int count_entries(const char *path) {
     DIR *listing = opendir(path);
@@ -91,7 +72,7 @@ static void assert_refused(const char *name, const char *expected) {
 
 static void assert_lights_refused(const char *json, const char *expected) {
     char path[512], picture[512];
-    write_text("lights.json", json);
+    folder_write_text("lights.json", json);
     snprintf(path, sizeof path, "%s", in_folder("lights.json"));
     snprintf(picture, sizeof picture, "%s", in_folder("picture.png"));
     const char *const arguments[] = { "lampion", "render", "builtin:ball", "--lights",
@@ -117,7 +98,7 @@ static const float triangle[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
 static void a_sound_file_is_read(void **state) {
     (void)state;
     char path[512];
-    write_text("sound.gltf", HEAD MESH ACCESSOR VIEW BUFFER);
+    folder_write_text("sound.gltf", HEAD MESH ACCESSOR VIEW BUFFER);
     snprintf(path, sizeof path, "%s", in_folder("sound.gltf"));
     const char *const arguments[] = { "lampion", "info", path, NULL };
     assert_int_equal(run_program(arguments), 0);
@@ -125,12 +106,12 @@ static void a_sound_file_is_read(void **state) {
 
 static void what_is_no_scene_is_refused(void **state) {
     (void)state;
-    write_text("empty.gltf", "");
-    write_text("blank.gltf", " \n");
-    write_text("text.obj", "nothing to see here\n");
-    write_text("text.gltf", "nothing to see here\n");
-    write_text("wrong.txt", "v 0 0 0\n");
-    write_text("picture.png", "\x89PNG\r\n\x1a\n");
+    folder_write_text("empty.gltf", "");
+    folder_write_text("blank.gltf", " \n");
+    folder_write_text("text.obj", "nothing to see here\n");
+    folder_write_text("text.gltf", "nothing to see here\n");
+    folder_write_text("wrong.txt", "v 0 0 0\n");
+    folder_write_text("picture.png", "\x89PNG\r\n\x1a\n");
     mkdir(in_folder("directory.gltf"), 0700);
     assert_int_equal(mkfifo(in_folder("fifo.gltf"), 0600), 0);
     assert_refused("missing.gltf", "does not exist");
@@ -149,7 +130,7 @@ static void truncated_files_are_refused(void **state) {
     (void)state;
     static const char whole[] = HEAD MESH ACCESSOR VIEW BUFFER;
     for (size_t length = 1; length + 1 < sizeof whole; length += 13) {
-        write_bytes("truncated.gltf", whole, length);
+        folder_write("truncated.gltf", whole, length);
         assert_refused("truncated.gltf", "is no valid JSON");
     }
     /* the same as GLB: header, JSON chunk, BIN chunk */
@@ -163,12 +144,12 @@ static void truncated_files_are_refused(void **state) {
     memcpy(glb + 20 + json_size, tail, sizeof tail);
     memcpy(glb + 28 + json_size, triangle, sizeof triangle);
     char path[512];
-    write_bytes("whole.glb", glb, all);
+    folder_write("whole.glb", glb, all);
     snprintf(path, sizeof path, "%s", in_folder("whole.glb"));
     const char *const arguments[] = { "lampion", "info", path, NULL };
     assert_int_equal(run_program(arguments), 0);
     for (size_t length = 4; length < all; length += 17) {
-        write_bytes("truncated.glb", glb, length);
+        folder_write("truncated.glb", glb, length);
         assert_refused("truncated.glb", length < 20 ? "is no GLB" : "is truncated");
     }
 }
@@ -184,7 +165,7 @@ static void random_damage_never_crashes_the_program(void **state) {
         for (int i = 0; i <= round % 4; i++)
             damaged[(size_t)check_random_between(1.0, sizeof whole - 1.0)] =
                 (char)check_random_between(32.0, 127.0);
-        write_bytes("damaged.gltf", damaged, sizeof whole - 1);
+        folder_write("damaged.gltf", damaged, sizeof whole - 1);
         const int status = run_program(arguments);
         if (status != 0)
             assert_one_line(status, damaged, "damaged.gltf: ");
@@ -194,7 +175,7 @@ static void random_damage_never_crashes_the_program(void **state) {
         for (size_t i = 0; i < sizeof noise; i++)
             noise[i] = (unsigned char)check_random_between(0.0, 256.0);
         memcpy(noise, round % 2 ? "glTF\2\0\0\0" : "v 1 1 1\n", 8);
-        write_bytes("noise.obj", noise, sizeof noise);
+        folder_write("noise.obj", noise, sizeof noise);
         assert_refused("noise.obj", "noise.obj: ");
     }
 }
@@ -241,7 +222,7 @@ static void counts_beyond_the_data_are_refused(void **state) {
           "mesh 0" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        write_text("lie.gltf", cases[i].text);
+        folder_write_text("lie.gltf", cases[i].text);
         assert_refused("lie.gltf", cases[i].expected);
     }
 }
@@ -253,7 +234,7 @@ static void assert_nodes_refused(const char *nodes, const char *expected) {
     assert_non_null(text);
     snprintf(text, room, "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],%s,%s",
              nodes, MESH ACCESSOR VIEW BUFFER);
-    write_text("nodes.gltf", text);
+    folder_write_text("nodes.gltf", text);
     free(text);
     assert_refused("nodes.gltf", expected);
 }
@@ -282,7 +263,7 @@ static void impossible_nodes_are_refused(void **state) {
     static char nested[200001];
     memset(nested, '[', sizeof nested - 1);
     nested[0] = '{';
-    write_text("nested.gltf", nested);
+    folder_write_text("nested.gltf", nested);
     assert_refused("nested.gltf", "is no valid JSON");
 }
 
@@ -296,7 +277,7 @@ static void bombs_end_quickly(void **state) {
     assert_non_null(text);
     for (int i = 0; i < TRIANGLES; i++)
         memcpy(many + 9 * i, triangle, sizeof triangle);
-    write_bytes("many.bin", many, TRIANGLES * sizeof triangle);
+    folder_write("many.bin", many, TRIANGLES * sizeof triangle);
     end += sprintf(end, "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0");
     for (int i = 1; i < COPIES; i++)
         end += sprintf(end, ",%d", i);
@@ -308,7 +289,7 @@ static void bombs_end_quickly(void **state) {
             "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d}],"
             "\"buffers\":[{\"byteLength\":%d,\"uri\":\"many.bin\"}]}",
             3 * TRIANGLES, 36 * TRIANGLES, 36 * TRIANGLES);
-    write_text("bomb.gltf", text);
+    folder_write_text("bomb.gltf", text);
     free(many);
     free(text);
     assert_refused("bomb.gltf", "bomb.gltf: ");
@@ -326,13 +307,13 @@ static void textures_that_cannot_be_are_refused(void **state) {
     static const unsigned char large[] = { 0x89, 'P',  'N', 'G', 13,  10, 26, 10,   0,    0, 0,
                                            13,   'I',  'H', 'D', 'R', 0,  0,  0x3e, 0x80, 0, 0,
                                            0x3e, 0x80, 8,   6,   0,   0,  0,  0,    0,    0, 0 };
-    write_text("textured.gltf", scene_text);
+    folder_write_text("textured.gltf", scene_text);
     assert_refused("textured.gltf", "\"t.png\"");
-    write_bytes("t.png", absurd, sizeof absurd);
+    folder_write("t.png", absurd, sizeof absurd);
     assert_refused("textured.gltf", "t.png");
-    write_bytes("t.png", large, sizeof large);
+    folder_write("t.png", large, sizeof large);
     assert_refused("textured.gltf", "t.png");
-    write_text("t.png", "no picture");
+    folder_write_text("t.png", "no picture");
     assert_refused("textured.gltf", "t.png");
 }
 
@@ -351,24 +332,25 @@ static void files_outside_the_folder_are_never_read(void **state) {
                                         "link.bin",
                                         "linked/passwd" };
     mkdir(in_folder("inside"), 0700);
-    write_bytes("secret.bin", triangle, sizeof triangle);
+    folder_write("secret.bin", triangle, sizeof triangle);
     assert_int_equal(symlink("../secret.bin", in_folder("inside/link.bin")), 0);
     assert_int_equal(symlink("/etc", in_folder("inside/linked")), 0);
     for (size_t i = 0; i < sizeof uris / sizeof *uris; i++) {
         char text[1024];
         snprintf(text, sizeof text, "%s\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}]}",
                  HEAD MESH ACCESSOR VIEW, uris[i]);
-        write_text("inside/outside.gltf", text);
+        folder_write_text("inside/outside.gltf", text);
         assert_refused("inside/outside.gltf", "folder");
     }
-    write_text("inside/outside.obj", "mtllib ../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder_write_text("inside/outside.obj",
+                      "mtllib ../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     assert_refused("inside/outside.obj", "folder");
-    write_text("inside/texture.obj",
-               "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-    write_text("inside/t.mtl", "newmtl m\nmap_Kd ../../etc/passwd\n");
+    folder_write_text("inside/texture.obj",
+                      "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    folder_write_text("inside/t.mtl", "newmtl m\nmap_Kd ../../etc/passwd\n");
     assert_refused("inside/texture.obj", "folder");
-    write_text("gone.gltf",
-               HEAD MESH ACCESSOR VIEW "\"buffers\":[{\"byteLength\":36,\"uri\":\"gone.bin\"}]}");
+    folder_write_text("gone.gltf", HEAD MESH ACCESSOR VIEW
+                      "\"buffers\":[{\"byteLength\":36,\"uri\":\"gone.bin\"}]}");
     assert_refused("gone.gltf", "\"gone.bin\", which does not exist");
 }
 
@@ -423,18 +405,11 @@ static int make_folder(void **state) {
         return -1;
     mkdir(in_folder("cache"), 0700);
     setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
-    write_bytes("triangle.bin", triangle, sizeof triangle);
-    write_text("stdout", "");
-    write_text("stderr", "");
-    write_text("lights.json", "");
+    folder_write("triangle.bin", triangle, sizeof triangle);
+    folder_write_text("stdout", "");
+    folder_write_text("stderr", "");
+    folder_write_text("lights.json", "");
     return 0;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    char command[300];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
 }
 
 int main(void) {
@@ -450,5 +425,5 @@ int main(void) {
         cmocka_unit_test(files_outside_the_folder_are_never_read),
         cmocka_unit_test(faulty_lights_files_are_refused_by_the_light_s_number),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

@@ -2,7 +2,7 @@
 /* Pictures: what is written comes back, damaged files are refused, exposure and tone. */
 #include "app/image/image.h"
 #include "app/file/file.h"
-#include "tests/oracle/check.h"
+#include "tests/program/folder.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,14 +10,6 @@
 #include <unistd.h>
 
 enum { WIDTH = 37, HEIGHT = 23, VALUES = 3 * WIDTH * HEIGHT };
-
-static char folder[] = "/tmp/lampion-image-XXXXXX";
-
-static const char *path_of(const char *name) {
-    static char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
 
 static int make_folder(void **state) {
     (void)state;
@@ -28,7 +20,7 @@ static int remove_folder(void **state) {
     (void)state;
     static const char *const names[] = { "a.exr", "a.png", "bad.exr", "bad.png" };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        unlink(path_of(names[i]));
+        unlink(in_folder(names[i]));
     return rmdir(folder); /* no temporary file may be left */
 }
 
@@ -46,8 +38,8 @@ static void openexr_keeps_every_bit(void **state) {
     cli_error error = { "" };
     image main_layer = noise(), other = noise(), back;
     const image_layer layers[] = { { "", &main_layer }, { "error", &other } };
-    assert_true(image_write_exr_layers(path_of("a.exr"), layers, 2, &error));
-    assert_true(image_read(path_of("a.exr"), &back, &error));
+    assert_true(image_write_exr_layers(in_folder("a.exr"), layers, 2, &error));
+    assert_true(image_read(in_folder("a.exr"), &back, &error));
     assert_int_equal(back.width, WIDTH);
     assert_int_equal(back.height, HEIGHT);
     assert_memory_equal(back.rgb, main_layer.rgb, VALUES * sizeof(float));
@@ -63,8 +55,8 @@ static void png_keeps_every_byte(void **state) {
     image back;
     for (size_t i = 0; i < VALUES; i++)
         bytes[i] = (unsigned char)(i % 256);
-    assert_true(image_write_png8(bytes, WIDTH, HEIGHT, path_of("a.png"), &error));
-    assert_true(image_read(path_of("a.png"), &back, &error));
+    assert_true(image_write_png8(bytes, WIDTH, HEIGHT, in_folder("a.png"), &error));
+    assert_true(image_read(in_folder("a.png"), &back, &error));
     for (size_t i = 0; i < VALUES; i++) {
         const double linear = (double)back.rgb[i];
         const double stored =
@@ -81,7 +73,7 @@ static void survive_damage(const char *good, const char *bad) {
     size_t size;
     char name[64];
     snprintf(name, sizeof name, "%s", good);
-    assert_true(file_read(path_of(name), 1 << 20, &data, &size, &error));
+    assert_true(file_read(in_folder(name), 1 << 20, &data, &size, &error));
     unsigned char *bytes = data;
     int refused = 0, tries = 0;
     for (size_t step = 0; step < 300; step++) {
@@ -92,7 +84,7 @@ static void survive_damage(const char *good, const char *bad) {
             before = bytes[at];
             bytes[at] = (unsigned char)(check_random() * 256);
         }
-        FILE *stream = fopen(path_of(bad), "wb");
+        FILE *stream = fopen(in_folder(bad), "wb");
         assert_non_null(stream);
         assert_int_equal(fwrite(bytes, 1, length, stream), length);
         fclose(stream);
@@ -100,7 +92,7 @@ static void survive_damage(const char *good, const char *bad) {
             bytes[at] = before;
         image picture;
         error.text[0] = '\0';
-        if (image_read(path_of(bad), &picture, &error)) {
+        if (image_read(in_folder(bad), &picture, &error)) {
             image_free(&picture);
         } else {
             refused++;
@@ -130,21 +122,21 @@ static void a_png_that_claims_to_be_huge_is_refused(void **state) {
                                            0x00, 0x49, 0x44, 0x41, 0x54, 0x35, 0xaf, 0x06, 0x1e };
     cli_error error = { "" };
     image picture;
-    FILE *stream = fopen(path_of("bad.png"), "wb");
+    FILE *stream = fopen(in_folder("bad.png"), "wb");
     assert_non_null(stream);
     fwrite(bytes, 1, sizeof bytes, stream);
     fclose(stream);
-    assert_false(image_read(path_of("bad.png"), &picture, &error));
+    assert_false(image_read(in_folder("bad.png"), &picture, &error));
     assert_non_null(strstr(error.text, "too large"));
 }
 
 static void paths_that_cannot_be_written_are_refused_at_once(void **state) {
     (void)state;
     cli_error error = { "" };
-    assert_true(image_check_path(path_of("b.png"), &error));
-    assert_true(access(path_of("b.png"), F_OK) != 0); /* only asked */
-    assert_false(image_check_path(path_of("none/b.png"), &error));
-    assert_false(image_check_path(path_of("b.jpg"), &error));
+    assert_true(image_check_path(in_folder("b.png"), &error));
+    assert_true(access(in_folder("b.png"), F_OK) != 0); /* only asked */
+    assert_false(image_check_path(in_folder("none/b.png"), &error));
+    assert_false(image_check_path(in_folder("b.jpg"), &error));
     assert_non_null(strstr(error.text, ".png or .exr"));
 }
 

@@ -3,7 +3,7 @@
  * numbers are exact. */
 #include "app/scene/scene.h"
 
-#include "tests/oracle/check.h"
+#include "tests/program/folder.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -16,21 +16,6 @@
 #define PI 3.14159265358979
 #define CHECK_NEAR(expected, actual, bound)                                                        \
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
-
-static char folder[] = "/tmp/lampion-scene-XXXXXX";
-
-static const char *in_folder(const char *name) {
-    static char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void write_text(const char *name, const char *text) {
-    FILE *file = fopen(in_folder(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-    assert_int_equal(fclose(file), 0);
-}
 
 static scene load(const char *name, bool no_cache) {
     scene loaded;
@@ -100,8 +85,9 @@ static const char square_obj[] = "mtllib square.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 
 
 static void an_obj_is_read_with_its_materials(void **state) {
     (void)state;
-    write_text("square.obj", square_obj);
-    write_text("square.mtl", "newmtl glow\nKd 0.5 0.25 0.125\nKs 0.1 0.1 0.1\nNs 98\nKe 2 3 4\n");
+    folder_write_text("square.obj", square_obj);
+    folder_write_text("square.mtl",
+                      "newmtl glow\nKd 0.5 0.25 0.125\nKs 0.1 0.1 0.1\nNs 98\nKe 2 3 4\n");
     scene s = load(in_folder("square.obj"), true);
     assert_int_equal(s.index_count, 6);
     assert_int_equal(s.vertex_count, 4);
@@ -149,7 +135,7 @@ static const char full_gltf[] =
 
 static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) {
     (void)state;
-    write_text("full.gltf", full_gltf);
+    folder_write_text("full.gltf", full_gltf);
     scene s = load(in_folder("full.gltf"), true);
     assert_int_equal(s.index_count, 3);
     /* x is mirrored: -2 (1 + 0 … 1). The winding follows, so that the front still looks to +z. */
@@ -201,8 +187,8 @@ static void find_cached(char *path, size_t size) {
 static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
     (void)state;
     char cached_path[1024];
-    write_text("square.obj", square_obj);
-    write_text("square.mtl", "newmtl glow\nKd 0.5 0.25 0.125\n");
+    folder_write_text("square.obj", square_obj);
+    folder_write_text("square.mtl", "newmtl glow\nKd 0.5 0.25 0.125\n");
     scene first = load(in_folder("square.obj"), false);
     scene second = load(in_folder("square.obj"), false);
     assert_false(first.cached);
@@ -230,7 +216,7 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
     assert_false(truncated.cached);
     scene_free(&truncated);
     /* A file it refers to changes. */
-    write_text("square.mtl", "newmtl glow\nKd 0.5 0.75 0.125\n");
+    folder_write_text("square.mtl", "newmtl glow\nKd 0.5 0.75 0.125\n");
     scene changed = load(in_folder("square.obj"), false);
     assert_false(changed.cached);
     CHECK_NEAR(0.75, changed.materials[changed.meshes[0].material].base_color[1], 1e-6);
@@ -282,8 +268,8 @@ static void random_lights_are_the_same_everywhere(void **state) {
         { -0.28883111f, -0.614446106f, 0.0385102674f, 105.217925f },
         { 0.623837342f, 0.611532855f, 0.0537860332f, 30.5118532f },
     };
-    write_text("square.obj", square_obj);
-    write_text("square.mtl", "newmtl glow\n");
+    folder_write_text("square.obj", square_obj);
+    folder_write_text("square.mtl", "newmtl glow\n");
     scene s = load(in_folder("square.obj"), true);
     cli_error error = { 0 };
     scene_clear_lights(&s);
@@ -310,10 +296,10 @@ static void random_lights_are_the_same_everywhere(void **state) {
 
 static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
     (void)state;
-    write_text("lights.json",
-               "{\"lights\":[{\"position\":[1,2,3],\"radius\":0.5,\"radiance\":[1,2,3]},"
-               "{\"position\":[0,0,0],\"radius\":2,\"power\":100},"
-               "{\"position\":[0,0,0],\"radius\":2,\"intensity\":[100,0,1]}]}");
+    folder_write_text("lights.json",
+                      "{\"lights\":[{\"position\":[1,2,3],\"radius\":0.5,\"radiance\":[1,2,3]},"
+                      "{\"position\":[0,0,0],\"radius\":2,\"power\":100},"
+                      "{\"position\":[0,0,0],\"radius\":2,\"intensity\":[100,0,1]}]}");
     scene s = load("builtin:ball", false);
     cli_error error = { 0 };
     assert_int_equal(s.light_count, 10);
@@ -332,9 +318,9 @@ static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
 
 static void a_scene_without_lights_gets_hidden_studio_lights(void **state) {
     (void)state;
-    write_text("square.obj", square_obj);
-    write_text("square.mtl", "newmtl glow\n");
-    write_text("lights.json", "{\"lights\":[]}");
+    folder_write_text("square.obj", square_obj);
+    folder_write_text("square.mtl", "newmtl glow\n");
+    folder_write_text("lights.json", "{\"lights\":[]}");
     scene s = load(in_folder("square.obj"), true);
     cli_error error = { 0 };
     assert_true(scene_apply_lights(&s, &(scene_lights_options) { 0 }, &error));
@@ -393,7 +379,7 @@ static void a_scene_without_cameras_fills_nine_tenths_of_the_picture(void **stat
         "v 1e-3 0 0\nv 0 1e-3 0\nv 0 0 0\nf 1 2 3\n",
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
-        write_text("framed.obj", shapes[i]);
+        folder_write_text("framed.obj", shapes[i]);
         scene s = load(in_folder("framed.obj"), true);
         for (float aspect = 0.5f; aspect < 3.0f; aspect *= 2.0f) {
             const scene_camera camera = scene_default_camera(&s, aspect);
@@ -439,13 +425,6 @@ static int make_folder(void **state) {
     return setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
 }
 
-static int remove_folder(void **state) {
-    (void)state;
-    char command[300];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_hold_what_the_facts_say),
@@ -461,5 +440,5 @@ int main(void) {
         cmocka_unit_test(a_narrow_picture_widens_the_camera_s_view),
         cmocka_unit_test(moving_lights_close_their_orbits_inside_the_scene),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

@@ -1,33 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Tables of BRDFs: projection against the vector files and laws, the file format by round trips. */
-#include "tests/oracle/check.h"
 #include "tests/oracle/oracle.h"
-
-#include <lampion/brdf.h>
+#include "tests/unit/brdfs.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static lmp_brdf *white(void) {
-    lmp_brdf *brdf = NULL;
-    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 1, 1, 1 }, &brdf), LMP_OK);
-    return brdf;
-}
-
-static lmp_brdf *phong(float exponent) {
-    lmp_brdf *brdf = NULL;
-    assert_int_equal(lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 0.5f, 0.25f }, exponent, &brdf),
-                     LMP_OK);
-    return brdf;
-}
-
-static lmp_brdf *brushed(void) {
-    const lmp_ggx desc = { 0.6f, 0.3f, { 0.9f, 0.6f, 0.3f }, { 0.1f, 0.1f, 0.2f } };
-    lmp_brdf *brdf = NULL;
-    assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
-    return brdf;
-}
 
 /* The m >= 0 coefficients of the red plane, l outer, against a row of a vector file; those of m < 0
  * must vanish. */
@@ -52,7 +30,7 @@ static void lambert_matches_the_vectors(void **state) {
     check_csv *csv = check_csv_open("lambert_brdf_table.csv");
     if (!csv)
         return;
-    lmp_brdf *brdf = white();
+    lmp_brdf *brdf = lambert(1, 1, 1);
     for (int row = 0; row < csv->rows; row++) {
         double expected[55];
         float sh[300];
@@ -112,7 +90,7 @@ static void tables_hold_the_projection_of_each_view(void **state) {
 
 static void white_furnace_lambert_reflects_all(void **state) {
     (void)state;
-    lmp_brdf *brdf = white();
+    lmp_brdf *brdf = lambert(1, 1, 1);
     lmp_brdf_table *table = NULL;
     assert_int_equal(lmp_brdf_table_create(NULL, brdf, NULL, &table), LMP_OK);
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
@@ -191,7 +169,7 @@ static void views_between_nodes_are_smooth(void **state) {
 /* An anisotropic table read at any azimuth is the projection in the material's frame, turned. */
 static void anisotropic_tables_turn_with_the_view(void **state) {
     (void)state;
-    lmp_brdf *brdf = brushed();
+    lmp_brdf *brdf = ggx(0.6f, 0.3f);
     CHECK_WITHIN(interpolation_error(brdf, 24, 24, 0), 1e-2);
     CHECK_WITHIN(interpolation_error(brdf, 24, 24, 0.63), 1e-2);
     CHECK_WITHIN(interpolation_error(brdf, 24, 24, -2.2), 1e-2);
@@ -298,7 +276,7 @@ static void any_order_of_tasks_makes_the_same_table(void **state) {
 
 static void every_failing_allocation_is_reported(void **state) {
     (void)state;
-    lmp_brdf *brdf = brushed();
+    lmp_brdf *brdf = ggx(0.6f, 0.3f);
     const lmp_brdf_table_desc desc = { .bands = 3, .views = 2, .azimuths = 4, .rings_max = 16 };
     for (int refuse = 0;; refuse++) {
         check_heap heap = { .refuse = refuse };
@@ -317,7 +295,7 @@ static void every_failing_allocation_is_reported(void **state) {
 
 static void descriptions_out_of_range_are_refused(void **state) {
     (void)state;
-    lmp_brdf *brdf = white();
+    lmp_brdf *brdf = lambert(1, 1, 1);
     const lmp_brdf_table_desc descs[] = {
         { .bands = 129 },       { .bands = -1 },
         { .views = 1 },         { .views = 1025 },
@@ -348,7 +326,7 @@ static unsigned char *written(const lmp_brdf *brdf, const lmp_brdf_table_desc *d
 
 static void files_of_tables_round_trip(void **state) {
     (void)state;
-    lmp_brdf *const brdfs[] = { phong(5), brushed() };
+    lmp_brdf *const brdfs[] = { phong(5), ggx(0.6f, 0.3f) };
     for (int i = 0; i < 2; i++) {
         const lmp_brdf_table_desc desc = {
             .bands = 4, .views = 5, .azimuths = 6, .window = LMP_WINDOW_HANNING, .rings_max = 64
