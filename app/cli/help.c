@@ -37,6 +37,8 @@ static void describe_values(const cli_option *option, char *text, size_t size) {
                                      option->choices[i]);
         return;
     }
+    if (option->kind == CLI_PART)
+        return; /* its argument says it */
     if (option->minimum == -option->maximum && (option->maximum == 0.0 || option->maximum > 1e9))
         return; /* none, or none that anybody meets */
     if (option->maximum > 1e9 && option->minimum >= 0.0)
@@ -69,6 +71,10 @@ static void describe_default(const cli_option *option, char *text, size_t size) 
         snprintf(value, sizeof value, "%dx%d", ((const int *)option->target)[0],
                  ((const int *)option->target)[1]);
         break;
+    case CLI_PART:
+        snprintf(value, sizeof value, "%d/%d", ((const int *)option->target)[0],
+                 ((const int *)option->target)[1]);
+        break;
     case CLI_CHOICE:
         snprintf(value, sizeof value, "%s", option->choices[*(const int *)option->target]);
         break;
@@ -77,6 +83,7 @@ static void describe_default(const cli_option *option, char *text, size_t size) 
             snprintf(value, sizeof value, "%s", *(const char *const *)option->target);
         break;
     case CLI_FLAG:
+    case CLI_RANGE:
     case CLI_LIST:
         break;
     }

@@ -17,11 +17,16 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
     if (*minimum != 0.0 || *maximum != 0.0)
         return;
     switch (option->kind) {
+    case CLI_RANGE:
+        *minimum = 0;
+        *maximum = INT_MAX;
+        break;
     case CLI_INT:
         *minimum = INT_MIN;
         *maximum = INT_MAX;
         break;
     case CLI_SIZE:
+    case CLI_PART:
         *minimum = 1;
         *maximum = INT_MAX;
         break;
@@ -90,6 +95,38 @@ static bool store_numbers(const cli_option *option, const char *text, cli_error 
     return true;
 }
 
+/* FIRST-LAST, or a COUNT from 0 on. */
+static bool store_range(const cli_option *option, const char *text, cli_error *error) {
+    const bool both = strchr(text, '-') != NULL;
+    const char *rest = text;
+    double first = 0.0, last;
+    if ((both && !read_number(&rest, DIGITS, '-', &first)) ||
+        !read_number(&rest, DIGITS, '\0', &last) || (both && last < first))
+        return cli_fail(error, NULL,
+                        "--%s: \"%s\" is neither a count such as 48 nor a range such as"
+                        " 0-47",
+                        option->name, text);
+    last -= both ? 0.0 : 1.0;
+    if (!in_range(option, first) || !in_range(option, last))
+        return out_of_range(option, text, error);
+    ((int *)option->target)[0] = (int)first;
+    ((int *)option->target)[1] = (int)last;
+    return true;
+}
+
+static bool store_part(const cli_option *option, const char *text, cli_error *error) {
+    const char *rest = text;
+    double part, count;
+    if (!read_number(&rest, DIGITS, '/', &part) || !read_number(&rest, DIGITS, '\0', &count) ||
+        part < 1.0 || part > count)
+        return cli_fail(error, NULL, "--%s: \"%s\" is not a part such as 3/8", option->name, text);
+    if (!in_range(option, count))
+        return out_of_range(option, text, error);
+    ((int *)option->target)[0] = (int)part;
+    ((int *)option->target)[1] = (int)count;
+    return true;
+}
+
 static bool store_seed(const cli_option *option, const char *text, cli_error *error) {
     errno = 0;
     const unsigned long long value = strtoull(text, NULL, 10);
@@ -130,6 +167,10 @@ bool option_store(const cli_option *option, const char *text, cli_error *error) 
     case CLI_FLAG:
         *(bool *)option->target = true;
         return true;
+    case CLI_RANGE:
+        return store_range(option, text, error);
+    case CLI_PART:
+        return store_part(option, text, error);
     case CLI_SEED:
         return store_seed(option, text, error);
     case CLI_TEXT:

@@ -9,14 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAMES_MAX = 100000, PATH_SIZE = 4096 };
+enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 4096 };
 
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device;
-    int size[2], bands, method, window, device_kind, frames, repeat, samples;
+    int size[2], bands, method, window, device_kind, repeat, samples;
+    int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
-    bool exposure_given, stats, compare;
+    bool exposure_given, frames_given, shard_given, stats, compare;
     scene_camera_options camera;
     scene_lights_options lights;
     cli_list materials;
@@ -56,7 +57,7 @@ static const char *find_number(const char *path, int *digits, const char **rest)
 static void name_frame(const render_options *o, int index, char path[PATH_SIZE]) {
     int digits = 4;
     const char *rest = strrchr(o->output, '.');
-    if (o->frames == 0) {
+    if (!o->frames_given) {
         snprintf(path, PATH_SIZE, "%s", o->output);
         return;
     }
@@ -89,11 +90,20 @@ static bool write_png(const job *j, const char *path, cli_error *error) {
     return ok;
 }
 
-/* The exposure of the first frame serves all: a sequence must not flicker. */
+/* The lights as they are at the time of a frame of a sequence. */
+static void move_lights(job *j, int index) {
+    if (!j->options->frames_given)
+        return;
+    scene_move_lights(&j->world, (double)index / (double)j->options->fps, j->moved);
+    j->frame.lights = j->moved;
+}
+
+/* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker. */
 static bool settle_exposure(job *j, cli_error *error) {
     const render_options *o = j->options;
     float factor = o->exposure;
     if (!o->exposure_given) {
+        move_lights(j, 0);
         image picture;
         gpu_frame frame = j->frame;
         frame.samples = 1;
@@ -112,22 +122,27 @@ static bool settle_exposure(job *j, cli_error *error) {
 static bool render_frame(job *j, int index, cli_error *error) {
     char path[PATH_SIZE];
     name_frame(j->options, index, path);
-    if (j->options->frames > 0) {
-        scene_move_lights(&j->world, (double)index / (double)j->options->fps, j->moved);
-        j->frame.lights = j->moved;
-    }
-    if ((index == 0 && !settle_exposure(j, error)) ||
-        !gpu_render(j->renderer, &j->frame, NULL, error))
+    move_lights(j, index);
+    if (!gpu_render(j->renderer, &j->frame, NULL, error))
         return false;
     return image_format_of(path) == IMAGE_EXR ? write_exr(j, path, error)
                                               : write_png(j, path, error);
 }
 
+/* The frames of a shard, first <= frame < end: runs that join without a gap, of equal length but
+ * for one frame. */
+static void split_frames(const render_options *o, int *first, int *end) {
+    const int64_t count = o->frames[1] - o->frames[0] + 1;
+    *first = o->frames[0] + (int)(count * (o->shard[0] - 1) / o->shard[1]);
+    *end = o->frames[0] + (int)(count * o->shard[0] / o->shard[1]);
+}
+
 static bool render_frames(job *j, cli_error *error) {
-    const int count = j->options->frames > 0 ? j->options->frames : 1;
-    bool ok = true;
-    for (int i = 0; i < count && ok; i++) {
-        cli_progress("rendering", (double)i / (double)count);
+    int first, end;
+    split_frames(j->options, &first, &end);
+    bool ok = settle_exposure(j, error);
+    for (int i = first; i < end && ok; i++) {
+        cli_progress("rendering", (double)(i - first) / (double)(end - first));
         ok = render_frame(j, i, error);
     }
     cli_progress_end();
@@ -299,6 +314,8 @@ static int check_options(const cli_command *command, const render_options *o, in
         return cli_usage(command, "one SCENE is needed, %d given", operand_count);
     if (!o->output)
         return cli_usage(command, "-o FILE is needed");
+    if (o->shard_given && !o->frames_given)
+        return cli_usage(command, "--shard splits --frames, which is not there");
     if (image_format_of(o->output) == IMAGE_UNKNOWN)
         return cli_usage(command, "%s: unknown kind of picture (name it .png or .exr)", o->output);
     if (strlen(o->output) > PATH_SIZE - 16)
@@ -329,6 +346,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                          .bands = LMP_SHADE_BANDS_DEFAULT,
                          .window = LMP_WINDOW_HANNING,
                          .samples = 1,
+                         .shard = { 1, 1 },
                          .repeat = 5,
                          .fps = 24 };
     const cli_option options[] = {
@@ -354,8 +372,12 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL, NULL },
         { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
           NULL, NULL },
-        { "frames", 0, CLI_INT, &o.frames, "N",
-          "numbered pictures (%04d in FILE) while the lights move", 0, FRAMES_MAX, NULL, NULL },
+        { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
+          "numbered pictures (%04d in FILE) while the lights move: the first N, or A to B", 0,
+          FRAME_MAX, NULL, &o.frames_given },
+        { "shard", 0, CLI_PART, o.shard, "I/N",
+          "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,
+          &o.shard_given },
         { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second of their time", 0.01, 1000, NULL,
           NULL },
         { "samples", 0, CLI_INT, &o.samples, "N", "samples a pixel: 8 make smooth edges", 1,
@@ -386,6 +408,7 @@ const cli_command command_render = {
         "lampion render builtin:atrium --random-lights 30 --seed 7 --bands 8 -o atrium.png\n"
         "lampion render scene.gltf --eye 0,2,5 --target 0,1,0 --size 1920x1080 -o scene.exr\n"
         "lampion render builtin:balls --frames 48 -o balls_%04d.png\n"
+        "lampion render builtin:balls --frames 0-99 --shard 3/8 -o balls_%04d.png\n"
         "lampion render builtin:balls --bands 100 --method preintegrated -o balls.png\n"
         "lampion render builtin:atrium --stats --compare-methods -o atrium.png\n",
     .run = run,

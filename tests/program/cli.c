@@ -20,7 +20,7 @@ static const cli_command command = { "draw", "SCENE", "draws", "lampion draw", N
 /* Everything a table can hold. */
 typedef struct values {
     bool verbose, eye_given;
-    int bands, size[2], method;
+    int bands, size[2], method, frames[2], part[2];
     uint64_t seed;
     float fov, eye[3];
     const char *output;
@@ -64,6 +64,8 @@ static outcome parse(int argc, char **argv) {
         { "eye", 0, CLI_VEC3, v->eye, "X,Y,Z", "place", 0, 0, NULL, &v->eye_given },
         { "method", 0, CLI_CHOICE, &v->method, "NAME", "method", 0, 0, methods, NULL },
         { "output", 'o', CLI_TEXT, &v->output, "FILE", "picture", 0, 0, NULL, NULL },
+        { "frames", 0, CLI_RANGE, v->frames, "N|A-B", "frames", 0, 99, NULL, NULL },
+        { "part", 0, CLI_PART, v->part, "I/N", "part", 1, 99, NULL, NULL },
         { "lights", 0, CLI_LIST, &v->lights, "FILE", "lights", 0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };
@@ -104,6 +106,18 @@ static void every_kind_is_read_in_every_spelling(void **state) {
     assert_string_equal(o.operands[1], "--bands");
 }
 
+static void ranges_and_parts_are_read(void **state) {
+    (void)state;
+    outcome o = PARSE("--frames", "48", "--part", "3/8");
+    assert_true(o.go_on);
+    assert_true(o.values.frames[0] == 0 && o.values.frames[1] == 47);
+    assert_true(o.values.part[0] == 3 && o.values.part[1] == 8);
+    o = PARSE("--frames=7-99");
+    assert_true(o.go_on && o.values.frames[0] == 7 && o.values.frames[1] == 99);
+    o = PARSE("--frames=7-7");
+    assert_true(o.go_on && o.values.frames[0] == 7 && o.values.frames[1] == 7);
+}
+
 static void absent_options_keep_their_defaults(void **state) {
     (void)state;
     const outcome o = PARSE("-");
@@ -140,6 +154,17 @@ static void wrong_values_are_refused_in_one_line(void **state) {
         { "--seed=-1", "whole number" },
         { "--seed=18446744073709551616", "whole number" },
         { "--method=fast", "none of zonal, coefficients" },
+        { "--frames=0", "out of range" },
+        { "--frames=101", "out of range (0 to 99)" },
+        { "--frames=0-100", "out of range" },
+        { "--frames=5-4", "neither a count" },
+        { "--frames=-4", "neither a count" },
+        { "--frames=1-", "neither a count" },
+        { "--frames=1-2-3", "neither a count" },
+        { "--part=0/3", "not a part" },
+        { "--part=4/3", "not a part" },
+        { "--part=3", "not a part" },
+        { "--part=1/100", "out of range (1 to 99)" },
         { "--verbose=1", "takes no value" },
         { "--output", "needs a value" },
     };
@@ -213,6 +238,7 @@ static void too_many_list_items_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_is_read_in_every_spelling),
+        cmocka_unit_test(ranges_and_parts_are_read),
         cmocka_unit_test(absent_options_keep_their_defaults),
         cmocka_unit_test(wrong_values_are_refused_in_one_line),
         cmocka_unit_test(a_forgotten_value_does_not_eat_the_next_option),

@@ -22,6 +22,21 @@ cmp -s "$WORK/f_000.png" "$WORK/f_001.png" && fail "lights do not move"
 "$PROGRAM" render builtin:balls $small --frames 1 -o "$WORK/g.exr"
 [ -f "$WORK/g_0000.exr" ] || fail "the number does not go before the extension"
 
+# shards: their union is the whole, byte for byte, and so is any range of frames
+mkdir "$WORK/whole" "$WORK/parts" "$WORK/range"
+"$PROGRAM" render builtin:balls $small --frames 5 -o "$WORK/whole/%04d.png"
+for part in 1 2 3; do
+    "$PROGRAM" render builtin:balls $small --frames 0-4 --shard $part/3 -o "$WORK/parts/%04d.png"
+    ls "$WORK/parts" | wc -l
+done >"$WORK/counts"
+[ "$(echo $(cat "$WORK/counts"))" = "1 3 5" ] || fail "shards of" $(cat "$WORK/counts")
+diff -r "$WORK/whole" "$WORK/parts" || fail "the union of the shards is not the whole"
+"$PROGRAM" render builtin:balls $small --frames 3-4 -o "$WORK/range/%04d.png"
+rm "$WORK"/whole/000[012].png
+diff -r "$WORK/whole" "$WORK/range" || fail "a range differs from the whole"
+"$PROGRAM" render builtin:balls $small --frames 1 --shard 1/2 -o "$WORK/empty_%d.png"
+[ ! -e "$WORK/empty_0.png" ] || fail "an empty shard has a frame"
+
 # statistics
 "$PROGRAM" render builtin:balls $small --stats --compare-methods --repeat 1 -o "$WORK/s.png" >"$WORK/stats"
 for word in '"triangles"' '"zonal_speedup"' '"coefficients"' '"device"' '"shade"' '"total"'; do
@@ -51,6 +66,8 @@ refused 2 builtin:ball -o "$WORK/x.png" --bands 129
 refused 2 builtin:ball -o "$WORK/x.png" --bands 21 --method coefficients
 refused 2 builtin:ball -o "$WORK/x.png" --eye nan,0,0
 refused 2 builtin:ball -o "$WORK/x.png" --background 1,-1,0
+refused 2 builtin:ball -o "$WORK/x.png" --shard 1/2
+refused 2 builtin:ball -o "$WORK/x.png" --frames 0
 refused 1 builtin:ball -o "$WORK/none/x.png"
 refused 1 builtin:ball -o "$WORK/x.png" --gl-device 99
 refused 1 builtin:ball -o "$WORK/x.png" --camera none
