@@ -525,23 +525,9 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
 /* --- the command -------------------------------------------------------------------------------
  */
 
-static void processor_name(char *name, size_t size) {
-    char line[256];
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    snprintf(name, size, "unknown processor");
-    while (file && fgets(line, sizeof line, file))
-        if (strncmp(line, "model name", 10) == 0 && strchr(line, ':')) {
-            snprintf(name, size, "%.*s", (int)strcspn(strchr(line, ':') + 2, "\n\""),
-                     strchr(line, ':') + 2);
-            break;
-        }
-    if (file)
-        fclose(file);
-}
-
 static void print_header(const bench_options *o) {
     char name[160];
-    processor_name(name, sizeof name);
+    command_processor(name, sizeof name);
     if (o->json) {
         printf("{\n  \"cpu\": \"%s\",\n  \"compiler\": \"%s\",\n  \"flags\": \"%s\",\n"
                "  \"commit\": \"%s\",\n  \"rows\": [\n",

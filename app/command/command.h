@@ -11,4 +11,7 @@ extern const cli_command *const command_table[];
 /* The names of lmp_window by its values, NULL-terminated: choices of --window. */
 extern const char *const command_windows[];
 
+/* The processor as it calls itself. */
+void command_processor(char *name, size_t size);
+
 #endif

@@ -7,6 +7,7 @@ extern const cli_command command_basis;
 extern const cli_command command_bench;
 extern const cli_command command_brdf;
 extern const cli_command command_compare;
+extern const cli_command command_doctor;
 extern const cli_command command_info;
 extern const cli_command command_paper;
 extern const cli_command command_project;
@@ -14,8 +15,10 @@ extern const cli_command command_reference;
 extern const cli_command command_render;
 
 const cli_command *const command_table[] = {
-    &command_render,    &command_info,    &command_project, &command_brdf,  &command_basis,
-    &command_reference, &command_compare, &command_paper,   &command_bench, NULL,
+    &command_render,  &command_info,  &command_project,
+    &command_brdf,    &command_basis, &command_reference,
+    &command_compare, &command_paper, &command_bench,
+    &command_doctor,  NULL,
 };
 
 const char *const command_windows[] = {

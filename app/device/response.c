@@ -24,9 +24,7 @@ static void progress(void *user, double done) {
 
 /* What decides the bytes: how they are made, and what is asked for. */
 static bool cache_path(const lmp_response_desc *desc, char path[PATH_SIZE]) {
-    char directory[PATH_SIZE - 64], name[33];
-    if (!file_cache_directory(directory, sizeof directory))
-        return false;
+    char text[33], name[64];
     const struct {
         uint32_t library;
         int32_t bands, window;
@@ -34,9 +32,9 @@ static bool cache_path(const lmp_response_desc *desc, char path[PATH_SIZE]) {
     file_hash hash = { 0 };
     file_hash_add(&hash, "response 1", 10);
     file_hash_add(&hash, &key, sizeof key);
-    file_hash_text(&hash, name);
-    snprintf(path, PATH_SIZE, "%s/%s.lmpr", directory, name);
-    return true;
+    file_hash_text(&hash, text);
+    snprintf(name, sizeof name, "%s.lmpr", text);
+    return file_cache_path(name, path, PATH_SIZE);
 }
 
 /* A cache that cannot be read is no cache. */
@@ -58,14 +56,11 @@ static bool read_cached(const char *path, const lmp_response_desc *desc, lmp_res
 }
 
 static void write_cached(const char *path, const lmp_response *response) {
-    cli_error ignored;
-    file_writer writer;
     const size_t size = lmp_response_size(response);
     void *bytes = malloc(size);
-    if (bytes && file_write_begin(&writer, path, &ignored)) {
+    if (bytes) {
         lmp_response_write(response, bytes);
-        if (fwrite(bytes, 1, size, writer.stream) != size || !file_write_commit(&writer, &ignored))
-            file_write_abort(&writer);
+        file_cache_store(path, bytes, size);
     }
     free(bytes);
 }

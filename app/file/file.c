@@ -74,24 +74,6 @@ bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_er
     return ok;
 }
 
-bool file_cache_directory(char *path, size_t size) {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    int length;
-    if (cache && cache[0] == '/')
-        length = snprintf(path, size, "%s", cache);
-    else if (home && home[0] == '/')
-        length = snprintf(path, size, "%s/.cache", home);
-    else
-        return false;
-    if (length < 0 || (size_t)length + sizeof "/lampion" > size)
-        return false;
-    mkdir(path, 0700);
-    strcpy(path + length, "/lampion");
-    struct stat status;
-    return (mkdir(path, 0700) == 0 || errno == EEXIST) && stat(path, &status) == 0 &&
-           S_ISDIR(status.st_mode) && access(path, R_OK | W_OK | X_OK) == 0;
-}
-
 /* --- content hash: two multiply-rotate lanes over blocks of 16 bytes ----------------------------
  */
 

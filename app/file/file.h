@@ -24,9 +24,29 @@ bool file_write_commit(file_writer *writer, cli_error *error);
 /* Removes the temporary; does nothing after a commit. */
 void file_write_abort(file_writer *writer);
 
-/* The directory of cached files ($XDG_CACHE_HOME/lampion or ~/.cache/lampion), created on demand;
- * false without a home (then go on without a cache). */
+/* --- the cache: files by name in $XDG_CACHE_HOME/lampion or ~/.cache/lampion
+ * ----------------------- What is there may vanish at any time. Its size is held to a limit:
+ * LAMPION_CACHE_MIB from the environment, else FILE_CACHE_MIB. */
+#define FILE_CACHE_MIB 2048
+
+/* The directory, created on demand; false without a home (then go on without a cache). */
 bool file_cache_directory(char *path, size_t size);
+
+/* Where the cached file `name` is or would be. One that is there counts as used now. */
+bool file_cache_path(const char *name, char *path, size_t size);
+
+/* Stores a file under a path of file_cache_path, then removes those unused for longest until the
+ * limit holds; without effect where that is impossible. */
+void file_cache_store(const char *path, const void *data, size_t size);
+
+typedef struct file_cache_usage {
+    size_t files;
+    uint64_t bytes, limit;
+} file_cache_usage;
+file_cache_usage file_cache_measure(void);
+
+/* Removes every file of the cache. */
+void file_cache_clear(void);
 
 /* 128-bit content hash for cache keys (not cryptographic); chain calls with the same state. */
 typedef struct file_hash {

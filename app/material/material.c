@@ -244,9 +244,7 @@ static void show_progress(void *user, double done) {
 /* The cache file of a table; false where there is no cache. */
 static bool cache_path(const material *m, const lmp_brdf_table_desc *desc, char *path,
                        size_t size) {
-    char directory[3900], key[33];
-    if (!file_cache_directory(directory, sizeof directory))
-        return false;
+    char key[33], name[64];
     const struct {
         int numbers[7];
         float reals[2];
@@ -256,8 +254,8 @@ static bool cache_path(const material *m, const lmp_brdf_table_desc *desc, char 
     file_hash hash = m->hash;
     file_hash_add(&hash, &parts, sizeof parts);
     file_hash_text(&hash, key);
-    snprintf(path, size, "%s/%s.lmpt", directory, key);
-    return true;
+    snprintf(name, sizeof name, "%s.lmpt", key);
+    return file_cache_path(name, path, size);
 }
 
 static lmp_brdf_table *read_cached(const char *path) {
@@ -272,12 +270,28 @@ static lmp_brdf_table *read_cached(const char *path) {
     return table;
 }
 
+/* The bytes of a table file; free() them. NULL: no memory. */
+static void *bytes_of(const lmp_brdf_table *table, size_t *size) {
+    *size = lmp_brdf_table_size(table);
+    void *bytes = malloc(*size);
+    if (bytes)
+        lmp_brdf_table_write(table, bytes);
+    return bytes;
+}
+
+static void write_cached(const char *path, const lmp_brdf_table *table) {
+    size_t size;
+    void *const bytes = bytes_of(table, &size);
+    if (bytes)
+        file_cache_store(path, bytes, size);
+    free(bytes);
+}
+
 static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_error *error) {
-    const size_t size = lmp_brdf_table_size(from);
-    unsigned char *bytes = malloc(size);
+    size_t size;
+    void *const bytes = bytes_of(from, &size);
     if (!bytes)
         return cli_fail(error, NULL, "out of memory");
-    lmp_brdf_table_write(from, bytes);
     const lmp_result result = lmp_brdf_table_read(NULL, bytes, size, NULL, table);
     free(bytes);
     return result == LMP_OK || cli_fail(error, NULL, "%s", lmp_result_text(result));
@@ -301,18 +315,16 @@ bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_
     cli_progress_end();
     if (result != LMP_OK)
         return cli_fail(error, m->name, "%s", lmp_result_text(result));
-    cli_error ignored;
     if (cached)
-        material_write_table(*table, path, &ignored);
+        write_cached(path, *table);
     return true;
 }
 
 bool material_write_table(const lmp_brdf_table *table, const char *path, cli_error *error) {
-    const size_t size = lmp_brdf_table_size(table);
-    unsigned char *bytes = malloc(size);
+    size_t size;
+    void *const bytes = bytes_of(table, &size);
     if (!bytes)
         return cli_fail(error, path, "out of memory");
-    lmp_brdf_table_write(table, bytes);
     file_writer writer;
     bool ok = file_write_begin(&writer, path, error);
     if (ok) {

@@ -17,11 +17,10 @@ file_hash cache_key(const char *folder, const char *name, const void *data, size
 }
 
 static bool cache_path(const file_hash *key, char *path, size_t size) {
-    char folder[3072], text[33];
-    if (!file_cache_directory(folder, sizeof folder))
-        return false;
+    char text[33], name[64];
     file_hash_text(key, text);
-    return snprintf(path, size, "%s/scene-%s", folder, text) < (int)size;
+    snprintf(name, sizeof name, "scene-%s", text);
+    return file_cache_path(name, path, size);
 }
 
 static bool sources_unchanged(const void *block, source_set *sources) {
@@ -65,12 +64,6 @@ bool cache_load(const file_hash *key, source_set *sources, void **block, size_t 
 
 void cache_store(const file_hash *key, const void *block, size_t size) {
     char path[4096];
-    file_writer writer;
-    cli_error ignored;
-    if (!cache_path(key, path, sizeof path) || !file_write_begin(&writer, path, &ignored))
-        return;
-    if (fwrite(block, 1, size, writer.stream) == size)
-        file_write_commit(&writer, &ignored);
-    else
-        file_write_abort(&writer);
+    if (cache_path(key, path, sizeof path))
+        file_cache_store(path, block, size);
 }
