@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/animation/animation.h"
 #include "app/command/command.h"
 #include "app/command/materials.h"
 #include "app/device/device.h"
@@ -13,7 +14,7 @@ enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 409
 
 /* Everything the command line says. */
 typedef struct render_options {
-    const char *output, *device;
+    const char *output, *device, *animate;
     int size[2], bands, method, window, device_kind, repeat, samples;
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
@@ -32,6 +33,7 @@ typedef struct job {
     gpu_frame frame;
     device_kind shading;
     lmp_response *response; /* of the preintegrated method */
+    animation *path;        /* of the lights */
     scene_light *moved;
     materials materials;
     float exposure;
@@ -94,7 +96,7 @@ static bool write_png(const job *j, const char *path, cli_error *error) {
 static void move_lights(job *j, int index) {
     if (!j->options->frames_given)
         return;
-    scene_move_lights(&j->world, (double)index / (double)j->options->fps, j->moved);
+    animation_move_all(j->path, &j->world, (double)index / (double)j->options->fps, j->moved);
     j->frame.lights = j->moved;
 }
 
@@ -275,6 +277,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     if (!image_check_path(path, error) ||
         !scene_load(name, &(scene_options) { 0 }, &j->world, error) ||
         !scene_apply_lights(&j->world, &o->lights, error) ||
+        !animation_open(o->animate, &j->world, &j->path, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
         !gpu_context_create(o->device, &j->context, error) || !settle_shading(j, error))
         return false;
@@ -302,6 +305,7 @@ static void close_job(job *j) {
     scene_free(&j->world);
     lmp_response_destroy(j->response);
     free(j->moved);
+    animation_close(j->path);
 }
 
 /* What the table of options cannot say. */
@@ -326,6 +330,8 @@ static int check_options(const cli_command *command, const render_options *o, in
     if (bands_max == 0)
         return cli_usage(command, "--device cpu runs zonal and preintegrated, not %s",
                          gpu_method_names[method]);
+    if (o->animate && !o->frames_given)
+        return cli_usage(command, "--animate moves lights from frame to frame: it needs --frames");
     if (o->bands > bands_max)
         return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands,
                          gpu_method_names[o->method], bands_max);
@@ -378,6 +384,10 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,
           &o.shard_given },
+        { "animate", 0, CLI_TEXT, &o.animate, "PATH",
+          "how they move: " ANIMATION_NAMES " (without it, scene if the file moves its lights, "
+          "else orbit)",
+          0, 0, NULL, NULL },
         { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second of their time", 0.01, 1000, NULL,
           NULL },
         { "samples", 0, CLI_INT, &o.samples, "N", "samples a pixel: 8 make smooth edges", 1,
@@ -409,6 +419,7 @@ const cli_command command_render = {
         "lampion render scene.gltf --eye 0,2,5 --target 0,1,0 --size 1920x1080 -o scene.exr\n"
         "lampion render builtin:balls --frames 48 -o balls_%04d.png\n"
         "lampion render builtin:balls --frames 0-99 --shard 3/8 -o balls_%04d.png\n"
+        "lampion render builtin:atrium --frames 192 --animate bounce -o bounce_%04d.png\n"
         "lampion render builtin:balls --bands 100 --method preintegrated -o balls.png\n"
         "lampion render builtin:atrium --stats --compare-methods -o atrium.png\n",
     .run = run,

@@ -12,6 +12,11 @@
  * NUL past its end; free() it. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error);
 
+/* One JSON value and nothing after it; what follows the `size` bytes of text must be a NUL. The
+ * file is named in the error. Free with cJSON_Delete; NULL on failure. */
+struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error);
+struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error);
+
 /* A file that appears under its name only when complete: written beside it, then renamed. */
 typedef struct file_writer {
     FILE *stream; /* write here */

@@ -12,6 +12,7 @@ const size_t blob_item_size[BLOB_SECTIONS] = {
     [BLOB_MESHES] = sizeof(scene_mesh),      [BLOB_MATERIALS] = sizeof(scene_material),
     [BLOB_TEXTURES] = sizeof(scene_texture), [BLOB_TEXELS] = 1,
     [BLOB_CAMERAS] = sizeof(scene_camera),   [BLOB_LIGHTS] = sizeof(scene_light),
+    [BLOB_MOTIONS] = sizeof(scene_motion),   [BLOB_OFFSETS] = sizeof(lmp_vec3),
     [BLOB_SOURCES] = sizeof(blob_source),
 };
 
@@ -152,6 +153,22 @@ static bool views_fit(const blob_header *header) {
     return true;
 }
 
+static bool motions_fit(const blob_header *header) {
+    const scene_motion *motions = blob_items(header, BLOB_MOTIONS);
+    const uint64_t light_count = header->sections[BLOB_LIGHTS].count;
+    const uint64_t offset_count = header->sections[BLOB_OFFSETS].count;
+    for (uint64_t i = 0; i < header->sections[BLOB_MOTIONS].count; i++) {
+        const scene_motion *m = &motions[i];
+        /* by rising lights: none has two */
+        if (m->light >= light_count || (i > 0 && m->light <= motions[i - 1].light) ||
+            m->count < 2 || m->first > offset_count || m->count > offset_count - m->first ||
+            !(m->period > 0.0f) || !isfinite(m->period))
+            return false;
+    }
+    const lmp_vec3 *offsets = blob_items(header, BLOB_OFFSETS);
+    return all_finite(&offsets->x, 3 * offset_count);
+}
+
 bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
                    cli_error *error) {
     const blob_header *header = block;
@@ -169,6 +186,8 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
         return cli_fail(error, subject, "has materials or textures that make no sense");
     if (!views_fit(header))
         return cli_fail(error, subject, "has cameras or lights that make no sense");
+    if (!motions_fit(header))
+        return cli_fail(error, subject, "has an animation that makes no sense");
     return true;
 }
 
@@ -214,6 +233,8 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->textures = blob_items(block, BLOB_TEXTURES);
     s->texels = blob_items(block, BLOB_TEXELS);
     s->cameras = blob_items(block, BLOB_CAMERAS);
+    s->motions = blob_items(block, BLOB_MOTIONS);
+    s->offsets = blob_items(block, BLOB_OFFSETS);
     s->vertex_count = header->sections[BLOB_VERTICES].count;
     s->index_count = header->sections[BLOB_INDICES].count;
     s->mesh_count = header->sections[BLOB_MESHES].count;
@@ -221,6 +242,8 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->texture_count = header->sections[BLOB_TEXTURES].count;
     s->texel_bytes = header->sections[BLOB_TEXELS].count;
     s->camera_count = header->sections[BLOB_CAMERAS].count;
+    s->motion_count = header->sections[BLOB_MOTIONS].count;
+    s->offset_count = header->sections[BLOB_OFFSETS].count;
     s->lights = lights;
     s->light_count = header->sections[BLOB_LIGHTS].count;
     s->block = block;

@@ -8,7 +8,7 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 2u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 3u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
@@ -19,6 +19,8 @@ typedef enum blob_section {
     BLOB_TEXELS,
     BLOB_CAMERAS,
     BLOB_LIGHTS,
+    BLOB_MOTIONS,
+    BLOB_OFFSETS,
     BLOB_SOURCES,
     BLOB_SECTIONS
 } blob_section;

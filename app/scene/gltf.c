@@ -309,24 +309,33 @@ static bool check_meshes(const gltf *document, cli_error *error) {
     return true;
 }
 
-/* The node's own transform, column-major. */
-static bool local_transform(const cJSON *node, double m[16]) {
-    double t[3] = { 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
-    for (int i = 0; i < 16; i++)
-        m[i] = i % 5 == 0;
-    gltf_numbers(node, "translation", 3, t);
-    gltf_numbers(node, "rotation", 4, q);
-    gltf_numbers(node, "scale", 3, s);
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
+void gltf_transform_read(const cJSON *node, gltf_transform *t) {
+    *t = (gltf_transform) { .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
+    gltf_numbers(node, "translation", 3, t->translation);
+    gltf_numbers(node, "rotation", 4, t->rotation);
+    gltf_numbers(node, "scale", 3, t->scale);
+}
+
+void gltf_transform_matrix(const gltf_transform *t, double m[16]) {
+    const double x = t->rotation[0], y = t->rotation[1], z = t->rotation[2], w = t->rotation[3];
     const double rotation[9] = {
         1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),
         2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
         2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y),
     };
+    for (int i = 0; i < 16; i++)
+        m[i] = i % 5 == 0;
     for (int column = 0; column < 3; column++)
         for (int row = 0; row < 3; row++)
-            m[4 * column + row] = rotation[3 * column + row] * s[column];
-    memcpy(m + 12, t, sizeof t);
+            m[4 * column + row] = rotation[3 * column + row] * t->scale[column];
+    memcpy(m + 12, t->translation, sizeof t->translation);
+}
+
+/* The node's own transform, column-major. */
+static bool local_transform(const cJSON *node, double m[16]) {
+    gltf_transform transform;
+    gltf_transform_read(node, &transform);
+    gltf_transform_matrix(&transform, m);
     gltf_numbers(node, "matrix", 16, m);
     for (int i = 0; i < 16; i++)
         if (!isfinite(m[i]))

@@ -44,6 +44,23 @@ bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error 
 /* Appends cameras and punctual lights; to be called when the geometry is there. */
 bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *error);
 
+/* A node's own transform, but for a matrix it may have instead. */
+typedef struct gltf_transform {
+    double translation[3], rotation[4], scale[3];
+} gltf_transform;
+void gltf_transform_read(const cJSON *node, gltf_transform *transform);
+void gltf_transform_matrix(const gltf_transform *transform, double matrix[16]); /* column-major */
+
+/* The animations of nodes; NULL without memory. Channels that are damaged or not in float are left
+ * out. */
+typedef struct gltf_motions gltf_motions;
+gltf_motions *gltf_motions_open(const gltf *document);
+void gltf_motions_close(gltf_motions *motions);
+
+/* Appends how a node moves, if it does, as the motion of a light. */
+bool gltf_add_motion(const gltf *document, const gltf_motions *motions, size_t node, size_t light,
+                     scene_builder *builder, cli_error *error);
+
 /* --- reading JSON -------------------------------------------------------------------------------
  */
 

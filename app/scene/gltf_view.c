@@ -77,7 +77,7 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
 }
 
 static bool add_light(const gltf *document, size_t node, const scene_box *box,
-                      scene_builder *builder, cli_error *error) {
+                      const gltf_motions *motions, scene_builder *builder, cli_error *error) {
     const cJSON *holder = document->nodes.items[node];
     const cJSON *use = gltf_member(gltf_member(holder, "extensions"), "KHR_lights_punctual");
     bool ok = true;
@@ -93,7 +93,8 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
     double radius =
         gltf_number(gltf_member(entry, "extras"), "radius", DEFAULT_RADIUS * box->diagonal);
     radius = gltf_number(gltf_member(holder, "extras"), "radius", radius);
-    if (strcmp(gltf_text(entry, "type"), "directional") == 0) {
+    const bool far = strcmp(gltf_text(entry, "type"), "directional") == 0;
+    if (far) {
         const lmp_vec3 back = axis_of(m, 2, 1.0f);
         const double away[3] = { (double)back.x, (double)back.y, (double)back.z };
         for (int k = 0; k < 3; k++)
@@ -114,21 +115,23 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
         light->center[k] = (float)center[k];
         light->radiance[k] = (float)(strength * color[k] / (M_PI * radius * radius));
     }
-    return true;
+    const size_t number = builder_count(builder, BLOB_LIGHTS) - 1;
+    return far || gltf_add_motion(document, motions, node, number, builder, error);
 }
 
 bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *error) {
     const scene_box box = box_of(builder);
-    for (size_t i = 0; i < document->nodes.count; i++) {
+    gltf_motions *motions = gltf_motions_open(document);
+    bool ok = motions || cli_fail(error, document->subject, "does not fit into memory");
+    for (size_t i = 0; i < document->nodes.count && ok; i++) {
         const cJSON *node = document->nodes.items[i];
         const bool in_scene = document->world[i][15] != 0.0;
         const cJSON *extensions = gltf_member(node, "extensions");
-        if (in_scene && gltf_member(node, "camera") &&
-            !add_camera(document, i, &box, builder, error))
-            return false;
-        if (in_scene && gltf_member(extensions, "KHR_lights_punctual") &&
-            !add_light(document, i, &box, builder, error))
-            return false;
+        if (in_scene && gltf_member(node, "camera"))
+            ok = add_camera(document, i, &box, builder, error);
+        if (ok && in_scene && gltf_member(extensions, "KHR_lights_punctual"))
+            ok = add_light(document, i, &box, motions, builder, error);
     }
-    return true;
+    gltf_motions_close(motions);
+    return ok;
 }

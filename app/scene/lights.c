@@ -15,12 +15,9 @@
 #define RANDOM_MARGIN       0.08f /* kept free at the sides of the bounds */
 #define RANDOM_WARM_SHARE   0.5f
 
-/* Moving lights: the size of an orbit relative to the scene's, and the slowest period. */
-#define ORBIT_SIZE   0.04f
-#define ORBIT_PERIOD 8.0
-
 void scene_clear_lights(scene *s) {
     s->light_count = 0;
+    s->motion_count = 0;
 }
 
 lmp_light scene_light_as_sphere(const scene_light *light) {
@@ -138,23 +135,4 @@ bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error
     if (s->light_count == 0 && !options->file)
         add_studio_lights(s);
     return true;
-}
-
-void scene_move_lights(const scene *s, double seconds, scene_light *moved) {
-    const float size = scene_size(s);
-    for (size_t i = 0; i < s->light_count; i++) {
-        moved[i] = s->lights[i];
-        uint64_t random = 0x6c616d70 + i;
-        for (int k = 0; k < 3; k++) {
-            /* Whole multiples of one frequency: every orbit closes after ORBIT_PERIOD. */
-            const double cycles = 1.0 + (double)(random_bits(&random) % 3);
-            const double phase = 2.0 * (double)PI * (double)random_unit(&random);
-            const double angle = 2.0 * (double)PI * cycles * seconds / ORBIT_PERIOD;
-            const float place = moved[i].center[k];
-            /* Inside the bounds where the light was inside. */
-            const float room = fminf(place - s->minimum[k], s->maximum[k] - place);
-            const float reach = fmaxf(0.0f, fminf(ORBIT_SIZE * size, room - moved[i].radius));
-            moved[i].center[k] = place + 0.5f * reach * (float)(sin(angle + phase) - sin(phase));
-        }
-    }
 }

@@ -5,7 +5,6 @@
 
 #include <cjson/cJSON.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define FILE_LIMIT ((size_t)16 << 20)
@@ -92,27 +91,8 @@ static bool read_light(const lights_reader *reader, const cJSON *entry, scene_li
     return true;
 }
 
-/* One JSON value and nothing after it; `text` has a NUL past its end. */
-static cJSON *parse(const char *path, const char *text, size_t size, cli_error *error) {
-    const char *stop = text;
-    cJSON *root = cJSON_ParseWithLengthOpts(text, size + 1, &stop, true);
-    if (root && strlen(text) == size)
-        return root;
-    int line = 1;
-    for (const char *at = text; at < stop && *at; at++)
-        line += *at == '\n';
-    cli_fail(error, path, "is no valid JSON: line %d", line);
-    cJSON_Delete(root);
-    return NULL;
-}
-
 bool scene_add_lights_file(scene *s, const char *path, cli_error *error) {
-    void *data;
-    size_t size;
-    if (!file_read(path, FILE_LIMIT, &data, &size, error))
-        return false;
-    cJSON *root = parse(path, data, size, error);
-    free(data);
+    cJSON *root = file_read_json(path, FILE_LIMIT, error);
     if (!root)
         return false;
     const cJSON *list =

@@ -75,6 +75,14 @@ typedef struct scene_light {
         hidden; /* 1: it shades, but its sphere is not drawn (an emissive mesh is, or nothing) */
 } scene_light;
 
+/* How the scene file moves a light: its offset from its place at even steps of time, from 0 to the
+ * period, after which it begins anew. */
+typedef struct scene_motion {
+    uint32_t light;
+    uint32_t first, count; /* of the scene's offsets; count >= 2 */
+    float period;          /* seconds */
+} scene_motion;
+
 /* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
  * after loading but for the lights. */
 typedef struct scene {
@@ -85,8 +93,10 @@ typedef struct scene {
     const scene_texture *textures;
     const unsigned char *texels;
     const scene_camera *cameras;
+    const scene_motion *motions; /* at most one a light */
+    const lmp_vec3 *offsets;
     size_t vertex_count, index_count, mesh_count, material_count, texture_count, texel_bytes;
-    size_t camera_count;
+    size_t camera_count, motion_count, offset_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
     size_t light_count;
     float minimum[3], maximum[3]; /* bounds; of a scene without triangles: a unit box */
@@ -107,6 +117,7 @@ typedef struct scene_options {
 bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);
 void scene_free(scene *scene);
 
+/* And with them their motions. */
 void scene_clear_lights(scene *scene);
 
 /* Adds the lights of a JSON file (docs/scenes.md); none of them on failure. */
@@ -198,9 +209,5 @@ bool scene_place_camera(const scene *scene, const scene_camera_options *options,
 
 /* The light as the library knows it. */
 lmp_light scene_light_as_sphere(const scene_light *light);
-
-/* The scene's lights at time `seconds`, each on its own closed orbit round its place: a function of
- * the time alone. moved receives light_count lights. */
-void scene_move_lights(const scene *scene, double seconds, scene_light *moved);
 
 #endif

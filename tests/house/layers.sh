@@ -27,13 +27,14 @@ may_include() {
     app/compare) echo app/cli app/image app/compare ;;
     app/figure) echo app/cli app/image app/figure base ;;
     app/scene) echo app/cli app/file app/image app/scene LIBRARY ;;
+    app/animation) echo app/cli app/file app/scene app/animation base ;;
     # the oracle shares no code with what it judges
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/material base sh brdf ;;
     app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
     app/device) echo app/cli app/file app/scene app/gpu app/device LIBRARY ;;
     app/paper) echo app/cli app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
-    app/command) echo app/cli app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material \
+    app/command) echo app/cli app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base kernels sh light lobe brdf response shade field lampion/'
 }

@@ -73,3 +73,10 @@ refused 1 builtin:ball -o "$WORK/x.png" --gl-device 99
 refused 1 builtin:ball -o "$WORK/x.png" --camera none
 refused 1 builtin:ball -o "$WORK/x.png" --eye 1,2,3 --target 1,2,3
 refused 1 "$WORK/none.gltf" -o "$WORK/x.png"
+
+# paths of lights
+"$PROGRAM" render builtin:balls $small --frames 2 --fps 1 --animate bounce -o "$WORK/b_%d.png"
+cmp -s "$WORK/b_1.png" "$WORK/f_001.png" && fail "--animate changes nothing"
+refused 1 builtin:ball -o "$WORK/x.png" --frames 1 --animate scene
+refused 1 builtin:ball -o "$WORK/x.png" --frames 1 --animate none.json
+refused 2 builtin:ball -o "$WORK/x.png" --animate orbit

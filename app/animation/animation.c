@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/animation/internal.h"
+#include "app/scene/random.h"
+#include "app/scene/vector.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The slowest period of orbits and bounces: after so long all lights are back. */
+#define PERIOD 8.0
+
+/* The size of an orbit relative to the scene's. */
+#define ORBIT_SIZE 0.04f
+
+/* Seconds that a fall through the whole height of the scene and the way back take. */
+#define BOUNCE_PERIOD 2.0
+
+/* --- the paths ----------------------------------------------------------------------------------
+ */
+
+static void orbit(const animation *all, size_t number, double seconds, scene_light *light) {
+    const float size = vec_length(vec_sub(vec_load(all->maximum), vec_load(all->minimum)));
+    uint64_t random = 0x6c616d70 + number;
+    for (int k = 0; k < 3; k++) {
+        /* Whole multiples of one frequency: every orbit closes after PERIOD. */
+        const double cycles = 1.0 + (double)(random_bits(&random) % 3);
+        const double phase = 2.0 * (double)PI * (double)random_unit(&random);
+        const double angle = 2.0 * (double)PI * cycles * seconds / PERIOD;
+        const float place = light->center[k];
+        /* Inside the bounds where the light was inside. */
+        const float room = fminf(place - all->minimum[k], all->maximum[k] - place);
+        const float reach = fmaxf(0.0f, fminf(ORBIT_SIZE * size, room - light->radius));
+        light->center[k] = place + 0.5f * reach * (float)(sin(angle + phase) - sin(phase));
+    }
+}
+
+/* Falls from its place to the bottom, and rises again: parabolas of one height. */
+static void bounce(double bottom, double period, double seconds, scene_light *light) {
+    const double height = (double)light->center[1] - (double)light->radius - bottom;
+    const double fall = 1.0 - fabs(2.0 * fmod(seconds, period) / period - 1.0);
+    if (height > 0.0)
+        light->center[1] = (float)((double)light->center[1] - height * fall * fall);
+}
+
+/* From a greater height a fall takes longer, by its square root; the period is a part of PERIOD. */
+static double bounce_period(const animation *all, const scene_light *light) {
+    const double whole = (double)all->maximum[1] - (double)all->minimum[1];
+    const double height =
+        (double)light->center[1] - (double)light->radius - (double)all->minimum[1];
+    if (!(whole > 0.0) || !(height > 0.0))
+        return PERIOD;
+    const double count = floor(PERIOD / (BOUNCE_PERIOD * sqrt(height / whole)) + 0.5);
+    return PERIOD / (count < 1.0 ? 1.0 : count > 64.0 ? 64.0 : count);
+}
+
+/* Round the axis through a circle's centre, counter-clockwise as seen from its tip (Rodrigues). */
+static void circle(const path *p, double seconds, scene_light *light) {
+    const double angle = 2.0 * (double)PI * fmod(seconds, p->period) / p->period;
+    const double c = cos(angle), s = sin(angle), *a = p->axis;
+    double from[3], along = 0.0;
+    for (int k = 0; k < 3; k++) {
+        from[k] = (double)light->center[k] - p->center[k];
+        along += from[k] * a[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        const double across = a[i] * from[j] - a[j] * from[i];
+        light->center[k] =
+            (float)(p->center[k] + from[k] * c + across * s + a[k] * along * (1.0 - c));
+    }
+}
+
+/* The speed at a key: that of the way from its neighbour before to the one after. */
+static double speed_at(const path *p, size_t i, int k) {
+    const size_t before = i > 0 ? i - 1 : 0, after = i + 1 < p->key_count ? i + 1 : i;
+    return (p->keys[after].offset[k] - p->keys[before].offset[k]) /
+           (p->keys[after].time - p->keys[before].time);
+}
+
+static void follow_keys(const path *p, double seconds, scene_light *light) {
+    const double time = fmod(seconds, p->period);
+    size_t low = 0, high = p->key_count - 1;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        *(p->keys[middle].time <= time ? &low : &high) = middle;
+    }
+    const path_key *from = &p->keys[low], *to = &p->keys[high];
+    const double step = to->time - from->time, u = (time - from->time) / step;
+    for (int k = 0; k < 3; k++) {
+        const double way = to->offset[k] - from->offset[k];
+        double offset = from->offset[k] + way * u;
+        if (p->smooth) /* Hermite's cubic, as its difference from the straight line */
+            offset += u * (1.0 - u) *
+                      ((1.0 - u) * (speed_at(p, low, k) * step - way) -
+                       u * (speed_at(p, high, k) * step - way));
+        light->center[k] = (float)((double)light->center[k] + offset);
+    }
+}
+
+void animation_move(const animation *all, size_t number, double seconds, scene_light *light) {
+    const path *p = number < all->path_count ? &all->paths[number] : &all->rest;
+    switch (p->kind) {
+    case PATH_REST:
+        break;
+    case PATH_ORBIT:
+        orbit(all, number, seconds, light);
+        break;
+    case PATH_BOUNCE:
+        if (p->period > 0.0)
+            bounce(p->bottom, p->period, seconds, light);
+        else
+            bounce((double)all->minimum[1], bounce_period(all, light), seconds, light);
+        break;
+    case PATH_CIRCLE:
+        circle(p, seconds, light);
+        break;
+    case PATH_KEYS:
+        follow_keys(p, seconds, light);
+        break;
+    }
+}
+
+void animation_move_all(const animation *all, const scene *world, double seconds,
+                        scene_light *moved) {
+    for (size_t i = 0; i < world->light_count; i++) {
+        moved[i] = world->lights[i];
+        animation_move(all, i, seconds, &moved[i]);
+    }
+}
+
+/* --- opening ------------------------------------------------------------------------------------
+ */
+
+/* The motions that the scene file brought, as keys at even steps. */
+static bool take_motions(const scene *world, animation *all, cli_error *error) {
+    if (world->motion_count == 0)
+        return cli_fail(error, world->origin, "does not move its lights (--animate orbit does)");
+    for (size_t i = 0; i < world->motion_count; i++) {
+        const scene_motion *motion = &world->motions[i];
+        path *p = &all->paths[motion->light];
+        p->keys = calloc(motion->count, sizeof *p->keys);
+        if (!p->keys)
+            return cli_fail(error, NULL, "out of memory");
+        p->kind = PATH_KEYS;
+        p->period = (double)motion->period;
+        p->key_count = motion->count;
+        for (size_t k = 0; k < motion->count; k++) {
+            p->keys[k].time = p->period * (double)k / (double)(motion->count - 1);
+            const lmp_vec3 *offset = &world->offsets[motion->first + k];
+            p->keys[k].offset[0] = (double)offset->x;
+            p->keys[k].offset[1] = (double)offset->y;
+            p->keys[k].offset[2] = (double)offset->z;
+        }
+    }
+    return true;
+}
+
+static bool open_paths(const char *name, const scene *world, animation *all, cli_error *error) {
+    const char *const known[] = { "orbit", "bounce", "scene", NULL };
+    all->paths = calloc(world->light_count + 1, sizeof *all->paths);
+    if (!all->paths)
+        return cli_fail(error, NULL, "out of memory");
+    if (strcmp(name, "orbit") == 0 || strcmp(name, "bounce") == 0) {
+        all->rest.kind = name[0] == 'o' ? PATH_ORBIT : PATH_BOUNCE;
+        return true;
+    }
+    all->path_count = world->light_count;
+    if (strcmp(name, "scene") == 0)
+        return take_motions(world, all, error);
+    const char *dot = strrchr(name, '.'), *nearest = cli_nearest(name, known);
+    if (!dot && nearest)
+        return cli_fail(error, name, "is no path of lights (did you mean %s?)", nearest);
+    if (!dot)
+        return cli_fail(error, name, "is no path of lights (there are " ANIMATION_NAMES ")");
+    return animation_read(name, world, all, error);
+}
+
+bool animation_open(const char *name, const scene *world, animation **opened, cli_error *error) {
+    animation *all = *opened = calloc(1, sizeof *all);
+    if (!all)
+        return cli_fail(error, NULL, "out of memory");
+    memcpy(all->minimum, world->minimum, sizeof all->minimum);
+    memcpy(all->maximum, world->maximum, sizeof all->maximum);
+    if (open_paths(name ? name : world->motion_count > 0 ? "scene" : "orbit", world, all, error))
+        return true;
+    animation_close(all);
+    *opened = NULL;
+    return false;
+}
+
+void animation_close(animation *all) {
+    if (!all)
+        return;
+    for (size_t i = 0; i < all->path_count; i++)
+        free(all->paths[i].keys);
+    free(all->paths);
+    free(all);
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT */
+/* animation.h - how lights move: closed forms in time, so that a frame is the same however one
+ * comes to it (docs/scenes.md). */
+#ifndef LAMPION_ANIMATION_H
+#define LAMPION_ANIMATION_H
+
+#include "app/scene/scene.h"
+
+typedef struct animation animation;
+
+/* Opens a path by name:
+ *
+ *     orbit       each light on its own small closed orbit round its place, 8 s
+ *     bounce      each light falls to the bottom of the scene and comes back, 8 s / a whole number
+ *     scene       as the scene file's own animation moves its lights
+ *     FILE.json   what the file says
+ *
+ * NULL means scene if the file moves its lights, else orbit. What is needed of the scene is copied.
+ * *path is NULL on failure. */
+bool animation_open(const char *name, const scene *scene, animation **path, cli_error *error);
+void animation_close(animation *path);
+
+/* Moves a light to where it is after `seconds` >= 0; `number` is its index in the scene, and any
+ * greater one for lights that came later: only orbit and bounce move these. */
+void animation_move(const animation *path, size_t number, double seconds, scene_light *light);
+
+/* All lights of the scene at that time: moved receives light_count of them. */
+void animation_move_all(const animation *path, const scene *scene, double seconds,
+                        scene_light *moved);
+
+#define ANIMATION_NAMES "orbit, bounce, scene or FILE.json"
+
+#endif

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/* file.c - paths of lights from JSON (docs/scenes.md). */
+#include "app/file/file.h"
+#include "app/animation/internal.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_LIMIT  ((size_t)16 << 20)
+#define SECONDS_MAX 1e6
+
+typedef struct path_reader {
+    const char *file;
+    int number; /* of the path being read, from 0 */
+    cli_error *error;
+} path_reader;
+
+static bool fail_path(const path_reader *reader, const char *wrong) {
+    return cli_fail(reader->error, reader->file, "paths[%d] %s", reader->number, wrong);
+}
+
+static bool read_numbers(const cJSON *item, int count, double *numbers) {
+    if (!cJSON_IsArray(item) || cJSON_GetArraySize(item) != count)
+        return false;
+    const cJSON *entry;
+    cJSON_ArrayForEach(entry, item) {
+        if (!cJSON_IsNumber(entry) || !(fabs(entry->valuedouble) <= (double)LMP_LENGTH_MAX))
+            return false;
+        *numbers++ = entry->valuedouble;
+    }
+    return true;
+}
+
+static const cJSON *member(const cJSON *object, const char *name) {
+    return cJSON_GetObjectItemCaseSensitive(object, name);
+}
+
+static bool only_keys(const path_reader *reader, const cJSON *object, const char *const *known) {
+    for (const cJSON *item = object->child; item; item = item->next) {
+        size_t i = 0;
+        while (known[i] && strcmp(known[i], item->string) != 0)
+            i++;
+        if (!known[i])
+            return cli_fail(reader->error, reader->file, "paths[%d] has an unknown key \"%.64s\"",
+                            reader->number, item->string);
+    }
+    return true;
+}
+
+static bool read_period(const path_reader *reader, const cJSON *object, path *p) {
+    const cJSON *period = member(object, "period");
+    if (!cJSON_IsNumber(period) || !(period->valuedouble > 0 && period->valuedouble <= SECONDS_MAX))
+        return fail_path(reader, "has no period above 0 and up to 1e6 seconds");
+    p->period = period->valuedouble;
+    return true;
+}
+
+/* { "center": [x, y, z], "axis": [x, y, z], "period": s } */
+static bool read_circle(const path_reader *reader, const cJSON *object, path *p) {
+    static const char *const known[] = { "center", "axis", "period", NULL };
+    const cJSON *axis = member(object, "axis");
+    p->kind = PATH_CIRCLE;
+    memcpy(p->axis, (const double[3]) { 0, 1, 0 }, sizeof p->axis);
+    if (!only_keys(reader, object, known) || !read_period(reader, object, p))
+        return false;
+    if (!read_numbers(member(object, "center"), 3, p->center))
+        return fail_path(reader, "has no center of three numbers");
+    if (axis && !read_numbers(axis, 3, p->axis))
+        return fail_path(reader, "has an axis that is not three numbers");
+    const double length =
+        sqrt(p->axis[0] * p->axis[0] + p->axis[1] * p->axis[1] + p->axis[2] * p->axis[2]);
+    if (!(length > 0))
+        return fail_path(reader, "has an axis without direction");
+    for (int k = 0; k < 3; k++)
+        p->axis[k] /= length;
+    return true;
+}
+
+/* { "bottom": y, "period": s } */
+static bool read_bounce(const path_reader *reader, const cJSON *object, path *p) {
+    static const char *const known[] = { "bottom", "period", NULL };
+    const cJSON *bottom = member(object, "bottom");
+    p->kind = PATH_BOUNCE;
+    if (!only_keys(reader, object, known) || !read_period(reader, object, p))
+        return false;
+    if (!cJSON_IsNumber(bottom) || !(fabs(bottom->valuedouble) <= (double)LMP_LENGTH_MAX))
+        return fail_path(reader, "has no bottom, a height");
+    p->bottom = bottom->valuedouble;
+    return true;
+}
+
+/* [[seconds, x, y, z], …] */
+static bool read_keys(const path_reader *reader, const cJSON *array, const scene_light *light,
+                      path *p) {
+    const int count = cJSON_IsArray(array) ? cJSON_GetArraySize(array) : 0;
+    if (count < 2)
+        return fail_path(reader, "needs at least two keys");
+    p->kind = PATH_KEYS;
+    p->keys = calloc((size_t)count, sizeof *p->keys);
+    if (!p->keys)
+        return cli_fail(reader->error, NULL, "out of memory");
+    const cJSON *entry;
+    double before = -1.0;
+    cJSON_ArrayForEach(entry, array) {
+        double key[4];
+        if (!read_numbers(entry, 4, key))
+            return fail_path(reader, "has a key that is not [seconds, x, y, z]");
+        if (!(key[0] > before) || (p->key_count == 0) != (key[0] == 0.0) || key[0] > SECONDS_MAX)
+            return fail_path(reader, "has keys whose seconds do not rise from 0");
+        p->keys[p->key_count].time = p->period = before = key[0];
+        for (int k = 0; k < 3; k++)
+            p->keys[p->key_count].offset[k] = key[k + 1] - (double)light->center[k];
+        p->key_count++;
+    }
+    return true;
+}
+
+/* Fills the path of the lights that an entry names. */
+static bool read_path(const path_reader *reader, const cJSON *entry, const scene *world,
+                      animation *all) {
+    static const char *const known[] = { "light", "keys", "smooth", "circle", "bounce", NULL };
+    const cJSON *light = member(entry, "light"), *keys = member(entry, "keys"),
+                *round = member(entry, "circle"), *fall = member(entry, "bounce");
+    if (!cJSON_IsObject(entry))
+        return fail_path(reader, "is no object");
+    if (!only_keys(reader, entry, known))
+        return false;
+    if (!!keys + !!round + !!fall != 1)
+        return fail_path(reader, "needs one of keys, circle and bounce");
+    if (light && (!cJSON_IsNumber(light) || !(light->valuedouble >= 0) ||
+                  !(light->valuedouble < (double)world->light_count) ||
+                  light->valuedouble != floor(light->valuedouble)))
+        return cli_fail(reader->error, reader->file,
+                        "paths[%d] names no light (there are 0 to %zu)", reader->number,
+                        world->light_count - 1);
+    if (keys && !light)
+        return fail_path(reader, "has keys, but no light that follows them");
+    const size_t index = light ? (size_t)light->valuedouble : 0;
+    if (light && all->paths[index].kind != PATH_REST)
+        return fail_path(reader, "is the second path of its light");
+    path own = { .smooth = cJSON_IsTrue(member(entry, "smooth")) };
+    path *p = light ? &all->paths[index] : &own;
+    *p = own;
+    if (keys ? !read_keys(reader, keys, &world->lights[index], p)
+             : !(round ? read_circle(reader, round, p) : read_bounce(reader, fall, p)))
+        return false;
+    for (size_t i = 0; !light && i < all->path_count; i++)
+        if (all->paths[i].kind == PATH_REST)
+            all->paths[i] = own;
+    return true;
+}
+
+bool animation_read(const char *file, const scene *world, animation *all, cli_error *error) {
+    cJSON *root = file_read_json(file, FILE_LIMIT, error);
+    if (!root)
+        return false;
+    const cJSON *list = cJSON_IsObject(root) ? member(root, "paths") : NULL, *entry;
+    path_reader reader = { file, 0, error };
+    bool ok = true;
+    if (!cJSON_IsArray(list))
+        ok = cli_fail(error, file, "has no array \"paths\"");
+    else if (cJSON_GetArraySize(root) != 1)
+        ok = cli_fail(error, file, "has keys other than \"paths\"");
+    if (!ok)
+        list = NULL;
+    cJSON_ArrayForEach(entry, list) {
+        ok = ok && read_path(&reader, entry, world, all);
+        reader.number++;
+    }
+    cJSON_Delete(root);
+    return ok;
+}

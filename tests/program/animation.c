@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT */
+/* Paths of lights: functions of time, closed, and as the files say. */
+#include "app/animation/animation.h"
+
+#include "tests/oracle/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define CHECK_NEAR(expected, actual, bound)                                                        \
+    CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
+
+static scene load(const char *name) {
+    scene loaded;
+    cli_error error = { 0 };
+    if (!scene_load(name, &(scene_options) { .no_cache = true }, &loaded, &error))
+        fail_msg("%s", error.text);
+    return loaded;
+}
+
+static animation *open_path(const char *name, const scene *s) {
+    animation *path = NULL;
+    cli_error error = { 0 };
+    if (!animation_open(name, s, &path, &error))
+        fail_msg("%s", error.text);
+    return path;
+}
+
+static scene_light at(const animation *path, const scene *s, size_t number, double seconds) {
+    scene_light light = s->lights[number];
+    animation_move(path, number, seconds, &light);
+    return light;
+}
+
+static void check_place(const scene_light *light, double x, double y, double z) {
+    CHECK_NEAR(x, light->center[0], 1e-5);
+    CHECK_NEAR(y, light->center[1], 1e-5);
+    CHECK_NEAR(z, light->center[2], 1e-5);
+}
+
+/* Writes a temporary file; unlink it. */
+static const char *write_file(const char *suffix, const char *text) {
+    static char path[64];
+    snprintf(path, sizeof path, "/tmp/lampion-path-XXXXXX%s", suffix);
+    const int descriptor = mkstemps(path, (int)strlen(suffix));
+    assert_true(descriptor >= 0);
+    assert_int_equal(write(descriptor, text, strlen(text)), strlen(text));
+    close(descriptor);
+    return path;
+}
+
+static void orbits_close_inside_the_scene(void **state) {
+    (void)state;
+    scene s = load("builtin:atrium");
+    animation *path = open_path("orbit", &s);
+    scene_light later[64];
+    animation_move_all(path, &s, 1.25, later);
+    double moved = 0.0;
+    for (size_t i = 0; i < s.light_count; i++) {
+        const scene_light start = at(path, &s, i, 0.0), closed = at(path, &s, i, 8.0);
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(s.lights[i].center[k], start.center[k], 1e-6);
+            CHECK_NEAR(start.center[k], closed.center[k], 1e-4);
+            assert_true(later[i].center[k] >= s.minimum[k] && later[i].center[k] <= s.maximum[k]);
+            moved += fabs((double)later[i].center[k] - (double)start.center[k]);
+        }
+    }
+    assert_true(moved > 1.0);
+    animation_close(path);
+    scene_free(&s);
+}
+
+static void bounces_touch_the_ground_and_come_back(void **state) {
+    (void)state;
+    scene s = load("builtin:atrium");
+    animation *path = open_path("bounce", &s);
+    for (size_t i = 0; i < s.light_count; i++) {
+        double lowest = 1e9;
+        for (int step = 0; step <= 8 * 960; step++) {
+            const scene_light light = at(path, &s, i, step / 960.0);
+            CHECK_NEAR(s.lights[i].center[0], light.center[0], 0.0);
+            assert_true(light.center[1] <= s.lights[i].center[1]);
+            lowest = fmin(lowest, (double)(light.center[1] - light.radius - s.minimum[1]));
+        }
+        CHECK_NEAR(0.0, lowest, 0.02);
+        const scene_light closed = at(path, &s, i, 8.0);
+        CHECK_NEAR(s.lights[i].center[1], closed.center[1], 1e-5);
+    }
+    animation_close(path);
+    scene_free(&s);
+}
+
+static void files_say_how_lights_move(void **state) {
+    (void)state;
+    scene s = load("builtin:ball");
+    s.lights[0].center[0] = s.lights[0].center[1] = s.lights[0].center[2] = 1.0f;
+    s.lights[2] = s.lights[0];
+    s.lights[3] = s.lights[0];
+    const char *file = write_file(
+        ".json", "{\"paths\":[{\"light\":0,\"keys\":[[0,1,1,1],[2,3,1,1],[4,1,1,1]]},"
+                 "{\"light\":1,\"smooth\":true,\"keys\":[[0,0,0,0],[1,1,0,0],[3,3,0,0]]},"
+                 "{\"light\":2,\"bounce\":{\"bottom\":0,\"period\":2}},"
+                 "{\"circle\":{\"center\":[0,5,0],\"period\":4}}]}");
+    animation *path = open_path(file, &s);
+    unlink(file);
+    scene_light light = at(path, &s, 0, 1.5);
+    check_place(&light, 2.5, 1, 1);
+    light = at(path, &s, 0, 4e5 + 3.0); /* any number of rounds later */
+    check_place(&light, 2, 1, 1);
+    /* keys on a line at one speed: a smooth path is that line */
+    light = at(path, &s, 1, 2.25);
+    check_place(&light, 2.25, 0, 0);
+    light = at(path, &s, 2, 1.0);
+    check_place(&light, 1, (double)light.radius, 1);
+    light = at(path, &s, 3, 1.0); /* a quarter from x towards -z */
+    check_place(&light, 1, 1, -1);
+    light = at(path, &s, 3, 2.0);
+    check_place(&light, -1, 1, -1);
+    animation_close(path);
+    scene_free(&s);
+}
+
+/* A lamp slides on an arm that turns: translation in 2 s, rotation by 90 degrees in 4 s. */
+static const char turning_arm[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],"
+    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"extras\":{"
+    "\"radius\":0.1}}]}},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":4}}]}],\"nodes\":[{\"mesh\":0,"
+    "\"children\":[1]},{\"translation\":[0,0,0],\"extensions\":{"
+    "\"KHR_lights_punctual\":{\"light\":0}}}],"
+    "\"buffers\":[{\"byteLength\":108,\"uri\":\"data:application/octet-stream;base64,"
+    "AAAAAAAAAEAAAAAAAACAQAAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAgD8A"
+    "AAAA8wQ1PwAAAADzBDU/AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":108}],\"accessors\":["
+    "{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},"
+    "{\"bufferView\":0,\"byteOffset\":8,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},"
+    "{\"bufferView\":0,\"byteOffset\":16,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
+    "{\"bufferView\":0,\"byteOffset\":40,\"componentType\":5126,\"count\":2,\"type\":\"VEC4\"},"
+    "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+    "\"animations\":[{\"samplers\":[{\"input\":0,\"output\":2},{\"input\":1,\"output\":3}],"
+    "\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}},"
+    "{\"sampler\":1,\"target\":{\"node\":0,\"path\":\"rotation\"}}]}]}";
+
+static void scenes_move_their_own_lights(void **state) {
+    (void)state;
+    const char *file = write_file(".gltf", turning_arm);
+    scene s = load(file);
+    unlink(file);
+    assert_int_equal(s.motion_count, 1);
+    animation *path = open_path(NULL, &s);
+    scene_light light = at(path, &s, 0, 1.0);
+    check_place(&light, cos(M_PI / 8), 0, -sin(M_PI / 8));
+    light = at(path, &s, 0, 3.0); /* the slide has ended, the arm turns on */
+    check_place(&light, 2 * cos(3 * M_PI / 8), 0, -2 * sin(3 * M_PI / 8));
+    animation_close(path);
+    scene_clear_lights(&s);
+    assert_int_equal(s.motion_count, 0);
+    scene_free(&s);
+}
+
+static void bad_paths_are_refused_in_one_line(void **state) {
+    (void)state;
+    static const char *const bad[] = {
+        "",
+        "{}",
+        "[]",
+        "{\"paths\":0}",
+        "{\"paths\":[],\"more\":1}",
+        "{\"paths\":[3]}",
+        "{\"paths\":[{}]}",
+        "{\"paths\":[{\"light\":0}]}",
+        "{\"paths\":[{\"light\":99,\"keys\":[[0,0,0,0],[1,0,0,0]]}]}",
+        "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0]]}]}",
+        "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0],[0,1,0,0]]}]}",
+        "{\"paths\":[{\"light\":0,\"keys\":[[1,0,0,0],[2,1,0,0]]}]}",
+        "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0],[1,1e300,0,0]]}]}",
+        "{\"paths\":[{\"keys\":[[0,0,0,0],[1,1,0,0]]}]}",
+        "{\"paths\":[{\"circle\":{\"center\":[0,0,0],\"period\":0}}]}",
+        "{\"paths\":[{\"circle\":{\"center\":[0,0,0],\"axis\":[0,0,0],\"period\":1}}]}",
+        "{\"paths\":[{\"bounce\":{\"period\":1}}]}",
+        "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1,\"speed\":1}}]}",
+    };
+    scene s = load("builtin:ball");
+    animation *path = NULL;
+    cli_error error;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        const char *file = write_file(".json", bad[i]);
+        error.text[0] = '\0';
+        if (animation_open(file, &s, &path, &error) || path)
+            fail_msg("taken: %s", bad[i]);
+        unlink(file);
+        assert_non_null(strstr(error.text, file));
+    }
+    assert_false(animation_open("obrit", &s, &path, &error));
+    assert_non_null(strstr(error.text, "did you mean orbit"));
+    assert_false(animation_open("scene", &s, &path, &error));
+    scene_free(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(orbits_close_inside_the_scene),
+        cmocka_unit_test(bounces_touch_the_ground_and_come_back),
+        cmocka_unit_test(files_say_how_lights_move),
+        cmocka_unit_test(scenes_move_their_own_lights),
+        cmocka_unit_test(bad_paths_are_refused_in_one_line),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
