@@ -12,18 +12,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#define COMMANDS_MAX 32
-
-static const cli_command *find_command(const char *name) {
-    for (const cli_command *const *command = command_table; *command; command++)
-        if (strcmp((*command)->name, name) == 0)
-            return *command;
-    return NULL;
-}
-
 static int print_help(void) {
-    printf("lampion: lights scenes with glowing spheres through spherical harmonics\n\n"
-           "Usage: lampion COMMAND [OPTION…]\n\nCommands:\n");
+    printf("lampion: %s\n\nUsage: lampion COMMAND [OPTION…]\n\nCommands:\n",
+           command_program_summary);
     for (const cli_command *const *command = command_table; *command; command++)
         printf("  %-12s%s\n", (*command)->name, (*command)->summary);
     printf("\nlampion COMMAND --help shows a command's options and examples;"
@@ -37,24 +28,9 @@ static int print_version(void) {
     return CLI_OK;
 }
 
-static int unknown_command(const char *name) {
-    const char *names[COMMANDS_MAX + 2] = { "help" };
-    for (int i = 0; command_table[i] && i < COMMANDS_MAX; i++)
-        names[i + 1] = command_table[i]->name;
-    const char *const nearest = cli_nearest(name, names);
-    cli_error error;
-    if (nearest)
-        cli_fail(&error, NULL, "unknown command %s (did you mean %s?); see lampion --help", name,
-                 nearest);
-    else
-        cli_fail(&error, NULL, "unknown command %s; see lampion --help", name);
-    cli_report(&error);
-    return CLI_USAGE;
-}
-
 static int run_command(int argc, char **argv) {
-    const cli_command *const command = find_command(argv[0]);
-    return command ? command->run(command, argc, argv) : unknown_command(argv[0]);
+    const cli_command *const command = command_find(argv[0]);
+    return command ? command->run(command, argc, argv) : command_unknown(argv[0]);
 }
 
 static int run(int argc, char **argv) {
@@ -66,9 +42,8 @@ static int run(int argc, char **argv) {
         return run_command(argc - 1, argv + 1);
     if (argc < 3)
         return print_help();
-    char help[] = "--help";
-    char *arguments[] = { argv[2], help, NULL };
-    return run_command(2, arguments);
+    const cli_command *const command = command_find(argv[2]);
+    return command ? command_print_help(command, "--help") : command_unknown(argv[2]);
 }
 
 /* A file opened later must not become stdout or stderr because the caller closed those. Opened for

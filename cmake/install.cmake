@@ -7,6 +7,14 @@ install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion
 if(LAMPION_PROGRAM)
   install(TARGETS lampion_program)
 endif()
+if(TARGET lampion_manual)
+  install(DIRECTORY ${manual}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${manual}/bash/lampion
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${manual}/zsh/_lampion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  install(FILES ${manual}/fish/lampion.fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
 install(FILES shaders/lampion.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lampion)

@@ -79,6 +79,11 @@ cli_option cli_cpu_mask(int *mask);
 int cli_usage(const cli_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Prints the manual page of the program: its commands (NULL-terminated) and the variables of the
+ * environment it heeds, pairs of name and meaning ended by NULL. */
+void cli_man(const char *summary, const cli_command *const *commands,
+             const char *const (*environment)[2]);
+
 /* The entry of `names` (NULL-terminated) nearest to `word`, or NULL if none is near. */
 const char *cli_nearest(const char *word, const char *const *names);
 

@@ -92,17 +92,36 @@ static void describe_default(const cli_option *option, char *text, size_t size) 
         snprintf(text + used, size - used, " [%s]", value);
 }
 
+void option_describe(const cli_option *option, char *text, size_t size) {
+    snprintf(text, size, "%s", option->help);
+    describe_values(option, text, size);
+    if (!option->given)
+        describe_default(option, text, size);
+}
+
+int option_rows(const cli_option *options, cli_option *rows) {
+    static int every = LMP_CPU_ALL;
+    const cli_option cpu_mask = cli_cpu_mask(&every);
+    int count = 0;
+    bool own = false;
+    for (; options[count].name && count < OPTIONS_MAX - 2; count++) {
+        rows[count] = options[count];
+        own = own || strcmp(options[count].name, cpu_mask.name) == 0;
+    }
+    if (!own)
+        rows[count++] = cpu_mask;
+    rows[count++] = (cli_option) { .name = "help", .letter = 'h', .help = "this text" };
+    return count;
+}
+
 static void print_option(const cli_option *option) {
     char letter[8] = "    ";
     if (option->letter)
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
     int column = printf("  %s--%s%s%s", letter, option->name, option->argument ? " " : "",
                         option->argument ? option->argument : "");
-    char text[1024];
-    snprintf(text, sizeof text, "%s", option->help);
-    describe_values(option, text, sizeof text);
-    if (!option->given)
-        describe_default(option, text, sizeof text);
+    char text[OPTION_TEXT_SIZE];
+    option_describe(option, text, sizeof text);
     if (column > TEXT_COLUMN - 2) {
         putchar('\n');
         column = 0;
@@ -115,16 +134,10 @@ void option_help(const cli_command *command, const cli_option *options) {
     printf("lampion %s: %s\n\nUsage: lampion %s [OPTION…]%s%s\n\nOptions [default]:\n",
            command->name, command->summary, command->name, command->operands[0] ? " " : "",
            command->operands);
-    for (const cli_option *option = options; option->name; option++)
-        print_option(option);
-    int mask = LMP_CPU_ALL;
-    const cli_option cpu_mask = cli_cpu_mask(&mask);
-    const cli_option *own = options;
-    while (own->name && strcmp(own->name, cpu_mask.name) != 0)
-        own++;
-    if (!own->name)
-        print_option(&cpu_mask);
-    print_option(&(cli_option) { .name = "help", .letter = 'h', .help = "this text" });
+    cli_option rows[OPTIONS_MAX];
+    const int count = option_rows(options, rows);
+    for (int i = 0; i < count; i++)
+        print_option(&rows[i]);
     printf("\nExamples:\n");
     for (const char *line = command->examples; *line;) {
         const int length = (int)strcspn(line, "\n");

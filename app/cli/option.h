@@ -8,8 +8,23 @@
 /* Stores the value `text` in the option's target, or says why it cannot. */
 bool option_store(const cli_option *option, const char *text, cli_error *error);
 
-/* Prints the help of a command to stdout; targets still hold their defaults. */
+#define OPTIONS_MAX      64
+#define OPTION_TEXT_SIZE 1024
+
+/* All rows that a command takes, into OPTIONS_MAX places: those of its table, and what every
+ * command has. Returns their count. */
+int option_rows(const cli_option *options, cli_option *rows);
+
+/* Writes what an option does, what it accepts and its default: targets still hold defaults. */
+void option_describe(const cli_option *option, char *text, size_t size);
+
+/* Print what `lampion COMMAND --help` shows, its manual page, and what each shell has to know to
+ * complete it. */
 void option_help(const cli_command *command, const cli_option *options);
+void option_man(const cli_command *command, const cli_option *options);
+void option_bash(const cli_command *command, const cli_option *options);
+void option_zsh(const cli_command *command, const cli_option *options);
+void option_fish(const cli_command *command, const cli_option *options);
 
 /* A table's limits: its own, or those of its kind. */
 void option_limits(const cli_option *option, double *minimum, double *maximum);

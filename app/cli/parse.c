@@ -6,18 +6,29 @@
 #include <stdio.h>
 #include <string.h>
 
-#define NAMES_MAX 64
-
 /* The rest of a command line. */
 typedef struct arguments {
     char **next, **end;
 } arguments;
 
-static bool wants_help(int argc, char **argv) {
+typedef void (*help_printer)(const cli_command *command, const cli_option *options);
+
+/* What prints the help that argv asks for, or NULL. The forms with a value are for
+ * `lampion man` and `lampion completion`. */
+static help_printer find_help(int argc, char **argv) {
+    static const struct {
+        const char *word;
+        help_printer print;
+    } forms[] = {
+        { "--help", option_help },    { "-h", option_help },
+        { "--help=man", option_man }, { "--help=bash", option_bash },
+        { "--help=zsh", option_zsh }, { "--help=fish", option_fish },
+    };
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
-            return true;
-    return false;
+        for (size_t k = 0; k < sizeof forms / sizeof *forms; k++)
+            if (strcmp(argv[i], forms[k].word) == 0)
+                return forms[k].print;
+    return NULL;
 }
 
 /* The option that `word` names, and where its value begins inside the word (or NULL). */
@@ -39,9 +50,11 @@ static const cli_option *find_option(const cli_option *options, char *word, char
 }
 
 static int unknown_option(const cli_command *command, const cli_option *options, const char *word) {
-    const char *names[NAMES_MAX] = { "help", "cpu-mask" };
-    for (int i = 0; options[i].name && i < NAMES_MAX - 3; i++)
-        names[i + 2] = options[i].name;
+    const char *names[OPTIONS_MAX + 1] = { NULL };
+    cli_option rows[OPTIONS_MAX];
+    const int count = option_rows(options, rows);
+    for (int i = 0; i < count; i++)
+        names[i] = rows[i].name;
     const int length = (int)strcspn(word, "=");
     char name[64] = "";
     if (word[1] == '-')
@@ -96,8 +109,9 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
     *status = CLI_OK;
     *operand_count = 0;
     *operands = argv + 1;
-    if (wants_help(argc, argv)) {
-        option_help(command, options);
+    const help_printer help = find_help(argc, argv);
+    if (help) {
+        help(command, options);
         return false;
     }
     arguments rest = { argv + 1, argv + argc };

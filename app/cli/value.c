@@ -150,7 +150,9 @@ static bool store_choice(const cli_option *option, const char *text, cli_error *
             strcat(known, option->choices[i]);
         }
     }
-    return cli_fail(error, NULL, "--%s: \"%s\" is none of %s", option->name, text, known);
+    const char *const nearest = cli_nearest(text, option->choices);
+    return cli_fail(error, NULL, "--%s: \"%s\" is none of %s%s%s%s", option->name, text, known,
+                    nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
 }
 
 static bool store_item(const cli_option *option, const char *text, cli_error *error) {

@@ -2,6 +2,7 @@
 /* lampion bench - what the batch kernels cost (docs/benchmarks.md). */
 #include "app/command/bench.h"
 #include "app/command/command.h"
+#include "app/gpu/gpu.h"
 
 #include <lampion/lampion.h>
 
@@ -434,11 +435,6 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
 /* --- results -----------------------------------------------------------------------------------
  */
 
-typedef struct bench_options {
-    bool json, full;
-    int mask, threads;
-} bench_options;
-
 static void print_row(const bench_options *o, bool first, const bench_kernel *kernel, int bands,
                       lmp_sh_layout layout, const measurement *m) {
     const char *name = layout == LMP_SH_PLANES ? "planar" : "rows";
@@ -544,39 +540,17 @@ static void print_header(const bench_options *o) {
            "ns", "quartiles", "peak", "x paper", "x scalar");
 }
 
-static int run(const cli_command *command, int argc, char **argv) {
-    if (argc > 1 && strcmp(argv[1], "gpu") == 0)
-        return bench_gpu(command, argc - 1, argv + 1);
-    bench_options o = { .mask = LMP_CPU_ALL };
-    const cli_option options[] = {
-        { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
-        { .name = "full", .kind = CLI_FLAG, .target = &o.full, .help = "ten times the runs" },
-        cli_cpu_mask(&o.mask),
-        { .name = "threads",
-          .kind = CLI_INT,
-          .target = &o.threads,
-          .argument = "N",
-          .help = "most threads of the scaling rows; 0 = every processor",
-          .minimum = 0,
-          .maximum = 1024 },
-        { .name = NULL },
-    };
-    int count, status;
-    char **operands;
-    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
-        return status;
-    if (count != 1 || strcmp(operands[0], "cpu") != 0)
-        return cli_usage(command, "what to measure: cpu or gpu");
+static int bench_cpu(const bench_options *o) {
     static bench_inputs in;
     cli_error error = { "" };
     bool done = inputs_create(&in);
     if (done) {
-        print_header(&o);
-        measure_kernels(&o, &in);
-        if (o.json)
+        print_header(o);
+        measure_kernels(o, &in);
+        if (o->json)
             printf("\n  ],\n  \"threads\": [\n");
-        done = measure_threads(&o, &in);
-        if (o.json)
+        done = measure_threads(o, &in);
+        if (o->json)
             printf("\n  ]\n}\n");
     }
     free(in.out);
@@ -589,10 +563,61 @@ static int run(const cli_command *command, int argc, char **argv) {
     return CLI_OK;
 }
 
+static int run(const cli_command *command, int argc, char **argv) {
+    bench_options o = { .mask = LMP_CPU_ALL, .lights = 30, .size = { 1980, 995 } };
+    const cli_option options[] = {
+        { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
+        { .name = "full",
+          .kind = CLI_FLAG,
+          .target = &o.full,
+          .help = "cpu: ten times the runs; gpu: every combination of bands, lights and sizes, in "
+                  "two scenes" },
+        cli_cpu_mask(&o.mask),
+        { .name = "threads",
+          .kind = CLI_INT,
+          .target = &o.threads,
+          .argument = "N",
+          .help = "cpu: most threads of the scaling rows; 0 = every processor",
+          .minimum = 0,
+          .maximum = 1024 },
+        { .name = "lights",
+          .kind = CLI_INT,
+          .target = &o.lights,
+          .argument = "N",
+          .help = "gpu: lights of the rows over the bands",
+          .minimum = 1,
+          .maximum = SCENE_LIGHTS_MAX },
+        { .name = "size",
+          .kind = CLI_SIZE,
+          .target = o.size,
+          .argument = "WxH",
+          .help = "gpu: pixels of the rows of the short selection",
+          .minimum = 1,
+          .maximum = GPU_SIZE_MAX },
+        { .name = "gl-device",
+          .kind = CLI_TEXT,
+          .target = &o.gl_device,
+          .argument = "DEVICE",
+          .help = "gpu: a number, part of a name, or software" },
+        { .name = NULL },
+    };
+    int count, status;
+    char **operands;
+    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+        return status;
+    if (count == 1 && strcmp(operands[0], "gpu") == 0) {
+        lmp_cpu_mask((unsigned)o.mask);
+        return bench_gpu(&o);
+    }
+    if (count != 1 || strcmp(operands[0], "cpu") != 0)
+        return cli_usage(command, "what to measure: cpu or gpu");
+    return bench_cpu(&o);
+}
+
 const cli_command command_bench = {
     .name = "bench",
     .operands = "cpu|gpu",
-    .summary = "measure the batch kernels on every instruction set",
+    .summary = "measure the batch kernels on every instruction set, or the shaders",
     .examples = "lampion bench cpu\n"
                 "lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
                 "lampion bench gpu --json > gpu.json\n",

@@ -5,7 +5,14 @@
 
 #include "app/cli/cli.h"
 
-/* `lampion bench gpu …`: argv[0] is "gpu". */
-int bench_gpu(const cli_command *command, int argc, char **argv);
+typedef struct bench_options {
+    bool json, full;
+    int mask, threads;     /* of cpu */
+    int lights, size[2];   /* of gpu */
+    const char *gl_device; /* of gpu */
+} bench_options;
+
+/* `lampion bench gpu`; returns the exit status. */
+int bench_gpu(const bench_options *options);
 
 #endif

@@ -11,12 +11,6 @@
 
 enum { FRAMES = 9, SEED = 7 };
 
-typedef struct bench_options {
-    bool json, full;
-    const char *gl_device;
-    int lights, size[2];
-} bench_options;
-
 /* A row's frame, and the shader it runs. */
 typedef struct bench_case {
     const char *scene, *method_name;
@@ -228,49 +222,15 @@ static void print_header(const bench_stage *stage) {
            "table ms");
 }
 
-int bench_gpu(const cli_command *command, int argc, char **argv) {
+int bench_gpu(const bench_options *o) {
     static const char *const scenes[] = { "builtin:atrium", "builtin:ball" };
-    bench_options o = { .lights = 30, .size = { 1980, 995 } };
-    const cli_option options[] = {
-        { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
-        { .name = "full",
-          .kind = CLI_FLAG,
-          .target = &o.full,
-          .help = "every combination of bands, lights and sizes, in two scenes" },
-        { .name = "lights",
-          .kind = CLI_INT,
-          .target = &o.lights,
-          .argument = "N",
-          .help = "lights of the rows over the bands",
-          .minimum = 1,
-          .maximum = SCENE_LIGHTS_MAX },
-        { .name = "size",
-          .kind = CLI_SIZE,
-          .target = o.size,
-          .argument = "WxH",
-          .help = "pixels of the rows of the short selection",
-          .minimum = 1,
-          .maximum = GPU_SIZE_MAX },
-        { .name = "gl-device",
-          .kind = CLI_TEXT,
-          .target = &o.gl_device,
-          .argument = "DEVICE",
-          .help = "a number, part of a name, or software" },
-        { .name = NULL },
-    };
-    int count, status;
-    char **operands;
-    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
-        return status;
-    if (count > 0)
-        return cli_usage(command, "no operands are taken, '%s' given", operands[0]);
     cli_error error = { "" };
     bool ok = true, first = true;
-    for (int i = 0; i < (o.full ? 2 : 1) && ok; i++) {
-        bench_stage stage = { .options = &o, .name = scenes[i], .first = first };
+    for (int i = 0; i < (o->full ? 2 : 1) && ok; i++) {
+        bench_stage stage = { .options = o, .name = scenes[i], .first = first };
         ok = open_stage(&stage, &error);
         if (ok && i == 0) {
-            if (o.json)
+            if (o->json)
                 printf("{\n  \"gpu\": \"%s\",\n  \"driver\": \"%s\",\n  \"cpu_kernels\": \"%s\",\n"
                        "  \"commit\": \"%s\",\n  \"rows\": [\n",
                        stage.context.device, stage.context.driver, lmp_cpu_name(), LAMPION_COMMIT);
@@ -280,7 +240,7 @@ int bench_gpu(const cli_command *command, int argc, char **argv) {
         first = stage.first;
         close_stage(&stage);
     }
-    if (o.json && ok)
+    if (o->json && ok)
         printf("\n  ]\n}\n");
     return ok ? CLI_OK : cli_report(&error);
 }

@@ -8,6 +8,17 @@
 /* All commands in the order of the help, NULL-terminated. */
 extern const cli_command *const command_table[];
 
+/* What the program is for. */
+extern const char command_program_summary[];
+
+/* The command of a name, or NULL; and the message that there is none, which names the nearest. */
+const cli_command *command_find(const char *name);
+int command_unknown(const char *name);
+
+/* Prints a command's help in the form of `word`: "--help", or one for `lampion man` and `lampion
+ * completion`. Returns the exit status. */
+int command_print_help(const cli_command *command, const char *word);
+
 /* The names of lmp_window by its values, NULL-terminated: choices of --window. */
 extern const char *const command_windows[];
 

@@ -7,10 +7,8 @@
 #include <string.h>
 
 static int run_line(int argc, char **argv) {
-    for (size_t i = 0; argc > 0 && command_table[i]; i++)
-        if (strcmp(command_table[i]->name, argv[0]) == 0)
-            return command_table[i]->run(command_table[i], argc, argv);
-    return CLI_USAGE;
+    const cli_command *const command = argc > 0 ? command_find(argv[0]) : NULL;
+    return command ? command->run(command, argc, argv) : CLI_USAGE;
 }
 
 /* The path as seen from anywhere; paths with blanks cannot stand in a command line of the page. */

@@ -2,6 +2,7 @@
 #include "app/scene/builtin.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +20,26 @@ static const builtin_scene builtin_scenes[] = {
     { "balls", builtin_balls, 0, false },
     { "ball", builtin_ball, 0, false },
 };
-#define BUILTIN_NAMES "atrium, balls, ball"
+#define BUILTIN_SCENES (sizeof builtin_scenes / sizeof *builtin_scenes)
+
+const char *scene_builtin_name(size_t i) {
+    return i < BUILTIN_SCENES ? builtin_scenes[i].name : NULL;
+}
+
+static bool unknown_scene(const char *name, cli_error *error) {
+    const char *names[BUILTIN_SCENES + 1] = { NULL };
+    char known[64 * BUILTIN_SCENES] = "", word[64];
+    for (size_t i = 0; i < BUILTIN_SCENES; i++) {
+        names[i] = builtin_scenes[i].name;
+        strcat(strcat(known, i ? ", " : ""), names[i]);
+    }
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(name, ":"), name);
+    const char *const nearest = cli_nearest(word, names);
+    if (nearest)
+        return cli_fail(error, NULL, "builtin:%s: is no built-in scene (did you mean builtin:%s?)",
+                        name, nearest);
+    return cli_fail(error, NULL, "builtin:%s: is no built-in scene (there are %s)", name, known);
+}
 
 static bool parse_number(const char *text, size_t length, uint64_t maximum, uint64_t *number) {
     char digits[24];
@@ -62,7 +82,7 @@ static bool parse_parameter(const builtin_scene *which, const char *text, size_t
 
 bool builtin_make(const char *name, scene_builder *builder, cli_error *error) {
     const size_t name_length = strcspn(name, ":");
-    for (size_t i = 0; i < sizeof builtin_scenes / sizeof *builtin_scenes; i++) {
+    for (size_t i = 0; i < BUILTIN_SCENES; i++) {
         const builtin_scene *which = &builtin_scenes[i];
         if (strlen(which->name) != name_length || memcmp(name, which->name, name_length) != 0)
             continue;
@@ -78,6 +98,5 @@ bool builtin_make(const char *name, scene_builder *builder, cli_error *error) {
         which->make(&parameters, builder);
         return true;
     }
-    return cli_fail(error, NULL, "builtin:%s: is no built-in scene (there are %s)", name,
-                    BUILTIN_NAMES);
+    return unknown_scene(name, error);
 }

@@ -112,6 +112,9 @@ typedef struct scene_options {
     bool no_cache; /* neither read nor write the cache */
 } scene_options;
 
+/* The names of the built-in scenes, i = 0, 1, …; NULL past the last. */
+const char *scene_builtin_name(size_t i);
+
 /* Loads "builtin:NAME[:PARAMETER]" or a scene file. Files are parsed in a sandboxed child process
  * and cached by content. False with one line in *error; *scene is then zero. */
 bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);

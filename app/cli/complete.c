@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+/* Shell completion of one command, from the table that makes its --help. What surrounds it, and the
+ * functions it calls for names of scenes and commands, is `lampion completion`'s. */
+#include "app/cli/option.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What may stand in a place: words, and one of the kinds below. */
+typedef enum kind { NOTHING, FILES, FOLDERS, SCENES, COMMANDS } kind;
+typedef struct place {
+    char words[1024]; /* divided by blanks */
+    kind kind;
+} place;
+
+static kind kind_of(const char *name, size_t length) {
+    static const struct {
+        const char *name;
+        kind kind;
+    } known[] = {
+        { "FILE", FILES },      { "DIR", FOLDERS },        { "SCENE", SCENES },
+        { "PICTURE", FILES },   { "REFERENCE", FILES },    { "MATERIAL", FILES },
+        { "MATERIAL…", FILES }, { "[COMMAND]", COMMANDS },
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strlen(known[i].name) == length && memcmp(known[i].name, name, length) == 0)
+            return known[i].kind;
+    return NOTHING;
+}
+
+static void add_word(place *p, const char *word, size_t length) {
+    const size_t used = strlen(p->words);
+    snprintf(p->words + used, sizeof p->words - used, "%s%.*s", used ? " " : "", (int)length, word);
+}
+
+/* Reads alternatives such as orbit|bounce|FILE, up to a blank: what begins with a small letter
+ * stands for itself. Returns what follows. */
+static const char *read_place(const char *text, place *p) {
+    *p = (place) { .kind = NOTHING };
+    while (*text && *text != ' ') {
+        const size_t length = strcspn(text, "| ");
+        if (islower((unsigned char)*text))
+            add_word(p, text, length);
+        else if (p->kind == NOTHING)
+            p->kind = kind_of(text, length);
+        text += length + (text[length] == '|');
+    }
+    return text + strspn(text, " ");
+}
+
+static place place_of_value(const cli_option *option) {
+    place p;
+    read_place(option->argument, &p);
+    for (int i = 0; option->choices && option->choices[i]; i++)
+        add_word(&p, option->choices[i], strlen(option->choices[i]));
+    return p;
+}
+
+/* The first operand and the rest. */
+static void places_of_operands(const cli_command *command, place *first, place *rest) {
+    const char *const text = read_place(command->operands, first);
+    *rest = *first;
+    if (*text)
+        read_place(text, rest);
+    if (!*text && first->words[0])
+        *rest = (place) { .kind = NOTHING };
+}
+
+/* Prints text with `special` characters behind backslashes and a quote as `quote`. */
+static void print_escaped(const char *text, const char *special, const char *quote) {
+    for (; *text; text++) {
+        if (*text == '\'')
+            fputs(quote, stdout);
+        else
+            printf(strchr(special, *text) ? "\\%c" : "%c", *text);
+    }
+}
+
+/* --- bash ---------------------------------------------------------------------------------------
+ */
+
+/* Whether there is anything to offer as its value. */
+static bool offers(const cli_option *option) {
+    const place value = place_of_value(option);
+    return value.kind != NOTHING || value.words[0];
+}
+
+static void print_bash_place(const place *p) {
+    static const char *const kinds[] = { "nothing", "files", "folders", "scenes", "commands" };
+    if (p->kind != NOTHING)
+        printf("kind=%s ", kinds[p->kind]);
+    if (p->words[0])
+        printf("words='%s' ", p->words);
+}
+
+static void print_bash_names(const cli_option *option) {
+    if (option->letter)
+        printf("-%c | ", option->letter);
+    printf("--%s", option->name);
+}
+
+/* What the options take that have something to offer, then those that have nothing. */
+static void print_bash_values(const cli_option *rows, int count) {
+    bool some = false;
+    for (int i = 0; i < count; i++) {
+        if (rows[i].kind == CLI_FLAG || !offers(&rows[i]))
+            continue;
+        const place value = place_of_value(&rows[i]);
+        printf("        ");
+        print_bash_names(&rows[i]);
+        printf(") ");
+        print_bash_place(&value);
+        printf(";;\n");
+    }
+    for (int i = 0; i < count; i++) {
+        if (rows[i].kind == CLI_FLAG || offers(&rows[i]))
+            continue;
+        printf(some ? " | " : "        ");
+        print_bash_names(&rows[i]);
+        some = true;
+    }
+    if (some)
+        printf(") ;;\n");
+}
+
+void option_bash(const cli_command *command, const cli_option *options) {
+    cli_option rows[OPTIONS_MAX];
+    const int count = option_rows(options, rows);
+    place first, rest;
+    printf("    %s)\n        options='", command->name);
+    for (int i = 0; i < count; i++)
+        printf("%s--%s", i ? " " : "", rows[i].name);
+    printf("'\n        case $previous in\n");
+    print_bash_values(rows, count);
+    places_of_operands(command, &first, &rest);
+    printf("        *) ");
+    print_bash_place(&first);
+    printf("operand=yes ;;\n        esac\n");
+    if (first.words[0]) {
+        printf("        if [[ $operand ]] && _lampion_begun \"$words\" \"$begun\"; then words= ");
+        print_bash_place(&rest);
+        printf("; fi\n");
+    }
+    printf("        ;;\n");
+}
+
+/* --- zsh ----------------------------------------------------------------------------------------
+ */
+
+static void print_zsh_place(const char *name, const place *p) {
+    static const char *const kinds[] = { " ", "_files", "_files -/", "_lampion_scenes",
+                                         "_lampion_commands" };
+    putchar(':');
+    print_escaped(name, ":[]", "'\\''");
+    if (p->words[0])
+        printf(p->kind == FILES ? ":{compadd -- %s; _files}" : ":(%s)", p->words);
+    else
+        printf(":%s", kinds[p->kind]);
+}
+
+void option_zsh(const cli_command *command, const cli_option *options) {
+    cli_option rows[OPTIONS_MAX];
+    const int count = option_rows(options, rows);
+    place first, rest;
+    printf("    %s) _arguments -s : \\\n", command->name);
+    for (int i = 0; i < count; i++) {
+        const cli_option *const o = &rows[i];
+        const char *const more = o->kind == CLI_LIST ? "*" : "";
+        const char *const attached = o->kind == CLI_FLAG ? "" : "=";
+        if (o->letter && o->kind == CLI_LIST)
+            printf("        '*'{-%c+,--%s=}'[", o->letter, o->name);
+        else if (o->letter)
+            printf("        '(-%c --%s)'{-%c%s,--%s%s}'[", o->letter, o->name, o->letter,
+                   o->kind == CLI_FLAG ? "" : "+", o->name, attached);
+        else
+            printf("        '%s--%s%s[", more, o->name, attached);
+        print_escaped(o->help, "[]", "'\\''");
+        putchar(']');
+        if (o->kind != CLI_FLAG) {
+            const place value = place_of_value(o);
+            print_zsh_place(o->argument, &value);
+        }
+        printf("' \\\n");
+    }
+    places_of_operands(command, &first, &rest);
+    printf("        '1");
+    print_zsh_place(command->operands, &first);
+    printf("' \\\n        '*");
+    print_zsh_place(command->operands, &rest);
+    printf("' ;;\n");
+}
+
+/* --- fish ---------------------------------------------------------------------------------------
+ */
+
+static void print_fish_place(const place *p) {
+    static const char *const kinds[] = { " -x", " -r -F", " -x -a '(__fish_complete_directories)'",
+                                         " -r -F -a '(__lampion_scenes)'",
+                                         " -x -a '(__lampion_commands)'" };
+    fputs(kinds[p->kind], stdout);
+    if (p->words[0])
+        printf(" -a '%s'", p->words);
+}
+
+void option_fish(const cli_command *command, const cli_option *options) {
+    cli_option rows[OPTIONS_MAX];
+    const int count = option_rows(options, rows);
+    place first, rest;
+    for (int i = 0; i < count; i++) {
+        printf("complete -c lampion -n '__lampion_is %s' -l %s", command->name, rows[i].name);
+        if (rows[i].letter)
+            printf(" -s %c", rows[i].letter);
+        if (rows[i].kind != CLI_FLAG) {
+            const place value = place_of_value(&rows[i]);
+            print_fish_place(&value);
+        }
+        printf(" -d '");
+        print_escaped(rows[i].help, "\\", "\\'");
+        printf("'\n");
+    }
+    places_of_operands(command, &first, &rest);
+    if (first.words[0])
+        printf("complete -c lampion -n '__lampion_is %s; and not "
+               "__fish_seen_subcommand_from %s' -a '%s'\n",
+               command->name, first.words, first.words);
+    if (rest.kind != NOTHING) {
+        printf("complete -c lampion -n '__lampion_is %s'", command->name);
+        print_fish_place(&rest);
+        putchar('\n');
+    }
+}

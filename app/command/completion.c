@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* completion.c - lampion completion: what completes the program's command lines in a shell. Here is
+ * the frame; the part of each command comes from its option table (app/cli/complete.c). */
+#include "app/command/command.h"
+#include "app/scene/scene.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* --- names --------------------------------------------------------------------------------------
+ */
+
+static void print_commands(void) {
+    for (size_t i = 0; command_table[i]; i++)
+        printf("%s ", command_table[i]->name);
+}
+
+static void print_scenes(void) {
+    for (size_t i = 0; scene_builtin_name(i); i++)
+        printf("%sbuiltin:%s", i ? " " : "", scene_builtin_name(i));
+}
+
+/* A line 'NAME<between>SUMMARY' for each command. */
+static void print_summaries(const char *before, const char *between) {
+    for (size_t i = 0; command_table[i]; i++) {
+        printf("%s'%s%s", before, command_table[i]->name, between);
+        for (const char *c = command_table[i]->summary; *c; c++)
+            printf(*c == '\'' ? "’" : "%c", *c);
+        printf("'\n");
+    }
+}
+
+/* --- shells -------------------------------------------------------------------------------------
+ */
+
+/* The words of the line are read anew, for bash takes : and = for ends of words. */
+static void begin_bash(void) {
+    printf("# bash completion of lampion, printed by `lampion completion bash`\n"
+           "_lampion_begun() { # WORDS LINE: whether one of the words is in the line\n"
+           "    local word\n"
+           "    for word in $1; do [[ $2 == *\" $word \"* ]] && return; done\n"
+           "    return 1\n"
+           "}\n\n"
+           "_lampion() {\n"
+           "    local commands='");
+    print_commands();
+    printf("help' scenes='");
+    print_scenes();
+    printf("'\n"
+           "    local line=${COMP_LINE:0:COMP_POINT} kind=nothing words= options= operand=\n"
+           "    local -a typed\n"
+           "    read -ra typed <<<\"$line\"\n"
+           "    [[ $line == *[[:blank:]] ]] && typed+=('')\n"
+           "    local word=${typed[-1]} previous=${typed[-2]}\n"
+           "    local begun=\" ${typed[*]:2:${#typed[@]}-3} \"\n"
+           "    [[ $word == --*=* ]] && previous=${word%%%%=*} word=${word#*=}\n"
+           "    ((${#typed[@]} == 2)) && typed[1]=\n"
+           "    case ${typed[1]} in\n"
+           "    '') kind=commands options='--help --version' operand=yes ;;\n"
+           "    help) kind=commands ;;\n");
+}
+
+static void end_bash(void) {
+    puts("    esac\n"
+         "    [[ $operand && $word == -* ]] && kind=nothing words=$options\n"
+         "    case $kind in\n"
+         "    commands) words=$commands ;;\n"
+         "    scenes) words=\"$words $scenes\" kind=files ;;\n"
+         "    esac\n"
+         "    mapfile -t COMPREPLY < <(\n"
+         "        compgen -W \"$words\" -- \"$word\"\n"
+         "        case $kind in\n"
+         "        files) compgen -f -- \"$word\" ;;\n"
+         "        folders) compgen -d -- \"$word\" ;;\n"
+         "        esac\n"
+         "    )\n"
+         "    if [[ $kind == f* && ${COMPREPLY[0]} != builtin:* ]]; then\n"
+         "        compopt -o filenames 2>/dev/null\n"
+         "    fi\n"
+         "    if [[ $word == *:* && $COMP_WORDBREAKS == *:* ]]; then\n"
+         "        local before=${word%\"${word##*:}\"}\n"
+         "        COMPREPLY=(\"${COMPREPLY[@]#\"$before\"}\")\n"
+         "    fi\n"
+         "}\n\n"
+         "complete -F _lampion lampion");
+}
+
+static void begin_zsh(void) {
+    printf("#compdef lampion\n"
+           "# zsh completion of lampion, printed by `lampion completion zsh`\n"
+           "_lampion_commands() {\n"
+           "    local -a commands=(\n");
+    print_summaries("        ", ":");
+    printf("        'help:show the help of a command'\n"
+           "    )\n"
+           "    _describe command commands\n"
+           "}\n\n"
+           "_lampion_scenes() {\n"
+           "    compadd -- ");
+    print_scenes();
+    printf("\n"
+           "    _files\n"
+           "}\n\n"
+           "_lampion() {\n"
+           "    if ((CURRENT == 2)); then\n"
+           "        _lampion_commands\n"
+           "        return\n"
+           "    fi\n"
+           "    local command=$words[2]\n"
+           "    shift words\n"
+           "    ((CURRENT--))\n"
+           "    case $command in\n"
+           "    help) _lampion_commands ;;\n");
+}
+
+static void end_zsh(void) {
+    puts("    esac\n"
+         "}\n\n"
+         "if [[ $funcstack[1] == _lampion ]]; then\n"
+         "    _lampion \"$@\"\n"
+         "else\n"
+         "    compdef _lampion lampion\n"
+         "fi");
+}
+
+static void begin_fish(void) {
+    printf("# fish completion of lampion, printed by `lampion completion fish`\n"
+           "function __lampion_scenes\n"
+           "    string split ' ' '");
+    print_scenes();
+    printf("'\n"
+           "end\n\n"
+           "function __lampion_commands\n");
+    print_summaries("    echo ", "\t");
+    printf("end\n\n"
+           "function __lampion_is # COMMAND: whether it is the command of the line\n"
+           "    set -l words (commandline -opc)\n"
+           "    test \"$words[2]\" = \"$argv[1]\"\n"
+           "end\n\n"
+           "complete -c lampion -f\n"
+           "complete -c lampion -n '__lampion_is \"\"' -a '(__lampion_commands) help'\n"
+           "complete -c lampion -n '__lampion_is \"\"' -l help -s h -d 'list the commands'\n"
+           "complete -c lampion -n '__lampion_is \"\"' -l version -d 'print the version'\n"
+           "complete -c lampion -n '__lampion_is help' -a '(__lampion_commands)'\n");
+}
+
+static const struct {
+    const char *name, *form;
+    void (*begin)(void), (*end)(void);
+} shells[] = {
+    { "bash", "--help=bash", begin_bash, end_bash },
+    { "zsh", "--help=zsh", begin_zsh, end_zsh },
+    { "fish", "--help=fish", begin_fish, NULL },
+};
+
+static int run(const cli_command *command, int argc, char **argv) {
+    const cli_option options[] = { { .name = NULL } };
+    int count, status;
+    char **operands;
+    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+        return status;
+    if (count != 1)
+        return cli_usage(command, "needs one shell: bash, zsh or fish");
+    for (size_t i = 0; i < sizeof shells / sizeof *shells; i++) {
+        if (strcmp(operands[0], shells[i].name) != 0)
+            continue;
+        shells[i].begin();
+        for (size_t k = 0; command_table[k]; k++)
+            command_print_help(command_table[k], shells[i].form);
+        if (shells[i].end)
+            shells[i].end();
+        return CLI_OK;
+    }
+    return cli_usage(command, "\"%s\" is not bash, zsh or fish", operands[0]);
+}
+
+const cli_command command_completion = {
+    .name = "completion",
+    .operands = "bash|zsh|fish",
+    .summary = "print what completes command lines in a shell",
+    .examples = "lampion completion bash > ~/.local/share/bash-completion/completions/lampion\n"
+                "lampion completion zsh > ~/.local/share/zsh/site-functions/_lampion\n"
+                "lampion completion fish > ~/.config/fish/completions/lampion.fish\n",
+    .run = run,
+};
