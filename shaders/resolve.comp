@@ -8,7 +8,8 @@ layout(binding = 0, rgba32f) uniform restrict image2D hdr;
 layout(binding = 1, rgba32f) uniform restrict image2D sums;
 layout(location = 0) uniform float exposure;
 layout(location = 1) uniform int first;
-layout(location = 2) uniform int last;
+layout(location = 2) uniform int keep; /* more samples follow */
+layout(location = 3) uniform int show; /* the mean so far into the picture */
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -19,8 +20,8 @@ void main() {
     vec4 sum = vec4(radiance * weight, weight);
     if (first == 0)
         sum += imageLoad(sums, at);
-    if (last == 0)
+    if (keep != 0)
         imageStore(sums, at, sum);
-    else
+    if (show != 0)
         imageStore(hdr, at, vec4(sum.rgb / sum.a, 1.0));
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/reference.h"
 #include "app/command/command.h"
-#include "app/command/materials.h"
+#include "app/device/materials.h"
 #include "app/reference/quadrature.h"
 
 #include <float.h>
@@ -37,11 +37,11 @@ static bool write_picture(const reference_arguments *a, const image *radiance,
 }
 
 /* The materials as the oracle takes them: cut ones as tables. The array is the caller's. */
-static bool choose_materials(reference_arguments *a, const scene *world, materials *all,
+static bool choose_materials(reference_arguments *a, const scene *world, device_materials *all,
                              reference_material_source **sources, cli_error *error) {
     const reference_cut *cut = &a->settings.cut;
-    if (!materials_open(&a->materials, world, all, error) ||
-        (cut->bands && !materials_bake(all, cut->bands, cut->window, error)))
+    if (!device_materials_open(&a->materials, world, all, error) ||
+        (cut->bands && !device_materials_bake(all, cut->bands, cut->window, error)))
         return false;
     if (all->count == 0)
         return true;
@@ -63,7 +63,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     image radiance = { .rgb = NULL }, standard_error = { .rgb = NULL };
     reference_settings *settings = &a->settings;
     reference_material_source *sources = NULL;
-    materials all = { .count = 0 };
+    device_materials all = { .count = 0 };
     if (!scene_load(name, NULL, &world, error))
         return false;
     settings->width = a->size[0];
@@ -76,7 +76,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     image_free(&radiance);
     image_free(&standard_error);
     free(sources);
-    materials_free(&all);
+    device_materials_free(&all);
     scene_free(&world);
     return ok;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/animation/animation.h"
 #include "app/command/command.h"
-#include "app/command/materials.h"
 #include "app/device/device.h"
+#include "app/device/materials.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -35,7 +35,7 @@ typedef struct job {
     lmp_response *response; /* of the preintegrated method */
     animation *path;        /* of the lights */
     scene_light *moved;
-    materials materials;
+    device_materials materials;
     float exposure;
 } job;
 
@@ -294,13 +294,14 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return cli_fail(error, NULL, "out of memory");
-    return j->renderer && materials_apply(&o->materials, &j->world, o->bands, (lmp_window)o->window,
-                                          j->renderer, &j->materials, error);
+    return j->renderer &&
+           device_materials_apply(&o->materials, &j->world, o->bands, (lmp_window)o->window,
+                                  j->renderer, &j->materials, error);
 }
 
 static void close_job(job *j) {
     gpu_renderer_destroy(j->renderer);
-    materials_free(&j->materials);
+    device_materials_free(&j->materials);
     gpu_context_destroy(&j->context);
     scene_free(&j->world);
     lmp_response_destroy(j->response);

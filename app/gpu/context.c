@@ -65,6 +65,10 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error) {
     return true;
 }
 
+bool gpu_context_lost(void) {
+    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
 /* --- EGL ----------------------------------------------------------------------------------------
  */
 

@@ -96,6 +96,11 @@ bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables,
  * of bands and a window. times may be NULL, and then nothing waits for the device. */
 bool gpu_render(gpu_renderer *renderer, const gpu_frame *frame, gpu_times *times, cli_error *error);
 
+/* Sample `index` alone of frame->samples: after it the HDR target holds the mean of all so far.
+ * With index 0, 1, … of the same frame, the last leaves what gpu_render does. */
+bool gpu_refine(gpu_renderer *renderer, const gpu_frame *frame, int index, gpu_times *times,
+                cli_error *error);
+
 /* Draws the HDR target, tone-mapped, into framebuffer 0's window or another of the same size. */
 void gpu_present(gpu_renderer *renderer, unsigned framebuffer, float exposure, bool rows_from_top);
 
@@ -105,6 +110,48 @@ bool gpu_read_rgb8(gpu_renderer *renderer, float exposure, unsigned char *rgb8, 
 
 /* The HDR target, linear; *image is created. */
 bool gpu_read_image(gpu_renderer *renderer, image *image, cli_error *error);
+
+/* --- a window's picture -------------------------------------------------------------------------
+ */
+
+/* One picture, two side by side with a divider between them, or how they differ; drawings over it.
+ */
+typedef struct gpu_screen gpu_screen;
+gpu_screen *gpu_screen_create(cli_error *error);
+void gpu_screen_destroy(gpu_screen *screen);
+
+/* Copies the renderer's picture, tone-mapped, as the screen's `side`, 0 or 1. */
+void gpu_screen_take(gpu_screen *screen, gpu_renderer *renderer, int side, float exposure);
+
+typedef enum gpu_split {
+    GPU_SPLIT_NONE,
+    GPU_SPLIT_DIVIDED,
+    GPU_SPLIT_DIFFERENCE,
+    GPU_SPLITS
+} gpu_split;
+#define GPU_DIFFERENCE_GAIN 8 /* of the displayed values, black where they agree */
+
+typedef struct gpu_layout {
+    int width, height; /* pixels; sides of another size are scaled */
+    gpu_split split;
+    float divider; /* its place: a part of the width */
+    float line;    /* its width in pixels; 0: not drawn */
+} gpu_layout;
+
+/* Into framebuffer 0's window, or into 8-bit RGB of 3 * width * height bytes, rows from the top. */
+void gpu_screen_show(gpu_screen *screen, const gpu_layout *layout);
+bool gpu_screen_read(gpu_screen *screen, const gpu_layout *layout, unsigned char *rgb8,
+                     cli_error *error);
+
+/* Uploads a drawing: rows from the top, premultiplied BGRA as Cairo's ARGB32 is on this machine. */
+#define GPU_DRAWINGS_MAX 8
+void gpu_screen_upload(gpu_screen *screen, int drawing, int width, int height, const void *pixels);
+
+/* Draws it over framebuffer 0's window of layout's size, its upper left corner at x, y. */
+void gpu_screen_draw(gpu_screen *screen, const gpu_layout *layout, int drawing, int x, int y);
+
+/* Whether the device has lost the current context: everything in it is gone then. */
+bool gpu_context_lost(void);
 
 /* --- what the shaders see ----------------------------------------------------------------------
  */

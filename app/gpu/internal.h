@@ -76,6 +76,7 @@ struct gpu_renderer {
     GLuint response_blocks[2];    /* coefficients, the rest */
     const lmp_response *response; /* what they hold */
     int response_bands;
+    lmp_window response_window;
     int width, height; /* of the targets below */
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
     GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */

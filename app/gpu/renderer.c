@@ -338,7 +338,8 @@ static GLuint groups(int pixels) {
 static void bind_response(gpu_renderer *r, const lmp_response *response) {
     const lmp_response_info info = lmp_response_describe(response);
     const GLsizeiptr pairs = (GLsizeiptr)(info.pair_count * 2 * sizeof(int16_t));
-    if (r->response != response || r->response_bands != info.bands) {
+    if (r->response != response || r->response_bands != info.bands ||
+        r->response_window != info.window) {
         shared_response block = { .shape = { info.width2, (float)info.cell_count, 0, 0 } };
         for (uint32_t i = 0; i < info.cell_count && i < SHARED_RESPONSE_CELLS; i++) {
             const lmp_response_cell *cell = &info.cells[i];
@@ -354,6 +355,7 @@ static void bind_response(gpu_renderer *r, const lmp_response *response) {
         glNamedBufferStorage(r->response_blocks[1], sizeof block, &block, 0);
         r->response = response;
         r->response_bands = info.bands;
+        r->response_window = info.window;
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_RESPONSE_PAIRS, r->response_blocks[0]);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_RESPONSE, r->response_blocks[1]);
@@ -455,8 +457,8 @@ static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GL
     return !frame->host || shade_host(r, frame, times, error);
 }
 
-/* Adds the HDR target to the sums; the last sample leaves the mean there. */
-static void resolve_sample(gpu_renderer *r, const gpu_frame *frame, int index) {
+/* Adds the HDR target to the sums; the last sample leaves the mean there, with `show` every one. */
+static void resolve_sample(gpu_renderer *r, const gpu_frame *frame, int index, bool show) {
     if (!r->sums)
         r->sums = create_target(GL_RGBA32F, r->width, r->height);
     glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
@@ -464,12 +466,16 @@ static void resolve_sample(gpu_renderer *r, const gpu_frame *frame, int index) {
     glUseProgram(r->resolve);
     glUniform1f(0, frame->samples_exposure);
     glUniform1i(1, index == 0);
-    glUniform1i(2, index == frame->samples - 1);
+    const bool last = index == frame->samples - 1;
+    glUniform1i(2, !last);
+    glUniform1i(3, last || show);
     glDispatchCompute(groups(r->width), groups(r->height), 1);
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
-bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_error *error) {
+/* Samples `first` to `last` of a frame. */
+static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, int last, bool show,
+                           gpu_times *times, cli_error *error) {
     if (frame->light_count > SHARED_LIGHTS_MAX)
         return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
                         SHARED_LIGHTS_MAX);
@@ -481,15 +487,25 @@ bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_e
     upload_lights(r, frame);
     if (times)
         memset(times, 0, sizeof *times);
-    for (int i = 0; i == 0 || i < frame->samples; i++) {
+    for (int i = first; i <= last; i++) {
         if (!render_sample(r, frame, i, program, times, error))
             return false;
         if (frame->samples > 1)
-            resolve_sample(r, frame, i);
+            resolve_sample(r, frame, i, show);
     }
     if (times)
         times->total = times->gbuffer + times->shade + times->transfer;
     return true;
+}
+
+bool gpu_render(gpu_renderer *r, const gpu_frame *frame, gpu_times *times, cli_error *error) {
+    const int last = frame->samples > 1 ? frame->samples - 1 : 0;
+    return render_samples(r, frame, 0, last, false, times, error);
+}
+
+bool gpu_refine(gpu_renderer *r, const gpu_frame *frame, int index, gpu_times *times,
+                cli_error *error) {
+    return render_samples(r, frame, index, index, true, times, error);
 }
 
 /* --- the picture --------------------------------------------------------------------------------

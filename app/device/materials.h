@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* materials.h - the option --material SLOT=MATERIAL: materials of a scene replaced. */
-#ifndef LAMPION_COMMAND_MATERIALS_H
-#define LAMPION_COMMAND_MATERIALS_H
+#ifndef LAMPION_DEVICE_MATERIALS_H
+#define LAMPION_DEVICE_MATERIALS_H
 
 #include "app/gpu/gpu.h"
 #include "app/material/material.h"
@@ -12,25 +12,26 @@
         .help = "replace a material of the scene: " MATERIAL_NAMES                                 \
     }
 
-typedef struct materials {
+typedef struct device_materials {
     material opened[GPU_TABLES_MAX];
-    lmp_brdf_table *tables[GPU_TABLES_MAX]; /* NULL before materials_bake */
+    lmp_brdf_table *tables[GPU_TABLES_MAX]; /* NULL before device_materials_bake */
     int count;
     int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
-} materials;
+} device_materials;
 
 /* Opens each of the list. An unknown slot is an error that lists those there are. On failure too,
  * *materials is to be freed. */
-bool materials_open(const cli_list *list, const scene *scene, materials *materials,
-                    cli_error *error);
+bool device_materials_open(const cli_list *list, const scene *scene, device_materials *materials,
+                           cli_error *error);
 
 /* Makes a table of each. */
-bool materials_bake(materials *materials, int bands, lmp_window window, cli_error *error);
+bool device_materials_bake(device_materials *materials, int bands, lmp_window window,
+                           cli_error *error);
 
 /* Both, and has the renderer shade by the tables. */
-bool materials_apply(const cli_list *list, const scene *scene, int bands, lmp_window window,
-                     gpu_renderer *renderer, materials *materials, cli_error *error);
+bool device_materials_apply(const cli_list *list, const scene *scene, int bands, lmp_window window,
+                            gpu_renderer *renderer, device_materials *materials, cli_error *error);
 /* After the renderer. */
-void materials_free(materials *materials);
+void device_materials_free(device_materials *materials);
 
 #endif

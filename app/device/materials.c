@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/command/materials.h"
+#include "app/device/materials.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,8 +30,9 @@ static bool use_entry(const scene *world, const char *text, size_t slot_length, 
     return found || unknown_slot(world, slot, error);
 }
 
-bool materials_open(const cli_list *list, const scene *world, materials *all, cli_error *error) {
-    *all = (materials) { .count = 0 };
+bool device_materials_open(const cli_list *list, const scene *world, device_materials *all,
+                           cli_error *error) {
+    *all = (device_materials) { .count = 0 };
     if (list->count == 0)
         return true;
     all->uses = malloc((world->material_count + 1) * sizeof *all->uses);
@@ -51,7 +52,7 @@ bool materials_open(const cli_list *list, const scene *world, materials *all, cl
     return true;
 }
 
-bool materials_bake(materials *all, int bands, lmp_window window, cli_error *error) {
+bool device_materials_bake(device_materials *all, int bands, lmp_window window, cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = bands,
                                        .views = LMP_BRDF_VIEWS_DEFAULT,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
@@ -62,19 +63,20 @@ bool materials_bake(materials *all, int bands, lmp_window window, cli_error *err
     return true;
 }
 
-bool materials_apply(const cli_list *list, const scene *world, int bands, lmp_window window,
-                     gpu_renderer *renderer, materials *all, cli_error *error) {
-    if (!materials_open(list, world, all, error) || !materials_bake(all, bands, window, error))
+bool device_materials_apply(const cli_list *list, const scene *world, int bands, lmp_window window,
+                            gpu_renderer *renderer, device_materials *all, cli_error *error) {
+    if (!device_materials_open(list, world, all, error) ||
+        !device_materials_bake(all, bands, window, error))
         return false;
     return all->count == 0 || gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables,
                                              all->count, all->uses, world->material_count, error);
 }
 
-void materials_free(materials *all) {
+void device_materials_free(device_materials *all) {
     for (int i = 0; i < all->count; i++) {
         lmp_brdf_table_destroy(all->tables[i]);
         material_close(&all->opened[i]);
     }
     free(all->uses);
-    *all = (materials) { .count = 0 };
+    *all = (device_materials) { .count = 0 };
 }

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: MIT */
+/* A drawing over a window, its upper left corner at corner.xy of a window corner.z pixels high. */
+layout(binding = 0) uniform sampler2D drawing;
+layout(location = 0) uniform ivec3 corner;
+layout(location = 0) out vec4 color;
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    color = texelFetch(drawing, ivec2(at.x - corner.x, corner.z - 1 - at.y - corner.y), 0);
+}
