@@ -30,6 +30,7 @@ typedef struct lmp_brdf_fault {
     char text[200];
 } lmp_brdf_fault;
 
+/* A BRDF of any kind. */
 typedef struct lmp_brdf lmp_brdf;
 
 typedef enum lmp_brdf_kind {
@@ -41,6 +42,7 @@ typedef enum lmp_brdf_kind {
     LMP_BRDF_RGL
 } lmp_brdf_kind;
 
+/* Frees any BRDF, through the allocator it was made with; accepts NULL. */
 LMP_API void lmp_brdf_destroy(lmp_brdf *brdf);
 
 /* f_r(wi, wo) in sr⁻¹. */

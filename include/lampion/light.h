@@ -79,6 +79,7 @@ typedef struct lmp_cap {
     lmp_rgb ambient;  /* radiance from every direction */
 } lmp_cap;
 
+/* The cap that `light` is from `point`, at any distance. */
 LMP_API void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap);
 
 /* --- one sphere ------------------------------------------------------------------------------- */

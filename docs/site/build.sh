@@ -1,0 +1,106 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# build.sh FOLDER: the documents and the public headers as a site, by pandoc, without a network.
+# Every file of the repository keeps its place; .md becomes .html, README.md index.html.
+set -eu
+cd "$(dirname "$0")/../.."
+out=$1
+home=README.md
+guide="docs/getting-started.md docs/method.md docs/cookbook.md docs/gallery.md docs/viewer.md"
+use="docs/scenes.md docs/materials.md docs/shading.md docs/reference.md docs/formats.md"
+judge="docs/accuracy.md docs/benchmarks.md"
+project="docs/design.md CONTRIBUTING.md CHANGELOG.md"
+API_SOURCES="$(echo include/lampion/*.h) shaders/lampion.glsl"
+export API_SOURCES
+
+version=$(sed -n 's/^#define LMP_VERSION_[A-Z]* //p' include/lampion/base.h | paste -sd .)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# page_of SOURCE: where it lies in the site.
+page_of() {
+    case $1 in
+    README.md) echo index.html ;;
+    *.md) echo "${1%.md}.html" ;;
+    *) echo "$1.html" ;;
+    esac
+}
+
+# title_of SOURCE
+title_of() {
+    case $1 in
+    *.md) sed -n 's/^# //p' "$1" | head -n 1 ;;
+    *) basename "$1" ;;
+    esac
+}
+
+# section TITLE SOURCE…: a list of links in the navigation, with @ROOT@ before each.
+section() {
+    printf '<h2>%s</h2><ul>\n' "$1"
+    shift
+    for source in "$@"; do
+        [ -f "$source" ] || continue
+        listed="$listed $source "
+        printf '<li><a href="@ROOT@%s">%s</a></li>\n' "$(page_of "$source")" "$(title_of "$source")"
+    done
+    printf '</ul>\n'
+}
+
+# make_navigation: a document that no list above names goes under "More".
+make_navigation() {
+    listed=
+    section "Begin" $home $guide
+    section "Use" $use
+    section "API" docs/api.md $API_SOURCES
+    section "Judge" $judge
+    section "Project" $project
+    more=
+    for source in docs/*.md; do
+        case $listed in *" $source "*) ;; *) more="$more $source" ;; esac
+    done
+    [ -z "$more" ] || section "More" $more
+}
+
+# make_page SOURCE: with pandoc's warnings as errors.
+make_page() {
+    source=$1
+    page=$(page_of "$source")
+    ROOT=$(dirname "$page" | sed 's,[^/.][^/]*,..,g; s,^\.$,,; s,..*,&/,')
+    export ROOT
+    mkdir -p "$out/$(dirname "$page")"
+    sed "s,@ROOT@,$ROOT,g; s,<a href=\"$ROOT$page\",& aria-current=\"page\"," "$work/navigation" >"$work/here"
+    case $source in
+    *.md) from=gfm+tex_math_dollars+gfm_auto_identifiers ;;
+    *) from=docs/site/header.lua ;;
+    esac
+    home_page=
+    [ "$source" != $home ] || home_page="-V home"
+    timeout 60 pandoc --fail-if-warnings -f "$from" -t html5 --mathml --toc --toc-depth 2 --wrap none \
+        --template docs/site/page.html --lua-filter docs/site/page.lua $home_page \
+        -V root="$ROOT" -V source="$source" -V version="$version" -V navigation="$(cat "$work/here")" \
+        "$source" -o "$out/$page"
+}
+
+# copy_linked: what pages link to and is no page: pictures, sources, examples.
+copy_linked() {
+    find "$out" -name '*.html' | while read -r page; do
+        folder=$(dirname "${page#"$out"/}")
+        grep -o '\(href\|src\)="[^"#]*' "$page" | sed 's/^[a-z]*="//' |
+            grep -v '^[a-z]*:' | sort -u | while read -r target; do
+            file=$(realpath -m --relative-to . "$folder/$target")
+            [ ! -f "$file" ] || [ -e "$out/$file" ] || {
+                mkdir -p "$out/$(dirname "$file")"
+                cp "$file" "$out/$file"
+            }
+        done
+    done
+}
+
+rm -rf "$out"
+mkdir -p "$out"
+make_navigation >"$work/navigation"
+for source in $home $API_SOURCES CONTRIBUTING.md CHANGELOG.md docs/*.md; do
+    make_page "$source"
+done
+copy_linked
+echo "$out/index.html"

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+# Runs every block of code in the documents, each document in a folder of its own, block after block:
+#   sh    by sh -eu, with the program and an installed library at hand
+#   c     compiled without a warning; run if it has a main
+#   glsl  a fragment shader, compiled beside the installed lampion.glsl
+#   json  a lights file, which the program reads
+# The HTML comment on the line before a block may say
+#   <!-- not run: REASON -->   the block is left out; the reason is printed
+#   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
+#   <!-- prints -->            a text block: what the block before it printed, to the letter
+# Pictures are small here and samples few: the last value of an option counts, and the program's
+# stand-in below adds its own. Nothing else is changed.
+# DOCUMENTS="docs/a.md docs/b.md" runs these alone.
+set -eu
+. tests/house/common.sh
+documents=${DOCUMENTS:-README.md CONTRIBUTING.md $(ls docs/*.md)}
+
+cmake --install "$BUILD" --prefix "$WORK/prefix" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+mkdir "$WORK/bin"
+cat >"$WORK/bin/lampion" <<SCRIPT
+#!/bin/sh
+case \$1:" \$* " in
+*' --help '*) ;;
+reference:*' --point '*) ;;
+render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;
+reference:*) set -- "\$@" --size 96x54 --spp 4 ;;
+basis:*) set -- "\$@" --size 320x200 ;;
+brdf:*' plot '*) set -- "\$@" --size 300x200 ;;
+esac
+exec "$PROGRAM" "\$@"
+SCRIPT
+chmod +x "$WORK/bin/lampion"
+export PATH="$WORK/bin:$PATH" XDG_CACHE_HOME="$WORK/cache" HOME="$WORK"
+export PKG_CONFIG_PATH="$(dirname "$(find "$WORK/prefix" -name lampion.pc)")"
+unset DISPLAY WAYLAND_DISPLAY
+
+# A scene that stands for the reader's own.
+own_scene() {
+    cat >"$1" <<'GLTF'
+{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ],
+  "nodes": [ { "mesh": 0 } ], "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [ -4, 0, -4 ], "max": [ 4, 0, 4 ] } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "buffers": [ { "byteLength": 36, "uri": "data:application/octet-stream;base64,@POSITIONS@" } ] }
+GLTF
+    # (-4,0,4) (4,0,4) (0,0,-4)
+    sed -i 's,@POSITIONS@,AACAwAAAAAAAAIBAAACAQAAAAAAAAIBAAAAAAAAAAAAAAIDA,' "$1"
+}
+
+compile_c() {
+    if grep -q 'int main' "$1"; then
+        cc -std=c11 -O1 -Wall -Wextra -Werror "$1" $(pkg-config --cflags --libs lampion) -lm -o ./"${1%.c}"
+        ./"${1%.c}"
+    else
+        cc -std=c11 -Wall -Wextra -Werror -c "$1" $(pkg-config --cflags lampion) -o "${1%.c}.o"
+    fi
+}
+
+compile_glsl() {
+    stage=$(echo "${1%.glsl}" | sed -n 's/.*\.\(vert\|frag\|comp\)$/\1/p')
+    glslangValidator -S "${stage:-frag}" "-I$WORK/prefix/share/lampion/shaders" "$1"
+}
+
+read_json() {
+    case $1 in *.json) ;; *) return ;; esac
+    if grep -q '"lights"' "$1"; then
+        lampion render builtin:ball --lights "$1" -o read_json.png
+    fi
+}
+
+# run_block LANGUAGE FILE, in the document's folder; standard output to ../printed.
+run_block() {
+    case $1 in
+    sh) timeout 120 sh -eu "$2" ;;
+    c) compile_c "$2" ;;
+    glsl | vert | frag | comp) compile_glsl "$2" ;;
+    json) read_json "$2" ;;
+    esac </dev/null >../printed 2>../complaints
+}
+
+# run_document FILE
+run_document() {
+    document=$1
+    folder=$WORK/$(echo "${document%.md}" | tr / -)
+    mkdir -p "$folder/blocks" "$folder/here"
+    awk -v folder="$folder/blocks" -f tests/docs/blocks.awk "$document" >"$folder/list" || exit 1
+    ln -s "$BUILD/.." "$folder/here/build"
+    own_scene "$folder/here/scene.gltf"
+    while read -r number line language annotation; do
+        case $annotation in
+        'not run: '?*)
+            echo "$document:$line: $annotation"
+            omitted=$((omitted + 1))
+            continue
+            ;;
+        'file: '*) name=${annotation#file: } ;;
+        prints)
+            cmp -s "$folder/blocks/$number" "$folder/printed" ||
+                fail "$document:$line: not what is printed (< here, > printed):" \
+                    "$(diff "$folder/blocks/$number" "$folder/printed")"
+            continue
+            ;;
+        *) name=block-$line.$language ;;
+        esac
+        cp "$folder/blocks/$number" "$folder/here/$name"
+        began=$(date +%s)
+        (cd "$folder/here" && run_block "$language" "$name") ||
+            fail "$document:$line: status $?: $(cat "$folder/printed" "$folder/complaints")"
+        took=$(($(date +%s) - began))
+        [ $took -lt 5 ] || echo "$document:$line: took $took s"
+        run=$((run + 1))
+    done <"$folder/list"
+}
+
+run=0 omitted=0
+for document in $documents; do
+    run_document "$document"
+done
+echo "$run blocks run, $omitted left out"
+[ "$run" -gt 0 ] || fail "no block was run"
