@@ -32,6 +32,7 @@ SCRIPT
 chmod +x "$WORK/bin/lampion"
 export PATH="$WORK/bin:$PATH" XDG_CACHE_HOME="$WORK/cache" HOME="$WORK"
 export PKG_CONFIG_PATH="$(dirname "$(find "$WORK/prefix" -name lampion.pc)")"
+export SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 # as in an array job
 unset DISPLAY WAYLAND_DISPLAY
 
 # A scene that stands for the reader's own.
