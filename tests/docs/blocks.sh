@@ -9,7 +9,7 @@
 #   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
 #   <!-- prints -->            a text block: what the block before it printed, to the letter
 # Pictures are small here and samples few: the last value of an option counts, and the program's
-# stand-in below adds its own. Nothing else is changed.
+# stand-in below adds its own; of the materials of `brdf bands` it keeps the first. Nothing else is changed.
 # DOCUMENTS="docs/a.md docs/b.md" runs these alone.
 set -eu
 . tests/house/common.sh
@@ -25,6 +25,7 @@ reference:*' --point '*) ;;
 render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;
 reference:*) set -- "\$@" --size 96x54 --spp 4 ;;
 basis:*) set -- "\$@" --size 320x200 ;;
+brdf:*' brdf bands '*) set -- brdf bands "\$3" ;;
 brdf:*' plot '*) set -- "\$@" --size 300x200 ;;
 esac
 exec "$PROGRAM" "\$@"
