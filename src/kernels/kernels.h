@@ -56,9 +56,9 @@ typedef struct lmp_kernel_places {
     const float *share, *density, *lobe_angle;
 } lmp_kernel_places;
 
-/* Surfaces to shade: the axes of a diffuse and of a Phong lobe each. */
+/* Surfaces to shade. */
 typedef struct lmp_kernel_surfaces {
-    lmp_kernel_vec3 point, normal, mirror;
+    lmp_kernel_vec3 point, normal, view;
     const float *exponent;
 } lmp_kernel_surfaces;
 
@@ -69,6 +69,9 @@ typedef struct lmp_kernel_light {
     lmp_rgb radiance;
     const float *scale;
 } lmp_kernel_light;
+
+/* Lights that one call of a shading kernel takes at most. */
+#define LMP_KERNEL_LIGHTS_MAX 32
 
 /* What the lobes gather, in planes of red, green, blue; added to. */
 typedef struct lmp_kernel_gathered {

@@ -86,14 +86,40 @@ LMP_INLINE vf shade_dot(const vf a[3], const shade_cap *cap) {
     return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
 }
 
+/* What of a light the lobes of a block need: u and v, the cosines of its cap's axis with normal and
+ * mirror direction, and the cap. */
+typedef struct shade_aim {
+    vf u, v, t;
+    vf strength, mean, ambient;
+} shade_aim;
+
+/* All lights first, then their lobes: in one loop, the roots and quotients of a light would wait
+ * for each other at its beginning. */
+LMP_INLINE void shade_aim_all(const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                              size_t light_count, size_t e, shade_aim *aims) {
+    vf point[3], normal[3], mirror[3];
+    shade_planes(&surfaces->point, e, point);
+    shade_planes(&surfaces->normal, e, normal);
+    shade_planes(&surfaces->view, e, mirror);
+    const vf twice = 2 * (normal[0] * mirror[0] + normal[1] * mirror[1] + normal[2] * mirror[2]);
+    for (int i = 0; i < 3; i++)
+        mirror[i] = twice * normal[i] - mirror[i];
+    for (size_t i = 0; i < light_count; i++) {
+        const shade_cap cap = shade_sphere(&lights[i], e, point);
+        aims[i] = (shade_aim) { shade_dot(normal, &cap),
+                                shade_dot(mirror, &cap),
+                                cap.t,
+                                cap.strength,
+                                cap.mean,
+                                cap.ambient };
+    }
+}
+
 /* --- zonal ------------------------------------------------------------------------------------ */
 
 /* Up to so many bands all recurrences run in monic form, x p_(l-1) - c_l p_(l-2): the product of
  * two monic polynomials then stays a normal float. */
 #define ZONAL_MONIC_BANDS 48
-
-/* Blocks of surfaces that run side by side: the recurrences of one wait for themselves. */
-#define ZONAL_BLOCKS (LMP_LANES == 1 ? 1 : 2)
 
 /* What is the same for every surface. Members go by band; the factors of R_l P_l hold their norms.
  * Even bands of the diffuse lobe take two steps at once:
@@ -141,13 +167,6 @@ static inline void zonal_prepare(int bands, int monic, const float *window, cons
     }
 }
 
-/* A block of surfaces and what it has gathered. */
-typedef struct zonal_block {
-    vf point[3], normal[3], mirror[3];
-    vf weights[LMP_BANDS_MAX + 1]; /* of R_l P_l of the Phong lobe */
-    shade_sums sums;
-} zonal_block;
-
 /* lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), of the lobe that integrates to 1. */
 LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, vf *weights) {
     vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
@@ -180,78 +199,46 @@ LMP_INLINE void zonal_lobe_step(int monic, int l, vf v, vf *q1, vf *q0) {
     *q1 = q2;
 }
 
-LMP_INLINE void zonal_light(int bands, int monic, int blocks, const zonal_tables *tables,
-                            const lmp_kernel_light *light, size_t e, zonal_block *block) {
-    shade_cap cap[ZONAL_BLOCKS];
-    vf x[ZONAL_BLOCKS], v[ZONAL_BLOCKS], square[ZONAL_BLOCKS], r0[ZONAL_BLOCKS], r1[ZONAL_BLOCKS];
-    vf p0[ZONAL_BLOCKS], p1[ZONAL_BLOCKS], q0[ZONAL_BLOCKS], q1[ZONAL_BLOCKS];
-    vf diffuse[ZONAL_BLOCKS], specular[ZONAL_BLOCKS];
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        cap[k] = shade_sphere(light, e + (size_t)k * LMP_LANES, block[k].point);
-        const vf u = shade_dot(block[k].normal, &cap[k]);
-        v[k] = shade_dot(block[k].mirror, &cap[k]);
-        x[k] = monic ? vf_set(1) - cap[k].t : cap[k].t;
-        square[k] = u * u;
-        r0[k] = vf_set(0);
-        r1[k] = vf_set(1);
-        p0[k] = vf_set(0);
-        p1[k] = vf_set(1);
-        q0[k] = vf_set(1);
-        q1[k] = v[k];
-        diffuse[k] = tables->diffuse[1] * u;
-        specular[k] = block[k].weights[1] * v[k];
-    }
+/* Adds one light's answers to the block's sums. The chains of successive lights run side by side:
+ * none waits for the one before. */
+LMP_INLINE void zonal_light(int bands, int monic, const zonal_tables *tables, const vf *weights,
+                            const shade_aim *aim, lmp_rgb rgb, shade_sums *sums) {
+    const vf v = aim->v, square = aim->u * aim->u;
+    const vf x = monic ? vf_set(1) - aim->t : aim->t;
+    vf r0 = vf_set(0), r1 = vf_set(1), p0 = vf_set(0), p1 = vf_set(1), q0 = vf_set(1), q1 = v;
+    vf diffuse = tables->diffuse[1] * aim->u, specular = weights[1] * v;
     LMP_ROLLED for (int l = 2; l < bands; l += 2) {
-        LMP_UNROLL for (int k = 0; k < blocks; k++) {
-            zonal_cap_step(monic, tables->cap, l, x[k], &r1[k], &r0[k]);
-            zonal_lobe_step(monic, l, v[k], &q1[k], &q0[k]);
-            const vf p2 = (tables->even_a[l] * square[k] - tables->even_b[l]) * p1[k] -
-                          tables->even_c[l] * p0[k];
-            p0[k] = p1[k];
-            p1[k] = p2;
-            diffuse[k] = diffuse[k] + tables->diffuse[l] * (r1[k] * p2);
-            specular[k] = specular[k] + block[k].weights[l] * (r1[k] * q1[k]);
-            zonal_cap_step(monic, tables->cap, l + 1, x[k], &r1[k], &r0[k]);
-            zonal_lobe_step(monic, l + 1, v[k], &q1[k], &q0[k]);
-            specular[k] = specular[k] + block[k].weights[l + 1] * (r1[k] * q1[k]);
-        }
+        zonal_cap_step(monic, tables->cap, l, x, &r1, &r0);
+        zonal_lobe_step(monic, l, v, &q1, &q0);
+        const vf p2 =
+            (tables->even_a[l] * square - tables->even_b[l]) * p1 - tables->even_c[l] * p0;
+        p0 = p1;
+        p1 = p2;
+        diffuse = diffuse + tables->diffuse[l] * (r1 * p2);
+        specular = specular + weights[l] * (r1 * q1);
+        zonal_cap_step(monic, tables->cap, l + 1, x, &r1, &r0);
+        zonal_lobe_step(monic, l + 1, v, &q1, &q0);
+        specular = specular + weights[l + 1] * (r1 * q1);
     }
-    const lmp_rgb rgb = light->radiance;
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        const vf zero = cap[k].mean + (4 * LMP_KERNEL_PI) * cap[k].ambient;
-        shade_gather(rgb, cap[k].strength * diffuse[k] + tables->diffuse[0] * zero,
-                     cap[k].strength * specular[k] + block[k].weights[0] * zero, &block[k].sums);
-    }
-}
-
-LMP_INLINE void zonal_blocks(int bands, int monic, int blocks, const zonal_tables *tables,
-                             const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                             size_t light_count, size_t element,
-                             const lmp_kernel_gathered *gathered) {
-    zonal_block block[ZONAL_BLOCKS];
-    LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        const size_t e = element + (size_t)k * LMP_LANES;
-        shade_sums_load(gathered, e, &block[k].sums);
-        shade_planes(&surfaces->point, e, block[k].point);
-        shade_planes(&surfaces->normal, e, block[k].normal);
-        shade_planes(&surfaces->mirror, e, block[k].mirror);
-        zonal_phong(bands, tables, vf_load(surfaces->exponent + e), block[k].weights);
-    }
-    for (size_t i = 0; i < light_count; i++)
-        zonal_light(bands, monic, blocks, tables, &lights[i], element, block);
-    LMP_UNROLL for (int k = 0; k < blocks; k++)
-        shade_sums_store(&block[k].sums, element + (size_t)k * LMP_LANES, gathered);
+    const vf zero = aim->mean + (4 * LMP_KERNEL_PI) * aim->ambient;
+    shade_gather(rgb, aim->strength * diffuse + tables->diffuse[0] * zero,
+                 aim->strength * specular + weights[0] * zero, sums);
 }
 
 LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
                           const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                           size_t light_count, size_t count, const lmp_kernel_gathered *gathered) {
-    size_t e = 0;
-    for (; e + (ZONAL_BLOCKS - 1) * LMP_LANES < count; e += ZONAL_BLOCKS * LMP_LANES)
-        zonal_blocks(bands, monic, ZONAL_BLOCKS, tables, surfaces, lights, light_count, e,
-                     gathered);
-    for (; e < count; e += LMP_LANES)
-        zonal_blocks(bands, monic, 1, tables, surfaces, lights, light_count, e, gathered);
+    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
+    vf weights[LMP_BANDS_MAX + 1]; /* of R_l P_l of the Phong lobe */
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        shade_sums sums;
+        shade_sums_load(gathered, e, &sums);
+        zonal_phong(bands, tables, vf_load(surfaces->exponent + e), weights);
+        shade_aim_all(surfaces, lights, light_count, e, aims);
+        for (size_t i = 0; i < light_count; i++)
+            zonal_light(bands, monic, tables, weights, &aims[i], lights[i].radiance, &sums);
+        shade_sums_store(&sums, e, gathered);
+    }
 }
 
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
@@ -416,25 +403,23 @@ static void kernel_shade_response(const lmp_kernel_response *response,
                                   const lmp_kernel_light *lights, size_t light_count, size_t count,
                                   const lmp_kernel_gathered *gathered) {
     response_lanes broad, sharp;
+    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
     response_lanes_load(response, diffuse, 0, &broad);
     for (size_t e = 0; e < count; e += LMP_LANES) {
-        vf point[3], normal[3], mirror[3];
         shade_sums sums;
         shade_sums_load(gathered, e, &sums);
-        shade_planes(&surfaces->point, e, point);
-        shade_planes(&surfaces->normal, e, normal);
-        shade_planes(&surfaces->mirror, e, mirror);
+        shade_aim_all(surfaces, lights, light_count, e, aims);
         response_lanes_load(response, specular, e, &sharp);
         for (size_t i = 0; i < light_count; i++) {
-            const shade_cap cap = shade_sphere(&lights[i], e, point);
-            const vf a = vf_sqrt(cap.t) * LMP_ANGLE(1 - cap.t), covered = 2 * LMP_KERNEL_PI * cap.t;
-            const vf d = response_read(&broad, shade_angle(shade_dot(normal, &cap)), a);
-            const vf s = response_read(&sharp, shade_angle(shade_dot(mirror, &cap)), a);
+            const vf t = aims[i].t, a = vf_sqrt(t) * LMP_ANGLE(1 - t),
+                     covered = 2 * LMP_KERNEL_PI * t;
+            const vf d = response_read(&broad, shade_angle(aims[i].u), a);
+            const vf s = response_read(&sharp, shade_angle(aims[i].v), a);
             /* One division for both: mean over the cap = reading / (cap's + lobe's angle). */
             const vf wide = covered + broad.angle, narrow = covered + sharp.angle;
-            const vf each = cap.mean / (wide * narrow);
-            shade_gather(lights[i].radiance, d * narrow * each + cap.ambient,
-                         s * wide * each + cap.ambient, &sums);
+            const vf each = aims[i].mean / (wide * narrow);
+            shade_gather(lights[i].radiance, d * narrow * each + aims[i].ambient,
+                         s * wide * each + aims[i].ambient, &sums);
         }
         shade_sums_store(&sums, e, gathered);
     }

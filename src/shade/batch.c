@@ -9,9 +9,6 @@
 #include <assert.h>
 #include <math.h>
 
-/* Lights a kernel call takes. */
-#define LIGHTS 32
-
 /* A Dirac is a cap this wide, or a sphere this large, of the same strength: the difference is below
  * rounding at any number of bands. */
 #define DIRAC_SINE   1e-5f
@@ -23,7 +20,7 @@ static const float pi = 3.14159265f;
 
 typedef struct chunk {
     size_t count;
-    lmp_batch_vec3 point, normal, mirror, diffuse, specular;
+    lmp_batch_vec3 point, normal, view, diffuse, specular;
     lmp_batch_plane exponent;
     lmp_batch_plane gathered[6];
     lmp_kernel_surfaces surfaces;
@@ -43,21 +40,12 @@ static void load_chunk(const lmp_surfaces *surfaces, size_t first, size_t count,
     chunk->count = count;
     chunk->surfaces.point = lmp_batch_vectors(&surfaces->position, first, count, &chunk->point);
     chunk->surfaces.normal = lmp_batch_vectors(&surfaces->normal, first, count, &chunk->normal);
-    chunk->surfaces.mirror = lmp_batch_vectors(&surfaces->view, first, count, &chunk->mirror);
+    chunk->surfaces.view = lmp_batch_vectors(&surfaces->view, first, count, &chunk->view);
     lmp_batch_vectors(&surfaces->diffuse, first, count, &chunk->diffuse);
     lmp_batch_vectors(&surfaces->specular, first, count, &chunk->specular);
     lmp_batch_floats(surfaces->exponent.at, surfaces->exponent.stride, first, count,
                      &chunk->exponent);
     chunk->surfaces.exponent = chunk->exponent.at;
-    for (size_t i = 0; i < count; i++) {
-        const float nx = chunk->normal.x.at[i], ny = chunk->normal.y.at[i];
-        const float nz = chunk->normal.z.at[i];
-        float *x = &chunk->mirror.x.at[i], *y = &chunk->mirror.y.at[i], *z = &chunk->mirror.z.at[i];
-        const float twice = 2 * (nx * *x + ny * *y + nz * *z);
-        *x = twice * nx - *x;
-        *y = twice * ny - *y;
-        *z = twice * nz - *z;
-    }
     for (int c = 0; c < 3; c++) {
         chunk->sums.diffuse[c] = chunk->gathered[c].at;
         chunk->sums.specular[c] = chunk->gathered[3 + c].at;
@@ -68,12 +56,12 @@ static void store_chunk(const chunk_planes *chunk, const float *ambient, size_t 
                         float *rgb) {
     const float *diffuse[3] = { chunk->diffuse.x.at, chunk->diffuse.y.at, chunk->diffuse.z.at };
     const float *specular[3] = { chunk->specular.x.at, chunk->specular.y.at, chunk->specular.z.at };
-    for (size_t i = 0; i < chunk->count; i++)
-        for (int c = 0; c < 3; c++)
-            rgb[i * stride + (size_t)c] =
-                fmaxf(diffuse[c][i] * (chunk->gathered[c].at[i] + ambient[c]) +
-                          specular[c][i] * (chunk->gathered[3 + c].at[i] + ambient[c]),
-                      0);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < chunk->count; i++) {
+            const float sum = diffuse[c][i] * (chunk->gathered[c].at[i] + ambient[c]) +
+                              specular[c][i] * (chunk->gathered[3 + c].at[i] + ambient[c]);
+            rgb[i * stride + c] = sum > 0 ? sum : 0;
+        }
 }
 
 /* Surfaces with a table: one by one, over what their lobes gave. */
@@ -210,15 +198,17 @@ static void shade_chunks(const shade_method *method, const lmp_surfaces *surface
                          const lmp_light *lights, size_t light_count, size_t rgb_stride,
                          float *rgb) {
     chunk_planes chunk = { 0 };
-    lmp_batch_plane scales[LIGHTS];
+    lmp_batch_plane scales[LMP_KERNEL_LIGHTS_MAX];
     const size_t stride = rgb_stride ? rgb_stride : 3;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         load_chunk(surfaces, first, lmp_batch_count(count, first), &chunk);
         memset(chunk.gathered, 0, sizeof chunk.gathered);
         float ambient[3] = { 0, 0, 0 };
-        for (size_t light = 0; light < light_count; light += LIGHTS) {
-            lmp_kernel_light some[LIGHTS];
-            const size_t taken = light_count - light < LIGHTS ? light_count - light : LIGHTS;
+        for (size_t light = 0; light < light_count; light += LMP_KERNEL_LIGHTS_MAX) {
+            lmp_kernel_light some[LMP_KERNEL_LIGHTS_MAX];
+            const size_t taken = light_count - light < LMP_KERNEL_LIGHTS_MAX
+                                     ? light_count - light
+                                     : LMP_KERNEL_LIGHTS_MAX;
             for (size_t i = 0; i < taken; i++)
                 some[i] = take_light(&lights[light + i], &chunk, &scales[i], ambient);
             gather(method, &chunk, some, taken);
