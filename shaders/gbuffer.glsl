@@ -7,6 +7,14 @@ vec2 gbuffer_sign(vec2 v) {
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
+vec3 gbuffer_encode_color(vec3 c) {
+    return sqrt(max(c, vec3(0.0)));
+}
+
+vec3 gbuffer_decode_color(vec3 stored) {
+    return stored * stored;
+}
+
 /* Octahedral (Cigolle et al. 2014), in 0 … 1. */
 vec2 gbuffer_encode_normal(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));

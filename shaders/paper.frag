@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The paper's own pass, kept only to be timed (lampion bench gpu): a full-screen fragment shader
- * that projects every light to its coefficients in each pixel and multiplies their sum with the
- * material's. Unrolled, constants folded: the paper's method at its best. */
+ * that projects every light to its n² coefficients in each pixel, adds them up, and multiplies the
+ * sums with the material's (paper Eq. 12, 13 and 4). Unrolled and with constants folded, but
+ * without the library's shortcuts. */
 #include "gbuffer.glsl"
 #include "shared.h"
 
@@ -14,6 +15,55 @@
 
 layout(location = 0) out vec4 radiance;
 
+vec3 paper_shade(lmp_surface surface, lmp_material material) {
+    vec3 sum[LMP_SH_COUNT];
+    float sh[LMP_SH_COUNT], diffuse[LMP_BANDS], glossy[LMP_BANDS];
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m))                                                                          \
+        sum[LMP_INDEX(l, m)] = sum[LMP_INDEX(l, -m)] = vec3(0.0);
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_ROW
+
+    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
+        lmp_sphere_project(LMP_LIGHT_SPHERE(i), surface.position, sh);
+        vec3 color = LMP_LIGHT_RADIANCE(i);
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        sum[LMP_INDEX(l, m)] += color * sh[LMP_INDEX(l, m)];                                       \
+        if (m > 0)                                                                                 \
+            sum[LMP_INDEX(l, -m)] += color * sh[LMP_INDEX(l, -m)];                                 \
+    }
+        LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_ROW
+    }
+
+    lmp_lobe_diffuse(diffuse);
+    lmp_lobe_phong(material.exponent, glossy);
+    vec3 gathered_diffuse = vec3(0.0), gathered_glossy = vec3(0.0);
+    lmp_sh_eval(surface.normal, sh);
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        gathered_diffuse += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];     \
+        if (m > 0)                                                                                 \
+            gathered_diffuse += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)]; \
+    }
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_ROW
+    lmp_sh_eval(reflect(-surface.view, surface.normal), sh);
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        gathered_glossy += glossy[LMP_BAND(l)] * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];       \
+        if (m > 0)                                                                                 \
+            gathered_glossy += glossy[LMP_BAND(l)] * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)]; \
+    }
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_ROW
+#undef LMP_COLUMN
+    return max(material.diffuse / LMP_PI * gathered_diffuse + material.specular * gathered_glossy,
+               vec3(0.0));
+}
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     int kind = pixel_kind(at);
@@ -22,6 +72,6 @@ void main() {
         radiance.rgb = pixel_light_radiance(at);
     } else if (kind == SHARED_KIND_SURFACE) {
         pixel p = pixel_read(at);
-        radiance.rgb = lmp_shade_coefficients(p.surface, p.material) + pixel_emission(at);
+        radiance.rgb = paper_shade(p.surface, p.material) + pixel_emission(at);
     }
 }

@@ -32,6 +32,6 @@ pixel pixel_read(ivec2 at) {
     p.surface.normal = gbuffer_decode_normal(texelFetch(normal_texture, at, 0).rg);
     p.surface.view = -normalize(ray);
     p.material = lmp_material_from_metallic_roughness(
-        base_metallic.rgb, base_metallic.a, texelFetch(roughness_kind_texture, at, 0).r);
+        gbuffer_decode_color(base_metallic.rgb), base_metallic.a, texelFetch(roughness_kind_texture, at, 0).r);
     return p;
 }

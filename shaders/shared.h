@@ -38,11 +38,11 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_HDR                5
 
 /* Fragment outputs, in the order of the G-buffer's attachments (16 bytes a pixel, and depth):
- *   0  SRGB8_ALPHA8    base colour, metallic
+ *   0  RGBA8           root of the base colour, metallic
  *   1  RG16            octahedral normal; of a light, its index in r
  *   2  RG8             roughness, kind
  *   3  R11F_G11F_B10F  emitted radiance
- * Roughness would fit beside metallic, but an sRGB target's alpha is its only linear channel. */
+ * The root is nearly as even to the eye as sRGB's curve, and every device squares it alike. */
 #define SHARED_KIND_NONE    0
 #define SHARED_KIND_SURFACE 1
 #define SHARED_KIND_LIGHT   2

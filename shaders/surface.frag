@@ -54,7 +54,7 @@ void main() {
     if (maps.w > 0.0)
         emitted *= texture(emission_map, map_uv(SHARED_EMISSION)).rgb;
 
-    out_base_metallic = vec4(base.rgb, metallic);
+    out_base_metallic = vec4(gbuffer_encode_color(base.rgb), metallic);
     out_normal = gbuffer_encode_normal(n);
     out_roughness_kind = vec2(roughness, gbuffer_encode_kind(int(emission.w)));
     out_emission = emitted;

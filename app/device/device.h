@@ -24,7 +24,8 @@ device_kind device_choose(device_kind wanted, const gpu_context *context, gpu_me
  * cached. Free with lmp_response_destroy. */
 bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error);
 
-/* gpu_frame.host: shades the frame's pixels by its method, bands, window, lights and response. */
-bool device_shade(const gpu_frame *frame, const gpu_pixel *pixels, float *rgb, cli_error *error);
+/* gpu_frame.host: shades the frame by its method, bands, window, lights and response. */
+bool device_shade(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                  cli_error *error);
 
 #endif

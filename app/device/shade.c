@@ -19,62 +19,72 @@ device_kind device_choose(device_kind wanted, const gpu_context *context, gpu_me
     return needs_cpu && device_bands_max(DEVICE_CPU, method) >= bands ? DEVICE_CPU : DEVICE_GPU;
 }
 
+static lmp_vec3_array vectors(float *const planes[3], size_t first) {
+    return (lmp_vec3_array) { planes[0] + first, planes[1] + first, planes[2] + first,
+                              sizeof(float) };
+}
+
 /* A run of surfaces in a row. */
-static void shade_run(const gpu_frame *frame, const lmp_light *lights, const gpu_pixel *pixels,
-                      size_t count, float *rgb) {
-    const lmp_surface *s = &pixels->surface;
-    const lmp_material *m = &pixels->material;
-    const size_t stride = sizeof *pixels;
+static void shade_run(const gpu_frame *frame, const lmp_light *lights, const gpu_row *row,
+                      size_t first, size_t count, float *rgba) {
     const lmp_surfaces surfaces = {
-        .position = { &s->position.x, &s->position.y, &s->position.z, stride },
-        .normal = { &s->normal.x, &s->normal.y, &s->normal.z, stride },
-        .view = { &s->view.x, &s->view.y, &s->view.z, stride },
-        .diffuse = { &m->diffuse.r, &m->diffuse.g, &m->diffuse.b, stride },
-        .specular = { &m->specular.r, &m->specular.g, &m->specular.b, stride },
-        .exponent = { &m->exponent, stride },
-        .table = &m->table,
-        .table_stride = stride,
+        .position = vectors(row->position, first),
+        .normal = vectors(row->normal, first),
+        .view = vectors(row->view, first),
+        .diffuse = vectors(row->diffuse, first),
+        .specular = vectors(row->specular, first),
+        .exponent = { row->exponent + first, sizeof(float) },
+        .table = row->table + first,
+        .table_stride = sizeof *row->table,
     };
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
     if (frame->method == GPU_METHOD_PREINTEGRATED)
-        lmp_shade_preintegrated_n(frame->response, &surfaces, count, lights, frame->light_count, 3,
-                                  rgb);
+        lmp_shade_preintegrated_n(frame->response, &surfaces, count, lights, frame->light_count, 4,
+                                  rgba);
     else
-        lmp_shade_n(&settings, &surfaces, count, lights, frame->light_count, 3, rgb);
+        lmp_shade_n(&settings, &surfaces, count, lights, frame->light_count, 4, rgba);
 }
 
-static void shade_row(const gpu_frame *frame, const lmp_light *lights, const gpu_pixel *pixels,
-                      float *rgb) {
+static void shade_row(const gpu_frame *frame, const lmp_light *lights, const gpu_row *row,
+                      float *rgba) {
     const size_t width = (size_t)frame->width;
     for (size_t i = 0; i < width;) {
         size_t end = i;
-        while (end < width && pixels[end].kind == GPU_KIND_SURFACE)
+        while (end < width && row->kind[end] == GPU_KIND_SURFACE)
             end++;
         if (end > i)
-            shade_run(frame, lights, pixels + i, end - i, rgb + 3 * i);
-        for (; i < end; i++) {
-            rgb[3 * i] += pixels[i].emission.r;
-            rgb[3 * i + 1] += pixels[i].emission.g;
-            rgb[3 * i + 2] += pixels[i].emission.b;
-        }
-        for (; i < width && pixels[i].kind != GPU_KIND_SURFACE; i++) {
-            rgb[3 * i] = pixels[i].emission.r;
-            rgb[3 * i + 1] = pixels[i].emission.g;
-            rgb[3 * i + 2] = pixels[i].emission.b;
-        }
+            shade_run(frame, lights, row, i, end - i, rgba + 4 * i);
+        for (; i < end; i++)
+            for (size_t c = 0; c < 3; c++)
+                rgba[4 * i + c] += row->emission[c][i];
+        for (; i < width && row->kind[i] != GPU_KIND_SURFACE; i++)
+            for (size_t c = 0; c < 3; c++)
+                rgba[4 * i + c] = row->emission[c][i];
     }
 }
 
-bool device_shade(const gpu_frame *frame, const gpu_pixel *pixels, float *rgb, cli_error *error) {
+bool device_shade(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                  cli_error *error) {
     lmp_light *lights = calloc(frame->light_count + 1, sizeof *lights);
-    if (!lights)
-        return cli_fail(error, NULL, "out of memory");
-    for (size_t i = 0; i < frame->light_count; i++)
+    bool ok = lights;
+    for (size_t i = 0; ok && i < frame->light_count; i++)
         lights[i] = scene_light_as_sphere(&frame->lights[i]);
-    const size_t width = (size_t)frame->width;
-#pragma omp parallel for schedule(dynamic, 4)
-    for (int y = 0; y < frame->height; y++)
-        shade_row(frame, lights, pixels + (size_t)y * width, rgb + 3 * (size_t)y * width);
+#pragma omp parallel if (ok)
+    {
+        gpu_row row;
+        const bool mine = ok && gpu_row_create(frame->width, &row);
+#pragma omp for schedule(dynamic, 4)
+        for (int y = 0; y < frame->height; y++)
+            if (mine) {
+                gpu_gbuffer_row(gbuffer, y, &row);
+                shade_row(frame, lights, &row, rgba + 4 * (size_t)y * (size_t)frame->width);
+            }
+        if (mine)
+            gpu_row_free(&row);
+        else
+#pragma omp atomic write
+            ok = false;
+    }
     free(lights);
-    return true;
+    return ok || cli_fail(error, NULL, "out of memory");
 }

@@ -49,11 +49,12 @@ typedef enum gpu_method {
 extern const char *const gpu_method_names[GPU_METHODS + 1]; /* NULL-terminated */
 
 struct gpu_frame;
-struct gpu_pixel;
+typedef struct gpu_gbuffer gpu_gbuffer;
 
-/* Shades on the host: rgb receives the radiance of width * height pixels, rows from the top. */
-typedef bool (*gpu_host_shader)(const struct gpu_frame *frame, const struct gpu_pixel *pixels,
-                                float *rgb, cli_error *error);
+/* Shades on the host: rgba receives the radiance of width * height pixels, rows from the top; the
+ * fourth value is not used. */
+typedef bool (*gpu_host_shader)(const struct gpu_frame *frame, const gpu_gbuffer *gbuffer,
+                                float *rgba, cli_error *error);
 
 /* What to draw. */
 typedef struct gpu_frame {
@@ -172,6 +173,21 @@ typedef struct gpu_pixel {
  *
  * *pixels receives width * height entries, rows from the top; free() it. */
 bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *error);
+
+/* The same for a host shader, as arrays of a row's width. Only emission, and kind, mean something
+ * where the kind is not SURFACE. */
+typedef struct gpu_row {
+    unsigned char *kind; /* gpu_kind */
+    float *position[3], *normal[3], *view[3];
+    float *diffuse[3], *specular[3], *exponent;
+    float *emission[3];
+    const lmp_brdf_table **table;
+} gpu_row;
+bool gpu_row_create(int width, gpu_row *row);
+void gpu_row_free(gpu_row *row);
+
+/* From any thread, each with a row of its own. */
+void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
 
 /* --- sources -----------------------------------------------------------------------------------
  */

@@ -66,6 +66,35 @@ typedef struct gpu_variant {
     GLuint program;
 } gpu_variant;
 
+/* --- gbuffer.c ----------------------------------------------------------------------------------
+ */
+
+typedef struct gpu_normal16 {
+    uint16_t u, v;
+} gpu_normal16;
+
+/* The attachments as they are stored (shared.h), and what decoding them needs. */
+struct gpu_gbuffer {
+    int width, height;
+    float *depth;
+    unsigned char (*base_metallic)[4];
+    gpu_normal16 *normal;
+    unsigned char (*roughness_kind)[2];
+    uint32_t *emission;
+    vec4 *rgba; /* for what the host makes of it */
+    shared_frame block;
+    const gpu_frame *frame;
+    const lmp_brdf_table *const *tables;
+};
+
+/* Allocates at the first frame of a size. */
+bool gpu_gbuffer_read(const gpu_renderer *renderer, const shared_frame *block,
+                      const gpu_frame *frame, gpu_gbuffer *gbuffer, cli_error *error);
+void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
+
+/* --- renderer.c, again --------------------------------------------------------------------------
+ */
+
 struct gpu_renderer {
     gpu_context context;
     gpu_mesh mesh;
@@ -85,7 +114,8 @@ struct gpu_renderer {
     int table_count, table_bands;
     bool tables_full; /* not all mirrored */
     GLuint tables_buffer;
-    float near; /* distance of the near plane */
+    float near;          /* distance of the near plane */
+    gpu_gbuffer gbuffer; /* of host shaders */
 };
 
 /* Binds the G-buffer's textures and the blocks for a compute pass. */

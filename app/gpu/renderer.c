@@ -80,6 +80,7 @@ static void delete_targets(gpu_renderer *r) {
     glDeleteTextures(1, &r->ldr);
     glDeleteFramebuffers(1, &r->framebuffer);
     glDeleteFramebuffers(1, &r->ldr_framebuffer);
+    gpu_gbuffer_free(&r->gbuffer);
     r->width = r->height = 0;
 }
 
@@ -117,8 +118,7 @@ static GLuint create_target(GLenum format, int width, int height) {
 }
 
 static bool create_targets(gpu_renderer *r, int width, int height, cli_error *error) {
-    static const GLenum formats[GPU_ATTACHMENTS] = { GL_SRGB8_ALPHA8, GL_RG16, GL_RG8,
-                                                     GL_R11F_G11F_B10F };
+    static const GLenum formats[GPU_ATTACHMENTS] = { GL_RGBA8, GL_RG16, GL_RG8, GL_R11F_G11F_B10F };
     static const GLenum buffers[GPU_ATTACHMENTS] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
                                                      GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3 };
     if (r->width == width && r->height == height)
@@ -303,7 +303,6 @@ static void draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_f
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
-    glEnable(GL_FRAMEBUFFER_SRGB);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
     gpu_mesh_draw(&r->mesh, block->clip_from_world, r->surface, r->surface_masked);
@@ -316,7 +315,6 @@ static void draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_f
     }
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
-    glDisable(GL_FRAMEBUFFER_SRGB);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
 }
 
@@ -409,28 +407,23 @@ static double marked(const gpu_renderer *r, int index) {
     return 1e-6 * (double)nanoseconds;
 }
 
-/* The pixels go to the host and come back as radiance. */
-static bool shade_host(gpu_renderer *r, const gpu_frame *frame, gpu_times *times,
-                       cli_error *error) {
-    gpu_pixel *pixels = NULL;
-    float *rgb = malloc(3 * sizeof *rgb * (size_t)r->width * (size_t)r->height);
+/* The G-buffer goes to the host and comes back as radiance. */
+static bool shade_host(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block,
+                       gpu_times *times, cli_error *error) {
     const double start = wall_clock();
-    bool ok = (rgb || cli_fail(error, NULL, "out of memory")) && gpu_read_pixels(r, &pixels, error);
+    if (!gpu_gbuffer_read(r, block, frame, &r->gbuffer, error))
+        return false;
     const double read = wall_clock();
-    ok = ok && frame->host(frame, pixels, rgb, error);
+    if (!frame->host(frame, &r->gbuffer, &r->gbuffer.rgba[0][0], error))
+        return false;
     const double shaded = wall_clock();
-    if (ok) {
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGB, GL_FLOAT, rgb);
-    }
+    glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGBA, GL_FLOAT, r->gbuffer.rgba);
     if (times) {
         glFinish();
         times->shade += shaded - read;
         times->transfer += read - start + wall_clock() - shaded;
     }
-    free(pixels);
-    free(rgb);
-    return ok;
+    return true;
 }
 
 /* One sample of every pixel into the HDR target. */
@@ -454,7 +447,7 @@ static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GL
         times->gbuffer += marked(r, 1) - marked(r, 0);
         times->shade += frame->host ? 0 : marked(r, 2) - marked(r, 1);
     }
-    return !frame->host || shade_host(r, frame, times, error);
+    return !frame->host || shade_host(r, frame, &block, times, error);
 }
 
 /* Adds the HDR target to the sums; the last sample leaves the mean there, with `show` every one. */

@@ -100,6 +100,18 @@ static void preintegrated_pictures_are_those_of_coefficients(void **state) {
     close_stage(&s);
 }
 
+static void the_paper_s_pass_draws_what_is_timed_against_it(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s, "builtin:atrium");
+    s.frame.method = GPU_METHOD_ZONAL;
+    draw(s.renderer, &s.frame, first);
+    s.frame.method = GPU_METHOD_PAPER;
+    draw(s.renderer, &s.frame, second);
+    assert_int_equal(beyond(1), 0);
+    close_stage(&s);
+}
+
 static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **state) {
     (void)state;
     stage s;
@@ -121,6 +133,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_devices_draw_the_same_picture),
         cmocka_unit_test(preintegrated_pictures_are_those_of_coefficients),
+        cmocka_unit_test(the_paper_s_pass_draws_what_is_timed_against_it),
         cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_responses),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: MIT */
+/* The G-buffer on the host: read as it is stored, decoded a row at a time (pixel.glsl does the
+ * same). */
+#include "app/gpu/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- reading ------------------------------------------------------------------------------------
+ */
+
+static bool allocate(gpu_gbuffer *g, int width, int height, cli_error *error) {
+    const size_t count = (size_t)width * (size_t)height;
+    gpu_gbuffer_free(g);
+    g->depth = malloc(count * sizeof *g->depth);
+    g->base_metallic = malloc(count * sizeof *g->base_metallic);
+    g->normal = malloc(count * sizeof *g->normal);
+    g->roughness_kind = malloc(count * sizeof *g->roughness_kind);
+    g->emission = malloc(count * sizeof *g->emission);
+    g->rgba = malloc(count * sizeof *g->rgba);
+    if (!g->depth || !g->base_metallic || !g->normal || !g->roughness_kind || !g->emission ||
+        !g->rgba) {
+        gpu_gbuffer_free(g);
+        return cli_fail(error, NULL, "out of memory for a picture of %d x %d", width, height);
+    }
+    g->width = width;
+    g->height = height;
+    return true;
+}
+
+void gpu_gbuffer_free(gpu_gbuffer *g) {
+    free(g->depth);
+    free(g->base_metallic);
+    free(g->normal);
+    free(g->roughness_kind);
+    free(g->emission);
+    free(g->rgba);
+    memset(g, 0, sizeof *g);
+}
+
+bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gpu_frame *frame,
+                      gpu_gbuffer *g, cli_error *error) {
+    const size_t count = (size_t)r->width * (size_t)r->height;
+    if ((g->width != r->width || g->height != r->height) &&
+        !allocate(g, r->width, r->height, error))
+        return false;
+    const struct {
+        GLuint texture;
+        GLenum format, type;
+        size_t size;
+        void *to;
+    } planes[] = {
+        { r->depth, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof *g->depth, g->depth },
+        { r->attachments[0], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->base_metallic,
+          g->base_metallic },
+        { r->attachments[1], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->normal, g->normal },
+        { r->attachments[2], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->roughness_kind,
+          g->roughness_kind },
+        { r->attachments[3], GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, sizeof *g->emission,
+          g->emission },
+    };
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
+        if (count * planes[i].size > INT32_MAX)
+            return cli_fail(error, NULL, "a picture of %d x %d is too large to read back", r->width,
+                            r->height);
+        glGetTextureImage(planes[i].texture, 0, planes[i].format, planes[i].type,
+                          (GLsizei)(count * planes[i].size), planes[i].to);
+    }
+    g->block = *block;
+    g->frame = frame;
+    g->tables = r->tables;
+    return true;
+}
+
+/* --- a row --------------------------------------------------------------------------------------
+ */
+
+bool gpu_row_create(int width, gpu_row *row) {
+    const size_t count = (size_t)width;
+    memset(row, 0, sizeof *row);
+    float *memory = malloc(count * (19 * sizeof(float) + sizeof *row->table + 1));
+    if (!memory)
+        return false;
+    row->table = (const lmp_brdf_table **)(void *)memory;
+    memory = (float *)(void *)(row->table + count);
+    float **planes[] = { row->position, row->normal,   row->view,
+                         row->diffuse,  row->specular, row->emission };
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+        for (int c = 0; c < 3; c++, memory += count)
+            planes[i][c] = memory;
+    row->exponent = memory;
+    row->kind = (unsigned char *)(memory + count);
+    return true;
+}
+
+void gpu_row_free(gpu_row *row) {
+    free(row->table);
+}
+
+/* Unsigned floats of 5 bits of exponent, and 6 or 5 of mantissa. */
+static float small_float(uint32_t bits, int mantissa) {
+    const uint32_t fraction = bits & ((1u << mantissa) - 1), exponent = bits >> mantissa & 31;
+    const float unit = 1.0f / (float)(1u << mantissa);
+    return exponent == 0 ? ldexpf((float)fraction * unit, -14)
+                         : ldexpf(1 + (float)fraction * unit, (int)exponent - 15);
+}
+
+static lmp_rgb decode_emission(uint32_t bits) {
+    if (bits == 0)
+        return (lmp_rgb) { 0, 0, 0 };
+    return (lmp_rgb) { small_float(bits & 2047, 6), small_float(bits >> 11 & 2047, 6),
+                       small_float(bits >> 22, 5) };
+}
+
+static void decode_light(const gpu_gbuffer *g, unsigned index, size_t x, gpu_row *row) {
+    for (int c = 0; c < 3; c++)
+        row->emission[c][x] =
+            index < g->frame->light_count ? g->frame->lights[index].radiance[c] : 0;
+}
+
+/* Positions, views and normals of every pixel; what is no surface is nonsense. */
+static void decode_geometry(const gpu_gbuffer *g, int y, gpu_row *row) {
+    const shared_frame *b = &g->block;
+    const size_t first = (size_t)y * (size_t)g->width;
+    const float *depth = g->depth + first;
+    const gpu_normal16 *normal = g->normal + first;
+    const float v = ((float)y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
+    float left[3];
+    for (int c = 0; c < 3; c++)
+        left[c] = b->forward[c] + b->down[c] * v;
+#pragma omp simd
+    for (int x = 0; x < g->width; x++) {
+        const float u = ((float)x + 0.5f) / b->size_lights[0] * 2 - 1 + b->jitter[0];
+        const float rx = left[0] + b->right[0] * u, ry = left[1] + b->right[1] * u;
+        const float rz = left[2] + b->right[2] * u;
+        const float distance = b->eye[3] / depth[x];
+        const float back = -1 / sqrtf(rx * rx + ry * ry + rz * rz);
+        row->position[0][x] = b->eye[0] + rx * distance;
+        row->position[1][x] = b->eye[1] + ry * distance;
+        row->position[2][x] = b->eye[2] + rz * distance;
+        row->view[0][x] = rx * back;
+        row->view[1][x] = ry * back;
+        row->view[2][x] = rz * back;
+        /* octahedral: where z < 0 the triangles are folded outwards */
+        const float p = (float)normal[x].u * (2 / 65535.0f) - 1;
+        const float q = (float)normal[x].v * (2 / 65535.0f) - 1;
+        const float nz = 1 - fabsf(p) - fabsf(q), fold = nz < 0 ? -nz : 0;
+        const float nx = p >= 0 ? p - fold : p + fold, ny = q >= 0 ? q - fold : q + fold;
+        const float scale = 1 / sqrtf(nx * nx + ny * ny + nz * nz);
+        row->normal[0][x] = nx * scale;
+        row->normal[1][x] = ny * scale;
+        row->normal[2][x] = nz * scale;
+    }
+}
+
+static float squared(unsigned char stored) {
+    const float root = (float)stored / 255;
+    return root * root;
+}
+
+static void decode_materials(const gpu_gbuffer *g, int y, gpu_row *row) {
+    const size_t first = (size_t)y * (size_t)g->width;
+    lmp_material m = { .exponent = 0 };
+    uint32_t held = 0, held_roughness = 256; /* what m is made of: neighbours are often alike */
+    for (size_t x = 0; x < (size_t)g->width; x++) {
+        const unsigned char *base = g->base_metallic[first + x];
+        const unsigned roughness = g->roughness_kind[first + x][0];
+        uint32_t bits;
+        memcpy(&bits, base, sizeof bits);
+        if (bits != held || roughness != held_roughness)
+            m = lmp_material_from_metallic_roughness(
+                (lmp_rgb) { squared(base[0]), squared(base[1]), squared(base[2]) },
+                (float)base[3] / 255, (float)roughness / 255);
+        held = bits;
+        held_roughness = roughness;
+        row->diffuse[0][x] = m.diffuse.r;
+        row->diffuse[1][x] = m.diffuse.g;
+        row->diffuse[2][x] = m.diffuse.b;
+        row->specular[0][x] = m.specular.r;
+        row->specular[1][x] = m.specular.g;
+        row->specular[2][x] = m.specular.b;
+        row->exponent[x] = m.exponent;
+    }
+}
+
+void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
+    const size_t first = (size_t)y * (size_t)g->width;
+    decode_geometry(g, y, row);
+    decode_materials(g, y, row);
+    for (size_t x = 0; x < (size_t)g->width; x++) {
+        const int kind = g->roughness_kind[first + x][1];
+        row->kind[x] = (unsigned char)(kind >= SHARED_KIND_TABLE ? GPU_KIND_SURFACE : kind);
+        row->table[x] = kind >= SHARED_KIND_TABLE ? g->tables[kind - SHARED_KIND_TABLE] : NULL;
+        if (kind == SHARED_KIND_LIGHT) {
+            decode_light(g, g->normal[first + x].u, x, row);
+            continue;
+        }
+        const lmp_rgb emission = kind == SHARED_KIND_NONE
+                                     ? (lmp_rgb) { g->block.background[0], g->block.background[1],
+                                                   g->block.background[2] }
+                                     : decode_emission(g->emission[first + x]);
+        row->emission[0][x] = emission.r;
+        row->emission[1][x] = emission.g;
+        row->emission[2][x] = emission.b;
+    }
+}
