@@ -17,7 +17,7 @@
 #define BASIS_BLOCKS (LMP_LANES == 16 ? 4 : 2)
 
 /* Values that wait in planes of lanes before they go out as rows; a band and 15 at least. */
-#define BASIS_WAITING 272
+#define BASIS_WAITING 528
 
 /* Where a column stands. */
 typedef struct basis_column {
@@ -143,30 +143,34 @@ LMP_INLINE void basis_stretch(int first, int end, const vf axis[3], const vf *ra
                               basis_column *columns, float *planes, int from) {
     const float *a = lmp_table_a, *b = lmp_table_b;
     for (int m = 0; m < end; m++) {
-        basis_column column = columns[m];
+        basis_column *column = &columns[m];
         int l = first;
         if (m >= first) {
             l = m;
-            column.q0 = vf_set(0);
-            column.q1 = vf_set(lmp_table_diagonal[m]);
-            column.c = m > 0 ? columns[m - 1].c : vf_set(1);
-            column.s = m > 0 ? columns[m - 1].s : vf_set(0);
+            column->q0 = vf_set(0);
+            column->q1 = vf_set(lmp_table_diagonal[m]);
+            column->c = m > 0 ? columns[m - 1].c : vf_set(1);
+            column->s = m > 0 ? columns[m - 1].s : vf_set(0);
             if (m > 0)
-                basis_turn(m, axis[0], axis[1], &column.c, &column.s);
+                basis_turn(m, axis[0], axis[1], &column->c, &column->s);
         }
+        const vf c = column->c, s = column->s, z = axis[2];
+        vf q0 = column->q0, q1 = column->q1;
+        float *middle = planes + (l * l + l - from) * LMP_LANES;
         for (; l < end; l++) {
-            float *middle = planes + (l * l + l - from) * LMP_LANES;
             if (l > m) {
-                const vf q2 = basis_step(a, b, l, m, axis[2], column.q1, column.q0);
-                column.q0 = column.q1;
-                column.q1 = q2;
+                const vf q2 = basis_step(a, b, l, m, z, q1, q0);
+                q0 = q1;
+                q1 = q2;
             }
-            const vf value = radial ? column.q1 * radial[l] : column.q1;
-            vf_store(middle + m * LMP_LANES, m > 0 ? value * column.c : value);
+            const vf value = radial ? q1 * radial[l] : q1;
+            vf_store(middle + m * LMP_LANES, m > 0 ? value * c : value);
             if (m > 0)
-                vf_store(middle - m * LMP_LANES, value * column.s);
+                vf_store(middle - m * LMP_LANES, value * s);
+            middle += (2 * l + 2) * LMP_LANES;
         }
-        columns[m] = column;
+        column->q0 = q0;
+        column->q1 = q1;
     }
 }
 

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* layout.h - between planes of lanes, which the kernels compute, and rows, which engines store.
  *
- * A "block" is LMP_LANES elements; its values lie in planes of LMP_LANES floats each. Rows are made
- * four values by four elements at a time: two shuffles a plane, and the 16-byte pieces leave by
- * the store ports, which have room; a transposition down to whole registers would take four. */
+ * A "block" is LMP_LANES elements; its values lie in planes of LMP_LANES floats each. All is done
+ * by four values of four elements, two shuffles a register: what has to cross the quarters of a
+ * register crosses them on the way from or to memory. AVX2 loads half registers and stores whole
+ * ones, where there is one store a cycle; the others load whole ones and store quarters. */
 #ifndef LAMPION_KERNELS_LAYOUT_H
 #define LAMPION_KERNELS_LAYOUT_H
 
@@ -43,40 +44,91 @@ LMP_INLINE void layout_store_quarter(float *to, vf v, int g) {
     memcpy(to, &part, sizeof part);
 }
 
+/* Quarter g from from[g * step]. */
+LMP_INLINE vf layout_load_quarters(const float *from, size_t step) {
+#if LMP_LANES == 8
+    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from)),
+                                    _mm_loadu_ps(from + step), 1);
+#else
+    vf v;
+    LMP_UNROLL for (size_t g = 0; g < LMP_LANES / 4; g++)
+        memcpy((char *)&v + 16 * g, from + g * step, 16);
+    return v;
+#endif
+}
+
+/* Four planes of a full block as rows. The row is hidden, for the compilers would hold every one,
+ * in vector registers if need be. */
+LMP_INLINE void layout_rows4(const float *block, float *row, size_t stride) {
+    vf t[4];
+    LMP_UNROLL for (int i = 0; i < 4; i++) t[i] = vf_load(block + i * LMP_LANES);
+    layout_transpose4(t);
+    LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
+        layout_store_quarter(row, t[e % 4], e / 4);
+        row += stride;
+        LMP_OPAQUE(row);
+    }
+}
+
+#if LMP_LANES == 8
+#define LAYOUT_GROUP 8
+LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
+    LMP_UNROLL for (int quarter = 0; quarter < LMP_LANES; quarter += 4) {
+        vf t[4];
+        LMP_UNROLL for (int i = 0; i < 4; i++) t[i] =
+            layout_load_quarters(block + i * LMP_LANES + quarter, 4 * LMP_LANES);
+        layout_transpose4(t);
+        LMP_UNROLL for (int e = 0; e < 4; e++) {
+            vf_store(row, t[e]);
+            row += stride;
+            LMP_OPAQUE(row);
+        }
+    }
+}
+#else
+/* A cache line after the other: the store buffer merges neighbours. */
+#define LAYOUT_GROUP 16
+LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
+    vf t[16];
+    LMP_UNROLL for (int i = 0; i < 16; i++) t[i] = vf_load(block + i * LMP_LANES);
+    LMP_UNROLL for (int i = 0; i < 16; i += 4) layout_transpose4(t + i);
+    LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
+        LMP_UNROLL for (int i = 0; i < 4; i++)
+            layout_store_quarter(row + 4 * i, t[4 * i + e % 4], e / 4);
+        row += stride;
+        LMP_OPAQUE(row);
+    }
+}
+#endif
+
+/* The other way, of four values. */
+LMP_INLINE void layout_planes4(const float *row, size_t stride, float *block) {
+    vf t[4];
+    LMP_UNROLL for (int i = 0; i < 4; i++) t[i] =
+        layout_load_quarters(row + (size_t)i * stride, 4 * stride);
+    layout_transpose4(t);
+    LMP_UNROLL for (int i = 0; i < 4; i++) vf_store(block + i * LMP_LANES, t[i]);
+}
+
 #endif
 
 /* Writes `values` planes of a block as rows; `live` elements of it exist. */
 static inline void layout_rows(const float *block, size_t values, float *rows, size_t stride,
                                size_t live) {
-    size_t v = 0;
 #if LMP_LANES > 1
-    for (; live == LMP_LANES && v + 16 <= values; v += 16) {
-        vf t[16];
-        LMP_UNROLL for (int i = 0; i < 16; i++) t[i] = vf_load(block + (v + (size_t)i) * LMP_LANES);
-        LMP_UNROLL for (int i = 0; i < 16; i += 4) layout_transpose4(t + i);
-        /* A cache line after the other: the store buffer merges neighbours. The row is hidden, for
-         * the compilers would hold all sixteen, in vector registers if need be. */
-        float *row = rows + v;
-        LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
-            LMP_UNROLL for (int i = 0; i < 4; i++)
-                layout_store_quarter(row + 4 * i, t[4 * i + e % 4], e / 4);
-            row += stride;
-            LMP_OPAQUE(row);
-        }
-    }
-    for (; live == LMP_LANES && v + 4 <= values; v += 4) {
-        vf t[4];
-        LMP_UNROLL for (int i = 0; i < 4; i++) t[i] = vf_load(block + (v + (size_t)i) * LMP_LANES);
-        layout_transpose4(t);
-        float *row = rows + v;
-        LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
-            layout_store_quarter(row, t[e % 4], e / 4);
-            row += stride;
-            LMP_OPAQUE(row);
-        }
+    if (live == LMP_LANES && values >= 4) {
+        size_t v = 0;
+        for (; v + LAYOUT_GROUP <= values; v += LAYOUT_GROUP)
+            layout_rows_group(block + v * LMP_LANES, rows + v, stride);
+        for (; v + 4 <= values; v += 4)
+            layout_rows4(block + v * LMP_LANES, rows + v, stride);
+        /* The last four again, rather than what is left of them one by one. */
+        if (v < values)
+            layout_rows4(block + (values - 4) * LMP_LANES, rows + values - 4, stride);
+        return;
     }
 #endif
-    for (; v < values; v++)
+    for (size_t v = 0; v < values; v++)
         for (size_t e = 0; e < live; e++)
             rows[e * stride + v] = block[v * LMP_LANES + e];
 }
@@ -97,24 +149,25 @@ static inline void layout_put(const float *block, size_t first, size_t values,
  */
 static inline void layout_get(float *block, size_t first, size_t values, const lmp_kernel_in *in,
                               size_t element, size_t live) {
-    size_t v = 0;
+    const float *from =
+        in->at + (in->planar ? first * in->stride + element : element * in->stride + first);
 #if LMP_LANES > 1
-    for (; !in->planar && live == LMP_LANES && v + 4 <= values; v += 4) {
-        vf t[4];
-        LMP_UNROLL for (int i = 0; i < 4; i++) LMP_UNROLL for (int g = 0; g < LMP_LANES / 4; g++)
-            memcpy((char *)&t[i] + 16 * g,
-                   in->at + (element + (size_t)(4 * g + i)) * in->stride + first + v, 16);
-        layout_transpose4(t);
-        LMP_UNROLL for (int i = 0; i < 4; i++) vf_store(block + (v + (size_t)i) * LMP_LANES, t[i]);
+    if (!in->planar && live == LMP_LANES && values >= 4) {
+        size_t v = 0;
+        for (; v + 4 <= values; v += 4)
+            layout_planes4(from + v, in->stride, block + v * LMP_LANES);
+        if (v < values)
+            layout_planes4(from + values - 4, in->stride, block + (values - 4) * LMP_LANES);
+        return;
     }
 #endif
-    for (; v < values; v++) {
+    for (size_t v = 0; v < values; v++) {
         float *plane = block + v * LMP_LANES;
         if (in->planar)
-            memcpy(plane, in->at + (first + v) * in->stride + element, live * sizeof(float));
+            memcpy(plane, from + v * in->stride, live * sizeof(float));
         else
             for (size_t e = 0; e < live; e++)
-                plane[e] = in->at[(element + e) * in->stride + first + v];
+                plane[e] = from[e * in->stride + v];
         memset(plane + live, 0, (LMP_LANES - live) * sizeof(float));
     }
 }
