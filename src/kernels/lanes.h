@@ -117,6 +117,20 @@ LMP_INLINE vf vf_load(const float *from) {
     memcpy(&v, from, sizeof v);
     return v;
 }
+/* The first `count` of them, 1 … LMP_LANES - 1; the others are 0 and not read. */
+LMP_INLINE vf vf_load_first(const float *from, int count) {
+#if LMP_LANES == 16
+    return (vf)_mm512_maskz_loadu_ps((__mmask16)((1u << count) - 1), from);
+#elif LMP_LANES == 8
+    const vi lane = { 0, 1, 2, 3, 4, 5, 6, 7 };
+    return (vf)_mm256_maskload_ps(from, (__m256i)(lane < count));
+#elif LMP_LANES == 4
+    return (vf) { from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0 };
+#else
+    (void)count; /* there is no such count */
+    return *from;
+#endif
+}
 LMP_INLINE void vf_store(float *to, vf v) {
     memcpy(to, &v, sizeof v);
 }

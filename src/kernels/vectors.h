@@ -19,56 +19,94 @@ LMP_INLINE void rotate_rows(int rows, int side, const float *matrix, const float
     LMP_UNROLL for (int i = 0; i < rows; i++) vf_store(to + (size_t)i * to_stride, sum[i]);
 }
 
+/* Values that are brought to planes together: a band at least. */
+#define ROTATE_VALUES 272
+
+/* Bands first … end-1, the planes of first^2 on. */
+static inline void rotate_bands(int first, int end, const float *matrices, const float *from,
+                                size_t from_stride, float *to, size_t to_stride) {
+    for (int l = first; l < end; l++) {
+        const int side = 2 * l + 1;
+        int row = 0;
+        for (; row + ROTATE_ROWS <= side; row += ROTATE_ROWS)
+            rotate_rows(ROTATE_ROWS, side, matrices + row * side, from, from_stride,
+                        to + (size_t)row * to_stride, to_stride);
+        for (; row < side; row++)
+            rotate_rows(1, side, matrices + row * side, from, from_stride,
+                        to + (size_t)row * to_stride, to_stride);
+        matrices += side * side;
+        from += (size_t)side * from_stride;
+        to += (size_t)side * to_stride;
+    }
+}
+
 static void kernel_rotate(int bands, const float *matrices, const lmp_kernel_in *in, size_t count,
                           const lmp_kernel_out *out) {
-    float LMP_ALIGNED before[2 * LMP_BANDS_MAX * LMP_LANES], after[2 * LMP_BANDS_MAX * LMP_LANES];
+    float LMP_ALIGNED before[ROTATE_VALUES * LMP_LANES], after[ROTATE_VALUES * LMP_LANES];
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const size_t live = layout_live(count, e);
+        const int read = in->planar && live == LMP_LANES;
+        const int written = out->planar && live == LMP_LANES;
         const float *matrix = matrices;
-        for (int l = 0; l < bands; l++) {
-            const int side = 2 * l + 1;
-            const size_t first = (size_t)(l * l), values = (size_t)side;
-            const int read = in->planar && live == LMP_LANES;
-            const int written = out->planar && live == LMP_LANES;
-            const float *from = read ? in->at + first * in->stride + e : before;
-            float *to = written ? out->at + first * out->stride + e : after;
-            const size_t from_stride = read ? in->stride : LMP_LANES;
-            const size_t to_stride = written ? out->stride : LMP_LANES;
+        for (int first = 0, end; first < bands; first = end) {
+            const size_t begin = (size_t)(first * first);
+            end = first + 1;
+            while (end < bands && (end + 1) * (end + 1) - first * first <= ROTATE_VALUES)
+                end++;
+            const size_t values = (size_t)(end * end) - begin;
             if (!read)
-                layout_get(before, first, values, in, e, live);
-            int row = 0;
-            for (; row + ROTATE_ROWS <= side; row += ROTATE_ROWS)
-                rotate_rows(ROTATE_ROWS, side, matrix + row * side, from, from_stride,
-                            to + (size_t)row * to_stride, to_stride);
-            for (; row < side; row++)
-                rotate_rows(1, side, matrix + row * side, from, from_stride,
-                            to + (size_t)row * to_stride, to_stride);
+                layout_get(before, begin, values, in, e, live);
+            rotate_bands(first, end, matrix, read ? in->at + begin * in->stride + e : before,
+                         read ? in->stride : LMP_LANES,
+                         written ? out->at + begin * out->stride + e : after,
+                         written ? out->stride : LMP_LANES);
             if (!written)
-                layout_put(after, first, values, out, e, live);
-            matrix += side * side;
+                layout_put(after, begin, values, out, e, live);
+            for (int l = first; l < end; l++)
+                matrix += (2 * l + 1) * (2 * l + 1);
         }
     }
 }
 
 /* Every sum is sixteen partial sums, of the values v, v + 16, …, then a tree of them: the same bits
  * whether lanes are elements (planes) or values (rows). */
-#define DOT_PARTS 16
+#define DOT_PARTS     16
+#define DOT_REGISTERS (DOT_PARTS / LMP_LANES)
 
-static inline float dot_row(size_t values, const float *a, const float *b) {
-    vf part[DOT_PARTS / LMP_LANES];
-    LMP_UNROLL for (int i = 0; i < DOT_PARTS / LMP_LANES; i++) part[i] = vf_set(0);
+/* The partial sums of a row, halves added to halves until one register is left. */
+LMP_INLINE vf dot_row(size_t values, const float *a, const float *b) {
+    vf part[DOT_REGISTERS];
+    LMP_UNROLL for (int i = 0; i < DOT_REGISTERS; i++) part[i] = vf_set(0);
     size_t v = 0;
     for (; v + DOT_PARTS <= values; v += DOT_PARTS)
-        LMP_UNROLL for (int i = 0; i < DOT_PARTS / LMP_LANES; i++) part[i] =
+        LMP_UNROLL for (int i = 0; i < DOT_REGISTERS; i++) part[i] =
             part[i] + vf_load(a + v + i * LMP_LANES) * vf_load(b + v + i * LMP_LANES);
-    float sum[DOT_PARTS];
-    memcpy(sum, part, sizeof sum);
-    for (int i = 0; v < values; v++, i++)
-        sum[i] = sum[i] + a[v] * b[v];
-    for (int half = DOT_PARTS / 2; half; half /= 2)
-        for (int i = 0; i < half; i++)
-            sum[i] = sum[i] + sum[i + half];
-    return sum[0];
+    LMP_UNROLL for (int i = 0; i < DOT_REGISTERS && v < values; i++, v += LMP_LANES) {
+        /* A partial sum is never -0, so the zeros past the end leave it alone. */
+        const int left = values - v < LMP_LANES ? (int)(values - v) : LMP_LANES;
+        part[i] =
+            part[i] + (left < LMP_LANES ? vf_load_first(a + v, left) * vf_load_first(b + v, left)
+                                        : vf_load(a + v) * vf_load(b + v));
+    }
+    LMP_UNROLL for (int half = DOT_REGISTERS / 2; half; half /= 2)
+        LMP_UNROLL for (int i = 0; i < half; i++) part[i] = part[i] + part[i + half];
+    return part[0];
+}
+
+/* A full block of rows: lanes are values, then elements for what is left of the tree. */
+static inline vf dot_rows(size_t values, const lmp_kernel_in *a, const lmp_kernel_in *b,
+                          size_t element) {
+    float LMP_ALIGNED rows[LMP_LANES * LMP_LANES], planes[LMP_LANES * LMP_LANES];
+    const lmp_kernel_in parts = { rows, LMP_LANES, 0 };
+    for (size_t e = 0; e < LMP_LANES; e++)
+        vf_store(rows + e * LMP_LANES, dot_row(values, a->at + (element + e) * a->stride,
+                                               b->at + (element + e) * b->stride));
+    layout_get(planes, 0, LMP_LANES, &parts, 0, LMP_LANES);
+    vf part[LMP_LANES];
+    LMP_UNROLL for (int i = 0; i < LMP_LANES; i++) part[i] = vf_load(planes + i * LMP_LANES);
+    LMP_UNROLL for (int half = LMP_LANES / 2; half; half /= 2)
+        LMP_UNROLL for (int i = 0; i < half; i++) part[i] = part[i] + part[i + half];
+    return part[0];
 }
 
 static inline vf dot_planes(size_t values, const float *a, size_t a_stride, const float *b,
@@ -105,15 +143,13 @@ static void kernel_dot(size_t values, const lmp_kernel_in *a, const lmp_kernel_i
     if (a->planar && b->planar)
         for (; e + LMP_LANES <= count; e += LMP_LANES)
             vf_store(dots + e, dot_planes(values, a->at + e, a->stride, b->at + e, b->stride));
-    for (; e < count; e++) {
-        const float *from_a = a->at + e * (a->planar ? 1 : a->stride);
-        const float *from_b = b->at + e * (b->planar ? 1 : b->stride);
-        if (a->planar || b->planar)
-            dots[e] = dot_strided(values, from_a, a->planar ? a->stride : 1, from_b,
-                                  b->planar ? b->stride : 1);
-        else
-            dots[e] = dot_row(values, from_a, from_b);
-    }
+    else if (!a->planar && !b->planar)
+        for (; e + LMP_LANES <= count; e += LMP_LANES)
+            vf_store(dots + e, dot_rows(values, a, b, e));
+    for (; e < count; e++)
+        dots[e] =
+            dot_strided(values, a->at + e * (a->planar ? 1 : a->stride), a->planar ? a->stride : 1,
+                        b->at + e * (b->planar ? 1 : b->stride), b->planar ? b->stride : 1);
 }
 
 #endif
