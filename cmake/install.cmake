@@ -1,20 +1,14 @@
 # What `cmake --install` puts where: library, headers, shaders and program, found again through
-# find_package(lampion) or pkg-config, wherever the tree is moved to.
+# find_package(lampion) or pkg-config, wherever the tree is moved to. The components are the Debian
+# packages: library, development, tools.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS lampion EXPORT lampionTargets)
+install(TARGETS ${lampion_libraries} EXPORT lampionTargets
+  ARCHIVE COMPONENT development
+  LIBRARY COMPONENT library NAMELINK_COMPONENT development
+  RUNTIME COMPONENT library)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion)
-if(LAMPION_PROGRAM)
-  install(TARGETS lampion_program)
-endif()
-if(TARGET lampion_manual)
-  install(DIRECTORY ${manual}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${manual}/bash/lampion
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  install(FILES ${manual}/zsh/_lampion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-  install(FILES ${manual}/fish/lampion.fish
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-endif()
 install(FILES shaders/lampion.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lampion)
@@ -30,9 +24,25 @@ install(FILES ${PROJECT_BINARY_DIR}/lampionConfig.cmake
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
   BASE_DIRECTORY ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig OUTPUT_VARIABLE pc_prefix)
 # A static library cannot name what it needs itself.
-get_target_property(library_type lampion TYPE)
-if(library_type STREQUAL STATIC_LIBRARY)
+if(NOT BUILD_SHARED_LIBS AND NOT LAMPION_BOTH)
   set(pc_libs -lm)
 endif()
 configure_file(cmake/lampion.pc.in ${PROJECT_BINARY_DIR}/lampion.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/lampion.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME tools)
+if(LAMPION_PROGRAM)
+  install(TARGETS lampion_program)
+endif()
+if(TARGET lampion_manual)
+  install(DIRECTORY ${manual}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${manual}/bash/lampion
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  set(zsh_folder site-functions)
+  if(LAMPION_PACKAGE) # /usr/local's is site-functions
+    set(zsh_folder vendor-completions)
+  endif()
+  install(FILES ${manual}/zsh/_lampion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder})
+  install(FILES ${manual}/fish/lampion.fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()

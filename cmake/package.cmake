@@ -1,0 +1,69 @@
+# The Debian packages liblampion0.1, liblampion-dev and lampion, made by `cpack`. Nothing in them
+# depends on where or when they are made: SOURCE_DATE_EPOCH is the time of every file.
+if(CPACK_TEMPORARY_INSTALL_DIRECTORY) # read again by cpack, before it makes archives of what it has installed
+  execute_process(COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -exec touch -h -d @$ENV{SOURCE_DATE_EPOCH} {} +
+    COMMAND_ERROR_IS_FATAL ANY)
+  return()
+endif()
+if(NOT DEFINED ENV{SOURCE_DATE_EPOCH})
+  message(FATAL_ERROR "SOURCE_DATE_EPOCH is not set: run ./dev package")
+endif()
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+set(soname ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(release 1)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME lampion)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "The Lampion authors <maintainers@users.noreply.h-seed-d5c2f71a.example>")
+set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_FILE})
+set(CPACK_COMPONENTS_ALL library development tools)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${release})
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(about "Lampion lights 3D scenes with glowing spheres, in real time, through\nspherical harmonics: \
+the coefficients of a spherical cap have a closed\nrecurrence, so nothing is sampled and every light may move.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME liblampion${soname})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION
+  "${about}\n\nThis is the shared library.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblampion-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "liblampion${soname} (= ${PROJECT_VERSION}-${release}), libc6-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+  "${about}\n\nThese are the headers, the \
+static library, lampion.glsl and examples.")
+
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME lampion)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri") # opened while running
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION
+  "${about}\n\nThis is the program, which renders \
+glTF and OBJ scenes with or without a GPU.")
+
+# What Debian wants of every package.
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
+file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
+file(WRITE ${PROJECT_BINARY_DIR}/debian/changelog.Debian
+  "lampion (${PROJECT_VERSION}-${release}) unstable; urgency=medium\n\n  * Version ${PROJECT_VERSION}.\n\n \
+-- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/debian/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
+foreach(component IN ITEMS library development tools)
+  string(TOUPPER ${component} upper)
+  set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  install(FILES LICENSE DESTINATION ${folder} RENAME copyright COMPONENT ${component})
+  install(FILES ${PROJECT_BINARY_DIR}/debian/changelog.Debian.gz DESTINATION ${folder}
+    COMPONENT ${component})
+endforeach()
+include(CPack)

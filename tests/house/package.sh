@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: MIT
+# The Debian packages: what is in them, that they install, serve and leave nothing behind, and that
+# the same source gives the same bytes.
+set -eu
+. tests/house/common.sh
+
+if ! command -v dpkg-shlibdeps >/dev/null; then
+    echo "skipped: not a Debian system with dpkg-dev"
+    exit 0
+fi
+CMAKE_C_COMPILER_LAUNCHER=$(sed -n 's/^CMAKE_C_COMPILER_LAUNCHER:[A-Z]*=//p' "$BUILD/CMakeCache.txt")
+export CMAKE_C_COMPILER_LAUNCHER
+./dev package "$WORK/one" >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"
+multiarch=$(gcc -print-multiarch)
+version=$("$PROGRAM" --version | sed 's/lampion //')
+soversion=${version%.*}
+packages="liblampion$soversion liblampion-dev lampion"
+root=$WORK/root
+lib=$root/usr/lib/$multiarch
+
+# built twice, and here in another folder than the tests' own: the same bytes
+touch LICENSE # times of files do not count
+rm -rf build/package/_CPack_Packages
+./dev package "$WORK/two" >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"
+diff -r "$WORK/one" "$WORK/two" >"$WORK/log" || fail "a second build differs: $(cat "$WORK/log")"
+
+for package in $packages; do
+    set -- "$WORK/one/${package}_$version"-*.deb
+    [ -f "$1" ] || fail "no package $package"
+    dpkg-deb -x "$1" "$root"
+    for file in copyright changelog.Debian.gz; do
+        [ -f "$root/usr/share/doc/$package/$file" ] || fail "$package: no $file"
+    done
+    dpkg-deb -f "$1" Depends >"$WORK/$package.depends"
+done
+strip -o "$WORK/stripped" "$PROGRAM"
+cmp "$WORK/stripped" "$root/usr/bin/lampion" || fail "the program differs from that of $BUILD"
+for file in "$root/usr/bin/lampion" "$lib/liblampion.so.$version" "$lib/liblampion.a"; do
+    ! grep -qF "$SOURCE" "$file" || fail "$file names the folder it was built in"
+done
+
+# what depends on what
+grep -q "liblampion$soversion (= $version" "$WORK/liblampion-dev.depends" || fail "dev: $(cat "$WORK/liblampion-dev.depends")"
+for library in libassimp5 libembree3-3 libpng16-16 libopenexr libepoxy0 libegl1 libgl1-mesa-dri; do
+    grep -q "$library" "$WORK/lampion.depends" || fail "lampion does not depend on $library"
+done
+[ "$(sed 's/ (.*//' "$WORK/liblampion$soversion.depends")" = libc6 ] || fail "the library depends on more than libc6"
+[ "$(objdump -p "$lib/liblampion.so.$version" | sed -n 's/ *SONAME *//p')" = "liblampion.so.$soversion" ] || fail "soname"
+
+# the program, its manual and completion
+"$root/usr/bin/lampion" project --light 0,3,0 --radius 0.5 --bands 2 >/dev/null || fail "the program does not run"
+for command in $("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
+    [ -f "$root/usr/share/man/man1/lampion-$command.1.gz" ] || fail "no manual page of $command"
+done
+for file in bash-completion/completions/lampion zsh/vendor-completions/_lampion fish/vendor_completions.d/lampion.fish \
+    lampion/shaders/lampion.glsl; do
+    [ -s "$root/usr/share/$file" ] || fail "no $file"
+done
+
+# the library, as installed: pkg-config and CMake, shared and static
+export PKG_CONFIG_PATH="$lib/pkgconfig"
+gcc examples/first_light.c $(pkg-config --cflags --libs lampion) -o "$WORK/shared" || fail "pkg-config"
+objdump -p "$WORK/shared" | grep -q "NEEDED *liblampion.so.$soversion" || fail "not linked to the shared library"
+LD_LIBRARY_PATH=$lib "$WORK/shared" >"$WORK/shared.txt"
+gcc -static examples/first_light.c $(pkg-config --static --cflags --libs lampion) -o "$WORK/static" || fail "pkg-config --static"
+"$WORK/static" | diff "$WORK/shared.txt" - || fail "static and shared differ"
+mkdir "$WORK/consumer"
+cat >"$WORK/consumer/CMakeLists.txt" <<CMAKE
+cmake_minimum_required(VERSION 3.25)
+project(consumer LANGUAGES C)
+find_package(lampion $soversion REQUIRED)
+add_executable(first_light $SOURCE/examples/first_light.c)
+target_link_libraries(first_light PRIVATE lampion::lampion)
+CMAKE
+for shared in ON OFF; do
+    cmake -G Ninja -S "$WORK/consumer" -B "$WORK/consumer/$shared" -DBUILD_SHARED_LIBS=$shared \
+        -DCMAKE_PREFIX_PATH="$root/usr" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+    cmake --build "$WORK/consumer/$shared" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+    "$WORK/consumer/$shared/first_light" | diff "$WORK/shared.txt" - || fail "find_package, shared $shared"
+done
+! objdump -p "$WORK/consumer/OFF/first_light" | grep -q liblampion || fail "BUILD_SHARED_LIBS=OFF is not heeded"
+
+# dpkg's own account of it, in a root of its own: installed, then purged without a trace
+if [ "$(id -u)" = 0 ]; then
+    system=$WORK/system
+    mkdir -p "$system/var/lib/dpkg/info" "$system/var/lib/dpkg/updates"
+    : >"$system/var/lib/dpkg/status"
+    own() {
+        dpkg --root="$system" --log="$WORK/dpkg.log" --force-depends --force-script-chrootless "$@" >"$WORK/log" 2>&1 ||
+            fail "dpkg $1: $(cat "$WORK/log")"
+    }
+    own --install "$WORK"/one/*.deb
+    for package in $packages; do
+        dpkg-query --admindir="$system/var/lib/dpkg" -W -f '${db:Status-Status}\n' "$package" | grep -qx installed ||
+            fail "$package is not installed"
+    done
+    own --purge $packages
+    left=$(find "$system" -path "$system/var/lib/dpkg" -prune -o ! -type d -print)
+    [ -z "$left" ] || fail "left behind: $left"
+fi
