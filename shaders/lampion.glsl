@@ -15,6 +15,39 @@
  *   LMP_LIGHT_SPHERE(i)      vec4: centre and radius of light i, 0 <= i < LMP_LIGHT_COUNT
  *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
  *
+ * A fragment shader that is lit by it, all of it:
+ *
+ *     #version 450 core
+ *     #define LMP_BANDS 8
+ *     #define LMP_WINDOW LMP_WINDOW_HANNING
+ *     uniform vec4 lights[64];
+ *     uniform int count;
+ *     #define LMP_LIGHT_COUNT count
+ *     #define LMP_LIGHT_SPHERE(i) lights[2 * (i)]
+ *     #define LMP_LIGHT_RADIANCE(i) lights[2 * (i) + 1].rgb
+ *     #include "lampion.glsl"
+ *     in vec3 position, normal, view;
+ *     out vec4 color;
+ *     void main() {
+ *         lmp_surface surface = lmp_surface(position, normalize(normal), normalize(view));
+ *         lmp_material clay = lmp_material(vec3(0.8, 0.4, 0.3), vec3(0.04), 30.0);
+ *         color = vec4(lmp_shade_zonal(surface, clay), 1.0);
+ *     }
+ *
+ * (GLSL has no #include: put this text there; or take GL_GOOGLE_include_directive.) A program of
+ * this kind is examples/lanterns.c.
+ *
+ * What there is
+ *   lmp_shade_zonal          radiance to the viewer under all lights: O(LMP_BANDS) a light
+ *   lmp_shade_coefficients   the same by the paper's method: O(LMP_BANDS²) a light
+ *   lmp_material_from_…      glTF's metallic-roughness as a lmp_material
+ *   lmp_sphere_project       the LMP_SH_COUNT coefficients of a sphere light, for probes
+ *   lmp_sh_eval              Y_lm of a direction
+ *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe round w: lambda_l Y_lm(w)
+ *   lmp_cap_of_sphere, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
+ * and in response.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
+ * All names begin with lmp_ or LMP_. Nothing is kept: no uniforms, buffers or bindings.
+ *
  * Conventions: directions are unit and point away from the shaded point; lengths are in any one
  * unit; colours are linear. A coefficient (l, m) has the index l*l + l + m, the basis is real and
  * orthonormal with the Condon-Shortley sign: Y_1 = 0.4886 (-y, z, -x). No visibility.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# lampion.glsl alone is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10 (glslang's judgement).
+# lampion.glsl, with response.glsl and without, is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
+# (glslang's judgement), in a compute shader that calls all of it and in the example's fragment shader.
 set -eu
 . tests/house/common.sh
 command -v glslangValidator >/dev/null || {
@@ -7,7 +8,7 @@ command -v glslangValidator >/dev/null || {
     exit 0
 }
 
-# shader VERSION BANDS WINDOW
+# shader VERSION BANDS WINDOW: a compute shader
 shader() {
     echo "#version $1"
     echo "precision highp float; precision highp int;"
@@ -23,6 +24,15 @@ layout(std430, binding = 0) buffer out_block { vec4 values[]; };
 GLSL
     cat shaders/lampion.glsl
     cat <<'GLSL'
+layout(std430, binding = 1) readonly buffer pairs_block { uint pairs[]; };
+layout(std430, binding = 2) readonly buffer response_block { vec4 shape; vec4 cells[64]; float warp[321]; };
+#define LMP_RESPONSE_PAIR(i) pairs[i]
+#define LMP_RESPONSE_CELL(i) cells[i]
+#define LMP_RESPONSE_WARP(i) warp[i]
+#define LMP_RESPONSE_SHAPE   shape
+GLSL
+    cat shaders/response.glsl
+    cat <<'GLSL'
 void main() {
     lmp_surface s;
     s.position = vec3(gl_GlobalInvocationID);
@@ -31,9 +41,18 @@ void main() {
     float sh[LMP_SH_COUNT];
     lmp_sphere_project(lights[0], s.position, sh);
     values[gl_GlobalInvocationID.x] =
-        vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m), sh[0]);
+        vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m) + lmp_shade_preintegrated(s, m), sh[0]);
 }
 GLSL
+}
+
+# window VERSION: the example's fragment shader, with what its program puts before it
+window() {
+    echo "#version $1"
+    echo "precision highp float; precision highp int;"
+    sed -n 's/^ *"\(#define LMP_.*\|uniform vec4 lights.*\)\\n".*/\1/p; /^static const char head/s/.*/#define LMP_BANDS 8/p' examples/lanterns.c |
+        awk '!seen[$0]++'
+    cat shaders/lampion.glsl examples/lanterns.frag
 }
 
 # check VERSION BANDS WINDOW OPTION…
@@ -50,6 +69,12 @@ for form in "1 0" "2 1" "6 2"; do
     check "450 core" "$1" "$2" -V
 done
 check "450 core" 20 1
+for version in "450 core" "310 es"; do
+    window "$version" >"$WORK/window.frag"
+    glslangValidator "$WORK/window.frag" >"$WORK/log" 2>&1 || fail "lanterns.frag: $(cat "$WORK/log")"
+done
+sed 's/lmp_shade_zonal(surface/lmp_shade_zonal(surfaces/' "$WORK/window.frag" >"$WORK/wrong.frag"
+! glslangValidator "$WORK/wrong.frag" >"$WORK/log" 2>&1 || fail "an unknown name goes unseen"
 if shader "450 core" 33 0 >"$WORK/shader.comp" && (cd "$WORK" && glslangValidator shader.comp) >"$WORK/log"; then
     fail "33 bands are not refused"
 fi

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# The examples, built as installed and run: each prints what stands in examples/NAME.txt, and the
+# window draws its lanterns.
+set -eu
+. tests/house/common.sh
+
+cmake --install "$WORK/../libraries/static" --prefix "$WORK/usr" >"$WORK/log" || fail "$(cat "$WORK/log")"
+examples=$WORK/usr/share/doc/lampion/examples
+export PKG_CONFIG_PATH="$WORK/usr/lib/pkgconfig"
+cmake -G Ninja -S "$examples" -B "$WORK/build" -DCMAKE_PREFIX_PATH="$WORK/usr" \
+    -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Wconversion -Werror' >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+cmake --build "$WORK/build" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+
+cd "$WORK"
+for source in "$examples"/*.c; do
+    name=$(basename "$source" .c)
+    [ "$name" = lanterns ] && continue
+    "build/$name" | sed 's/ *$//' >"$name.txt" || fail "$name fails"
+    diff "$examples/$name.txt" "$name.txt" || fail "$name prints something else"
+done
+
+if [ ! -x build/lanterns ] || ! command -v xvfb-run >/dev/null; then
+    echo "skipped: the window needs libglfw3-dev, libepoxy-dev, xvfb and xauth"
+    exit 0
+fi
+glsl=$(pkg-config --variable=glsl lampion)
+for frames in 1 20; do
+    xvfb-run -a build/lanterns "$glsl/lampion.glsl" "$examples/lanterns.frag" $frames $frames.ppm >log 2>&1 ||
+        fail "lanterns: $(cat log)"
+done
+! cmp -s 1.ppm 20.ppm || fail "the lanterns stand still"
+# the sky is black, the floor lit and warm, and the lanterns are bright
+[ "$(head -n 1 20.ppm)" = "P6 960 540 255" ] || fail "size: $(head -n 1 20.ppm)"
+tail -c $((3 * 960 * 540)) 20.ppm | od -An -v -tu1 -w2880 | awk '
+    NR <= 100 { for (i = 1; i <= NF; i++) sky += $i }
+    NR > 440 { for (i = 1; i <= NF; i += 3) { red += $i; blue += $(i + 2); pixels++ } }
+    { for (i = 1; i <= NF; i += 3) bright += $i > 230 }
+    END { print sky, red / pixels, blue / pixels, bright
+        exit !(sky == 0 && red / pixels > 60 && red > blue && bright > 1000 && bright < 20000) }' >log ||
+    fail "the picture is not as it should be: $(cat log)"
+if xvfb-run -a build/lanterns "$glsl/lampion.glsl" "$examples/CMakeLists.txt" 1 none.ppm >log 2>&1; then
+    fail "a broken shader is not refused"
+fi
+[ ! -e none.ppm ] || fail "a broken shader leaves a picture"
