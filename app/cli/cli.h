@@ -84,6 +84,14 @@ int cli_usage(const cli_command *command, const char *format, ...)
 void cli_man(const char *summary, const cli_command *const *commands,
              const char *const (*environment)[2]);
 
+/* Fails with "subject: "word" is none of …", and the name that may be meant; names is
+ * NULL-terminated. */
+bool cli_fail_word(cli_error *error, const char *subject, const char *word,
+                   const char *const *names);
+
+/* The same as cli_usage. */
+int cli_usage_word(const cli_command *command, const char *word, const char *const *names);
+
 /* The entry of `names` (NULL-terminated) nearest to `word`, or NULL if none is near. */
 const char *cli_nearest(const char *word, const char *const *names);
 

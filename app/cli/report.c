@@ -38,10 +38,30 @@ bool cli_fail(cli_error *error, const char *subject, const char *format, ...) {
     return false;
 }
 
+bool cli_fail_word(cli_error *error, const char *subject, const char *word,
+                   const char *const *names) {
+    char known[512] = "";
+    size_t length = 0;
+    for (size_t i = 0; names[i] && length < sizeof known - 1; i++)
+        length += (size_t)snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "",
+                                   names[i]);
+    if (length >= sizeof known)
+        memcpy(known + sizeof known - 4, "...", 4);
+    const char *const nearest = cli_nearest(word, names);
+    return cli_fail(error, subject, "\"%s\" is none of %s%s%s%s", word, known,
+                    nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
+}
+
 int cli_report(const cli_error *error) {
     cli_progress_end();
     fprintf(stderr, "lampion: %s\n", error->text);
     return CLI_FAILURE;
+}
+
+int cli_usage_word(const cli_command *command, const char *word, const char *const *names) {
+    cli_error error;
+    cli_fail_word(&error, NULL, word, names);
+    return cli_usage(command, "%s", error.text);
 }
 
 int cli_usage(const cli_command *command, const char *format, ...) {

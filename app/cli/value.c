@@ -6,6 +6,7 @@
 #include <float.h>
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -138,21 +139,14 @@ static bool store_seed(const cli_option *option, const char *text, cli_error *er
 }
 
 static bool store_choice(const cli_option *option, const char *text, cli_error *error) {
-    char known[512] = "";
-    for (int i = 0; option->choices[i]; i++) {
+    for (int i = 0; option->choices[i]; i++)
         if (strcmp(text, option->choices[i]) == 0) {
             *(int *)option->target = i;
             return true;
         }
-        const size_t length = strlen(known);
-        if (length + strlen(option->choices[i]) + 3 < sizeof known) {
-            strcpy(known + length, i ? ", " : "");
-            strcat(known, option->choices[i]);
-        }
-    }
-    const char *const nearest = cli_nearest(text, option->choices);
-    return cli_fail(error, NULL, "--%s: \"%s\" is none of %s%s%s%s", option->name, text, known,
-                    nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
+    char name[64];
+    snprintf(name, sizeof name, "--%s", option->name);
+    return cli_fail_word(error, name, text, option->choices);
 }
 
 static bool store_item(const cli_option *option, const char *text, cli_error *error) {

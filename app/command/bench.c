@@ -609,8 +609,10 @@ static int run(const cli_command *command, int argc, char **argv) {
         lmp_cpu_mask((unsigned)o.mask);
         return bench_gpu(&o);
     }
-    if (count != 1 || strcmp(operands[0], "cpu") != 0)
+    if (count != 1)
         return cli_usage(command, "what to measure: cpu or gpu");
+    if (strcmp(operands[0], "cpu") != 0)
+        return cli_usage_word(command, operands[0], (const char *const[]) { "cpu", "gpu", NULL });
     return bench_cpu(&o);
 }
 

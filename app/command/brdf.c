@@ -236,6 +236,8 @@ static const struct {
 
 static int run_action(const cli_command *command, const brdf_options *o, int count,
                       char **operands) {
+    static const char *const names[] = { "info",    "eval",  "bake", "plot",
+                                         "convert", "bands", "list", NULL };
     cli_error error;
     if (strcmp(operands[0], "list") == 0 && count == 1) {
         for (size_t i = 0; lmp_sgd_name(i); i++)
@@ -264,8 +266,7 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
         }
         return ok ? CLI_OK : cli_report(&error);
     }
-    return cli_usage(command, "\"%s\" is not info, eval, bake, plot, convert, bands or list",
-                     operands[0]);
+    return cli_usage_word(command, operands[0], names);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {

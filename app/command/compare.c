@@ -27,21 +27,24 @@ static bool is_exr(const char *path) {
 
 /* "rmse=0.01". Returns false after a message. */
 static bool parse_limit(const cli_command *command, const char *text, limit *wanted) {
-    const char *equals = strchr(text, '=');
+    const size_t length = strcspn(text, "=");
     char name[16];
-    snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - text) : 0, text);
-    for (int m = 0; m < COMPARE_COUNT; m++)
-        if (equals && strcmp(name, compare_metrics[m]) == 0) {
-            wanted->metric = (compare_metric)m;
-            if (cli_number(equals + 1, strlen(equals + 1), &wanted->value))
-                return true;
-            cli_usage(command, "--fail-above %s: the part after = is not a number", text);
-            return false;
-        }
-    cli_usage(command,
-              "--fail-above %s: expected METRIC=VALUE, METRIC one of rmse relmse psnr max "
-              "ssim",
-              text);
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    int m = 0;
+    while (m < COMPARE_COUNT && strcmp(name, compare_metrics[m]) != 0)
+        m++;
+    if (m < COMPARE_COUNT && text[length] == '=' &&
+        cli_number(text + length + 1, strlen(text + length + 1), &wanted->value)) {
+        wanted->metric = (compare_metric)m;
+        return true;
+    }
+    cli_error error;
+    if (m == COMPARE_COUNT)
+        cli_fail_word(&error, "--fail-above METRIC=VALUE", name, compare_metrics);
+    else
+        cli_fail(&error, "--fail-above METRIC=VALUE", "\"%s\" is not a number",
+                 text + length + (text[length] == '='));
+    cli_usage(command, "%s", error.text);
     return false;
 }
 

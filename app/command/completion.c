@@ -171,7 +171,8 @@ static int run(const cli_command *command, int argc, char **argv) {
             shells[i].end();
         return CLI_OK;
     }
-    return cli_usage(command, "\"%s\" is not bash, zsh or fish", operands[0]);
+    return cli_usage_word(command, operands[0],
+                          (const char *const[]) { "bash", "zsh", "fish", NULL });
 }
 
 const cli_command command_completion = {

@@ -50,8 +50,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!settings.directory)
         return cli_usage(command, "-o DIR is missing");
     for (int i = 0; i < settings.steps.count; i++)
-        if (!paper_has_step(settings.steps.items[i]))
-            return cli_usage(command, "there is no step \"%s\"", settings.steps.items[i]);
+        if (!paper_has_step(settings.steps.items[i], &error))
+            return cli_usage(command, "%s", error.text);
     if (!make_absolute(&settings.san_miguel, &error) || !make_absolute(&settings.sponza, &error) ||
         !paper_write(&settings, &failures, &error))
         return cli_report(&error);

@@ -6,12 +6,13 @@
 
 /* Reports that no material has this name, and names those there are. */
 static bool unknown_slot(const scene *world, const char *slot, cli_error *error) {
-    char names[600] = "";
-    size_t length = 0;
-    for (size_t i = 0; i < world->material_count && length < 500; i++)
-        length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", i > 0 ? ", " : "",
-                                   world->materials[i].name);
-    return cli_fail(error, world->origin, "no material \"%s\" (it has: %s)", slot, names);
+    enum { NAMES = 64 };
+    const char *names[NAMES + 1] = { NULL };
+    for (size_t i = 0; i < world->material_count && i < NAMES; i++)
+        names[i] = world->materials[i].name;
+    char subject[512];
+    snprintf(subject, sizeof subject, "%.400s: no such material", world->origin);
+    return cli_fail_word(error, subject, slot, names);
 }
 
 /* Notes that the materials named like the slot are replaced by entry `entry`. */

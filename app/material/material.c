@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FILE_LIMIT ((size_t)1 << 30)
 /* Goes into the keys of the cache: raise it when tables of the same material come out different. */
@@ -200,6 +201,17 @@ static bool open_file(const char *path, material *m, cli_error *error) {
     return true;
 }
 
+/* A name such as gxx:0.3 is no file: says so. Returns false. */
+static bool hint_kind(const char *name, cli_error *error) {
+    static const char *const kinds[] = { "lambert", "phong", "ggx", "sgd", NULL };
+    char word[16];
+    const size_t length = strcspn(name, ":");
+    if (name[length] != ':' || length >= sizeof word || access(name, F_OK) == 0)
+        return false;
+    snprintf(word, sizeof word, "%.*s", (int)length, name);
+    return cli_fail_word(error, name, word, kinds);
+}
+
 bool material_open(const char *name, material *m, cli_error *error) {
     static const struct {
         const char *prefix;
@@ -220,7 +232,7 @@ bool material_open(const char *name, material *m, cli_error *error) {
         }
     }
     if (!found)
-        ok = open_file(name, m, error);
+        ok = open_file(name, m, error) || hint_kind(name, error);
     if (!ok)
         material_close(m);
     return ok;

@@ -32,11 +32,14 @@ static bool wanted(const paper *p, int step) {
     return names->count == 0;
 }
 
-bool paper_has_step(const char *name) {
-    for (int i = 0; i < STEPS; i++)
-        if (strcmp(steps[i].name, name) == 0)
+bool paper_has_step(const char *name, cli_error *error) {
+    const char *names[STEPS + 1] = { NULL };
+    for (int i = 0; i < STEPS; i++) {
+        names[i] = steps[i].name;
+        if (strcmp(names[i], name) == 0)
             return true;
-    return false;
+    }
+    return cli_fail_word(error, "--step", name, names);
 }
 
 #define WORDS_MAX 64

@@ -20,7 +20,8 @@ typedef struct paper_options {
     paper_runner run;
 } paper_options;
 
-bool paper_has_step(const char *name);
+/* Whether there is such a step; *error names those there are. */
+bool paper_has_step(const char *name, cli_error *error);
 
 /* Writes index.html and its files. A step that fails says so in the page, and *failures counts it;
  * the others go on. False only if the page itself cannot be written. */

@@ -28,17 +28,11 @@ const char *scene_builtin_name(size_t i) {
 
 static bool unknown_scene(const char *name, cli_error *error) {
     const char *names[BUILTIN_SCENES + 1] = { NULL };
-    char known[64 * BUILTIN_SCENES] = "", word[64];
-    for (size_t i = 0; i < BUILTIN_SCENES; i++) {
+    char word[64];
+    for (size_t i = 0; i < BUILTIN_SCENES; i++)
         names[i] = builtin_scenes[i].name;
-        strcat(strcat(known, i ? ", " : ""), names[i]);
-    }
     snprintf(word, sizeof word, "%.*s", (int)strcspn(name, ":"), name);
-    const char *const nearest = cli_nearest(word, names);
-    if (nearest)
-        return cli_fail(error, NULL, "builtin:%s: is no built-in scene (did you mean builtin:%s?)",
-                        name, nearest);
-    return cli_fail(error, NULL, "builtin:%s: is no built-in scene (there are %s)", name, known);
+    return cli_fail_word(error, "builtin", word, names);
 }
 
 static bool parse_number(const char *text, size_t length, uint64_t maximum, uint64_t *number) {

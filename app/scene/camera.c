@@ -3,6 +3,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/vector.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,8 +16,13 @@ static bool find_camera(const scene *world, const char *wanted, scene_camera *ca
             *camera = world->cameras[i];
             return true;
         }
-    return cli_fail(error, world->origin, "no camera \"%s\" (it has %zu; see lampion info)", wanted,
-                    world->camera_count);
+    enum { NAMES = 64 };
+    const char *names[NAMES + 1] = { NULL };
+    for (size_t i = 0; i < world->camera_count && i < NAMES; i++)
+        names[i] = world->cameras[i].name;
+    char subject[512];
+    snprintf(subject, sizeof subject, "%.400s: no such camera", world->origin);
+    return cli_fail_word(error, subject, wanted, names);
 }
 
 /* A direction of up that the camera does not look along. */

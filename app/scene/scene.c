@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #define BUILTIN_PREFIX "builtin:"
 #define DEFAULT_FOV    0.7854f /* 45° */
@@ -29,11 +30,23 @@ static bool load_builtin(const char *name, scene *s, cli_error *error) {
     return ok;
 }
 
+/* "atrium" and "bultin:atrium" are no files: says what may be meant. Returns false. */
+static bool hint_builtin(const char *name, cli_error *error) {
+    const char *const colon = strchr(name, ':'), *const word = colon ? colon + 1 : name;
+    for (size_t i = 0; scene_builtin_name(i) && access(name, F_OK) != 0; i++) {
+        const char *const known = scene_builtin_name(i);
+        if (strncmp(word, known, strcspn(word, ":")) == 0 && strcspn(word, ":") == strlen(known))
+            return cli_fail(error, name, "does not exist (did you mean " BUILTIN_PREFIX "%s?)",
+                            word);
+    }
+    return false;
+}
+
 bool scene_load(const char *name, const scene_options *options, scene *s, cli_error *error) {
     memset(s, 0, sizeof *s);
     if (strncmp(name, BUILTIN_PREFIX, strlen(BUILTIN_PREFIX)) == 0)
         return load_builtin(name, s, error);
-    return import_scene(name, options && options->no_cache, s, error);
+    return import_scene(name, options && options->no_cache, s, error) || hint_builtin(name, error);
 }
 
 void scene_free(scene *s) {

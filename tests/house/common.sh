@@ -6,6 +6,10 @@ fail() {
     exit 1
 }
 
+# what is compiled here goes through what the tests' own build goes through, such as ccache
+CMAKE_C_COMPILER_LAUNCHER=$(sed -n 's/^CMAKE_C_COMPILER_LAUNCHER:[A-Z]*=//p' "$BUILD/CMakeCache.txt")
+export CMAKE_C_COMPILER_LAUNCHER
+
 # configure FOLDER ARGUMENT…: a build of the library alone, quietly.
 configure() {
     folder=$1

@@ -28,6 +28,40 @@ line=$("$PROGRAM" projcet 2>&1) || status=$?
 [ "$status: $line" = "2: lampion: unknown command projcet (did you mean project?); see lampion --help" ] ||
     fail "projcet: $status: $line"
 
+# whatever is misspelt, the nearest is named: hints 'WORD' ARGUMENT…
+hints() {
+    word=$1
+    shift
+    line=$("$PROGRAM" "$@" 2>&1 </dev/null) && fail "$*: succeeds"
+    printf '%s\n' "$line" | grep -qF "(did you mean $word?)" || fail "$*: $line"
+}
+out="-o $WORK/x.png"
+hints --bands render builtin:ball $out --bnads 3
+hints zonal render builtin:ball $out --method zonl
+hints balls render builtin:bals $out
+hints builtin:atrium render atrium $out
+hints builtin:atrium:lanterns=3 info biultin:atrium:lanterns=3
+hints test_material render builtin:ball $out --material tset_material=ggx:0.3
+hints ggx render builtin:ball $out --material test_material=gxx:0.3
+hints default render builtin:ball $out --camera defualt
+hints bake brdf baek ggx:0.3
+hints rmse compare a.exr b.exr --fail-above rsme=1
+hints operations paper -o "$WORK/page" --step opertions
+hints cpu bench cpuu
+hints fish completion fihs
+hints render man rendr
+
+# progress is for terminals: none in a pipe (above), none on a dumb one; never a colour
+if command -v script >/dev/null; then
+    for terminal in dumb xterm; do
+        script -qec "TERM=$terminal '$PROGRAM' reference builtin:ball --size 96x64 --spp 64 -o '$WORK/t.png'" \
+            /dev/null >"$WORK/$terminal" </dev/null
+        [ -s "$WORK/t.png" ] || fail "no picture on a terminal"
+        ! grep -q "$(printf '\033\\[[0-9;]*m')" "$WORK/$terminal" || fail "colours on $terminal"
+    done
+    [ ! -s "$WORK/dumb" ] || fail "progress on a dumb terminal: $(cat "$WORK/dumb")"
+fi
+
 status=0
 line=$("$PROGRAM" --help 2>&1 >/dev/full) || status=$?
 [ $status = 1 ] || fail "a full disk goes unseen: $status"

@@ -8,8 +8,6 @@ if ! command -v dpkg-shlibdeps >/dev/null; then
     echo "skipped: not a Debian system with dpkg-dev"
     exit 0
 fi
-CMAKE_C_COMPILER_LAUNCHER=$(sed -n 's/^CMAKE_C_COMPILER_LAUNCHER:[A-Z]*=//p' "$BUILD/CMakeCache.txt")
-export CMAKE_C_COMPILER_LAUNCHER
 ./dev package "$WORK/one" >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"
 multiarch=$(gcc -print-multiarch)
 version=$("$PROGRAM" --version | sed 's/lampion //')

@@ -38,6 +38,7 @@ refuses 1 'rmse is .*, limit 0' compare "$WORK/one.exr" "$WORK/other.exr" --fail
 refuses 1 'ssim is .*, limit 1' compare "$WORK/one.png" "$WORK/brighter.png" --fail-above ssim=1
 refuses 2 'METRIC' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above beauty=1
 refuses 2 'not a number' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rmse=nan
+refuses 2 'did you mean rmse' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rsme=1
 refuses 2 'two of a kind' compare "$WORK/one.exr" "$WORK/one.png"
 refuses 2 'two pictures' compare "$WORK/one.exr"
 refuses 1 'absent.exr' compare "$WORK/one.exr" "$WORK/absent.exr"
