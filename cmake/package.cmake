@@ -47,7 +47,7 @@ static library, lampion.glsl and examples.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME lampion)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri") # opened while running
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libegl1, libgl1, libgl1-mesa-dri") # opened while running
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION
   "${about}\n\nThis is the program, which renders \
 glTF and OBJ scenes with or without a GPU.")

@@ -10,7 +10,8 @@
 #include <string.h>
 
 enum { DEVICES_MAX = 32 };
-static const char packages[] = "install libegl1 and libgl1-mesa-dri, or the GPU vendor's driver";
+static const char packages[] =
+    "install libegl1, libgl1 and libgl1-mesa-dri, or the GPU vendor's driver";
 
 /* --- complaints of OpenGL -----------------------------------------------------------------------
  */
@@ -163,10 +164,11 @@ static bool open_named(const char *name, const EGLDeviceEXT *devices, int count,
 
 bool gpu_context_create(const char *device, gpu_context *context, cli_error *error) {
     memset(context, 0, sizeof *context);
-    /* epoxy would end the program if the library were missing */
-    void *library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL);
-    if (!library)
+    /* epoxy would end the program if one of the libraries were missing */
+    if (!dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL))
         return cli_fail(error, NULL, "no libEGL.so.1 on this machine (%s)", packages);
+    if (!dlopen("libGL.so.1", RTLD_LAZY) && !dlopen("libOpenGL.so.0", RTLD_LAZY))
+        return cli_fail(error, NULL, "no libGL.so.1 on this machine (%s)", packages);
     const char *client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!client || !strstr(client, "EGL_EXT_platform_base"))
         return cli_fail(error, NULL, "EGL has no driver, or is too old (%s)", packages);
