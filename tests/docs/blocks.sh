@@ -36,20 +36,6 @@ export PKG_CONFIG_PATH="$(dirname "$(find "$WORK/prefix" -name lampion.pc)")"
 export SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 # as in an array job
 unset DISPLAY WAYLAND_DISPLAY
 
-# A scene that stands for the reader's own.
-own_scene() {
-    cat >"$1" <<'GLTF'
-{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ],
-  "nodes": [ { "mesh": 0 } ], "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
-  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                   "min": [ -4, 0, -4 ], "max": [ 4, 0, 4 ] } ],
-  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
-  "buffers": [ { "byteLength": 36, "uri": "data:application/octet-stream;base64,@POSITIONS@" } ] }
-GLTF
-    # (-4,0,4) (4,0,4) (0,0,-4)
-    sed -i 's,@POSITIONS@,AACAwAAAAAAAAIBAAACAQAAAAAAAAIBAAAAAAAAAAAAAAIDA,' "$1"
-}
-
 compile_c() {
     if grep -q 'int main' "$1"; then
         cc -std=c11 -O1 -Wall -Wextra -Werror "$1" $(pkg-config --cflags --libs lampion) -lm -o ./"${1%.c}"

@@ -31,8 +31,18 @@ for package in $packages; do
     done
     dpkg-deb -f "$1" Depends >"$WORK/$package.depends"
 done
-strip -o "$WORK/stripped" "$PROGRAM"
-cmp "$WORK/stripped" "$root/usr/bin/lampion" || fail "the program differs from that of $BUILD"
+# built in other folders, the program and the library are the same; the program names its commit
+commit_of() {
+    grep -om1 'LAMPION_COMMIT=[^ ]*' "$1/build.ninja"
+}
+strip -o "$WORK/library" "$WORK/../libraries/shared/liblampion.so.$version"
+cmp "$WORK/library" "$lib/liblampion.so.$version" || fail "the library differs from that of another folder"
+if [ "$(commit_of "$BUILD")" = "$(commit_of build/package)" ]; then
+    strip -o "$WORK/program" "$PROGRAM"
+    cmp "$WORK/program" "$root/usr/bin/lampion" || fail "the program differs from that of $BUILD"
+else
+    echo "skipped: $BUILD was configured at another commit than the packages"
+fi
 for file in "$root/usr/bin/lampion" "$lib/liblampion.so.$version" "$lib/liblampion.a"; do
     ! grep -qF "$SOURCE" "$file" || fail "$file names the folder it was built in"
 done
@@ -77,6 +87,21 @@ for shared in ON OFF; do
     "$WORK/consumer/$shared/first_light" | diff "$WORK/shared.txt" - || fail "find_package, shared $shared"
 done
 ! objdump -p "$WORK/consumer/OFF/first_light" | grep -q liblampion || fail "BUILD_SHARED_LIBS=OFF is not heeded"
+
+# the way of the README's reader: a scene, three lights, a material, the truth
+mkdir "$WORK/reader"
+own_scene "$WORK/reader/scene.gltf"
+code_blocks README.md json >"$WORK/reader/lights.json"
+code_blocks README.md sh | grep '^lampion.* scene\.' >"$WORK/reader/commands"
+[ "$(wc -l <"$WORK/reader/commands")" -ge 6 ] || fail "the README's way is not there"
+(cd "$WORK/reader" && PATH=$root/usr/bin:$PATH XDG_CACHE_HOME=$WORK/cache sh -eu commands >log 2>&1) ||
+    fail "the README's way: $(cat "$WORK/reader/log")"
+awk '$1 == "relmse" { found = $2 } END { exit !(found != "" && found < 0.01) }' "$WORK/reader/log" ||
+    fail "the picture is far from the truth: $(cat "$WORK/reader/log")"
+for picture in scene.png gold.png; do
+    [ -s "$WORK/reader/$picture" ] || fail "no $picture"
+done
+! cmp -s "$WORK/reader/scene.png" "$WORK/reader/gold.png" || fail "the material changes nothing"
 
 # dpkg's own account of it, in a root of its own: installed, then purged without a trace
 if [ "$(id -u)" = 0 ]; then
