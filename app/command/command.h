@@ -19,9 +19,6 @@ int command_unknown(const char *name);
  * completion`. Returns the exit status. */
 int command_print_help(const cli_command *command, const char *word);
 
-/* The names of lmp_window by its values, NULL-terminated: choices of --window. */
-extern const char *const command_windows[];
-
 /* The processor as it calls itself. */
 void command_processor(char *name, size_t size);
 

@@ -3,6 +3,7 @@
 #include "app/command/command.h"
 #include "app/device/device.h"
 #include "app/device/materials.h"
+#include "app/view/view.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -14,7 +15,7 @@ enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 409
 
 /* Everything the command line says. */
 typedef struct render_options {
-    const char *output, *device, *animate;
+    const char *output, *device, *animate, *from;
     int size[2], bands, method, window, device_kind, repeat, samples;
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
@@ -228,7 +229,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
     cJSON_AddStringToObject(stats, "method", gpu_method_names[o->method]);
-    cJSON_AddStringToObject(stats, "window", command_windows[o->window]);
+    cJSON_AddStringToObject(stats, "window", device_window_names[o->window]);
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
     cJSON_AddNumberToObject(stats, "exposure", (double)j->exposure);
@@ -315,7 +316,7 @@ static int check_options(const cli_command *command, const render_options *o, in
     const device_kind widest = device_bands_max(DEVICE_CPU, method) ? DEVICE_CPU : DEVICE_GPU;
     const device_kind device = o->device_kind == DEVICE_AUTO ? widest : (device_kind)o->device_kind;
     const int bands_max = device_bands_max(device, method);
-    if (operand_count != 1)
+    if (operand_count != 1 && !(o->from && operand_count == 0))
         return cli_usage(command, "one SCENE is needed, %d given", operand_count);
     if (!o->output)
         return cli_usage(command, "-o FILE is needed");
@@ -328,6 +329,8 @@ static int check_options(const cli_command *command, const render_options *o, in
     if ((long)o->size[0] * o->size[1] > IMAGE_PIXELS_MAX)
         return cli_usage(command, "--size %dx%d: more than %d pixels", o->size[0], o->size[1],
                          IMAGE_PIXELS_MAX);
+    if (o->from && image_format_of(o->output) != IMAGE_PNG)
+        return cli_usage(command, "%s: --from makes a .png, as the screenshot is", o->output);
     if (bands_max == 0)
         return cli_usage(command, "--device cpu runs zonal and preintegrated, not %s",
                          gpu_method_names[method]);
@@ -345,6 +348,21 @@ static int render(const render_options *o, const char *name) {
     const bool ok = open_job(name, &all, &error) && render_frames(&all, &error) &&
                     (!(o->stats || o->compare) || print_stats(&all, &error));
     close_job(&all);
+    return ok ? CLI_OK : cli_report(&error);
+}
+
+/* A screenshot of the viewer once more, of the same scene or another. */
+static int repeat_shot(const render_options *o, const char *name) {
+    cli_error error = { "" };
+    view_settings *settings = malloc(sizeof *settings);
+    bool ok = (settings || cli_fail(&error, NULL, "out of memory")) &&
+              view_read_shot(o->from, settings, &error);
+    if (ok && name && strlen(name) >= sizeof settings->scene)
+        ok = cli_fail(&error, name, "is too long a name");
+    if (ok && name)
+        strcpy(settings->scene, name);
+    ok = ok && view_render(settings, o->device, o->output, &error);
+    free(settings);
     return ok ? CLI_OK : cli_report(&error);
 }
 
@@ -369,7 +387,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE",
           "where to shade: auto is the CPU where OpenGL is software", 0, 0, device_names, NULL },
         { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          command_windows, NULL },
+          device_window_names, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
         MATERIALS_OPTION_ROW(o.materials),
@@ -377,6 +395,10 @@ static int run(const cli_command *command, int argc, char **argv) {
           1e-12, 1e12, NULL, &o.exposure_given },
         { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
           NULL, NULL },
+        { "from", 0, CLI_TEXT, &o.from, "FILE",
+          "repeat a screenshot of lampion view: its settings count, beside -o and --gl-device none "
+          "of these; without SCENE its scene",
+          0, 0, NULL, NULL },
         { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
           NULL, NULL },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
@@ -408,7 +430,9 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
     status = check_options(command, &o, operand_count);
-    return status == CLI_OK ? render(&o, operands[0]) : status;
+    if (status != CLI_OK)
+        return status;
+    return o.from ? repeat_shot(&o, operand_count ? operands[0] : NULL) : render(&o, operands[0]);
 }
 
 const cli_command command_render = {

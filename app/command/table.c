@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/command.h"
 
-#include <lampion/sh.h>
-
 #include <stdio.h>
 #include <string.h>
 
@@ -18,21 +16,13 @@ extern const cli_command command_paper;
 extern const cli_command command_project;
 extern const cli_command command_reference;
 extern const cli_command command_render;
+extern const cli_command command_view;
 
 const cli_command *const command_table[] = {
-    &command_render,
-    &command_info,
-    &command_project,
-    &command_brdf,
-    &command_basis,
-    &command_reference,
-    &command_compare,
-    &command_paper,
-    &command_bench,
-    &command_doctor,
-    &command_man,
-    &command_completion,
-    NULL,
+    &command_render,     &command_view,  &command_info,      &command_project,
+    &command_brdf,       &command_basis, &command_reference, &command_compare,
+    &command_paper,      &command_bench, &command_doctor,    &command_man,
+    &command_completion, NULL,
 };
 
 const char command_program_summary[] =
@@ -67,10 +57,3 @@ int command_print_help(const cli_command *command, const char *word) {
     char *arguments[] = { name, help, NULL };
     return command->run(command, 2, arguments);
 }
-
-const char *const command_windows[] = {
-    [LMP_WINDOW_NONE] = "none",
-    [LMP_WINDOW_HANNING] = "hanning",
-    [LMP_WINDOW_LANCZOS] = "lanczos",
-    NULL,
-};

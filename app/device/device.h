@@ -10,6 +10,9 @@
 typedef enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_CPU, DEVICES } device_kind;
 extern const char *const device_names[DEVICES + 1]; /* NULL-terminated */
 
+/* The names of lmp_window by its values, NULL-terminated. */
+extern const char *const device_window_names[];
+
 /* The most bands a method takes there; 0 where it does not run: the CPU has zonal and
  * preintegrated.
  */

@@ -8,6 +8,13 @@
 
 enum { PATH_SIZE = 4096, RESPONSE_BYTES_MAX = 1 << 28 };
 
+const char *const device_window_names[] = {
+    [LMP_WINDOW_NONE] = "none",
+    [LMP_WINDOW_HANNING] = "hanning",
+    [LMP_WINDOW_LANCZOS] = "lanczos",
+    NULL,
+};
+
 static void parallel(void *user, size_t count, void (*task)(size_t index, void *data), void *data) {
     (void)user;
     const long tasks = (long)count;

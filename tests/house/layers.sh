@@ -33,8 +33,9 @@ may_include() {
     app/material) echo app/cli app/file app/material base sh brdf ;;
     app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
     app/device) echo app/cli app/file app/scene app/material app/gpu app/device LIBRARY ;;
+    app/view) echo app/cli app/file app/image app/scene app/animation app/material app/gpu app/device app/view LIBRARY ;;
     app/paper) echo app/cli app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
-    app/command) echo app/cli app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material \
+    app/command) echo app/cli app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base kernels sh light lobe brdf response shade field lampion/'
 }

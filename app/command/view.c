@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/view.h"
+#include "app/animation/animation.h"
+#include "app/command/command.h"
+#include "app/device/materials.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FRAMES_MAX = 100000000 };
+
+/* What the command line says, beside what goes into the settings at once. */
+typedef struct view_arguments {
+    int size[2], bands, method, window;
+    float exposure, stops;
+    bool exposure_given;
+    const char *from;
+    cli_list materials;
+} view_arguments;
+
+/* SLOT=MATERIAL into the settings; whether the slot exists is found out when it is drawn. */
+static bool add_materials(const cli_list *list, view_settings *settings, cli_error *error) {
+    for (int i = 0; i < list->count; i++) {
+        const char *text = list->items[i], *equals = strchr(text, '=');
+        char slot[SCENE_NAME_SIZE] = "";
+        if (!equals)
+            return cli_fail(error, text, "--material is SLOT=MATERIAL");
+        if ((size_t)(equals - text) >= sizeof slot)
+            return cli_fail(error, text, "no material has so long a name");
+        memcpy(slot, text, (size_t)(equals - text));
+        if (!view_set_material(settings, slot, equals + 1))
+            return cli_fail(error, text, "is too long a name, or one material too many");
+    }
+    return true;
+}
+
+static bool fill_options(const view_arguments *a, const char *name, view_options *o,
+                         cli_error *error) {
+    view_settings *s = &o->settings;
+    if (a->from) {
+        if (!view_read_shot(a->from, s, error))
+            return false;
+        o->keep_lights = true;
+    } else {
+        s->exposure = (a->exposure_given ? a->exposure : 1) * image_exposure_of_stops(a->stops);
+        o->expose = !a->exposure_given;
+        o->camera_wanted = true;
+        s->width = a->size[0];
+        s->height = a->size[1];
+        s->divider = 0.5f;
+        s->looks[0] = (view_look) { (gpu_method)a->method, a->bands, (lmp_window)a->window };
+        s->looks[1] = s->looks[0];
+    }
+    if (name) {
+        if (strlen(name) >= sizeof s->scene)
+            return cli_fail(error, name, "is too long a name");
+        strcpy(s->scene, name);
+    }
+    return add_materials(&a->materials, s, error);
+}
+
+static int view(const view_arguments *a, const char *name, view_options *o) {
+    cli_error error = { "" };
+    return fill_options(a, name, o, &error) && view_run(o, &error) ? CLI_OK : cli_report(&error);
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    view_arguments a = { .size = { 1280, 720 },
+                         .bands = LMP_SHADE_BANDS_DEFAULT,
+                         .method = GPU_METHOD_PREINTEGRATED,
+                         .window = LMP_WINDOW_HANNING };
+    view_options *o = calloc(1, sizeof *o);
+    if (!o) {
+        cli_error error;
+        cli_fail(&error, NULL, "out of memory");
+        return cli_report(&error);
+    }
+    o->fps = 24;
+    o->settings.samples = 8;
+    const cli_option options[] = {
+        { "size", 's', CLI_SIZE, a.size, "WxH", "of the window", 1, 8192, NULL, NULL },
+        { "bands", 'n', CLI_INT, &a.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
+          NULL, NULL },
+        { "method", 0, CLI_CHOICE, &a.method, "METHOD", "how to shade", 0, 0, gpu_method_names,
+          NULL },
+        { "window", 0, CLI_CHOICE, &a.window, "WINDOW", "damps the ringing of few bands", 0, 0,
+          device_window_names, NULL },
+        SCENE_LIGHTS_OPTION_ROWS(o->lights),
+        SCENE_CAMERA_OPTION_ROWS(o->camera),
+        MATERIALS_OPTION_ROW(a.materials),
+        { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR", "of radiance; without it, automatic",
+          1e-12, 1e12, NULL, &a.exposure_given },
+        { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
+          NULL, NULL },
+        { "samples", 0, CLI_INT, &o->settings.samples, "N", "samples a pixel, when nothing moves",
+          1, VIEW_SAMPLES_MAX, NULL, NULL },
+        { "animate", 0, CLI_TEXT, &o->animate, "PATH",
+          "play how lights move: " ANIMATION_NAMES "; without it they wait for the space bar", 0, 0,
+          NULL, NULL },
+        { "from", 0, CLI_TEXT, &a.from, "FILE",
+          "begin with all settings of a screenshot; only --material and what follows are heeded", 0,
+          0, NULL, NULL },
+        { "record", 0, CLI_TEXT, &o->record, "DIR", "write every frame there, numbered", 0, 0, NULL,
+          NULL },
+        { "script", 0, CLI_TEXT, &o->script, "FILE", "timed events to play (docs/viewer.md)", 0, 0,
+          NULL, NULL },
+        { "fps", 0, CLI_FLOAT, &o->fps, "RATE", "frames a second of the time of --record, --script",
+          0.01, 1000, NULL, NULL },
+        { "state", 0, CLI_TEXT, &o->state, "FILE",
+          "keep the settings in FILE, as JSON, every frame", 0, 0, NULL, NULL },
+        { "frames", 0, CLI_INT, &o->frames, "N", "quit after so many; 0: never", 0, FRAMES_MAX,
+          NULL, NULL },
+        { .name = NULL },
+    };
+    int operand_count, status;
+    char **operands;
+    if (cli_parse(command, options, argc, argv, &operand_count, &operands, &status)) {
+        const int most = view_bands_max((gpu_method)a.method);
+        if (operand_count > 1 || (operand_count == 0 && !a.from))
+            status = cli_usage(command, "one SCENE is needed, %d given", operand_count);
+        else if (a.bands > most)
+            status = cli_usage(command, "--bands %d: %s takes 1 to %d", a.bands,
+                               gpu_method_names[a.method], most);
+        else
+            status = view(&a, operand_count ? operands[0] : NULL, o);
+    }
+    free(o);
+    return status;
+}
+
+const cli_command command_view = {
+    .name = "view",
+    .operands = "SCENE",
+    .summary = "look at a scene in a window, move and change its lights",
+    .examples = "lampion view builtin:atrium\n"
+                "lampion view scene.glb --random-lights 30 --animate orbit\n"
+                "lampion view --from lampion-0001.png\n"
+                "lampion view builtin:balls --script demo.txt --record frames\n",
+    .run = run,
+};

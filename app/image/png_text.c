@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: MIT */
+/* PNG with a text chunk, which libpng's simple functions do not know. */
+#include "app/file/file.h"
+#include "app/image/image.h"
+
+#include <errno.h>
+#include <png.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* libpng calls it instead of returning: the message is kept, and control goes to setjmp. */
+static void on_error(png_structp png, png_const_charp message) {
+    cli_error *error = png_get_error_ptr(png);
+    snprintf(error->text, sizeof error->text, "%s", message);
+    png_longjmp(png, 1);
+}
+
+static void on_warning(png_structp png, png_const_charp message) {
+    (void)png;
+    (void)message;
+}
+
+/* --- writing ------------------------------------------------------------------------------------
+ */
+
+static bool write_stream(png_structp png, png_infop info, FILE *stream, const unsigned char *rgb8,
+                         int width, int height, const image_text *text) {
+    if (setjmp(png_jmpbuf(png)))
+        return false;
+    /* libpng takes pointers to what it only reads */
+    char *key = strdup(text->key), *value = strdup(text->text);
+    png_text chunk = { .compression = PNG_ITXT_COMPRESSION_zTXt, .key = key, .text = value };
+    png_init_io(png, stream);
+    png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (key && value)
+        png_set_text(png, info, &chunk, 1);
+    free(key);
+    free(value);
+    png_write_info(png, info);
+    for (int y = 0; y < height; y++)
+        png_write_row(png, rgb8 + 3 * (size_t)width * (size_t)y);
+    png_write_end(png, NULL);
+    return true;
+}
+
+bool image_write_png8_text(const unsigned char *rgb8, int width, int height, const image_text *text,
+                           const char *path, cli_error *error) {
+    file_writer writer;
+    cli_error complaint = { "out of memory" };
+    if (!file_write_begin(&writer, path, error))
+        return false;
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    const bool ok = info && write_stream(png, info, writer.stream, rgb8, width, height, text);
+    png_destroy_write_struct(&png, &info);
+    if (ok)
+        return file_write_commit(&writer, error);
+    file_write_abort(&writer);
+    return cli_fail(error, path, "%s", complaint.text);
+}
+
+/* --- reading ------------------------------------------------------------------------------------
+ */
+
+static const char *find_text(png_structp png, png_infop info, const char *key) {
+    png_textp chunks = NULL;
+    int count = 0;
+    png_get_text(png, info, &chunks, &count);
+    for (int i = 0; i < count; i++)
+        if (strcmp(chunks[i].key, key) == 0)
+            return chunks[i].text;
+    return NULL;
+}
+
+/* The chunks before the pixels alone. */
+static bool read_stream(png_structp png, png_infop info, FILE *stream) {
+    if (setjmp(png_jmpbuf(png)))
+        return false;
+    png_init_io(png, stream);
+    png_set_chunk_malloc_max(png, IMAGE_TEXT_MAX);
+    png_set_chunk_cache_max(png, 64);
+    png_read_info(png, info);
+    return true;
+}
+
+bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {
+    cli_error complaint = { "out of memory" };
+    *text = NULL;
+    FILE *stream = fopen(path, "rb");
+    if (!stream)
+        return cli_fail(error, path, "%s", strerror(errno));
+    png_structp png =
+        png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    const bool ok = info && read_stream(png, info, stream);
+    const char *found = ok ? find_text(png, info, key) : NULL;
+    if (found)
+        *text = strdup(found);
+    else if (ok)
+        cli_fail(error, path, "holds no settings of Lampion (a screenshot of lampion view does)");
+    else
+        cli_fail(error, path, "not a readable PNG: %s", complaint.text);
+    png_destroy_read_struct(&png, &info, NULL);
+    fclose(stream);
+    return found && (*text || cli_fail(error, path, "out of memory"));
+}

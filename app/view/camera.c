@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/camera.h"
+#include "app/scene/vector.h"
+
+#include <math.h>
+
+#define STEEPEST 1.55f /* nearly straight up or down */
+
+typedef struct frame {
+    lmp_vec3 eye, right, up, forward;
+    float distance; /* to the target */
+} frame;
+
+static frame frame_of(const scene_camera *camera) {
+    const lmp_vec3 eye = vec_load(camera->eye), way = vec_sub(vec_load(camera->target), eye);
+    const lmp_vec3 forward = vec_normalize(way, vec(0, 0, -1));
+    const lmp_vec3 right =
+        vec_normalize(vec_cross(forward, vec_load(camera->up)), vec_across(forward));
+    return (frame) { eye, right, vec_cross(right, forward), forward, vec_length(way) };
+}
+
+/* Turns a direction to the right and up, with y staying up. */
+static lmp_vec3 turned(lmp_vec3 direction, float right, float up) {
+    const float heading = atan2f(direction.x, -direction.z) + right;
+    const float height = asinf(fminf(fmaxf(direction.y, -1), 1)) + up;
+    const float held = fminf(fmaxf(height, -STEEPEST), STEEPEST);
+    return vec(cosf(held) * sinf(heading), sinf(held), -cosf(held) * cosf(heading));
+}
+
+static void stand_upright(scene_camera *camera) {
+    vec_store(vec(0, 1, 0), camera->up);
+}
+
+void view_orbit(scene_camera *camera, float right, float up) {
+    const frame f = frame_of(camera);
+    const lmp_vec3 forward = turned(f.forward, -right, -up);
+    stand_upright(camera);
+    vec_store(vec_sub(vec_load(camera->target), vec_scale(forward, f.distance)), camera->eye);
+}
+
+void view_look_round(scene_camera *camera, float right, float up) {
+    const frame f = frame_of(camera);
+    stand_upright(camera);
+    vec_store(vec_add(f.eye, vec_scale(turned(f.forward, right, up), f.distance)), camera->target);
+}
+
+static void move(scene_camera *camera, lmp_vec3 by) {
+    vec_store(vec_add(vec_load(camera->eye), by), camera->eye);
+    vec_store(vec_add(vec_load(camera->target), by), camera->target);
+}
+
+void view_pan(scene_camera *camera, float right, float up) {
+    const frame f = frame_of(camera);
+    const float height = 2 * f.distance * tanf(0.5f * camera->fov);
+    move(camera, vec_add(vec_scale(f.right, right * height), vec_scale(f.up, up * height)));
+}
+
+void view_dolly(scene_camera *camera, float factor, float nearest) {
+    const frame f = frame_of(camera);
+    const float distance = fminf(fmaxf(f.distance * factor, nearest), 0.1f * LMP_LENGTH_MAX);
+    const lmp_vec3 eye = vec_add(f.eye, vec_scale(f.forward, f.distance * (1 - factor)));
+    vec_store(eye, camera->eye);
+    vec_store(vec_add(eye, vec_scale(f.forward, distance)), camera->target);
+}
+
+void view_fly(scene_camera *camera, float right, float up, float forward) {
+    const frame f = frame_of(camera);
+    move(camera,
+         vec_add(vec_add(vec_scale(f.right, right), vec_scale(f.forward, forward)), vec(0, up, 0)));
+}
+
+void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspect) {
+    const frame f = frame_of(camera);
+    const float half = atanf(tanf(0.5f * camera->fov) * fminf(aspect, 1));
+    const float distance = fmaxf(radius, 1e-6f) / sinf(half);
+    vec_store(center, camera->target);
+    vec_store(vec_sub(center, vec_scale(f.forward, distance)), camera->eye);
+}
+
+/* --- rays ---------------------------------------------------------------------------------------
+ */
+
+view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y) {
+    const frame f = frame_of(camera);
+    const float tall = tanf(0.5f * camera->fov), wide = tall * (float)width / (float)height;
+    const float right = wide * (float)(2 * x / width - 1), up = tall * (float)(1 - 2 * y / height);
+    const lmp_vec3 direction =
+        vec_add(f.forward, vec_add(vec_scale(f.right, right), vec_scale(f.up, up)));
+    return (view_ray) { f.eye, vec_normalize(direction, f.forward) };
+}
+
+bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
+                  double *y, double *scale) {
+    const frame f = frame_of(camera);
+    const lmp_vec3 way = vec_sub(point, f.eye);
+    const float depth = vec_dot(way, f.forward), tall = tanf(0.5f * camera->fov);
+    if (!(depth > 0))
+        return false;
+    *scale = 0.5 * height / (double)(tall * depth);
+    *x = 0.5 * width + (double)vec_dot(way, f.right) * *scale;
+    *y = 0.5 * height - (double)vec_dot(way, f.up) * *scale;
+    return true;
+}
+
+/* --- picking ------------------------------------------------------------------------------------
+ */
+
+int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float slack,
+                    float *distance) {
+    int nearest = -1;
+    for (size_t i = 0; i < count; i++) {
+        const lmp_vec3 way = vec_sub(vec_load(lights[i].center), ray->from);
+        const float along = vec_dot(way, ray->direction);
+        const lmp_vec3 miss = vec_sub(way, vec_scale(ray->direction, along));
+        const float reach = lights[i].radius + slack * along;
+        /* not the light that one is inside of: it would catch every ray */
+        if (!(along > 0) || vec_length(way) <= lights[i].radius ||
+            !(vec_dot(miss, miss) <= reach * reach))
+            continue;
+        if (nearest < 0 || along < *distance) {
+            nearest = (int)i;
+            *distance = along;
+        }
+    }
+    return nearest;
+}
+
+static bool may_hit(const view_ray *ray, const scene_mesh *mesh, float farthest) {
+    const float *from = &ray->from.x, *direction = &ray->direction.x;
+    float enter = 0, leave = farthest;
+    for (int k = 0; k < 3; k++) {
+        const float a = (mesh->minimum[k] - from[k]) / direction[k];
+        const float b = (mesh->maximum[k] - from[k]) / direction[k];
+        if (direction[k] == 0) {
+            if (from[k] < mesh->minimum[k] || from[k] > mesh->maximum[k])
+                return false;
+            continue;
+        }
+        enter = fmaxf(enter, fminf(a, b));
+        leave = fminf(leave, fmaxf(a, b));
+    }
+    return enter <= leave;
+}
+
+/* Möller and Trumbore 1997. */
+static float hit_triangle(const view_ray *ray, lmp_vec3 p, lmp_vec3 q, lmp_vec3 r,
+                          lmp_vec3 *normal) {
+    const lmp_vec3 a = vec_sub(q, p), b = vec_sub(r, p), h = vec_cross(ray->direction, b);
+    const float det = vec_dot(a, h);
+    const lmp_vec3 from = vec_sub(ray->from, p), s = vec_cross(from, a);
+    const float u = vec_dot(from, h) / det, v = vec_dot(ray->direction, s) / det;
+    if (det == 0 || !(u >= 0) || !(v >= 0) || !(u + v <= 1))
+        return -1;
+    *normal = vec_cross(a, b);
+    return vec_dot(b, s) / det;
+}
+
+view_hit view_pick_surface(const view_ray *ray, const scene *world) {
+    view_hit hit = { -1, INFINITY, { 0, 1, 0 } };
+    for (size_t m = 0; m < world->mesh_count; m++) {
+        const scene_mesh *mesh = &world->meshes[m];
+        if (!may_hit(ray, mesh, hit.distance))
+            continue;
+        const uint32_t *index = world->indices + mesh->first_index;
+        for (uint32_t i = 0; i < mesh->index_count; i += 3) {
+            lmp_vec3 normal;
+            const float distance =
+                hit_triangle(ray, vec_load(world->vertices[index[i]].position),
+                             vec_load(world->vertices[index[i + 1]].position),
+                             vec_load(world->vertices[index[i + 2]].position), &normal);
+            if (distance > 0 && distance < hit.distance)
+                hit = (view_hit) { (int)m, distance, normal };
+        }
+    }
+    hit.normal = vec_normalize(hit.normal, vec(0, 1, 0));
+    if (vec_dot(hit.normal, ray->direction) > 0)
+        hit.normal = vec_scale(hit.normal, -1);
+    return hit;
+}

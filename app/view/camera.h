@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* camera.h - moving a camera, and the rays through its pixels. Angles in radians. */
+#ifndef LAMPION_VIEW_CAMERA_H
+#define LAMPION_VIEW_CAMERA_H
+
+#include "app/scene/scene.h"
+
+/* Turns the eye round the target: to the right and up. Never over the poles. */
+void view_orbit(scene_camera *camera, float right, float up);
+
+/* Turns the view round the eye. */
+void view_look_round(scene_camera *camera, float right, float up);
+
+/* Moves eye and target by parts of the picture's height at the target. */
+void view_pan(scene_camera *camera, float right, float up);
+
+/* Brings the eye nearer to the target by a factor < 1; below `nearest`, the target moves on. */
+void view_dolly(scene_camera *camera, float factor, float nearest);
+
+/* Moves eye and target by lengths. */
+void view_fly(scene_camera *camera, float right, float up, float forward);
+
+/* Steps back, in the direction it looks from, until a sphere fits the picture. */
+void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspect);
+
+/* The ray through a pixel's place: x to the right and y down from the upper left corner. */
+typedef struct view_ray {
+    lmp_vec3 from, direction; /* unit */
+} view_ray;
+view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y);
+
+/* Where a point is in the picture; false behind the eye. *scale receives pixels a length there. */
+bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
+                  double *y, double *scale);
+
+/* Nearest sphere that the ray meets, or -1. Hidden ones count too. slack: what each sphere's radius
+ * grows by a length along the ray, so that far ones can be hit. */
+int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float slack,
+                    float *distance);
+
+/* Nearest triangle that the ray meets: its mesh, or -1. */
+typedef struct view_hit {
+    int mesh;
+    float distance;
+    lmp_vec3 normal; /* unit, towards where the ray comes from */
+} view_hit;
+view_hit view_pick_surface(const view_ray *ray, const scene *scene);
+
+#endif

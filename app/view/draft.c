@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT */
+/* Vertex clustering (Rossignac and Borrel 1993). */
+#include "app/view/draft.h"
+#include "app/scene/vector.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+typedef struct cluster {
+    int32_t cell[3];
+    uint32_t octant, vertex; /* NONE: empty */
+} cluster;
+
+typedef struct clusters {
+    cluster *slots; /* open addressing */
+    size_t mask;
+    uint32_t *vertex_of; /* of each vertex of the scene, or NONE */
+    float minimum[3], cell;
+    scene_vertex *vertices;
+    uint32_t *indices;
+    scene_mesh *meshes;
+    size_t vertex_count, index_count;
+} clusters;
+
+static uint32_t octant_of(const float normal[3]) {
+    return (normal[0] < 0) | (uint32_t)(normal[1] < 0) << 1 | (uint32_t)(normal[2] < 0) << 2;
+}
+
+static size_t hash_of(const cluster *key) {
+    uint64_t h = key->octant;
+    for (int k = 0; k < 3; k++)
+        h = (h ^ (uint32_t)key->cell[k]) * 0x9e3779b97f4a7c15u;
+    return (size_t)(h ^ h >> 29);
+}
+
+/* The vertex that stands for this one. */
+static uint32_t represent(clusters *c, const scene_vertex *vertices, uint32_t index) {
+    if (c->vertex_of[index] != NONE)
+        return c->vertex_of[index];
+    const scene_vertex *v = &vertices[index];
+    cluster key = { .octant = octant_of(v->normal), .vertex = (uint32_t)c->vertex_count };
+    for (int k = 0; k < 3; k++)
+        key.cell[k] = (int32_t)((v->position[k] - c->minimum[k]) / c->cell);
+    size_t slot = hash_of(&key) & c->mask;
+    while (c->slots[slot].vertex != NONE &&
+           (memcmp(c->slots[slot].cell, key.cell, sizeof key.cell) != 0 ||
+            c->slots[slot].octant != key.octant))
+        slot = (slot + 1) & c->mask;
+    if (c->slots[slot].vertex == NONE) {
+        c->slots[slot] = key;
+        c->vertices[c->vertex_count++] = *v;
+    }
+    return c->vertex_of[index] = c->slots[slot].vertex;
+}
+
+static void simplify_mesh(clusters *c, const scene *world, size_t number) {
+    scene_mesh *mesh = &c->meshes[number];
+    const uint32_t *from = world->indices + mesh->first_index;
+    const uint32_t count = mesh->index_count;
+    for (size_t i = 0; i <= c->mask; i++)
+        c->slots[i].vertex = NONE;
+    memset(c->vertex_of, 0xff, world->vertex_count * sizeof *c->vertex_of);
+    mesh->first_index = (uint32_t)c->index_count;
+    for (uint32_t i = 0; i < count; i += 3) {
+        uint32_t corner[3];
+        for (int k = 0; k < 3; k++)
+            corner[k] = represent(c, world->vertices, from[i + (uint32_t)k]);
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
+            continue;
+        memcpy(c->indices + c->index_count, corner, sizeof corner);
+        c->index_count += 3;
+    }
+    mesh->index_count = (uint32_t)c->index_count - mesh->first_index;
+}
+
+static bool allocate(clusters *c, const scene *world) {
+    size_t slots = 16;
+    while (slots < 2 * world->vertex_count)
+        slots *= 2;
+    c->mask = slots - 1;
+    c->slots = malloc(slots * sizeof *c->slots);
+    c->vertex_of = malloc((world->vertex_count + 1) * sizeof *c->vertex_of);
+    /* a vertex that two meshes use has a copy for each: never more than there are corners */
+    c->vertices = malloc((world->index_count + 1) * sizeof *c->vertices);
+    c->indices = malloc((world->index_count + 1) * sizeof *c->indices);
+    c->meshes = malloc((world->mesh_count + 1) * sizeof *c->meshes);
+    return c->slots && c->vertex_of && c->vertices && c->indices && c->meshes;
+}
+
+bool view_draft_make(const scene *world, int cells, scene *draft, cli_error *error) {
+    clusters c = { .slots = NULL };
+    const float diagonal = vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
+    const bool ok = allocate(&c, world);
+    memcpy(c.minimum, world->minimum, sizeof c.minimum);
+    c.cell = fmaxf(diagonal / (float)cells, 1e-30f);
+    if (ok)
+        memcpy(c.meshes, world->meshes, world->mesh_count * sizeof *c.meshes);
+    for (size_t i = 0; i < world->mesh_count && ok; i++)
+        simplify_mesh(&c, world, i);
+    free(c.slots);
+    free(c.vertex_of);
+    *draft = *world;
+    draft->vertices = c.vertices;
+    draft->indices = c.indices;
+    draft->meshes = c.meshes;
+    draft->vertex_count = c.vertex_count;
+    draft->index_count = c.index_count;
+    draft->lights = NULL;
+    draft->light_count = draft->motion_count = 0;
+    draft->block = NULL;
+    if (ok)
+        return true;
+    view_draft_free(draft);
+    return cli_fail(error, NULL, "out of memory");
+}
+
+void view_draft_free(scene *draft) {
+    free((void *)(uintptr_t)draft->vertices);
+    free((void *)(uintptr_t)draft->indices);
+    free((void *)(uintptr_t)draft->meshes);
+    memset(draft, 0, sizeof *draft);
+}

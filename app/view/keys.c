@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: MIT */
+/* keys.c - what every key does, and the help that says so. */
+#include "app/scene/vector.h"
+#include "app/view/state.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SIZE_STEP      1.15f
+#define POWER_STEP     1.25f
+#define HUE_STEP       (1.0f / 12)
+#define NEW_RADIUS     0.012f /* of the scene's diagonal */
+#define NEW_IRRADIANCE 0.4f   /* that a new light gives the scene's bounding sphere */
+#define FRAME_SECONDS  (1.0 / 24)
+
+static float scene_diagonal(const scene *world) {
+    return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
+}
+
+/* --- shading ------------------------------------------------------------------------------------
+ */
+
+static view_look *look_here(view_state *s) {
+    return &s->now.looks[view_side(s)];
+}
+
+static void hold_bands(view_look *look) {
+    const int most = view_bands_max(look->method);
+    look->bands = look->bands < 1 ? 1 : look->bands > most ? most : look->bands;
+}
+
+static void change_method(view_state *s, int step) {
+    view_look *look = look_here(s);
+    look->method = (gpu_method)(((int)look->method + step + GPU_METHODS) % GPU_METHODS);
+    hold_bands(look);
+}
+
+static void change_bands(view_state *s, int step) {
+    look_here(s)->bands += step;
+    hold_bands(look_here(s));
+}
+
+static void change_window(view_state *s, int step) {
+    view_look *look = look_here(s);
+    look->window = (lmp_window)(((int)look->window + step + 3) % 3);
+}
+
+static void change_exposure(view_state *s, int thirds) {
+    s->now.exposure *= exp2f((float)thirds / 3);
+    s->now.exposure = fminf(fmaxf(s->now.exposure, 1e-12f), 1e12f);
+}
+
+static void expose(view_state *s, int unused) {
+    (void)unused;
+    s->wishes.expose = true;
+}
+
+/* Both sides begin alike, so that the first change shows what it does. */
+static void split(view_state *s, int kind) {
+    const bool was_whole = s->now.split == GPU_SPLIT_NONE;
+    s->now.split = s->now.split == (gpu_split)kind ? GPU_SPLIT_NONE : (gpu_split)kind;
+    if (was_whole)
+        s->now.looks[1] = s->now.looks[0];
+    if (was_whole && kind == GPU_SPLIT_DIVIDED) {
+        s->now.divider = 0.5f;
+        view_say(s, "Split: keys change the side that the pointer is on");
+    } else if (s->now.split == GPU_SPLIT_DIFFERENCE) {
+        view_say(s, "Difference of both sides, times %d", GPU_DIFFERENCE_GAIN);
+    }
+}
+
+static void swap_sides(view_state *s, int unused) {
+    (void)unused;
+    const view_look first = s->now.looks[0];
+    if (s->now.split == GPU_SPLIT_NONE)
+        return;
+    s->now.looks[0] = s->now.looks[1];
+    s->now.looks[1] = first;
+}
+
+/* --- lights -------------------------------------------------------------------------------------
+ */
+
+/* Applies to the selected light, or to all of them. */
+static void each_light(view_state *s, void (*change)(scene_light *light, float by), float by) {
+    for (size_t i = 0; i < s->now.light_count; i++)
+        if (s->selected < 0 || (size_t)s->selected == i)
+            change(&s->now.lights[i], by);
+    s->lights_edited = true;
+}
+
+/* The power stays: a larger light is a dimmer one. */
+static void grow(scene_light *light, float by) {
+    const float radius = light->radius * by;
+    if (!(radius > 1e-12f && radius < 1e12f))
+        return;
+    light->radius = radius;
+    for (int k = 0; k < 3; k++)
+        light->radiance[k] /= by * by;
+}
+
+static void brighten(scene_light *light, float by) {
+    for (int k = 0; k < 3; k++)
+        light->radiance[k] = fminf(light->radiance[k] * by, 1e30f);
+}
+
+static float brightest(const float color[3]) {
+    return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
+
+/* A part of the hue circle round the grey axis: red, green and blue turn into each other. */
+static void turn_hue(scene_light *light, float by) {
+    const float angle = 2 * PI * by, c = cosf(angle), s = sinf(angle), root = sqrtf(1.0f / 3);
+    const float *from = light->radiance, most = brightest(from);
+    const float mean = (from[0] + from[1] + from[2]) / 3;
+    float to[3];
+    for (int k = 0; k < 3; k++) {
+        const float across = root * (from[(k + 2) % 3] - from[(k + 1) % 3]);
+        to[k] = fmaxf(0, from[k] * c + across * s + mean * (1 - c));
+    }
+    const float scale = brightest(to) > 0 ? most / brightest(to) : 1;
+    for (int k = 0; k < 3; k++)
+        light->radiance[k] = to[k] * scale;
+}
+
+static void make_paler(scene_light *light, float by) {
+    const float most = brightest(light->radiance);
+    for (int k = 0; k < 3; k++) {
+        const float moved = light->radiance[k] + by * (most - light->radiance[k]);
+        light->radiance[k] = fmaxf(0, moved);
+    }
+}
+
+static void resize_lights(view_state *s, int sign) {
+    each_light(s, grow, sign > 0 ? SIZE_STEP : 1 / SIZE_STEP);
+}
+
+static void brighten_lights(view_state *s, int sign) {
+    each_light(s, brighten, sign > 0 ? POWER_STEP : 1 / POWER_STEP);
+}
+
+static void recolor_lights(view_state *s, int sign) {
+    each_light(s, turn_hue, sign > 0 ? HUE_STEP : -HUE_STEP);
+}
+
+static void fade_lights(view_state *s, int sign) {
+    each_light(s, make_paler, sign > 0 ? 0.25f : -1.0f / 3);
+}
+
+static void select_light(view_state *s, int step) {
+    const int count = (int)s->now.light_count;
+    if (count > 0)
+        s->selected =
+            s->selected < 0 ? (step > 0 ? 0 : count - 1) : (s->selected + step + count) % count;
+}
+
+/* As bright and large as the selected one; else warm and of a size that suits the scene. */
+static scene_light model_light(const view_state *s) {
+    if (s->selected >= 0)
+        return s->now.lights[s->selected];
+    const float diagonal = fmaxf(scene_diagonal(s->world), 1e-6f);
+    scene_light light = { .radius = NEW_RADIUS * diagonal };
+    const float color[3] = { 1, 0.6f, 0.25f };
+    for (int k = 0; k < 3; k++)
+        light.radiance[k] = color[k] * lmp_sphere_radiance_from_power(
+                                           NEW_IRRADIANCE * PI * diagonal * diagonal, light.radius);
+    return light;
+}
+
+/* Over the surface under the pointer, or as far away as the camera's target. */
+static void add_light(view_state *s, int unused) {
+    (void)unused;
+    if (s->now.light_count == SCENE_LIGHTS_MAX) {
+        view_say(s, "There are %d lights already: no more fit", SCENE_LIGHTS_MAX);
+        return;
+    }
+    const bool outside = s->x < 0 || s->y < 0;
+    const view_ray ray =
+        view_ray_through(&s->now.camera, s->now.width, s->now.height,
+                         outside ? 0.5 * s->now.width : s->x, outside ? 0.5 * s->now.height : s->y);
+    const view_hit hit = view_pick_surface(&ray, s->world);
+    scene_light light = model_light(s);
+    light.hidden = 0;
+    const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));
+    const float distance = hit.mesh >= 0 ? hit.distance : reach;
+    lmp_vec3 place = vec_add(ray.from, vec_scale(ray.direction, distance));
+    if (hit.mesh >= 0)
+        place = vec_add(place, vec_scale(hit.normal, 3 * light.radius));
+    vec_store(place, light.center);
+    s->selected = (int)s->now.light_count;
+    s->numbers[s->now.light_count] = s->next_number++;
+    s->now.lights[s->now.light_count++] = light;
+    s->lights_edited = true;
+    s->drag = VIEW_DRAG_NONE;
+}
+
+static void remove_light(view_state *s, int unused) {
+    (void)unused;
+    if (s->selected < 0) {
+        view_say(s, "Select a light first: click it, or press Tab");
+        return;
+    }
+    const size_t index = (size_t)s->selected, after = --s->now.light_count - index;
+    memmove(&s->now.lights[index], &s->now.lights[index + 1], after * sizeof *s->now.lights);
+    memset(&s->now.lights[s->now.light_count], 0, sizeof *s->now.lights);
+    memmove(&s->numbers[index], &s->numbers[index + 1], after * sizeof *s->numbers);
+    s->selected = -1;
+    s->drag = VIEW_DRAG_NONE;
+    s->lights_edited = true;
+}
+
+/* --- time ---------------------------------------------------------------------------------------
+ */
+
+static void play(view_state *s, int unused) {
+    (void)unused;
+    s->playing = !s->playing;
+}
+
+static void change_path(view_state *s, int step) {
+    s->path = (s->path + step) % s->path_count;
+    s->playing = true;
+    view_say(s, "Lights: %s", s->path_names[s->path]);
+}
+
+static void step_time(view_state *s, int step) {
+    s->playing = false;
+    s->seconds = fmax(0, s->seconds + step * FRAME_SECONDS);
+}
+
+static void rewind_time(view_state *s, int unused) {
+    (void)unused;
+    s->seconds = 0;
+}
+
+/* --- materials ----------------------------------------------------------------------------------
+ */
+
+static const char *const materials[] = { "lambert:0.8",       "phong:50:0.8",     "ggx:0.1:0.9",
+                                         "ggx:0.35:0.04:0.5", "sgd:chrome-steel", "sgd:brass",
+                                         "sgd:blue-acrylic",  "sgd:red-fabric" };
+
+static void change_material(view_state *s, int step) {
+    const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+    const view_hit hit = view_pick_surface(&ray, s->world);
+    if (hit.mesh < 0) {
+        view_say(s, "Point at an object to change its material");
+        return;
+    }
+    const char *slot = s->world->materials[s->world->meshes[hit.mesh].material].name;
+    const char *current = view_material_of(&s->now, slot);
+    const char *choices[sizeof materials / sizeof *materials + 2] = { NULL };
+    int count = 1, at = 0;
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
+        choices[count++] = materials[i];
+    if (s->dropped[0])
+        choices[count++] = s->dropped;
+    for (int i = 1; i < count; i++)
+        if (current && strcmp(current, choices[i]) == 0)
+            at = i;
+    const char *next = choices[(at + step + count) % count];
+    if (view_set_material(&s->now, slot, next))
+        view_say(s, "%s is %s", slot, next ? next : "as the scene has it");
+    else
+        view_say(s, "%s cannot be replaced: too many materials, or too long a name", slot);
+}
+
+/* --- camera and window --------------------------------------------------------------------------
+ */
+
+static void frame_all(view_state *s, int unused) {
+    (void)unused;
+    const lmp_vec3 lo = vec_load(s->world->minimum), hi = vec_load(s->world->maximum);
+    const float aspect = (float)s->now.width / (float)s->now.height;
+    view_frame(&s->now.camera, vec_scale(vec_add(lo, hi), 0.5f), 0.5f * vec_length(vec_sub(hi, lo)),
+               aspect);
+}
+
+static void frame_light(view_state *s, int unused) {
+    (void)unused;
+    if (s->selected < 0)
+        return;
+    const scene_light *light = &s->now.lights[s->selected];
+    view_frame(&s->now.camera, vec_load(light->center), 10 * light->radius,
+               (float)s->now.width / (float)s->now.height);
+}
+
+static void first_camera(view_state *s, int unused) {
+    (void)unused;
+    s->camera = 0;
+    s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
+}
+
+static void next_camera(view_state *s, int step) {
+    if (s->world->camera_count == 0) {
+        first_camera(s, 0);
+        return;
+    }
+    s->camera = (s->camera + step) % (int)s->world->camera_count;
+    s->now.camera = s->world->cameras[s->camera];
+    view_say(s, "Camera: %s", s->now.camera.name);
+}
+
+static void toggle_help(view_state *s, int unused) {
+    (void)unused;
+    s->help = !s->help;
+}
+
+static void toggle_overlay(view_state *s, int unused) {
+    (void)unused;
+    s->overlay = !s->overlay;
+}
+
+static void step_back(view_state *s, int unused) {
+    (void)unused;
+    if (s->help)
+        s->help = false;
+    else if (s->selected >= 0)
+        s->selected = -1;
+    else
+        view_say(s, "Ctrl+Q closes the window");
+}
+
+enum { WISH_QUIT, WISH_SHOT, WISH_RECORD, WISH_RELOAD, WISH_RESTART, WISH_FULLSCREEN };
+
+static void wish(view_state *s, int what) {
+    bool *const wishes[] = { &s->wishes.quit,   &s->wishes.shot,    &s->wishes.record,
+                             &s->wishes.reload, &s->wishes.restart, &s->wishes.fullscreen };
+    *wishes[what] = true;
+}
+
+const view_key view_keys[] = {
+    { NULL, "Camera", NULL, NULL, 0 },
+    { NULL, "left drag", "orbit", NULL, 0 },
+    { NULL, "Shift + left, middle drag", "pan", NULL, 0 },
+    { NULL, "right drag", "look round", NULL, 0 },
+    { NULL, "wheel", "nearer, farther", NULL, 0 },
+    { NULL, "W A S D  Q E", "fly (Shift: faster)", NULL, 0 },
+    { "f", "F", "frame everything", frame_all, 0 },
+    { "F", "Shift F", "frame the selected light", frame_light, 0 },
+    { "c", "C", "next camera of the scene", next_camera, 1 },
+    { "Home", "Home", "first camera", first_camera, 0 },
+
+    { NULL, "Shading", NULL, NULL, 0 },
+    { "m", "M", "method", change_method, 1 },
+    { "M", NULL, NULL, change_method, -1 },
+    { "Up", "Up  Down", "bands, one by one", change_bands, 1 },
+    { "Down", NULL, NULL, change_bands, -1 },
+    { "Page_Up", "Page Up  Page Down", "bands, ten by ten", change_bands, 10 },
+    { "Page_Down", NULL, NULL, change_bands, -10 },
+    { "g", "G", "window function", change_window, 1 },
+    { "G", NULL, NULL, change_window, -1 },
+    { ",", ",  .", "darker, brighter by 1/3 stop", change_exposure, -1 },
+    { ".", NULL, NULL, change_exposure, 1 },
+    { "0", "0", "exposure to suit the picture", expose, 0 },
+    { "t", "T", "material of the object pointed at", change_material, 1 },
+    { "T", NULL, NULL, change_material, -1 },
+    { NULL, "drop a file", "its material: .binary .bsdf .lmpt", NULL, 0 },
+
+    { NULL, "Compare", NULL, NULL, 0 },
+    { "v", "V", "split; drag the divider", split, GPU_SPLIT_DIVIDED },
+    { "x", "X", "difference of both sides", split, GPU_SPLIT_DIFFERENCE },
+    { "y", "Y", "swap both sides", swap_sides, 0 },
+
+    { NULL, "Lights", NULL, NULL, 0 },
+    { NULL, "left drag on one", "move it (wheel: in depth)", NULL, 0 },
+    { "Tab", "Tab", "select the next", select_light, 1 },
+    { "Shift+Tab", NULL, NULL, select_light, -1 },
+    { "n", "N", "new, over what is pointed at", add_light, 0 },
+    { "Delete", "Delete", "remove the selected", remove_light, 0 },
+    { "Backspace", NULL, NULL, remove_light, 0 },
+    { "[", "[  ]", "smaller, larger (same power)", resize_lights, -1 },
+    { "]", NULL, NULL, resize_lights, 1 },
+    { "-", "-  +", "dimmer, brighter", brighten_lights, -1 },
+    { "+", NULL, NULL, brighten_lights, 1 },
+    { "=", NULL, NULL, brighten_lights, 1 },
+    { "h", "H", "hue", recolor_lights, 1 },
+    { "H", NULL, NULL, recolor_lights, -1 },
+    { "j", "J  Shift J", "paler, purer", fade_lights, 1 },
+    { "J", NULL, NULL, fade_lights, -1 },
+    { NULL, "", "none selected: all of them", NULL, 0 },
+
+    { NULL, "Time", NULL, NULL, 0 },
+    { "space", "Space", "play, pause", play, 0 },
+    { "o", "O", "next path: orbit, bounce, …", change_path, 1 },
+    { "Left", "Left  Right", "one frame back, forward", step_time, -1 },
+    { "Right", NULL, NULL, step_time, 1 },
+    { "b", "B", "back to the start", rewind_time, 0 },
+
+    { NULL, "Window", NULL, NULL, 0 },
+    { "F12", "F12  P", "screenshot with its settings", wish, WISH_SHOT },
+    { "p", NULL, NULL, wish, WISH_SHOT },
+    { "r", "R", "record numbered frames", wish, WISH_RECORD },
+    { "i", "I", "figures on, off", toggle_overlay, 0 },
+    { "F5", "F5", "read the scene again", wish, WISH_RELOAD },
+    { "Shift+F5", "Shift F5", "start the graphics anew", wish, WISH_RESTART },
+    { "F11", "F11", "full screen", wish, WISH_FULLSCREEN },
+    { "F1", "F1  ?", "this help", toggle_help, 0 },
+    { "?", NULL, NULL, toggle_help, 0 },
+    { "Escape", "Escape", "close the help, select nothing", step_back, 0 },
+    { "Ctrl+Q", "Ctrl Q", "quit", wish, WISH_QUIT },
+    { NULL, NULL, NULL, NULL, 0 },
+};

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/script.h"
+#include "app/file/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_LIMIT ((size_t)256 << 10)
+enum { WORDS_MAX = 5 };
+
+typedef struct words {
+    const char *text[WORDS_MAX];
+    int count;
+    double numbers[WORDS_MAX]; /* of words that are numbers */
+    bool is_number[WORDS_MAX];
+} words;
+
+/* Cuts a line at blanks; a file's name, the last word of drop and shot, may hold some. */
+static void split_words(char *line, words *w) {
+    *w = (words) { .count = 0 };
+    for (char *at = line + strspn(line, " \t"); *at && w->count < WORDS_MAX;) {
+        const bool rest =
+            w->count == 2 && (strcmp(w->text[1], "drop") == 0 || strcmp(w->text[1], "shot") == 0);
+        char *end = rest ? at + strlen(at) : at + strcspn(at, " \t");
+        w->text[w->count] = at;
+        w->is_number[w->count] = cli_number(at, (size_t)(end - at), &w->numbers[w->count]);
+        w->count++;
+        at = end + strspn(end, " \t");
+        *end = '\0';
+    }
+}
+
+static bool numbers_at(const words *w, int first, int count) {
+    for (int i = first; i < first + count; i++)
+        if (i >= w->count || !w->is_number[i])
+            return false;
+    return w->count == first + count;
+}
+
+static bool find_button(const char *name, view_button *button) {
+    static const char *const names[] = { "left", "middle", "right" };
+    for (int i = 0; i < 3; i++)
+        if (strcmp(names[i], name) == 0) {
+            *button = (view_button)i;
+            return true;
+        }
+    return false;
+}
+
+/* The event of the words after the time; false if they make none. */
+static bool read_event(const words *w, view_script_line *line) {
+    view_event *e = &line->event;
+    const char *what = w->text[1];
+    if (strcmp(what, "move") == 0 || strcmp(what, "size") == 0) {
+        e->kind = what[0] == 'm' ? VIEW_MOVE : VIEW_SIZE;
+        e->x = w->numbers[2];
+        e->y = w->numbers[3];
+        return numbers_at(w, 2, 2) &&
+               (e->kind == VIEW_MOVE || (e->x >= 1 && e->y >= 1 && e->x <= 8192 && e->y <= 8192));
+    }
+    if (strcmp(what, "scroll") == 0) {
+        e->kind = VIEW_SCROLL;
+        e->y = w->numbers[2];
+        return numbers_at(w, 2, 1);
+    }
+    if (w->count < 3 || w->count > 4)
+        return false;
+    e->shift = w->count == 4 && strcmp(w->text[3], "shift") == 0;
+    if (w->count == 4 && !e->shift)
+        return false;
+    if (strcmp(what, "press") == 0 || strcmp(what, "release") == 0) {
+        e->kind = what[0] == 'p' ? VIEW_PRESS : VIEW_RELEASE;
+        return find_button(w->text[2], &e->button);
+    }
+    if (strcmp(what, "hold") == 0 || strcmp(what, "free") == 0) {
+        e->kind = what[0] == 'h' ? VIEW_HOLD : VIEW_FREE;
+        e->letter = w->text[2][0];
+        return strlen(w->text[2]) == 1 && strchr("wasdqe", e->letter);
+    }
+    if (w->count != 3 || strlen(w->text[2]) >= sizeof line->text)
+        return false;
+    strcpy(line->text, w->text[2]);
+    if (strcmp(what, "shot") == 0) {
+        line->kind = VIEW_SCRIPT_SHOT;
+        return true;
+    }
+    e->kind = what[0] == 'k' ? VIEW_KEY : VIEW_DROP;
+    if (strcmp(what, "drop") == 0)
+        return true;
+    for (const view_key *key = view_keys; key->key || key->shown; key++)
+        if (key->key && strcmp(key->key, line->text) == 0)
+            return strcmp(what, "key") == 0;
+    return false;
+}
+
+static bool read_lines(const char *path, char *text, view_script *script, cli_error *error) {
+    int number = 0;
+    double before = 0;
+    for (char *line = text, *next; line; line = next) {
+        next = strchr(line, '\n');
+        if (next)
+            *next++ = '\0';
+        number++;
+        line[strcspn(line, "#\r")] = '\0';
+        words w;
+        split_words(line, &w);
+        if (w.count == 0)
+            continue;
+        view_script_line *to = &script->lines[script->count];
+        if (w.count < 2 || !w.is_number[0] || !(w.numbers[0] >= before))
+            return cli_fail(error, path,
+                            "line %d is no event: SECONDS, not less than before, then "
+                            "what happens",
+                            number);
+        to->seconds = before = w.numbers[0];
+        if (!read_event(&w, to))
+            return cli_fail(error, path, "line %d: %s is not understood as it is written", number,
+                            w.text[1]);
+        script->count++;
+    }
+    /* texts do not move any more */
+    for (size_t i = 0; i < script->count; i++)
+        script->lines[i].event.text = script->lines[i].text;
+    return true;
+}
+
+bool view_script_read(const char *path, view_script *script, cli_error *error) {
+    void *data;
+    size_t size, lines = 1;
+    *script = (view_script) { .count = 0 };
+    if (!file_read(path, FILE_LIMIT, &data, &size, error))
+        return false;
+    char *text = data;
+    for (size_t i = 0; i < size; i++)
+        lines += text[i] == '\n';
+    bool ok = strlen(text) == size || cli_fail(error, path, "is no text");
+    /* an event has at least "0 key m" */
+    script->lines = calloc(lines < size / 7 + 1 ? lines : size / 7 + 1, sizeof *script->lines);
+    ok = ok && (script->lines || cli_fail(error, path, "out of memory")) &&
+         read_lines(path, text, script, error);
+    free(data);
+    if (!ok)
+        view_script_free(script);
+    return ok;
+}
+
+void view_script_free(view_script *script) {
+    free(script->lines);
+    *script = (view_script) { .count = 0 };
+}

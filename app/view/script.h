@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* script.h - a file of timed events (docs/viewer.md), for demonstrations that repeat. */
+#ifndef LAMPION_VIEW_SCRIPT_H
+#define LAMPION_VIEW_SCRIPT_H
+
+#include "app/view/state.h"
+
+typedef enum view_script_kind { VIEW_SCRIPT_EVENT, VIEW_SCRIPT_SHOT } view_script_kind;
+
+typedef struct view_script_line {
+    double seconds;
+    view_script_kind kind;
+    view_event event;
+    char text[VIEW_PATH_SIZE]; /* what event.text points at; the file of a shot */
+} view_script_line;
+
+typedef struct view_script {
+    view_script_line *lines; /* by rising time */
+    size_t count;
+} view_script;
+
+bool view_script_read(const char *path, view_script *script, cli_error *error);
+void view_script_free(view_script *script);
+
+#endif

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/settings.h"
+#include "app/file/file.h"
+#include "app/image/image.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const view_split_names[GPU_SPLITS + 1] = { "none", "divided", "difference", NULL };
+
+int view_bands_max(gpu_method method) {
+    const int cpu = device_bands_max(DEVICE_CPU, method),
+              gpu = device_bands_max(DEVICE_GPU, method);
+    return cpu > gpu ? cpu : gpu;
+}
+
+/* --- materials ----------------------------------------------------------------------------------
+ */
+
+static int find_slot(const view_settings *s, const char *slot) {
+    const size_t length = strlen(slot);
+    for (int i = 0; i < s->material_count; i++)
+        if (strncmp(s->materials[i], slot, length) == 0 && s->materials[i][length] == '=')
+            return i;
+    return -1;
+}
+
+const char *view_material_of(const view_settings *s, const char *slot) {
+    const int index = find_slot(s, slot);
+    return index < 0 ? NULL : s->materials[index] + strlen(slot) + 1;
+}
+
+bool view_set_material(view_settings *s, const char *slot, const char *name) {
+    int index = find_slot(s, slot);
+    if (!name) {
+        if (index >= 0) {
+            s->material_count--;
+            memmove(s->materials[index], s->materials[index + 1],
+                    (size_t)(s->material_count - index) * sizeof s->materials[0]);
+            memset(s->materials[s->material_count], 0, sizeof s->materials[0]);
+        }
+        return true;
+    }
+    if (strchr(slot, '=') || strlen(slot) + strlen(name) + 2 > sizeof s->materials[0] ||
+        (index < 0 && s->material_count == GPU_TABLES_MAX))
+        return false;
+    if (index < 0)
+        index = s->material_count++;
+    memset(s->materials[index], 0, sizeof s->materials[0]);
+    snprintf(s->materials[index], sizeof s->materials[0], "%s=%s", slot, name);
+    return true;
+}
+
+/* --- to JSON ------------------------------------------------------------------------------------
+ */
+
+static void add_floats(cJSON *object, const char *name, const float *values, int count) {
+    cJSON *array = cJSON_AddArrayToObject(object, name);
+    for (int i = 0; i < count; i++)
+        cJSON_AddItemToArray(array, cJSON_CreateNumber((double)values[i]));
+}
+
+static void add_camera(cJSON *root, const scene_camera *camera) {
+    cJSON *object = cJSON_AddObjectToObject(root, "camera");
+    add_floats(object, "eye", camera->eye, 3);
+    add_floats(object, "target", camera->target, 3);
+    add_floats(object, "up", camera->up, 3);
+    cJSON_AddNumberToObject(object, "fov", (double)camera->fov);
+}
+
+static void add_look(cJSON *array, const view_look *look) {
+    cJSON *object = cJSON_CreateObject();
+    cJSON_AddStringToObject(object, "method", gpu_method_names[look->method]);
+    cJSON_AddNumberToObject(object, "bands", look->bands);
+    cJSON_AddStringToObject(object, "window", device_window_names[look->window]);
+    cJSON_AddItemToArray(array, object);
+}
+
+static void add_light(cJSON *array, const scene_light *light) {
+    cJSON *object = cJSON_CreateObject();
+    add_floats(object, "position", light->center, 3);
+    cJSON_AddNumberToObject(object, "radius", (double)light->radius);
+    add_floats(object, "radiance", light->radiance, 3);
+    if (light->hidden)
+        cJSON_AddTrueToObject(object, "hidden");
+    cJSON_AddItemToArray(array, object);
+}
+
+cJSON *view_settings_to_json(const view_settings *s) {
+    cJSON *root = cJSON_CreateObject();
+    cJSON_AddStringToObject(root, "scene", s->scene);
+    cJSON_AddNumberToObject(root, "width", s->width);
+    cJSON_AddNumberToObject(root, "height", s->height);
+    cJSON_AddNumberToObject(root, "samples", s->samples);
+    cJSON_AddNumberToObject(root, "exposure", (double)s->exposure);
+    add_floats(root, "background", s->background, 3);
+    add_camera(root, &s->camera);
+    cJSON *looks = cJSON_AddArrayToObject(root, "looks");
+    add_look(looks, &s->looks[0]);
+    add_look(looks, &s->looks[1]);
+    cJSON_AddStringToObject(root, "split", view_split_names[s->split]);
+    cJSON_AddNumberToObject(root, "divider", (double)s->divider);
+    cJSON *materials = cJSON_AddArrayToObject(root, "materials");
+    for (int i = 0; i < s->material_count; i++)
+        cJSON_AddItemToArray(materials, cJSON_CreateString(s->materials[i]));
+    cJSON *lights = cJSON_AddArrayToObject(root, "lights");
+    for (size_t i = 0; i < s->light_count; i++)
+        add_light(lights, &s->lights[i]);
+    return root;
+}
+
+/* --- from JSON ----------------------------------------------------------------------------------
+ */
+
+static const cJSON *member(const cJSON *object, const char *name) {
+    return cJSON_GetObjectItemCaseSensitive(object, name);
+}
+
+static bool read_number(const cJSON *object, const char *name, double minimum, double maximum,
+                        double *value) {
+    const cJSON *item = member(object, name);
+    if (!cJSON_IsNumber(item) || !(item->valuedouble >= minimum) || !(item->valuedouble <= maximum))
+        return false;
+    *value = item->valuedouble;
+    return true;
+}
+
+static bool read_int(const cJSON *object, const char *name, int minimum, int maximum, int *value) {
+    double number;
+    if (!read_number(object, name, minimum, maximum, &number) || number != floor(number))
+        return false;
+    *value = (int)number;
+    return true;
+}
+
+static bool read_float(const cJSON *object, const char *name, double minimum, double maximum,
+                       float *value) {
+    double number;
+    if (!read_number(object, name, minimum, maximum, &number))
+        return false;
+    *value = (float)number;
+    return true;
+}
+
+static bool read_floats(const cJSON *object, const char *name, double minimum, double maximum,
+                        float value[3]) {
+    const cJSON *array = member(object, name), *item;
+    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != 3)
+        return false;
+    cJSON_ArrayForEach(item, array) {
+        if (!cJSON_IsNumber(item) || !(item->valuedouble >= minimum) ||
+            !(item->valuedouble <= maximum))
+            return false;
+        *value++ = (float)item->valuedouble;
+    }
+    return true;
+}
+
+static bool read_choice(const cJSON *object, const char *name, const char *const *choices,
+                        int *value) {
+    const cJSON *item = member(object, name);
+    for (int i = 0; cJSON_IsString(item) && choices[i]; i++)
+        if (strcmp(choices[i], item->valuestring) == 0) {
+            *value = i;
+            return true;
+        }
+    return false;
+}
+
+static bool read_camera(const cJSON *root, scene_camera *camera) {
+    const double far = (double)LMP_LENGTH_MAX;
+    const cJSON *object = member(root, "camera");
+    return read_floats(object, "eye", -far, far, camera->eye) &&
+           read_floats(object, "target", -far, far, camera->target) &&
+           read_floats(object, "up", -far, far, camera->up) &&
+           read_float(object, "fov", 0.001, 3.1, &camera->fov);
+}
+
+static bool read_look(const cJSON *object, view_look *look) {
+    int method, window;
+    if (!read_choice(object, "method", gpu_method_names, &method) ||
+        !read_choice(object, "window", device_window_names, &window))
+        return false;
+    look->method = (gpu_method)method;
+    look->window = (lmp_window)window;
+    return read_int(object, "bands", 1, view_bands_max(look->method), &look->bands);
+}
+
+static bool read_looks(const cJSON *root, view_look looks[2]) {
+    const cJSON *array = member(root, "looks");
+    return cJSON_IsArray(array) && cJSON_GetArraySize(array) == 2 &&
+           read_look(cJSON_GetArrayItem(array, 0), &looks[0]) &&
+           read_look(cJSON_GetArrayItem(array, 1), &looks[1]);
+}
+
+static bool read_light(const cJSON *object, scene_light *light) {
+    const double far = (double)LMP_LENGTH_MAX, bright = 3e38;
+    light->hidden = cJSON_IsTrue(member(object, "hidden")) ? 1 : 0;
+    return read_floats(object, "position", -far, far, light->center) &&
+           read_float(object, "radius", 0, far, &light->radius) && light->radius > 0 &&
+           read_floats(object, "radiance", 0, bright, light->radiance);
+}
+
+static bool read_lights(const cJSON *root, view_settings *s) {
+    const cJSON *array = member(root, "lights"), *item;
+    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > SCENE_LIGHTS_MAX)
+        return false;
+    cJSON_ArrayForEach(item,
+                       array) if (!read_light(item, &s->lights[s->light_count++])) return false;
+    return true;
+}
+
+static bool read_materials(const cJSON *root, view_settings *s) {
+    const cJSON *array = member(root, "materials"), *item;
+    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > GPU_TABLES_MAX)
+        return false;
+    cJSON_ArrayForEach(item, array) {
+        const char *text = cJSON_IsString(item) ? item->valuestring : "";
+        const char *equals = strchr(text, '=');
+        char slot[SCENE_NAME_SIZE] = "";
+        if (!equals || (size_t)(equals - text) >= sizeof slot)
+            return false;
+        memcpy(slot, text, (size_t)(equals - text));
+        if (!view_set_material(s, slot, equals + 1))
+            return false;
+    }
+    return true;
+}
+
+static bool read_scene(const cJSON *root, char name[VIEW_PATH_SIZE]) {
+    const cJSON *item = member(root, "scene");
+    if (!cJSON_IsString(item) || strlen(item->valuestring) >= VIEW_PATH_SIZE)
+        return false;
+    strcpy(name, item->valuestring);
+    return true;
+}
+
+bool view_settings_from_json(const cJSON *root, const char *subject, view_settings *s,
+                             cli_error *error) {
+    memset(s, 0, sizeof *s);
+    int split = 0;
+    const char *wrong = !cJSON_IsObject(root)                                          ? "settings"
+                        : !read_scene(root, s->scene)                                  ? "scene"
+                        : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
+                        : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
+                        : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
+                        : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
+                        : !read_floats(root, "background", 0, 1e30, s->background) ? "background"
+                        : !read_camera(root, &s->camera)                           ? "camera"
+                        : !read_looks(root, s->looks)                              ? "looks"
+                        : !read_choice(root, "split", view_split_names, &split)    ? "split"
+                        : !read_float(root, "divider", 0, 1, &s->divider)          ? "divider"
+                        : !read_materials(root, s)                                 ? "materials"
+                        : !read_lights(root, s)                                    ? "lights"
+                                                                                   : NULL;
+    if (!wrong && (long)s->width * s->height > IMAGE_PIXELS_MAX)
+        wrong = "width";
+    s->split = (gpu_split)split;
+    if (!wrong)
+        return true;
+    memset(s, 0, sizeof *s);
+    return cli_fail(error, subject, "has settings whose %s make no sense", wrong);
+}
+
+/* --- screenshots --------------------------------------------------------------------------------
+ */
+
+#define SHOT_KEY "lampion"
+
+bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const char *path,
+                     cli_error *error) {
+    cJSON *root = view_settings_to_json(s);
+    char *text = cJSON_PrintUnformatted(root);
+    cJSON_Delete(root);
+    if (!text)
+        return cli_fail(error, path, "out of memory");
+    const image_text chunk = { SHOT_KEY, text };
+    const bool ok = image_write_png8_text(rgb8, s->width, s->height, &chunk, path, error);
+    cJSON_free(text);
+    return ok;
+}
+
+bool view_read_shot(const char *path, view_settings *s, cli_error *error) {
+    memset(s, 0, sizeof *s);
+    char *text = NULL;
+    if (!image_read_png_text(path, SHOT_KEY, &text, error))
+        return false;
+    cJSON *root = file_parse_json(path, text, strlen(text), error);
+    free(text);
+    const bool ok = root && view_settings_from_json(root, path, s, error);
+    cJSON_Delete(root);
+    return ok;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* settings.h - everything that decides a picture of the viewer, and the same as JSON: in the text
+ * chunk of a screenshot, and for `lampion render --from` (docs/viewer.md). */
+#ifndef LAMPION_VIEW_SETTINGS_H
+#define LAMPION_VIEW_SETTINGS_H
+
+#include "app/device/device.h"
+
+#define VIEW_PATH_SIZE     1024
+#define VIEW_MATERIAL_SIZE (VIEW_PATH_SIZE + SCENE_NAME_SIZE)
+#define VIEW_SAMPLES_MAX   1024
+
+/* How to shade a side. */
+typedef struct view_look {
+    gpu_method method;
+    int bands;
+    lmp_window window;
+} view_look;
+
+typedef struct view_settings {
+    char scene[VIEW_PATH_SIZE];
+    int width, height;
+    int samples;    /* a pixel */
+    float exposure; /* a factor on radiance */
+    float background[3];
+    scene_camera camera;
+    view_look looks[2]; /* the second one of a split picture */
+    gpu_split split;
+    float divider; /* a part of the width */
+    int material_count;
+    char materials[GPU_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* SLOT=MATERIAL */
+    size_t light_count;
+    scene_light lights[SCENE_LIGHTS_MAX];
+} view_settings;
+
+extern const char *const view_split_names[GPU_SPLITS + 1]; /* NULL-terminated */
+
+/* Finds out whether a method takes so many bands where this machine shades it. */
+int view_bands_max(gpu_method method);
+
+/* Has materials named `slot` replaced by `name`, or with NULL by nothing. False if there is no room
+ * or the names are too long. */
+bool view_set_material(view_settings *settings, const char *slot, const char *name);
+
+/* What replaces it, or NULL. */
+const char *view_material_of(const view_settings *settings, const char *slot);
+
+struct cJSON;
+struct cJSON *view_settings_to_json(const view_settings *settings);
+
+/* Every number is checked; *settings is zero on failure, whose line names the `subject`. */
+bool view_settings_from_json(const struct cJSON *root, const char *subject, view_settings *settings,
+                             cli_error *error);
+
+/* A picture with its settings in a text chunk, and the settings of such a picture. */
+bool view_write_shot(const view_settings *settings, const unsigned char *rgb8, const char *path,
+                     cli_error *error);
+bool view_read_shot(const char *path, view_settings *settings, cli_error *error);
+
+#endif

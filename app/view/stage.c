@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/stage.h"
+#include "app/device/materials.h"
+#include "app/view/draft.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* From so many triangles on a software device draws a coarser scene while things move. */
+enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 500, RESPONSES = 8 };
+
+/* A response that has been made. */
+typedef struct made_response {
+    int bands;
+    lmp_window window;
+    lmp_response *response;
+    unsigned used; /* when, by the stage's clock */
+} made_response;
+
+/* One side's renderers, and the materials that they have been given. */
+typedef struct side {
+    gpu_renderer *fine, *coarse;
+    device_materials materials;
+    char (*names)[VIEW_MATERIAL_SIZE]; /* of them, GPU_TABLES_MAX allocated */
+    int count, bands;
+    lmp_window window;
+} side;
+
+struct view_stage {
+    gpu_context context;
+    const scene *world;
+    scene draft; /* without vertices: the scene itself serves */
+    gpu_screen *screen;
+    side sides[2];
+    made_response responses[RESPONSES];
+    unsigned clock;
+};
+
+view_stage *view_stage_create(const gpu_context *context, const scene *world, cli_error *error) {
+    view_stage *s = calloc(1, sizeof *s);
+    if (!s) {
+        cli_fail(error, NULL, "out of memory");
+        return NULL;
+    }
+    s->context = *context;
+    s->world = world;
+    s->screen = gpu_screen_create(error);
+    if (!s->screen) {
+        view_stage_destroy(s);
+        return NULL;
+    }
+    return s;
+}
+
+static void close_side(side *own) {
+    gpu_renderer_destroy(own->fine);
+    gpu_renderer_destroy(own->coarse);
+    device_materials_free(&own->materials);
+    free(own->names);
+    memset(own, 0, sizeof *own);
+}
+
+void view_stage_destroy(view_stage *s) {
+    if (!s)
+        return;
+    close_side(&s->sides[0]);
+    close_side(&s->sides[1]);
+    for (int i = 0; i < RESPONSES; i++)
+        lmp_response_destroy(s->responses[i].response);
+    gpu_screen_destroy(s->screen);
+    view_draft_free(&s->draft);
+    free(s);
+}
+
+gpu_screen *view_stage_screen(view_stage *s) {
+    return s->screen;
+}
+
+/* --- responses ----------------------------------------------------------------------------------
+ */
+
+static made_response *find_response(view_stage *s, const view_look *look) {
+    for (int i = 0; i < RESPONSES; i++)
+        if (s->responses[i].response && s->responses[i].bands == look->bands &&
+            s->responses[i].window == look->window)
+            return &s->responses[i];
+    return NULL;
+}
+
+/* Makes it, in place of the one that was used longest ago. */
+static const lmp_response *get_response(view_stage *s, const view_look *look, cli_error *error) {
+    made_response *made = find_response(s, look);
+    if (!made) {
+        lmp_response *response = NULL;
+        if (!device_response(look->bands, look->window, &response, error))
+            return NULL;
+        made = &s->responses[0];
+        for (int i = 1; i < RESPONSES; i++)
+            if (s->responses[i].used < made->used)
+                made = &s->responses[i];
+        lmp_response_destroy(made->response);
+        *made = (made_response) { look->bands, look->window, response, 0 };
+    }
+    made->used = ++s->clock;
+    return made->response;
+}
+
+/* --- materials ----------------------------------------------------------------------------------
+ */
+
+static bool has_materials(const side *own, const view_settings *settings, const view_look *look) {
+    return own->count == settings->material_count &&
+           (own->count == 0 || (own->bands == look->bands && own->window == look->window &&
+                                memcmp(own->names, settings->materials,
+                                       (size_t)own->count * sizeof *own->names) == 0));
+}
+
+static bool give_tables(const view_stage *s, const device_materials *all, gpu_renderer *renderer,
+                        cli_error *error) {
+    const size_t count = s->world->material_count;
+    int *none = NULL;
+    if (!renderer)
+        return true;
+    if (!all->uses) {
+        none = malloc((count + 1) * sizeof *none);
+        if (!none)
+            return cli_fail(error, NULL, "out of memory");
+        memset(none, 0xff, (count + 1) * sizeof *none);
+    }
+    const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
+                                   all->uses ? all->uses : none, count, error);
+    free(none);
+    return ok;
+}
+
+static bool settle_materials(view_stage *s, side *own, const view_settings *settings,
+                             const view_look *look, cli_error *error) {
+    device_materials fresh = { .count = 0 };
+    cli_list list = { .count = settings->material_count };
+    if (has_materials(own, settings, look))
+        return true;
+    if (!own->names && !(own->names = calloc(GPU_TABLES_MAX, sizeof *own->names)))
+        return cli_fail(error, NULL, "out of memory");
+    for (int i = 0; i < list.count; i++)
+        list.items[i] = settings->materials[i];
+    const bool ok = device_materials_open(&list, s->world, &fresh, error) &&
+                    device_materials_bake(&fresh, look->bands, look->window, error) &&
+                    give_tables(s, &fresh, own->fine, error) &&
+                    give_tables(s, &fresh, own->coarse, error);
+    if (!ok) { /* as before, for what is drawn next */
+        cli_error ignored;
+        give_tables(s, &own->materials, own->fine, &ignored);
+        give_tables(s, &own->materials, own->coarse, &ignored);
+        device_materials_free(&fresh);
+        return false;
+    }
+    device_materials_free(&own->materials);
+    own->materials = fresh;
+    own->count = settings->material_count;
+    own->bands = look->bands;
+    own->window = look->window;
+    memcpy(own->names, settings->materials, (size_t)own->count * sizeof *own->names);
+    return true;
+}
+
+const char *view_stage_pending(view_stage *s, const view_settings *settings) {
+    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    for (int i = 0; i < sides; i++) {
+        const view_look *look = &settings->looks[i];
+        if (settings->material_count > 0 && !has_materials(&s->sides[i], settings, look))
+            return "projecting the materials …";
+        if (look->method == GPU_METHOD_PREINTEGRATED && !find_response(s, look))
+            return "integrating the lobes …";
+    }
+    return NULL;
+}
+
+/* --- drawing ------------------------------------------------------------------------------------
+ */
+
+static bool open_side(view_stage *s, side *own, bool coarse, cli_error *error) {
+    gpu_renderer **renderer = coarse ? &own->coarse : &own->fine;
+    if (*renderer)
+        return true;
+    const bool simplify =
+        coarse && s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
+    if (simplify && !s->draft.vertices && !view_draft_make(s->world, DRAFT_CELLS, &s->draft, error))
+        return false;
+    *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
+    return *renderer && (own->count == 0 || give_tables(s, &own->materials, *renderer, error));
+}
+
+/* How to draw a side: how many samples come from what samples counts. */
+static bool fill_frame(view_stage *s, const view_settings *settings, const view_look *look,
+                       int divisor, gpu_frame *frame, device_kind *device, cli_error *error) {
+    *device = device_choose(DEVICE_AUTO, &s->context, look->method, look->bands);
+    *frame = (gpu_frame) {
+        .width = settings->width > divisor ? settings->width / divisor : 1,
+        .height = settings->height > divisor ? settings->height / divisor : 1,
+        .camera = settings->camera,
+        .method = look->method,
+        .bands = look->bands,
+        .window = look->window,
+        .lights = settings->lights,
+        .light_count = settings->light_count,
+        .samples = divisor > 1 ? 1 : settings->samples,
+        .samples_exposure = settings->exposure,
+        .host = *device == DEVICE_CPU ? device_shade : NULL,
+    };
+    memcpy(frame->background, settings->background, sizeof frame->background);
+    if (look->method == GPU_METHOD_PREINTEGRATED)
+        frame->response = get_response(s, look, error);
+    return look->method != GPU_METHOD_PREINTEGRATED || frame->response;
+}
+
+/* Sample `index`, or with -1 all. */
+static bool draw(view_stage *s, const view_settings *settings, int divisor, int index,
+                 view_figures *figures, cli_error *error) {
+    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    memset(figures, 0, sizeof *figures);
+    for (int i = 0; i < sides; i++) {
+        side *own = &s->sides[i];
+        const view_look *look = &settings->looks[i];
+        gpu_frame frame;
+        gpu_times times;
+        device_kind device;
+        if (!open_side(s, own, divisor > 1, error) ||
+            !settle_materials(s, own, settings, look, error) ||
+            !fill_frame(s, settings, look, divisor, &frame, &device, error))
+            return false;
+        gpu_renderer *renderer = divisor > 1 ? own->coarse : own->fine;
+        if (index < 0 ? !gpu_render(renderer, &frame, &times, error)
+                      : !gpu_refine(renderer, &frame, index, &times, error))
+            return false;
+        gpu_screen_take(s->screen, renderer, i, settings->exposure);
+        figures->times.gbuffer += times.gbuffer;
+        figures->times.shade += times.shade;
+        figures->times.transfer += times.transfer;
+        figures->times.total += times.total;
+        figures->width = frame.width;
+        figures->height = frame.height;
+        if (i == 0)
+            figures->device = device;
+    }
+    return true;
+}
+
+bool view_stage_draw(view_stage *s, const view_settings *settings, view_figures *figures,
+                     cli_error *error) {
+    return draw(s, settings, 1, -1, figures, error);
+}
+
+bool view_stage_draft(view_stage *s, const view_settings *settings, int divisor,
+                      view_figures *figures, cli_error *error) {
+    return draw(s, settings, divisor, 0, figures, error);
+}
+
+bool view_stage_refine(view_stage *s, const view_settings *settings, int index,
+                       view_figures *figures, cli_error *error) {
+    return draw(s, settings, 1, index, figures, error);
+}
+
+bool view_stage_expose(view_stage *s, const view_settings *settings, float *exposure,
+                       cli_error *error) {
+    gpu_frame frame;
+    device_kind device;
+    image picture;
+    side *own = &s->sides[0];
+    if (!open_side(s, own, false, error) ||
+        !settle_materials(s, own, settings, &settings->looks[0], error) ||
+        !fill_frame(s, settings, &settings->looks[0], 1, &frame, &device, error))
+        return false;
+    frame.samples = 1;
+    if (!gpu_render(own->fine, &frame, NULL, error) || !gpu_read_image(own->fine, &picture, error))
+        return false;
+    *exposure = image_auto_exposure(&picture);
+    image_free(&picture);
+    return true;
+}
+
+static gpu_layout layout_of(const view_settings *settings, float line) {
+    return (gpu_layout) { settings->width, settings->height, settings->split, settings->divider,
+                          line };
+}
+
+void view_stage_show(view_stage *s, const view_settings *settings, float line) {
+    const gpu_layout layout = layout_of(settings, line);
+    gpu_screen_show(s->screen, &layout);
+}
+
+bool view_stage_read(view_stage *s, const view_settings *settings, unsigned char *rgb8,
+                     cli_error *error) {
+    const gpu_layout layout = layout_of(settings, 0);
+    return gpu_screen_read(s->screen, &layout, rgb8, error);
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT */
+#define GLFW_INCLUDE_NONE
+#include "app/view/window.h"
+
+#include <GLFW/glfw3.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct view_window {
+    GLFWwindow *glfw;
+    view_state *state;
+    int place[4]; /* before it filled the screen: x, y, width, height */
+};
+
+static char last_complaint[256];
+
+static void on_error(int code, const char *text) {
+    (void)code;
+    snprintf(last_complaint, sizeof last_complaint, "%s", text);
+}
+
+static view_state *state_of(GLFWwindow *glfw) {
+    const view_window *window = glfwGetWindowUserPointer(glfw);
+    return window->state;
+}
+
+/* Pixels for a unit of the pointer's coordinates. */
+static double pixels_a_unit(GLFWwindow *glfw) {
+    int units, pixels, ignored;
+    glfwGetWindowSize(glfw, &units, &ignored);
+    glfwGetFramebufferSize(glfw, &pixels, &ignored);
+    return units > 0 && pixels > 0 ? (double)pixels / units : 1;
+}
+
+/* --- input --------------------------------------------------------------------------------------
+ */
+
+static void on_move(GLFWwindow *glfw, double x, double y) {
+    const double scale = pixels_a_unit(glfw);
+    view_handle(state_of(glfw),
+                &(view_event) { .kind = VIEW_MOVE, .x = x * scale, .y = y * scale });
+}
+
+static void on_button(GLFWwindow *glfw, int button, int action, int modifiers) {
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE)
+        return;
+    const view_button which = button == GLFW_MOUSE_BUTTON_LEFT    ? VIEW_LEFT
+                              : button == GLFW_MOUSE_BUTTON_RIGHT ? VIEW_RIGHT
+                                                                  : VIEW_MIDDLE;
+    view_handle(state_of(glfw),
+                &(view_event) { .kind = action == GLFW_PRESS ? VIEW_PRESS : VIEW_RELEASE,
+                                .button = which,
+                                .shift = modifiers & GLFW_MOD_SHIFT });
+}
+
+static void on_scroll(GLFWwindow *glfw, double x, double y) {
+    (void)x;
+    view_handle(state_of(glfw), &(view_event) { .kind = VIEW_SCROLL, .y = y });
+}
+
+/* Letters and signs as they are typed, whatever the keyboard. */
+static void on_character(GLFWwindow *glfw, unsigned character) {
+    const char text[2] = { character < 128 ? (char)character : '\0', '\0' };
+    if (character > ' ' && text[0])
+        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_KEY, .text = text });
+}
+
+/* Flying goes by the place of the keys on the keyboard. */
+static char flying_letter(int key) {
+    static const struct {
+        int key;
+        char letter;
+    } letters[] = { { GLFW_KEY_W, 'w' }, { GLFW_KEY_A, 'a' }, { GLFW_KEY_S, 's' },
+                    { GLFW_KEY_D, 'd' }, { GLFW_KEY_Q, 'q' }, { GLFW_KEY_E, 'e' } };
+    for (size_t i = 0; i < sizeof letters / sizeof *letters; i++)
+        if (letters[i].key == key)
+            return letters[i].letter;
+    return '\0';
+}
+
+static const char *name_of(int key) {
+    static const struct {
+        int key;
+        const char *name;
+    } names[] = { { GLFW_KEY_F1, "F1" },           { GLFW_KEY_F5, "F5" },
+                  { GLFW_KEY_F11, "F11" },         { GLFW_KEY_F12, "F12" },
+                  { GLFW_KEY_UP, "Up" },           { GLFW_KEY_DOWN, "Down" },
+                  { GLFW_KEY_LEFT, "Left" },       { GLFW_KEY_RIGHT, "Right" },
+                  { GLFW_KEY_PAGE_UP, "Page_Up" }, { GLFW_KEY_PAGE_DOWN, "Page_Down" },
+                  { GLFW_KEY_HOME, "Home" },       { GLFW_KEY_TAB, "Tab" },
+                  { GLFW_KEY_DELETE, "Delete" },   { GLFW_KEY_BACKSPACE, "Backspace" },
+                  { GLFW_KEY_ESCAPE, "Escape" },   { GLFW_KEY_SPACE, "space" } };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i].key == key)
+            return names[i].name;
+    return NULL;
+}
+
+static void on_key(GLFWwindow *glfw, int key, int place, int action, int modifiers) {
+    (void)place;
+    view_state *state = state_of(glfw);
+    const bool shift = modifiers & GLFW_MOD_SHIFT, control = modifiers & GLFW_MOD_CONTROL;
+    const char letter = flying_letter(key);
+    const char *typed = glfwGetKeyName(key, 0);
+    if (control && action == GLFW_PRESS && typed && strcmp(typed, "q") == 0) {
+        view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = "Ctrl+Q" });
+        return;
+    }
+    if (letter && action != GLFW_REPEAT && !(control && action == GLFW_PRESS))
+        view_handle(state, &(view_event) { .kind = action == GLFW_PRESS ? VIEW_HOLD : VIEW_FREE,
+                                           .letter = letter,
+                                           .shift = shift });
+    const char *name = name_of(key);
+    if (!name || action == GLFW_RELEASE)
+        return;
+    char text[32];
+    snprintf(text, sizeof text, "%s%s", shift ? "Shift+" : "", name);
+    view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = text });
+}
+
+/* A held key whose release goes elsewhere must not fly on for ever. */
+static void on_focus(GLFWwindow *glfw, int focused) {
+    if (!focused) {
+        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_FREE });
+        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_RELEASE });
+    }
+}
+
+static void on_drop(GLFWwindow *glfw, int count, const char **paths) {
+    /* the pointer moved without telling while the file was dragged */
+    double x, y;
+    glfwGetCursorPos(glfw, &x, &y);
+    on_move(glfw, x, y);
+    for (int i = 0; i < count; i++)
+        view_handle(state_of(glfw), &(view_event) { .kind = VIEW_DROP, .text = paths[i] });
+}
+
+static void on_damage(GLFWwindow *glfw) {
+    state_of(glfw)->wishes.redraw = true;
+}
+
+static void on_close(GLFWwindow *glfw) {
+    state_of(glfw)->wishes.quit = true;
+}
+
+static void listen(GLFWwindow *glfw) {
+    glfwSetCursorPosCallback(glfw, on_move);
+    glfwSetMouseButtonCallback(glfw, on_button);
+    glfwSetScrollCallback(glfw, on_scroll);
+    glfwSetCharCallback(glfw, on_character);
+    glfwSetKeyCallback(glfw, on_key);
+    glfwSetWindowFocusCallback(glfw, on_focus);
+    glfwSetDropCallback(glfw, on_drop);
+    glfwSetWindowCloseCallback(glfw, on_close);
+    glfwSetWindowRefreshCallback(glfw, on_damage);
+}
+
+/* --- the window ---------------------------------------------------------------------------------
+ */
+
+static GLFWwindow *create(const char *title, int width, int height) {
+    const char *debug = getenv("LAMPION_GL_DEBUG");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug != NULL);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    GLFWwindow *glfw = glfwCreateWindow(width, height, title, NULL, NULL);
+    if (glfw)
+        return glfw;
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+    return glfwCreateWindow(width, height, title, NULL, NULL);
+}
+
+view_window *view_window_open(const char *title, int width, int height, view_state *state,
+                              cli_error *error) {
+    view_window *window = calloc(1, sizeof *window);
+    if (!window) {
+        cli_fail(error, NULL, "out of memory");
+        return NULL;
+    }
+    glfwSetErrorCallback(on_error);
+    if (!glfwInit()) {
+        cli_fail(error, NULL, "no display to open a window on (%s): lampion render draws to a file",
+                 last_complaint);
+        free(window);
+        return NULL;
+    }
+    window->state = state;
+    window->glfw = create(title, width, height);
+    if (!window->glfw) {
+        cli_fail(error, NULL, "no window with OpenGL 4.5 (%s): lampion render draws to a file",
+                 last_complaint);
+        glfwTerminate();
+        free(window);
+        return NULL;
+    }
+    glfwSetWindowUserPointer(window->glfw, window);
+    listen(window->glfw);
+    glfwMakeContextCurrent(window->glfw);
+    glfwSwapInterval(1);
+    return window;
+}
+
+void view_window_close(view_window *window) {
+    if (!window)
+        return;
+    glfwDestroyWindow(window->glfw);
+    glfwTerminate();
+    free(window);
+}
+
+void view_window_take_events(view_window *window, double seconds) {
+    (void)window;
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+}
+
+bool view_window_size(const view_window *window, int *width, int *height) {
+    glfwGetFramebufferSize(window->glfw, width, height);
+    return *width > 0 && *height > 0 && !glfwGetWindowAttrib(window->glfw, GLFW_ICONIFIED);
+}
+
+double view_window_scale(const view_window *window) {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window->glfw, &x, &y);
+    return x > 0.25f && x < 16 ? (double)x : 1;
+}
+
+void view_window_resize(view_window *window, int width, int height) {
+    const double scale = pixels_a_unit(window->glfw);
+    glfwSetWindowSize(window->glfw, (int)(width / scale + 0.5), (int)(height / scale + 0.5));
+}
+
+void view_window_title(view_window *window, const char *title) {
+    glfwSetWindowTitle(window->glfw, title);
+}
+
+void view_window_toggle_fullscreen(view_window *window) {
+    int *place = window->place;
+    GLFWmonitor *monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
+    if (glfwGetWindowMonitor(window->glfw)) {
+        glfwSetWindowMonitor(window->glfw, NULL, place[0], place[1], place[2], place[3], 0);
+    } else if (mode) {
+        glfwGetWindowPos(window->glfw, &place[0], &place[1]);
+        glfwGetWindowSize(window->glfw, &place[2], &place[3]);
+        glfwSetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
+                             mode->refreshRate);
+    }
+}
+
+void view_window_swap(view_window *window) {
+    glfwSwapBuffers(window->glfw);
+}
+
+double view_window_clock(void) {
+    return glfwGetTime();
+}

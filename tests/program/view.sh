@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: MIT
+# lampion view in a window, by real input: a session checked step by step, by its state and pictures.
+set -eu
+. tests/house/common.sh
+for tool in xvfb-run xdotool; do
+    command -v $tool >/dev/null || {
+        echo "skipped: $tool is not installed (packages xvfb, xauth, xdotool)"
+        exit 0
+    }
+done
+export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
+mkdir -p "$XDG_CACHE_HOME"
+
+# without a display: one line that says what to do instead
+status=0
+(unset DISPLAY WAYLAND_DISPLAY; "$PROGRAM" view builtin:ball) 2>"$WORK/err" || status=$?
+[ $status = 1 ] || fail "without a display: status $status"
+[ "$(wc -l <"$WORK/err")" = 1 ] || fail "without a display: $(cat "$WORK/err")"
+grep -q "lampion render" "$WORK/err" || fail "the way out is not named: $(cat "$WORK/err")"
+
+if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
+    export LAMPION_VIEW_DISPLAY=1
+    exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view.sh
+fi
+
+cd "$WORK"
+room='mtllib room.mtl
+v -4 0 -4
+v 4 0 -4
+v 4 0 4
+v -4 0 4
+v -4 4 -4
+v 4 4 -4
+usemtl floor
+f 4 3 2 1
+usemtl wall
+f 1 2 6 5'
+printf '%s\n' "$room" >room.obj
+printf 'newmtl floor\nKd 0.7 0.7 0.7\nnewmtl wall\nKd 0.8 0.3 0.2\n' >room.mtl
+echo '{ "lights": [ { "position": [0, 1, 3], "radius": 0.2, "radiance": 20 },
+    { "position": [-2, 2, 0], "radius": 0.1, "radiance": [5, 40, 80] } ] }' >lights.json
+
+# value NAME: of the state; the first of that name
+value() {
+    sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json 2>/dev/null | head -n 1
+}
+
+# second NAME: the same of the other side
+second() {
+    sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json | sed -n 2p
+}
+
+# until WHAT COMMAND…: waits for the command to succeed.
+until_true() {
+    what=$1
+    shift
+    for _ in $(seq 600); do
+        if "$@"; then return 0; fi
+        kill -0 $viewer 2>/dev/null || fail "$what: the viewer has ended: $(cat view.err)"
+        sleep 0.1
+    done
+    fail "$what: the state is $(cat state.json)"
+}
+is() { [ "$("$1" "$2")" = "$3" ]; }
+isnt() { [ "$("$1" "$2")" != "$3" ]; }
+says() { value message | grep -q "$1"; }
+
+shots=0
+# shot: takes a screenshot of the picture as it is and waits for it; $picture is its name.
+shot() {
+    shots=$((shots + 1))
+    picture=$(printf 'lampion-%04d.png' $shots)
+    xdotool key p
+    until_true "screenshot $shots" test -s "$picture"
+}
+
+"$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 320x180 --samples 2 \
+    --state state.json 2>view.err &
+viewer=$!
+trap 'kill $viewer 2>/dev/null || true' EXIT
+until_true "opening" is value method '"preintegrated"'
+until_true "opening" is value height 180
+xdotool mousemove 20 20
+shot
+first=$picture
+
+# the light in the middle of the picture is dragged; the camera stays
+eye=$(value eye)
+position=$(value position)
+xdotool mousemove 160 90 mousedown 1 mousemove 180 80 mousemove 200 70 mouseup 1
+until_true "dragging a light" isnt value position "$position"
+until_true "selecting a light" is value selected 0
+is value eye "$eye" || fail "dragging a light moved the camera"
+shot
+cmp -s "$first" "$picture" && fail "the dragged light is not to be seen"
+
+# the camera: orbit, fly, frame all
+xdotool mousemove 40 60 mousedown 1 mousemove 60 70 mousemove 90 80 mouseup 1
+until_true "orbiting" isnt value eye "$eye"
+eye=$(value eye)
+xdotool keydown w sleep 0.5 keyup w
+until_true "flying" isnt value eye "$eye"
+eye=$(value eye)
+xdotool key f
+until_true "framing" isnt value eye "$eye"
+eye=$(value eye)
+xdotool click 4
+until_true "zooming" isnt value eye "$eye"
+
+# lights: another one, larger, of another colour, gone
+xdotool mousemove 160 120 key n
+until_true "adding a light" is value selected 2
+xdotool key bracketright h Delete
+until_true "removing a light" is value selected -1
+
+# shading
+xdotool key Up
+until_true "more bands" is value bands 11
+xdotool key g
+until_true "another window" is value window '"lanczos"'
+xdotool key m
+until_true "another method" is value method '"zonal"'
+xdotool key period
+until_true "brighter" isnt value exposure 1
+
+# two sides: the pointer chooses
+xdotool key v
+until_true "splitting" is value split '"divided"'
+xdotool mousemove 300 60 key Down Down
+until_true "the right side" is second bands 9
+is value bands 11 || fail "the left side changed as well"
+xdotool mousemove 160 60 mousedown 1 mousemove 130 60 mousemove 100 60 mouseup 1
+until_true "the divider" isnt value divider 0.5
+shot
+split=$picture
+xdotool key x
+until_true "the difference" is value split '"difference"'
+shot
+for name in "$split" "$picture"; do
+    "$PROGRAM" render --from "$name" -o again.png || fail "$name is not repeated"
+    cmp "$name" again.png || fail "$name is repeated otherwise"
+done
+xdotool key x
+
+# time
+xdotool key space
+until_true "playing" isnt value seconds 0
+xdotool key space
+until_true "pausing" is value playing false
+
+# the window: another size, hidden and shown, the graphics anew, the help
+window=$(xdotool search --name 'room.obj - Lampion' | tail -n 1)
+xdotool windowsize "$window" 400 240
+until_true "resizing" is value width 400
+xdotool windowunmap "$window" sleep 0.5 windowmap "$window" sleep 0.5 mousemove 200 120 key F1
+until_true "help" is value help true
+xdotool key Escape
+until_true "no help" is value help false
+xdotool key shift+F5
+until_true "starting anew" says "graphics were started anew"
+is value width 400 || fail "starting anew lost the size"
+
+# the scene file: broken, it stays; mended, it is read again
+shot
+before=$picture
+sleep 1
+echo 'f 1 2 99' >room.obj
+until_true "a broken scene" says "room.obj"
+says "read again" && fail "a broken scene was taken"
+printf '%s\n' "$room" | sed 's/^v -4 4 -4/v -4 2 -4/' >room.obj
+until_true "a mended scene" says "read again"
+shot
+cmp -s "$before" "$picture" && fail "the new scene is not to be seen"
+
+xdotool key ctrl+q
+status=0
+wait $viewer || status=$?
+[ $status = 0 ] || fail "quitting: status $status: $(cat view.err)"
+
+# a script: dropped files, a recording; the same again gives the same
+cat >demo.txt <<'DEMO'
+# the wall becomes a mirror, the camera goes round
+0    move 80 30
+0.1  drop ggx:0.2:0.9
+0.2  key Page_Up
+0.3  shot dropped.png
+0.4  press left
+0.5  move 120 40
+0.6  release left
+0.7  key space
+1.0  shot turned.png
+1.1  key Ctrl+Q
+DEMO
+for run in one two; do
+    mkdir $run
+    "$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 160x90 \
+        --samples 2 --script demo.txt --record $run --state state.json || fail "the script ends in $?"
+    mv dropped.png turned.png $run
+done
+grep -q '"wall=ggx:0.2:0.9"' state.json || fail "the dropped material is not in the state"
+cmp -s one/dropped.png one/turned.png && fail "the script changes nothing"
+count=$(find one -name 'frame_*.png' | wc -l)
+[ "$count" -gt 20 ] || fail "only $count frames are recorded"
+diff -r one two || fail "two runs of a script differ"
+"$PROGRAM" render --from one/dropped.png -o again.png
+cmp one/dropped.png again.png || fail "a picture with a dropped material is repeated otherwise"
+
+# refusals
+refused() {
+    status=0
+    "$PROGRAM" "$@" >out 2>err || status=$?
+    [ $status != 0 ] && [ $status -lt 126 ] || fail "$*: status $status"
+    [ "$(wc -l <err)" = 1 ] || fail "$*: not one line: $(cat err)"
+}
+refused view
+refused view none.obj
+refused view room.obj --script none.txt
+refused view builtin:ball --animate none.json
+refused view --from room.obj
+"$PROGRAM" render room.obj --size 8x8 -o plain.png 2>/dev/null
+refused render --from plain.png -o x.png
+refused render --from one/dropped.png -o x.exr
+[ ! -e x.png ] || fail "a refusal left a picture"
