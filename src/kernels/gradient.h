@@ -18,14 +18,25 @@
 /* Planes of one (l, m): value, d/dx, d/dy, d/dz, each red, green, blue; of +m, then of -m. */
 #define GRADIENT_WIDTH 24
 
+/* What a band needs lies together: arrays of LMP_BANDS_MAX registers begin in one set of the first
+ * cache, and there are more of them here than ways. */
+typedef struct gradient_band {
+    vf value;  /* pi s2 R_l */
+    vf across; /* (pi s2/d) R_l */
+    vf along;  /* (pi s2/d) 2 P_l/alpha */
+    vf c, s;   /* C_m, S_m of m = l */
+} gradient_band;
+
 typedef struct gradient_light {
     vf x, y, z;
-    vf value[LMP_BANDS_MAX];  /* pi s2 R_l */
-    vf across[LMP_BANDS_MAX]; /* (pi s2/d) R_l */
-    vf along[LMP_BANDS_MAX];  /* (pi s2/d) 2 P_l/alpha */
-    vf c[LMP_BANDS_MAX], s[LMP_BANDS_MAX];
     lmp_rgb rgb;
+    gradient_band band[LMP_BANDS_MAX];
 } gradient_light;
+
+/* q of one (l, m), and of (l, m + 1). */
+typedef struct gradient_pair {
+    vf q[2][ACCUMULATE_LIGHTS];
+} gradient_pair;
 
 static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, size_t i,
                                     const vf point[3], float cos_min, gradient_light *light) {
@@ -35,14 +46,13 @@ static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, 
     light->y = cap.y;
     light->z = cap.z;
     light->rgb = lights_radiance(lights, i);
-    cap_radial(bands, &cap, vf_set(LMP_KERNEL_PI), light->value);
+    vf radial[LMP_BANDS_MAX];
+    cap_radial(bands, &cap, vf_set(LMP_KERNEL_PI), radial);
     const vf per_distance = LMP_KERNEL_PI * cap.s2_per_d;
     const vf outward = (per_distance + per_distance) / vf_max(cap.alpha, vf_set(cos_min));
     vf r = per_distance, r_difference = vf_set(0), p = vf_set(1), p_difference = vf_set(0);
-    light->across[0] = vf_set(0);
-    light->along[0] = outward;
-    light->c[0] = vf_set(1);
-    light->s[0] = vf_set(0);
+    vf c = vf_set(1), s = vf_set(0);
+    light->band[0] = (gradient_band) { radial[0], vf_set(0), outward, c, s };
     for (int l = 1; l < bands; l++) {
         if (l > 1) {
             r_difference = lmp_table_cap_d[l] * r_difference - lmp_table_cap_t[l] * cap.t * r;
@@ -51,34 +61,35 @@ static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, 
         p_difference = lmp_table_legendre_d[l] * p_difference - lmp_table_legendre_t[l] * cap.t * p;
         p = p + p_difference;
         /* Parity: R_l changes sign inside with even l, P_l with odd. */
-        light->across[l] = l % 2 ? r : r * cap.even;
-        light->along[l] = outward * (l % 2 ? p * cap.even : p);
-        light->c[l] = light->c[l - 1];
-        light->s[l] = light->s[l - 1];
-        basis_turn(l, cap.x, cap.y, &light->c[l], &light->s[l]);
+        basis_turn(l, cap.x, cap.y, &c, &s);
+        light->band[l] = (gradient_band) { radial[l], l % 2 ? r : r * cap.even,
+                                           outward * (l % 2 ? p * cap.even : p), c, s };
     }
 }
 
-/* Column m of q into q[l], m <= l < bands. */
-static inline void gradient_column(int bands, int m, vf z, vf *q) {
-    const size_t base = lmp_table_index(m, m);
-    q[m] = vf_set(lmp_table_diagonal[m]);
+/* Column m of light k, m <= l < bands. */
+static inline void gradient_column(int bands, int m, vf z, gradient_pair *pairs, int k) {
+    vf q0 = vf_set(0), q1 = vf_set(lmp_table_diagonal[m]);
+    pairs[m].q[m % 2][k] = q1;
     for (int l = m + 1; l < bands; l++) {
-        const size_t i = base + (size_t)(l - m);
-        q[l] = l == m + 1 ? lmp_table_a[i] * z * q[l - 1]
-                          : lmp_table_a[i] * z * q[l - 1] + lmp_table_b[i] * q[l - 2];
+        const vf q2 = basis_step(lmp_table_a, lmp_table_b, l, m, z, q1, q0);
+        q0 = q1;
+        q1 = q2;
+        pairs[l].q[m % 2][k] = q1;
     }
 }
 
 /* (l, m) for one light: of +m the value, d/dx, d/dy, d/dz, then of -m. */
 LMP_INLINE void gradient_entry(const gradient_light *light, int l, int m, vf q, vf slope,
                                vf term[8]) {
-    const vf c = light->c[m], s = light->s[m], x = light->x, y = light->y, z = light->z;
-    const vf mc = m ? (float)m * light->c[m - 1] : vf_set(0);
-    const vf ms = m ? (float)m * light->s[m - 1] : vf_set(0);
-    const vf across = light->across[l] * q, tilt = light->across[l] * slope;
-    const vf along = light->along[l] * q + (float)m * across + z * tilt;
-    const vf value = light->value[l] * q, up = z * along - tilt;
+    const gradient_band *band = &light->band[l];
+    const vf c = light->band[m].c, s = light->band[m].s;
+    const vf x = light->x, y = light->y, z = light->z;
+    const vf mc = m ? (float)m * light->band[m - 1].c : vf_set(0);
+    const vf ms = m ? (float)m * light->band[m - 1].s : vf_set(0);
+    const vf across = band->across * q, tilt = band->across * slope;
+    const vf along = band->along * q + (float)m * across + z * tilt;
+    const vf value = band->value * q, up = z * along - tilt;
     term[0] = value * c;
     term[1] = x * c * along - mc * across;
     term[2] = y * c * along + ms * across;
@@ -92,21 +103,21 @@ LMP_INLINE void gradient_entry(const gradient_light *light, int l, int m, vf q, 
 /* Columns first … end-1; the sums of a column follow those of the column below it. */
 LMP_INLINE void gradient_columns(int bands, int first, int end, int at_once,
                                  const gradient_light *light, vf *sums) {
-    vf columns[2][ACCUMULATE_LIGHTS][LMP_BANDS_MAX];
-    vf(*q)[LMP_BANDS_MAX] = columns[0], (*above)[LMP_BANDS_MAX] = columns[1];
+    gradient_pair pairs[LMP_BANDS_MAX];
     for (int k = 0; end < bands && k < at_once; k++)
-        gradient_column(bands, end, light[k].z, above[k]);
+        gradient_column(bands, end, light[k].z, pairs, k);
     for (int m = first; m < end; m++)
         sums += (bands - m) * GRADIENT_WIDTH;
     for (int m = end - 1; m >= first; m--) {
         for (int k = 0; k < at_once; k++)
-            gradient_column(bands, m, light[k].z, q[k]);
+            gradient_column(bands, m, light[k].z, pairs, k);
         sums -= (bands - m) * GRADIENT_WIDTH;
         const float *slopes = lmp_table_slope + lmp_table_index(m, m);
         for (int l = m; l < bands; l++) {
             vf *sum = sums + (l - m) * GRADIENT_WIDTH, term[ACCUMULATE_LIGHTS][8];
             LMP_UNROLL for (int k = 0; k < at_once; k++) gradient_entry(
-                &light[k], l, m, q[k][l], l > m ? slopes[l - m] * above[k][l] : vf_set(0), term[k]);
+                &light[k], l, m, pairs[l].q[m % 2][k],
+                l > m ? slopes[l - m] * pairs[l].q[1 - m % 2][k] : vf_set(0), term[k]);
             LMP_UNROLL for (int i = 0; i < 8; i++) {
                 if (m == 0 && i == 4)
                     break;
@@ -117,9 +128,6 @@ LMP_INLINE void gradient_columns(int bands, int first, int end, int at_once,
                 }
             }
         }
-        vf(*const swap)[LMP_BANDS_MAX] = q;
-        q = above;
-        above = swap;
     }
 }
 
