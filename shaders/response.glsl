@@ -2,19 +2,22 @@
 /* response.glsl - shading from a response (lampion/response.h): two readings a light, whatever the
  * number of bands. Include it after lampion.glsl.
  *
- * Define before including, all of what lmp_response_describe returns:
- *   LMP_RESPONSE_PAIR(i)   uint: the two 16-bit coefficients of pair i, the first slice's low
- *   LMP_RESPONSE_CELL(i)   vec4: scale and offset of cell i; the bits of first and columns
+ * Put the cells' pairs into a texture of two signed normalised 16-bit channels, `columns` texels a
+ * row, cells side by side as you like. Define before including, the rest of what
+ * lmp_response_describe returns:
+ *   LMP_RESPONSE_PAIR(p)   vec2: the texture at p, filtered linearly; texel centres at .5
+ *   LMP_RESPONSE_CELL(i)   vec4: scale and offset of cell i; x and y of its first texel
  *   LMP_RESPONSE_WARP(i)   float: entry i of the warp, 0 … 320
  *   LMP_RESPONSE_SHAPE     vec4: width2, the number of cells */
 #ifndef LAMPION_RESPONSE_GLSL
 #define LAMPION_RESPONSE_GLSL
 
-#define LMP_RESPONSE_UNIT (2.0 / 32767.0)
+/* Of a coefficient read as -1 … 1. */
+#define LMP_RESPONSE_UNIT 2.0
 
 /* Where the lobe of an exponent lies. */
 struct lmp_place {
-    uint first, columns;
+    vec2 corner;
     float share, density, angle;
 };
 
@@ -26,8 +29,7 @@ lmp_place lmp_response_seek(float exponent) {
     int k = int(min(slice, LMP_RESPONSE_SHAPE.y - 1.0));
     vec4 cell = LMP_RESPONSE_CELL(k);
     lmp_place place;
-    place.first = floatBitsToUint(cell.z);
-    place.columns = floatBitsToUint(cell.w);
+    place.corner = cell.zw;
     place.share = slice - float(k);
     place.density = cell.x * sqrt(exponent + 1.5) + cell.y;
     place.angle = LMP_PI * (1.0 / (exponent + 1.0) + LMP_RESPONSE_SHAPE.x);
@@ -51,36 +53,26 @@ float lmp_angle_of_cosine(float u) {
     return u < 0.0 ? LMP_PI - across : across;
 }
 
-/* The cubic B-spline's weights of four neighbours, the point x past the second. */
-vec4 lmp_spline(float x) {
-    float y = 1.0 - x;
-    return vec4(y * y * y, 4.0 + 3.0 * x * x * (x - 2.0), 4.0 + 3.0 * y * y * (y - 2.0),
-                x * x * x) /
-           6.0;
-}
-
-/* Both slices of a pair, mixed. */
-float lmp_response_pair(lmp_place place, uint i) {
-    uint bits = LMP_RESPONSE_PAIR(i);
-    return mix(float(int(bits << 16u) >> 16), float(int(bits) >> 16), place.share);
+/* The cubic B-spline's weights of four neighbours, the point x past the second, as two linear
+ * readings (Sigg and Hadwiger 2005): their places from the first neighbour on, and the weight of the
+ * second reading. */
+vec3 lmp_spline(float x) {
+    float y = 1.0 - x, w0 = y * y * y, w3 = x * x * x;
+    float w2 = 4.0 + 3.0 * y * y * (y - 2.0), second = w2 + w3;
+    return vec3(1.0 - w0 / (6.0 - second), 2.0 + w3 / second, second / 6.0);
 }
 
 /* The lobe's mean over a cap, times the cap's solid angle plus the lobe's. */
 float lmp_response_read(lmp_place place, float g, float a) {
     float x = g * place.density, y = a * place.density;
-    uint at = place.first + uint(y) * place.columns + uint(x);
-    vec4 across = lmp_spline(fract(x)), down = lmp_spline(fract(y)), row;
-#define LMP_ROW(i)                                                                                 \
-    row[i] = dot(across, vec4(lmp_response_pair(place, at), lmp_response_pair(place, at + 1u),     \
-                              lmp_response_pair(place, at + 2u),                                   \
-                              lmp_response_pair(place, at + 3u)));                                 \
-    at += place.columns;
-    LMP_ROW(0)
-    LMP_ROW(1)
-    LMP_ROW(2)
-    LMP_ROW(3)
-#undef LMP_ROW
-    return dot(down, row) * LMP_RESPONSE_UNIT;
+    vec2 corner = place.corner + floor(vec2(x, y)) + 0.5;
+    vec3 across = lmp_spline(fract(x)), down = lmp_spline(fract(y));
+    vec2 upper = mix(LMP_RESPONSE_PAIR(corner + vec2(across.x, down.x)),
+                     LMP_RESPONSE_PAIR(corner + vec2(across.y, down.x)), across.z);
+    vec2 lower = mix(LMP_RESPONSE_PAIR(corner + vec2(across.x, down.y)),
+                     LMP_RESPONSE_PAIR(corner + vec2(across.y, down.y)), across.z);
+    vec2 slices = mix(upper, lower, down.z);
+    return mix(slices.x, slices.y, place.share) * LMP_RESPONSE_UNIT;
 }
 
 #ifdef LMP_LIGHT_COUNT

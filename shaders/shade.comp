@@ -9,15 +9,13 @@
 #include "lampion.glsl"
 
 #ifdef SHADE_RESPONSE
-layout(std430, binding = SHARED_RESPONSE_PAIRS) readonly buffer response_pairs {
-    uint pairs[];
-};
+layout(binding = SHARED_RESPONSE_PAIRS) uniform sampler2D response_pairs;
 layout(std430, binding = SHARED_RESPONSE) readonly buffer response_block {
     vec4 shape;
     vec4 cells[SHARED_RESPONSE_CELLS];
     float warp[SHARED_RESPONSE_WARP];
 };
-#define LMP_RESPONSE_PAIR(i) pairs[i]
+#define LMP_RESPONSE_PAIR(p) textureLod(response_pairs, (p) * shape.zw, 0.0).rg
 #define LMP_RESPONSE_CELL(i) cells[i]
 #define LMP_RESPONSE_WARP(i) warp[i]
 #define LMP_RESPONSE_SHAPE   shape

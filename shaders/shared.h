@@ -48,9 +48,9 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_KIND_LIGHT   2
 #define SHARED_KIND_TABLE   3 /* and up: a surface of table number kind - 3 */
 
-/* Storage buffer bindings of a response (lampion/response.h), and the most cells and the entries of
- * the warp that its block holds: those of 128 bands at the default error fit. */
-#define SHARED_RESPONSE_PAIRS 2
+/* Texture unit and storage block of a response (lampion/response.h), and the most cells and the
+ * entries of the warp that the block holds: those of 128 bands at the default error fit. */
+#define SHARED_RESPONSE_PAIRS 6
 #define SHARED_RESPONSE       3
 #define SHARED_RESPONSE_CELLS 128
 #define SHARED_RESPONSE_WARP  321
@@ -116,10 +116,10 @@ typedef struct shared_pixel {
 #else
 } shared_pixel;
 
-/* A response but for its coefficients, as std430. cells: scale, offset, and the bits of first and
- * columns. */
+/* A response but for its coefficients, as std430. cells: scale, offset, and the corner in the
+ * texture. */
 typedef struct shared_response {
-    vec4 shape; /* width2, number of cells */
+    vec4 shape; /* width2, number of cells, size of a texel */
     vec4 cells[SHARED_RESPONSE_CELLS];
     float warp[SHARED_RESPONSE_WARP];
 } shared_response;

@@ -66,6 +66,12 @@ typedef struct gpu_variant {
     GLuint program;
 } gpu_variant;
 
+/* --- response.c ---------------------------------------------------------------------------------
+ */
+
+/* Uploads a response once, and again when another one takes its place. */
+bool gpu_bind_response(gpu_renderer *renderer, const lmp_response *response, cli_error *error);
+
 /* --- gbuffer.c ----------------------------------------------------------------------------------
  */
 
@@ -102,8 +108,8 @@ struct gpu_renderer {
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, empty_array;
-    GLuint response_blocks[2];    /* coefficients, the rest */
-    const lmp_response *response; /* what they hold */
+    GLuint response_pairs, response_block; /* texture, buffer */
+    const lmp_response *response;          /* what they hold */
     int response_bands;
     lmp_window response_window;
     int width, height; /* of the targets below */

@@ -99,7 +99,8 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
     glDeleteBuffers(1, &r->tables_buffer);
-    glDeleteBuffers(2, r->response_blocks);
+    glDeleteBuffers(1, &r->response_block);
+    glDeleteTextures(1, &r->response_pairs);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
     free(r);
@@ -332,36 +333,7 @@ static GLuint groups(int pixels) {
     return (GLuint)(pixels + SHARED_GROUP - 1) / SHARED_GROUP;
 }
 
-/* A response is uploaded once, and again when another one takes its place. */
-static void bind_response(gpu_renderer *r, const lmp_response *response) {
-    const lmp_response_info info = lmp_response_describe(response);
-    const GLsizeiptr pairs = (GLsizeiptr)(info.pair_count * 2 * sizeof(int16_t));
-    if (r->response != response || r->response_bands != info.bands ||
-        r->response_window != info.window) {
-        shared_response block = { .shape = { info.width2, (float)info.cell_count, 0, 0 } };
-        for (uint32_t i = 0; i < info.cell_count && i < SHARED_RESPONSE_CELLS; i++) {
-            const lmp_response_cell *cell = &info.cells[i];
-            block.cells[i][0] = cell->scale;
-            block.cells[i][1] = cell->offset;
-            memcpy(&block.cells[i][2], &cell->first, sizeof cell->first);
-            memcpy(&block.cells[i][3], &cell->columns, sizeof cell->columns);
-        }
-        memcpy(block.warp, info.warp, LMP_RESPONSE_WARP_COUNT * sizeof(float));
-        glDeleteBuffers(2, r->response_blocks);
-        glCreateBuffers(2, r->response_blocks);
-        glNamedBufferStorage(r->response_blocks[0], pairs, info.coefficients, 0);
-        glNamedBufferStorage(r->response_blocks[1], sizeof block, &block, 0);
-        r->response = response;
-        r->response_bands = info.bands;
-        r->response_window = info.window;
-    }
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_RESPONSE_PAIRS, r->response_blocks[0]);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_RESPONSE, r->response_blocks[1]);
-}
-
 static void shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
-    if (frame->method == GPU_METHOD_PREINTEGRATED)
-        bind_response(r, frame->response);
     gpu_bind_gbuffer(r);
     if (r->table_count)
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
@@ -476,6 +448,9 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
         return cli_fail(error, NULL, "preintegrated shading without a response");
     const GLuint program = frame->host ? 0 : find_variant(r, frame, error);
     if ((!frame->host && !program) || !create_targets(r, frame->width, frame->height, error))
+        return false;
+    if (!frame->host && frame->method == GPU_METHOD_PREINTEGRATED &&
+        !gpu_bind_response(r, frame->response, error))
         return false;
     upload_lights(r, frame);
     if (times)

@@ -125,6 +125,10 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **stat
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);
+    s.frame.host = NULL;
+    draw(s.renderer, &s.frame, second);
+    assert_true(beyond(1) <= PIXELS / 1000);
+    assert_int_equal(beyond(2), 0);
     lmp_response_destroy(response);
     close_stage(&s);
 }
