@@ -219,7 +219,27 @@ void lmp_lobe_phong(float e, out float lambda[LMP_BANDS]) {
 }
 
 /* What multiplies pi Y_lm(axis) in the coefficients of a cap of radiance 1, band by band: strength
- * R_l, R_l by its differences, which keeps far lights exact. */
+ * R_l. */
+#ifdef LMP_CAP_TABLE
+/* The paper's tabulation (§4.2), to compare: LMP_CAP_TABLE(k, c) is a vec4 of sin²a R_l at cos a = c
+ * for l = 4k … 4k + 3. Far lights lie in its last step. */
+void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
+    float c = 1.0 - cap.one_minus, side = cap.strength < 0.0 ? -1.0 : 1.0;
+    vec4 four = LMP_CAP_TABLE(0, c);
+    R[0] = cap.base;
+    if (LMP_BANDS > 1)
+        R[LMP_BAND(1)] = side * four.y;
+#define LMP_STEP(l)                                                                                \
+    if (l < LMP_BANDS) {                                                                           \
+        if (l % 4 == 0)                                                                            \
+            four = LMP_CAP_TABLE(l / 4, c);                                                        \
+        R[LMP_BAND(l)] = side * four[l % 4];                                                       \
+    }
+    LMP_FOR_BANDS(LMP_STEP)
+#undef LMP_STEP
+}
+#else
+/* R_l by its differences, which keeps far lights exact. */
 void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
     float r = cap.strength, difference = 0.0;
     R[0] = cap.base;
@@ -235,6 +255,7 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
     LMP_FOR_BANDS(LMP_STEP)
 #undef LMP_STEP
 }
+#endif
 
 /* Y_lm(w) (paper Eq. 1), in Cartesian form: no angles, no poles. */
 void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {

@@ -6,6 +6,15 @@
 #define LMP_LIGHT_COUNT       int(size_lights.z)
 #define LMP_LIGHT_SPHERE(i)   lights[i].sphere
 #define LMP_LIGHT_RADIANCE(i) lights[i].radiance.rgb
+#ifdef SHADE_TABULATED
+layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
+/* entries from cos a = 0 to 1, at the centres of texels */
+#define LMP_CAP_TABLE(k, c)                                                                        \
+    textureLod(zonal_table,                                                                        \
+               vec2((c * float(SHARED_ZONAL_ENTRIES - 1) + 0.5) / float(SHARED_ZONAL_ENTRIES),     \
+                    (float(k) + 0.5) / float((LMP_BANDS + 3) / 4)),                                \
+               0.0)
+#endif
 #include "lampion.glsl"
 
 #ifdef SHADE_RESPONSE

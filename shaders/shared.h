@@ -55,6 +55,10 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_RESPONSE_CELLS 128
 #define SHARED_RESPONSE_WARP  321
 
+/* Texture unit of the paper's tabulated Z_l, 4 bands a row, and its entries. */
+#define SHARED_ZONAL         7
+#define SHARED_ZONAL_ENTRIES 1024
+
 /* Side of the square of pixels one compute group shades: 64 threads. */
 #define SHARED_GROUP 8
 

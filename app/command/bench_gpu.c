@@ -39,6 +39,7 @@ static const struct {
 } contestants[] = {
     { "paper", DEVICE_GPU, GPU_METHOD_PAPER, 20 },
     { "coefficients", DEVICE_GPU, GPU_METHOD_COEFFICIENTS, GPU_COEFFICIENTS_MAX },
+    { "coefficients, tabulated Z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX },
     { "zonal", DEVICE_GPU, GPU_METHOD_ZONAL, GPU_BANDS_MAX },
     { "preintegrated", DEVICE_GPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX },
     { "zonal", DEVICE_CPU, GPU_METHOD_ZONAL, LMP_BANDS_MAX },

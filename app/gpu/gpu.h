@@ -43,8 +43,9 @@ typedef enum gpu_method {
     GPU_METHOD_COEFFICIENTS,
     GPU_METHOD_PREINTEGRATED,
     GPU_METHODS,
-    GPU_METHOD_PAPER =
-        GPU_METHODS /* the paper's fragment shader, to be timed: no name, 1 … 20 bands */
+    /* without names, to be timed: 1 … GPU_COEFFICIENTS_MAX bands */
+    GPU_METHOD_PAPER = GPU_METHODS, /* the paper's fragment shader */
+    GPU_METHOD_TABULATED            /* coefficients with the paper's tabulated Z_l (§4.2) */
 } gpu_method;
 extern const char *const gpu_method_names[GPU_METHODS + 1]; /* NULL-terminated */
 
@@ -73,6 +74,9 @@ typedef struct gpu_frame {
 } gpu_frame;
 
 int gpu_bands_max(gpu_method method);
+
+/* Memory of the table of GPU_METHOD_TABULATED. */
+size_t gpu_zonal_bytes(int bands);
 
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
 typedef struct gpu_times {

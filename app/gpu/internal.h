@@ -72,6 +72,12 @@ typedef struct gpu_variant {
 /* Uploads a response once, and again when another one takes its place. */
 bool gpu_bind_response(gpu_renderer *renderer, const lmp_response *response, cli_error *error);
 
+/* --- zonal.c ------------------------------------------------------------------------------------
+ */
+
+/* Binds the table of Z_l of so many bands, made at its first use. */
+bool gpu_bind_zonal(gpu_renderer *renderer, int bands, cli_error *error);
+
 /* --- gbuffer.c ----------------------------------------------------------------------------------
  */
 
@@ -108,6 +114,8 @@ struct gpu_renderer {
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, empty_array;
+    GLuint zonal; /* texture of the tabulated Z_l */
+    int zonal_bands;
     GLuint response_pairs, response_block; /* texture, buffer */
     const lmp_response *response;          /* what they hold */
     int response_bands;

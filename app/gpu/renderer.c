@@ -9,14 +9,21 @@
 
 const char *const gpu_method_names[GPU_METHODS + 1] = { "zonal", "coefficients", "preintegrated",
                                                         NULL };
-static const char *const method_functions[GPU_METHODS + 1] = { "lmp_shade_zonal",
-                                                               "lmp_shade_coefficients",
-                                                               "lmp_shade_preintegrated", "paper" };
+/* What shade.comp calls, and what it is told besides. */
+static const struct {
+    const char *function, *define;
+} method_shaders[] = {
+    [GPU_METHOD_ZONAL] = { "lmp_shade_zonal", "" },
+    [GPU_METHOD_COEFFICIENTS] = { "lmp_shade_coefficients", "" },
+    [GPU_METHOD_PREINTEGRATED] = { "lmp_shade_preintegrated", "#define SHADE_RESPONSE\n" },
+    [GPU_METHOD_PAPER] = { "paper", "" },
+    [GPU_METHOD_TABULATED] = { "lmp_shade_coefficients", "#define SHADE_TABULATED\n" },
+};
 
 int gpu_bands_max(gpu_method method) {
-    return method == GPU_METHOD_COEFFICIENTS || method == GPU_METHOD_PAPER ? GPU_COEFFICIENTS_MAX
-           : method == GPU_METHOD_PREINTEGRATED                            ? LMP_BANDS_MAX
-                                                                           : GPU_BANDS_MAX;
+    return method == GPU_METHOD_PREINTEGRATED ? LMP_BANDS_MAX
+           : method == GPU_METHOD_ZONAL       ? GPU_BANDS_MAX
+                                              : GPU_COEFFICIENTS_MAX;
 }
 
 /* The near plane's distance as a part of the scene's extent. Depth is reversed and in float32, so
@@ -101,6 +108,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->tables_buffer);
     glDeleteBuffers(1, &r->response_block);
     glDeleteTextures(1, &r->response_pairs);
+    glDeleteTextures(1, &r->zonal);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
     free(r);
@@ -262,8 +270,8 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
                               ? GPU_BANDS_MAX /* the tables are summed by bands */
                               : gpu_bands_max(frame->method);
     if (frame->bands < 1 || frame->bands > bands_max) {
-        cli_fail(error, NULL, "%d bands: the shader of %s takes 1 to %d", frame->bands,
-                 gpu_method_names[frame->method], bands_max);
+        cli_fail(error, NULL, "%d bands: the method's shader takes 1 to %d", frame->bands,
+                 bands_max);
         return 0;
     }
     static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
@@ -272,8 +280,7 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
              "#define LMP_ALPHA_MIN %.9g\n%s",
-             frame->method == GPU_METHOD_PREINTEGRATED ? "#define SHADE_RESPONSE\n" : "",
-             method_functions[frame->method],
+             method_shaders[frame->method].define, method_shaders[frame->method].function,
              frame->method == GPU_METHOD_PREINTEGRATED && !tables ? 1 : frame->bands,
              (int)frame->window, (double)LMP_ALPHA_MIN, table_defines[tables]);
     const gpu_stage compute = { GL_COMPUTE_SHADER, "shade.comp" };
@@ -451,6 +458,8 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
         return false;
     if (!frame->host && frame->method == GPU_METHOD_PREINTEGRATED &&
         !gpu_bind_response(r, frame->response, error))
+        return false;
+    if (frame->method == GPU_METHOD_TABULATED && !gpu_bind_zonal(r, frame->bands, error))
         return false;
     upload_lights(r, frame);
     if (times)
