@@ -7,9 +7,9 @@
 
 typedef struct bench_options {
     bool json, full;
-    int mask, threads;     /* of cpu */
-    int lights, size[2];   /* of gpu */
-    const char *gl_device; /* of gpu */
+    int mask, threads;          /* of cpu */
+    int bands, lights, size[2]; /* of gpu; bands 0: many */
+    const char *gl_device;      /* of gpu */
 } bench_options;
 
 /* `lampion bench gpu`; returns the exit status. */

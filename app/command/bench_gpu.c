@@ -39,7 +39,7 @@ static const struct {
 } contestants[] = {
     { "paper", DEVICE_GPU, GPU_METHOD_PAPER, 20 },
     { "coefficients", DEVICE_GPU, GPU_METHOD_COEFFICIENTS, GPU_COEFFICIENTS_MAX },
-    { "coefficients, tabulated Z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX },
+    { "tabulated-z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX },
     { "zonal", DEVICE_GPU, GPU_METHOD_ZONAL, GPU_BANDS_MAX },
     { "preintegrated", DEVICE_GPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX },
     { "zonal", DEVICE_CPU, GPU_METHOD_ZONAL, LMP_BANDS_MAX },
@@ -116,7 +116,9 @@ static void print_row(bench_stage *stage, const bench_case *c, double ms, double
     const double ns = 1e6 * ms / ((double)c->width * c->height * c->lights);
     const lmp_response *response =
         c->method == GPU_METHOD_PREINTEGRATED ? stage->responses[c->bands] : NULL;
-    const size_t bytes = response ? lmp_response_describe(response).bytes : 0;
+    const size_t bytes = response                            ? lmp_response_describe(response).bytes
+                         : c->method == GPU_METHOD_TABULATED ? gpu_zonal_bytes(c->bands)
+                                                             : 0;
     const double build = response ? stage->build_ms[c->bands] : 0;
     if (stage->options->json) {
         printf("%s    {\"scene\": \"%s\", \"device\": \"%s\", \"method\": \"%s\", \"bands\": %d, "
@@ -174,9 +176,12 @@ static const int all_bands[] = { 5, 8, 10, 20, 50, 100, 0 };
 static const int all_lights[] = { 1, 10, 30, 100, 300, 1000, 0 };
 static const int all_sizes[][2] = { { 600, 816 }, { 1980, 995 }, { 3400, 900 } };
 
-/* The paper's setting over the bands, then over the lights; with --full every combination. */
+/* One setting; or the paper's over the bands, then over the lights; with --full every combination.
+ */
 static bool time_all(bench_stage *stage, cli_error *error) {
     const bench_options *o = stage->options;
+    if (o->bands)
+        return time_setting(stage, o->bands, o->lights, o->size, error);
     if (o->full) {
         for (int s = 0; s < 3; s++)
             for (const int *b = all_bands; *b; b++)
