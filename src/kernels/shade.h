@@ -123,7 +123,8 @@ LMP_INLINE void shade_aim_all(const lmp_kernel_surfaces *surfaces, const lmp_ker
 
 /* What is the same for every surface. Members go by band; the factors of R_l P_l hold their norms.
  * Even bands of the diffuse lobe take two steps at once:
- * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4). One more band, of weight 0, makes pairs. */
+ * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. One more band, of
+ * weight 0, makes pairs. */
 typedef struct zonal_tables {
     float diffuse[LMP_BANDS_MAX + 2], phong[LMP_BANDS_MAX + 2];
     float cap[LMP_BANDS_MAX + 2];
@@ -210,8 +211,8 @@ LMP_INLINE void zonal_light(int bands, int monic, const zonal_tables *tables, co
     LMP_ROLLED for (int l = 2; l < bands; l += 2) {
         zonal_cap_step(monic, tables->cap, l, x, &r1, &r0);
         zonal_lobe_step(monic, l, v, &q1, &q0);
-        const vf p2 =
-            (tables->even_a[l] * square - tables->even_b[l]) * p1 - tables->even_c[l] * p0;
+        const vf u2 = monic ? square : tables->even_a[l] * square;
+        const vf p2 = (u2 - tables->even_b[l]) * p1 - tables->even_c[l] * p0;
         p0 = p1;
         p1 = p2;
         diffuse = diffuse + tables->diffuse[l] * (r1 * p2);

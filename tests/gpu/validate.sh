@@ -24,9 +24,9 @@ layout(std430, binding = 0) buffer out_block { vec4 values[]; };
 GLSL
     cat shaders/lampion.glsl
     cat <<'GLSL'
-layout(std430, binding = 1) readonly buffer pairs_block { uint pairs[]; };
+layout(binding = 1) uniform highp sampler2D pairs;
 layout(std430, binding = 2) readonly buffer response_block { vec4 shape; vec4 cells[64]; float warp[321]; };
-#define LMP_RESPONSE_PAIR(i) pairs[i]
+#define LMP_RESPONSE_PAIR(p) textureLod(pairs, p / 2048.0, 0.0).rg
 #define LMP_RESPONSE_CELL(i) cells[i]
 #define LMP_RESPONSE_WARP(i) warp[i]
 #define LMP_RESPONSE_SHAPE   shape
