@@ -120,38 +120,52 @@ static void decode_light(const gpu_gbuffer *g, unsigned index, size_t x, gpu_row
             index < g->frame->light_count ? g->frame->lights[index].radiance[c] : 0;
 }
 
-/* Positions, views and normals of every pixel; what is no surface is nonsense. */
-static void decode_geometry(const gpu_gbuffer *g, int y, gpu_row *row) {
+/* Positions and views of every pixel; what is no surface is nonsense. */
+static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
     const shared_frame *b = &g->block;
-    const size_t first = (size_t)y * (size_t)g->width;
-    const float *depth = g->depth + first;
-    const gpu_normal16 *normal = g->normal + first;
+    const float *restrict depth = g->depth + (size_t)y * (size_t)g->width;
+    float *restrict px = row->position[0], *restrict py = row->position[1];
+    float *restrict pz = row->position[2];
+    float *restrict vx = row->view[0], *restrict vy = row->view[1], *restrict vz = row->view[2];
     const float v = ((float)y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
-    float left[3];
-    for (int c = 0; c < 3; c++)
-        left[c] = b->forward[c] + b->down[c] * v;
+    const float left[3] = { b->forward[0] + b->down[0] * v, b->forward[1] + b->down[1] * v,
+                            b->forward[2] + b->down[2] * v };
+    const float right[3] = { b->right[0], b->right[1], b->right[2] };
+    const float eye[4] = { b->eye[0], b->eye[1], b->eye[2], b->eye[3] };
+    const float across = 2 / b->size_lights[0], start = 0.5f * across - 1 + b->jitter[0];
+    const int width = g->width;
 #pragma omp simd
-    for (int x = 0; x < g->width; x++) {
-        const float u = ((float)x + 0.5f) / b->size_lights[0] * 2 - 1 + b->jitter[0];
-        const float rx = left[0] + b->right[0] * u, ry = left[1] + b->right[1] * u;
-        const float rz = left[2] + b->right[2] * u;
-        const float distance = b->eye[3] / depth[x];
+    for (int x = 0; x < width; x++) {
+        const float u = (float)x * across + start;
+        const float rx = left[0] + right[0] * u, ry = left[1] + right[1] * u;
+        const float rz = left[2] + right[2] * u;
+        const float distance = eye[3] / depth[x];
         const float back = -1 / sqrtf(rx * rx + ry * ry + rz * rz);
-        row->position[0][x] = b->eye[0] + rx * distance;
-        row->position[1][x] = b->eye[1] + ry * distance;
-        row->position[2][x] = b->eye[2] + rz * distance;
-        row->view[0][x] = rx * back;
-        row->view[1][x] = ry * back;
-        row->view[2][x] = rz * back;
-        /* octahedral: where z < 0 the triangles are folded outwards */
-        const float p = (float)normal[x].u * (2 / 65535.0f) - 1;
-        const float q = (float)normal[x].v * (2 / 65535.0f) - 1;
-        const float nz = 1 - fabsf(p) - fabsf(q), fold = nz < 0 ? -nz : 0;
-        const float nx = p >= 0 ? p - fold : p + fold, ny = q >= 0 ? q - fold : q + fold;
-        const float scale = 1 / sqrtf(nx * nx + ny * ny + nz * nz);
-        row->normal[0][x] = nx * scale;
-        row->normal[1][x] = ny * scale;
-        row->normal[2][x] = nz * scale;
+        px[x] = eye[0] + rx * distance;
+        py[x] = eye[1] + ry * distance;
+        pz[x] = eye[2] + rz * distance;
+        vx[x] = rx * back;
+        vy[x] = ry * back;
+        vz[x] = rz * back;
+    }
+}
+
+/* Octahedral: where z < 0 the triangles are folded outwards. */
+static void decode_normals(const gpu_gbuffer *g, int y, const gpu_row *row) {
+    const gpu_normal16 *restrict normal = g->normal + (size_t)y * (size_t)g->width;
+    float *restrict nx = row->normal[0], *restrict ny = row->normal[1];
+    float *restrict nz = row->normal[2];
+    const int width = g->width;
+#pragma omp simd
+    for (int i = 0; i < width; i++) {
+        const float p = (float)normal[i].u * (2 / 65535.0f) - 1;
+        const float q = (float)normal[i].v * (2 / 65535.0f) - 1;
+        const float z = 1 - fabsf(p) - fabsf(q), fold = (fabsf(z) - z) * 0.5f;
+        const float w = p - copysignf(fold, p), h = q - copysignf(fold, q);
+        const float scale = 1 / sqrtf(w * w + h * h + z * z);
+        nx[i] = w * scale;
+        ny[i] = h * scale;
+        nz[i] = z * scale;
     }
 }
 
@@ -187,7 +201,8 @@ static void decode_materials(const gpu_gbuffer *g, int y, gpu_row *row) {
 
 void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
     const size_t first = (size_t)y * (size_t)g->width;
-    decode_geometry(g, y, row);
+    decode_points(g, y, row);
+    decode_normals(g, y, row);
     decode_materials(g, y, row);
     for (size_t x = 0; x < (size_t)g->width; x++) {
         const int kind = g->roughness_kind[first + x][1];
