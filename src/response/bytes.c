@@ -63,8 +63,11 @@ static int cells_sound(const lmp_response *plan) {
 static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_response *plan) {
     lmp_response_info *info = &plan->info;
     const unsigned char *p = bytes + sizeof magic + 4;
-    info->bands = (int)(lmp_bytes_load_u32(&p) & 0xffff);
-    info->window = (lmp_window)(lmp_bytes_load_u32(&p) & 0xff);
+    const uint32_t bands = lmp_bytes_load_u32(&p), window = lmp_bytes_load_u32(&p);
+    if (bands > LMP_BANDS_MAX || window > LMP_WINDOW_LANCZOS)
+        return LMP_ERROR_FORMAT;
+    info->bands = (int)bands;
+    info->window = (lmp_window)window;
     info->window_size = lmp_bytes_load_f32(&p);
     info->error = lmp_bytes_load_f32(&p);
     info->cell_count = lmp_bytes_load_u32(&p);

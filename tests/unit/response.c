@@ -342,6 +342,27 @@ static void damaged_bytes_are_refused(void **state) {
     free(bytes);
 }
 
+/* A number is read whole: no bit of the header goes unseen. */
+static void every_bit_of_the_header_counts(void **state) {
+    (void)state;
+    lmp_response *response = created(3, LMP_WINDOW_HANNING, 0.1f), *copy;
+    size_t size;
+    unsigned char *bytes = written(response, &size);
+    for (size_t bit = 8 * 8; bit < 8 * 32; bit++) {
+        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+        sign(bytes, size);
+        if (lmp_response_read(NULL, bytes, size, &copy) == LMP_OK) {
+            unsigned char *again = written(copy, &(size_t) { 0 });
+            assert_memory_equal(bytes, again, size);
+            free(again);
+            lmp_response_destroy(copy);
+        }
+        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+    }
+    free(bytes);
+    lmp_response_destroy(response);
+}
+
 /* 841 cells of 1599 x 3194 pairs are 192950 more than 2^32: a file of the small number must not
  * pass for the large one. */
 static void cells_that_outgrow_their_count_are_refused(void **state) {
@@ -383,6 +404,7 @@ int main(void) {
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
         cmocka_unit_test(bytes_read_back_are_the_same_response),
         cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(every_bit_of_the_header_counts),
         cmocka_unit_test(cells_that_outgrow_their_count_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
