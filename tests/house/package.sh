@@ -47,6 +47,11 @@ for file in "$root/usr/bin/lampion" "$lib/liblampion.so.$version" "$lib/liblampi
     ! grep -qF "$SOURCE" "$file" || fail "$file names the folder it was built in"
 done
 
+if git rev-parse HEAD >/dev/null 2>&1; then # the archive knows its commit
+    tar -xOzf "$WORK/one/lampion-$version.tar.gz" "lampion-$version/cmake/commit.txt" >"$WORK/commit"
+    grep -q "$(git rev-parse --short HEAD)" "$WORK/commit" || fail "the source archive is of commit $(cat "$WORK/commit")"
+fi
+
 # what depends on what
 grep -q "liblampion$soversion (= $version" "$WORK/liblampion-dev.depends" || fail "dev: $(cat "$WORK/liblampion-dev.depends")"
 for library in libassimp5 libembree3-3 libpng16-16 libopenexr libepoxy0 libegl1 libgl1 libgl1-mesa-dri; do
