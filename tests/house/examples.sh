@@ -4,10 +4,10 @@
 set -eu
 . tests/house/common.sh
 
-cmake --install "$WORK/../libraries/static" --prefix "$WORK/usr" >"$WORK/log" || fail "$(cat "$WORK/log")"
-examples=$WORK/usr/share/doc/lampion/examples
-export PKG_CONFIG_PATH="$WORK/usr/lib/pkgconfig"
-cmake -G Ninja -S "$examples" -B "$WORK/build" -DCMAKE_PREFIX_PATH="$WORK/usr" \
+usr=$WORK/../libraries/usr
+examples=$usr/share/doc/lampion/examples
+export PKG_CONFIG_PATH="$(dirname "$(find "$usr" -name lampion.pc)")"
+cmake -G Ninja -S "$examples" -B "$WORK/build" -DCMAKE_PREFIX_PATH="$usr" \
     -DCMAKE_C_FLAGS='-Wall -Wextra -Wpedantic -Wconversion -Werror' >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
 cmake --build "$WORK/build" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
 

@@ -29,25 +29,29 @@ add_executable(first_light ../first_light.c)
 target_link_libraries(first_light PRIVATE lampion::lampion)
 CMAKE
 
+# consume KIND: the program against that kind of library, by CMake and by pkg-config.
 consume() {
-    kind=$1 prefix=$WORK/moved-$1
-    export LD_LIBRARY_PATH="$prefix/lib"
-    quietly cmake -G Ninja -S "$WORK/package" -B "$WORK/package/$kind" -DCMAKE_PREFIX_PATH="$prefix"
+    kind=$1 shared=ON static=
+    [ "$kind" = shared ] || shared=OFF static=yes
+    quietly cmake -G Ninja -S "$WORK/package" -B "$WORK/package/$kind" -DBUILD_SHARED_LIBS=$shared \
+        -DCMAKE_PREFIX_PATH="$WORK/moved"
     quietly cmake --build "$WORK/package/$kind"
     "$WORK/package/$kind/first_light" >"$WORK/$kind-package.txt" || fail "find_package: cannot run"
-
-    flags=$(PKG_CONFIG_PATH=$prefix/lib/pkgconfig pkg-config --cflags --libs lampion)
-    quietly gcc -std=c11 -Wall -Wextra -Wpedantic -Werror "$WORK/first_light.c" $flags \
-        -o "$WORK/$kind-pkg-config"
+    quietly gcc -std=c11 -Wall -Wextra -Wpedantic -Werror "$WORK/first_light.c" \
+        ${static:+-static} $(pkg-config ${static:+--static} --cflags --libs lampion) -o "$WORK/$kind-pkg-config"
     "$WORK/$kind-pkg-config" >"$WORK/$kind-pkg-config.txt" || fail "pkg-config: cannot run"
-    unset LD_LIBRARY_PATH
+    for program in "$WORK/package/$kind/first_light" "$WORK/$kind-pkg-config"; do
+        linked=$(objdump -p "$program" | grep -c 'NEEDED *liblampion' || true)
+        [ "$kind $linked" = "shared 1" ] || [ "$kind $linked" = "static 0" ] || fail "$program is not $kind"
+    done
 }
 
-for kind in static shared; do
-    quietly cmake --install "$WORK/../libraries/$kind" --prefix "$WORK/first-$kind"
-    mv "$WORK/first-$kind" "$WORK/moved-$kind"
-    consume "$kind"
-done
+cp -r "$WORK/../libraries/usr" "$WORK/moved"
+lib=$(dirname "$(find "$WORK/moved" -name liblampion.a)")
+export PKG_CONFIG_PATH="$lib/pkgconfig" LD_LIBRARY_PATH="$lib"
+consume shared
+consume static
+unset PKG_CONFIG_PATH LD_LIBRARY_PATH
 quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=Debug
 quietly cmake --build "$WORK/inside/build"
 "$WORK/inside/build/first_light" >"$WORK/inside.txt"

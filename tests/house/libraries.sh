@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-# The library alone, static and shared, for the tests that look at it from outside.
+# Static and shared library from one compilation, in build/package as ./dev package makes them, and
+# installed in usr, for the tests that look at them from outside.
 set -eu
 . tests/house/common.sh
 
-configure "$WORK/static" -DCMAKE_INSTALL_LIBDIR=lib
-configure "$WORK/shared" -DCMAKE_INSTALL_LIBDIR=lib -DBUILD_SHARED_LIBS=ON
+export SOURCE_DATE_EPOCH=0
+{ cmake --preset package && cmake --build --preset package && cmake --install build/package --prefix "$WORK/usr"; } \
+    >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"
