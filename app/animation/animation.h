@@ -28,6 +28,7 @@ void animation_move(const animation *path, size_t number, double seconds, scene_
 void animation_move_all(const animation *path, const scene *scene, double seconds,
                         scene_light *moved);
 
-#define ANIMATION_NAMES "orbit, bounce, scene or FILE.json"
+#define ANIMATION_NAMES    "orbit, bounce, scene or FILE.json"
+#define ANIMATION_ARGUMENT "orbit|bounce|scene|FILE"
 
 #endif

@@ -6,11 +6,14 @@
 
 #include <lampion/base.h>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <assimp/version.h>
 #include <cjson/cJSON.h>
 #include <embree3/rtcore.h>
 #include <omp.h>
 #include <openexr.h>
+#include <pango/pango.h>
 #include <png.h>
 #include <stdio.h>
 #include <string.h>
@@ -66,8 +69,10 @@ static void print_libraries(void) {
     printf(LABEL "Assimp %u.%u.%u", "libraries", aiGetVersionMajor(), aiGetVersionMinor(),
            aiGetVersionPatch());
     print_embree();
-    printf(", OpenEXR %d.%d.%d, libpng %s, cJSON %s\n", major, minor, patch,
-           png_get_libpng_ver(NULL), cJSON_Version());
+    printf(", OpenEXR %d.%d.%d, libpng %s, cJSON %s", major, minor, patch, png_get_libpng_ver(NULL),
+           cJSON_Version());
+    glfwGetVersion(&major, &minor, &patch);
+    printf(", GLFW %d.%d.%d, Pango %s\n", major, minor, patch, pango_version_string());
 }
 
 static void print_cache(void) {

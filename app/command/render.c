@@ -407,7 +407,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,
           &o.shard_given },
-        { "animate", 0, CLI_TEXT, &o.animate, "PATH",
+        { "animate", 0, CLI_TEXT, &o.animate, ANIMATION_ARGUMENT,
           "how they move: " ANIMATION_NAMES " (without it, scene if the file moves its lights, "
           "else orbit)",
           0, 0, NULL, NULL },

@@ -95,7 +95,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL, NULL },
         { "samples", 0, CLI_INT, &o->settings.samples, "N", "samples a pixel, when nothing moves",
           1, VIEW_SAMPLES_MAX, NULL, NULL },
-        { "animate", 0, CLI_TEXT, &o->animate, "PATH",
+        { "animate", 0, CLI_TEXT, &o->animate, ANIMATION_ARGUMENT,
           "play how lights move: " ANIMATION_NAMES "; without it they wait for the space bar", 0, 0,
           NULL, NULL },
         { "from", 0, CLI_TEXT, &a.from, "FILE",

@@ -54,7 +54,7 @@ fi
 
 # what depends on what
 grep -q "liblampion$soversion (= $version" "$WORK/liblampion-dev.depends" || fail "dev: $(cat "$WORK/liblampion-dev.depends")"
-for library in libassimp5 libembree3-3 libpng16-16 libopenexr libepoxy0 libegl1 libgl1 libgl1-mesa-dri; do
+for library in libassimp5 libembree3-3 libglfw3 libpango libpng16-16 libopenexr libepoxy0 libegl1 libgl1 libgl1-mesa-dri; do
     grep -q "$library" "$WORK/lampion.depends" || fail "lampion does not depend on $library"
 done
 [ "$(sed 's/ (.*//' "$WORK/liblampion$soversion.depends")" = libc6 ] || fail "the library depends on more than libc6"
@@ -81,7 +81,8 @@ LD_LIBRARY_PATH=$lib "$WORK/shared" >"$WORK/shared.txt"
 mkdir "$WORK/reader"
 own_scene "$WORK/reader/scene.gltf"
 code_blocks README.md json >"$WORK/reader/lights.json"
-code_blocks README.md sh | grep '^lampion.* scene\.' >"$WORK/reader/commands"
+code_blocks README.md sh | grep '^lampion.* scene\.' | # small: the last --size counts
+    sed 's/ lights.json .*/& --size 160x90/' >"$WORK/reader/commands"
 [ "$(wc -l <"$WORK/reader/commands")" -ge 6 ] || fail "the README's way is not there"
 (cd "$WORK/reader" && PATH=$root/usr/bin:$PATH XDG_CACHE_HOME=$WORK/cache sh -eu commands >log 2>&1) ||
     fail "the README's way: $(cat "$WORK/reader/log")"
