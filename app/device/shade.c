@@ -34,7 +34,7 @@ static void shade_run(const gpu_frame *frame, const lmp_light *lights, const gpu
         .diffuse = vectors(row->diffuse, first),
         .specular = vectors(row->specular, first),
         .exponent = { row->exponent + first, sizeof(float) },
-        .table = row->table + first,
+        .table = row->tables ? row->table + first : NULL,
         .table_stride = sizeof *row->table,
     };
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };

@@ -204,10 +204,12 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
     decode_points(g, y, row);
     decode_normals(g, y, row);
     decode_materials(g, y, row);
+    row->tables = false;
     for (size_t x = 0; x < (size_t)g->width; x++) {
         const int kind = g->roughness_kind[first + x][1];
         row->kind[x] = (unsigned char)(kind >= SHARED_KIND_TABLE ? GPU_KIND_SURFACE : kind);
         row->table[x] = kind >= SHARED_KIND_TABLE ? g->tables[kind - SHARED_KIND_TABLE] : NULL;
+        row->tables |= kind >= SHARED_KIND_TABLE;
         if (kind == SHARED_KIND_LIGHT) {
             decode_light(g, g->normal[first + x].u, x, row);
             continue;

@@ -186,6 +186,7 @@ typedef struct gpu_row {
     float *diffuse[3], *specular[3], *exponent;
     float *emission[3];
     const lmp_brdf_table **table;
+    bool tables; /* some pixel has one */
 } gpu_row;
 bool gpu_row_create(int width, gpu_row *row);
 void gpu_row_free(gpu_row *row);

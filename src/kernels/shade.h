@@ -19,8 +19,13 @@ typedef struct shade_cap {
 } shade_cap;
 
 LMP_INLINE shade_cap shade_sphere(const lmp_kernel_light *light, size_t e, const vf point[3]) {
-    cap_lanes sphere = cap_from(light->x - light->w * point[0], light->y - light->w * point[1],
-                                light->z - light->w * point[2], vf_set(light->radius), 0);
+    vf x = vf_set(light->x), y = vf_set(light->y), z = vf_set(light->z);
+    if (light->w > 0) {
+        x = x - point[0];
+        y = y - point[1];
+        z = z - point[2];
+    }
+    cap_lanes sphere = cap_from(x, y, z, vf_set(light->radius), 0);
     cap_axis(&sphere);
     shade_cap cap = { sphere.x,
                       sphere.y,
@@ -271,20 +276,6 @@ LMP_INLINE void spline_weights(vf x, vf w[4]) {
     w[3] = x * x * x;
 }
 
-/* Where the lobes of a block lie, and which coefficients a light reads of them. */
-typedef struct response_lanes {
-    const int16_t *cell[LMP_LANES];
-    size_t row_pairs[LMP_LANES];
-    vf share, density, angle;
-} response_lanes;
-
-/* Weights of a reading, one quarter of a row a lane: columns' pairs, then rows. */
-typedef struct response_reading {
-    int16_t columns[LMP_LANES][8] LMP_ALIGNED;
-    float rows[4][LMP_LANES] LMP_ALIGNED;
-    const int16_t *from[LMP_LANES];
-} response_reading;
-
 #if LMP_LANES == 1
 typedef int32_t vi;
 LMP_INLINE vi vi_from(vf x) {
@@ -302,80 +293,113 @@ LMP_INLINE vf vf_from(vi x) {
 }
 #endif
 
+/* Where the lobes of a block lie. */
+typedef struct response_lanes {
+    const int16_t *cell[LMP_LANES];
+    size_t row[LMP_LANES]; /* coefficients from one to the next */
+    vi row_pairs;
+    vf share, density, angle;
+} response_lanes;
+
+/* What a light reads of them: weights of the pairs of four columns and of four rows. Element 4q + k
+ * has its pairs' weights in quarter q of columns[k]; a lone one has pair k's there. */
+typedef struct response_reading {
+    vf columns[4], rows[4];
+    const int16_t *from[LMP_LANES];
+} response_reading;
+
 LMP_INLINE void response_aim(const response_lanes *lobe, vf g, vf a, response_reading *reading) {
     const vf x = g * lobe->density, y = a * lobe->density;
-    const vi column = vi_from(x), row = vi_from(y);
-    vf across[4], down[4], lanes[4];
+    const vi column = vi_from(x), row = vi_from(y), pair = row * lobe->row_pairs + column;
+    vf across[4];
     spline_weights(x - vf_from(column), across);
-    spline_weights(y - vf_from(row), down);
+    spline_weights(y - vf_from(row), reading->rows);
     const vf second = lobe->share * (SPLINE_ONE / 6), first = (1 - lobe->share) * (SPLINE_ONE / 6);
     for (int i = 0; i < 4; i++) {
-        vf_store(reading->rows[i], down[i] * (LMP_KERNEL_RESPONSE_UNIT / 6 / SPLINE_ONE));
         const vi low = vi_from(across[i] * first + 0.5f), high = vi_from(across[i] * second + 0.5f);
-        const vi pair = low | high << 16;
-        memcpy(&lanes[i], &pair, sizeof pair);
+        const vi both = low | high << 16;
+        memcpy(&reading->columns[i], &both, sizeof both);
     }
+    int32_t pairs[LMP_LANES];
+    memcpy(pairs, &pair, sizeof pairs);
+    for (int e = 0; e < LMP_LANES; e++)
+        reading->from[e] = lobe->cell[e] + 2 * (size_t)pairs[e];
 #if LMP_LANES > 1
-    layout_transpose4(lanes);
-    for (int e = 0; e < LMP_LANES; e++)
-        layout_store_quarter((float *)(void *)reading->columns[e], lanes[e % 4], e / 4);
-#else
-    memcpy(reading->columns[0], lanes, sizeof lanes);
+    layout_transpose4(reading->columns);
 #endif
-    int32_t columns[LMP_LANES], rows[LMP_LANES];
-    memcpy(columns, &column, sizeof columns);
-    memcpy(rows, &row, sizeof rows);
-    for (int e = 0; e < LMP_LANES; e++)
-        reading->from[e] =
-            lobe->cell[e] + 2 * ((size_t)rows[e] * lobe->row_pairs[e] + (size_t)columns[e]);
 }
 
-/* sums[j] = the four rows' values of column j, their two slices mixed. */
+/* Of elements 0, 4, …: four sums of two products each, of a row's coefficients and their weights.
+ */
 #if LMP_LANES > 1 && defined(__SSE2__)
-LMP_INLINE void response_lane(const response_lanes *lobe, const response_reading *reading, int e,
-                              float sums[4]) {
-    const __m128i weights = _mm_load_si128((const __m128i *)(const void *)reading->columns[e]);
-    __m128 sum = _mm_setzero_ps();
-    for (int i = 0; i < 4; i++) {
-        const __m128i row = _mm_loadu_si128(
-            (const __m128i *)(const void *)(reading->from[e] + 2 * (size_t)i * lobe->row_pairs[e]));
-        sum = _mm_add_ps(sum, _mm_mul_ps(_mm_set1_ps(reading->rows[i][e]),
-                                         _mm_cvtepi32_ps(_mm_madd_epi16(row, weights))));
-    }
-    _mm_store_ps(sums, sum);
-}
-#else
-LMP_INLINE void response_lane(const response_lanes *lobe, const response_reading *reading, int e,
-                              float sums[4]) {
-    for (int j = 0; j < 4; j++)
-        sums[j] = 0;
-    for (int i = 0; i < 4; i++) {
-        const int16_t *row = reading->from[e] + 2 * (size_t)i * lobe->row_pairs[e];
-        for (int j = 0; j < 4; j++)
-            sums[j] +=
-                reading->rows[i][e] * (float)(row[2 * j] * reading->columns[e][2 * j] +
-                                              row[2 * j + 1] * reading->columns[e][2 * j + 1]);
-    }
+LMP_INLINE __m128i response_row(const int16_t *from) {
+    return _mm_loadu_si128((const __m128i *)(const void *)from);
 }
 #endif
+#if LMP_LANES == 4 && defined(__SSE2__)
+LMP_INLINE vf response_products(const int16_t *const *from, vf columns) {
+    return (vf)_mm_madd_epi16(response_row(from[0]), (__m128i)columns);
+}
+#elif LMP_LANES == 8
+LMP_INLINE vf response_products(const int16_t *const *from, vf columns) {
+    return (vf)_mm256_madd_epi16(_mm256_set_m128i(response_row(from[4]), response_row(from[0])),
+                                 (__m256i)columns);
+}
+#elif LMP_LANES == 16
+LMP_INLINE vf response_products(const int16_t *const *from, vf columns) {
+    const __m256i low = _mm256_set_m128i(response_row(from[4]), response_row(from[0]));
+    const __m256i high = _mm256_set_m128i(response_row(from[12]), response_row(from[8]));
+    const __m256i first = _mm256_madd_epi16(low, _mm512_castsi512_si256((__m512i)columns));
+    const __m256i second = _mm256_madd_epi16(high, _mm512_extracti64x4_epi64((__m512i)columns, 1));
+    return (vf)_mm512_inserti64x4(_mm512_castsi256_si512(first), second, 1);
+}
+#elif LMP_LANES > 1
+LMP_INLINE vf response_products(const int16_t *const *from, vf columns) {
+    int16_t weights[2 * LMP_LANES];
+    int32_t sums[LMP_LANES];
+    memcpy(weights, &columns, sizeof weights);
+    for (int i = 0; i < LMP_LANES; i++) {
+        const int16_t *row = from[i / 4 * 4] + 2 * (i % 4);
+        sums[i] = row[0] * weights[2 * i] + row[1] * weights[2 * i + 1];
+    }
+    vf products;
+    memcpy(&products, sums, sizeof sums);
+    return products;
+}
+#endif
+
+/* A row's columns and slices, weighted: integers, whose sum is exact. */
+LMP_INLINE vi response_row_sum(const response_reading *reading, const int16_t *const *from) {
+#if LMP_LANES > 1
+    vf products[4];
+    vi sums[4];
+    LMP_UNROLL for (int k = 0; k < 4; k++) products[k] =
+        response_products(from + k, reading->columns[k]);
+    layout_transpose4(products);
+    memcpy(sums, products, sizeof sums);
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+#else
+    vi sum = 0;
+    for (int j = 0; j < 4; j++) {
+        int16_t weights[2];
+        memcpy(weights, &reading->columns[j], sizeof weights);
+        sum += from[0][2 * j] * weights[0] + from[0][2 * j + 1] * weights[1];
+    }
+    return sum;
+#endif
+}
 
 /* The lobe's answer to a cap of strength R_0 = mean 1, times the two solid angles. */
 LMP_INLINE vf response_read(const response_lanes *lobe, vf g, vf a) {
     response_reading reading;
-    float sums[LMP_LANES][4] LMP_ALIGNED;
+    vf sum = vf_set(0);
     response_aim(lobe, g, a, &reading);
-    for (int e = 0; e < LMP_LANES; e++)
-        response_lane(lobe, &reading, e, sums[e]);
-#if LMP_LANES > 1
-    vf v[4];
-    for (int i = 0; i < 4; i++)
-        for (int q = 0; q < LMP_LANES / 4; q++)
-            memcpy((char *)&v[i] + 16 * q, sums[4 * q + i], 16);
-    layout_transpose4(v);
-    return (v[0] + v[1]) + (v[2] + v[3]);
-#else
-    return (sums[0][0] + sums[0][1]) + (sums[0][2] + sums[0][3]);
-#endif
+    LMP_UNROLL for (int i = 0; i < 4; i++) {
+        sum = sum + reading.rows[i] * vf_from(response_row_sum(&reading, reading.from));
+        for (int e = 0; e < LMP_LANES; e++)
+            reading.from[e] += lobe->row[e];
+    }
+    return sum * (LMP_KERNEL_RESPONSE_UNIT / 6 / SPLINE_ONE);
 }
 
 /* acos(u), u in -1 … 1 but for rounding. */
@@ -390,8 +414,9 @@ LMP_INLINE void response_lanes_load(const lmp_kernel_response *response,
                                     response_lanes *lanes) {
     for (size_t i = 0; i < LMP_LANES; i++) {
         lanes->cell[i] = response->pairs + 2 * (size_t)places->first[e + i];
-        lanes->row_pairs[i] = places->columns[e + i];
+        lanes->row[i] = 2 * (size_t)places->columns[e + i];
     }
+    memcpy(&lanes->row_pairs, places->columns + e, sizeof lanes->row_pairs);
     lanes->share = vf_load(places->share + e);
     lanes->density = vf_load(places->density + e);
     lanes->angle = vf_load(places->lobe_angle + e);
