@@ -70,7 +70,8 @@ typedef struct gpu_frame {
     int samples;                  /* a pixel, spread over it; 0 means 1, in its middle */
     const lmp_response *response; /* of GPU_METHOD_PREINTEGRATED, its bands and window */
     gpu_host_shader host;         /* instead of the compute pass, or NULL */
-    float samples_exposure;       /* the mean suits a picture of this exposure; 0: the plain mean */
+    bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
+    float samples_exposure; /* the mean suits a picture of this exposure; 0: the plain mean */
 } gpu_frame;
 
 int gpu_bands_max(gpu_method method);

@@ -120,7 +120,9 @@ struct gpu_renderer {
     const lmp_response *response;          /* what they hold */
     int response_bands;
     lmp_window response_window;
-    int width, height; /* of the targets below */
+    int width, height;                /* of the targets below */
+    GLuint kept[GPU_ATTACHMENTS + 1]; /* attachments and depth without lights, or 0 */
+    mat4 kept_view;
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
     GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */
     double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
@@ -131,6 +133,9 @@ struct gpu_renderer {
     float near;          /* distance of the near plane */
     gpu_gbuffer gbuffer; /* of host shaders */
 };
+
+/* What a frame of keep_geometry has left is not used any more. */
+void gpu_forget_geometry(gpu_renderer *renderer);
 
 /* Binds the G-buffer's textures and the blocks for a compute pass. */
 void gpu_bind_gbuffer(const gpu_renderer *renderer);

@@ -78,9 +78,15 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
     return r;
 }
 
+void gpu_forget_geometry(gpu_renderer *r) {
+    glDeleteTextures(GPU_ATTACHMENTS + 1, r->kept);
+    memset(r->kept, 0, sizeof r->kept);
+}
+
 static void delete_targets(gpu_renderer *r) {
     glDeleteTextures(GPU_ATTACHMENTS, r->attachments);
     glDeleteTextures(1, &r->depth);
+    gpu_forget_geometry(r);
     glDeleteTextures(1, &r->hdr);
     glDeleteTextures(1, &r->sums);
     r->sums = 0;
@@ -126,8 +132,11 @@ static GLuint create_target(GLenum format, int width, int height) {
     return texture;
 }
 
+/* Of the G-buffer's attachments, and of its depth. */
+static const GLenum formats[GPU_ATTACHMENTS + 1] = { GL_RGBA8, GL_RG16, GL_RG8, GL_R11F_G11F_B10F,
+                                                     GL_DEPTH_COMPONENT32F };
+
 static bool create_targets(gpu_renderer *r, int width, int height, cli_error *error) {
-    static const GLenum formats[GPU_ATTACHMENTS] = { GL_RGBA8, GL_RG16, GL_RG8, GL_R11F_G11F_B10F };
     static const GLenum buffers[GPU_ATTACHMENTS] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
                                                      GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3 };
     if (r->width == width && r->height == height)
@@ -142,7 +151,7 @@ static bool create_targets(gpu_renderer *r, int width, int height, cli_error *er
         glNamedFramebufferTexture(r->framebuffer, buffers[i], r->attachments[i], 0);
     }
     glNamedFramebufferDrawBuffers(r->framebuffer, GPU_ATTACHMENTS, buffers);
-    r->depth = create_target(GL_DEPTH_COMPONENT32F, width, height);
+    r->depth = create_target(formats[GPU_ATTACHMENTS], width, height);
     glNamedFramebufferTexture(r->framebuffer, GL_DEPTH_ATTACHMENT, r->depth, 0);
     r->hdr = create_target(GL_RGBA32F, width, height);
     r->ldr = create_target(GL_RGBA8, width, height);
@@ -298,11 +307,37 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     return program;
 }
 
-static void draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block) {
+/* Copies the G-buffer to what is kept, or back. */
+static void copy_geometry(const gpu_renderer *r, bool back) {
+    for (int i = 0; i <= GPU_ATTACHMENTS; i++) {
+        const GLuint own = i < GPU_ATTACHMENTS ? r->attachments[i] : r->depth;
+        glCopyImageSubData(back ? r->kept[i] : own, GL_TEXTURE_2D, 0, 0, 0, 0,
+                           back ? own : r->kept[i], GL_TEXTURE_2D, 0, 0, 0, 0, r->width, r->height,
+                           1);
+    }
+}
+
+static void draw_geometry(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block) {
     static const GLfloat zero[4] = { 0 };
+    if (frame->keep_geometry && r->kept[0] &&
+        memcmp(r->kept_view, block->clip_from_world, sizeof r->kept_view) == 0) {
+        copy_geometry(r, true);
+        return;
+    }
     for (int i = 0; i < GPU_ATTACHMENTS; i++)
         glClearNamedFramebufferfv(r->framebuffer, GL_COLOR, i, zero);
     glClearNamedFramebufferfv(r->framebuffer, GL_DEPTH, 0, zero);
+    gpu_mesh_draw(&r->mesh, block->clip_from_world, r->surface, r->surface_masked);
+    if (!frame->keep_geometry)
+        return;
+    for (int i = 0; i <= GPU_ATTACHMENTS && !r->kept[0]; i++)
+        r->kept[GPU_ATTACHMENTS - i] =
+            create_target(formats[GPU_ATTACHMENTS - i], r->width, r->height);
+    memcpy(r->kept_view, block->clip_from_world, sizeof r->kept_view);
+    copy_geometry(r, false);
+}
+
+static void draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, r->framebuffer);
     glViewport(0, 0, r->width, r->height);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -313,7 +348,7 @@ static void draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_f
     glDepthMask(GL_TRUE);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
-    gpu_mesh_draw(&r->mesh, block->clip_from_world, r->surface, r->surface_masked);
+    draw_geometry(r, frame, block);
     if (frame->light_count) {
         glBindVertexArray(r->empty_array);
         glUseProgram(r->light);

@@ -99,6 +99,12 @@ static void compose(gpu_screen *s, const gpu_layout *layout, GLuint framebuffer,
 }
 
 void gpu_screen_show(gpu_screen *s, const gpu_layout *layout) {
+    const screen_side *side = &s->sides[0];
+    if (layout->split == GPU_SPLIT_NONE && side->texture) { /* cheaper than a shader */
+        glBlitNamedFramebuffer(side->framebuffer, 0, 0, 0, side->width, side->height, 0,
+                               layout->height, layout->width, 0, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+        return;
+    }
     compose(s, layout, 0, true);
 }
 

@@ -86,6 +86,7 @@ bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int co
     }
     vec4 *values = total < (size_t)1 << 23 ? calloc(total + 1, sizeof *values) : NULL;
     const bool ok = values && fill_tables(r, stride, total, values);
+    gpu_forget_geometry(r);
     if (ok) {
         glDeleteBuffers(1, &r->tables_buffer);
         glCreateBuffers(1, &r->tables_buffer);

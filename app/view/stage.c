@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* From so many triangles on a software device draws a coarser scene while things move. */
-enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 500, RESPONSES = 8 };
+enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300, RESPONSES = 8 };
 
 /* A response that has been made. */
 typedef struct made_response {
@@ -17,9 +17,12 @@ typedef struct made_response {
     unsigned used; /* when, by the stage's clock */
 } made_response;
 
+/* In full; coarse while the camera rests; coarse and of fewer triangles while it moves. */
+typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
+
 /* One side's renderers, and the materials that they have been given. */
 typedef struct side {
-    gpu_renderer *fine, *coarse;
+    gpu_renderer *renderers[QUALITIES];
     device_materials materials;
     char (*names)[VIEW_MATERIAL_SIZE]; /* of them, GPU_TABLES_MAX allocated */
     int count, bands;
@@ -33,6 +36,7 @@ struct view_stage {
     gpu_screen *screen;
     side sides[2];
     made_response responses[RESPONSES];
+    scene_camera camera; /* of the last draft */
     unsigned clock;
 };
 
@@ -53,8 +57,8 @@ view_stage *view_stage_create(const gpu_context *context, const scene *world, cl
 }
 
 static void close_side(side *own) {
-    gpu_renderer_destroy(own->fine);
-    gpu_renderer_destroy(own->coarse);
+    for (int i = 0; i < QUALITIES; i++)
+        gpu_renderer_destroy(own->renderers[i]);
     device_materials_free(&own->materials);
     free(own->names);
     memset(own, 0, sizeof *own);
@@ -143,14 +147,14 @@ static bool settle_materials(view_stage *s, side *own, const view_settings *sett
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
-    const bool ok = device_materials_open(&list, s->world, &fresh, error) &&
-                    device_materials_bake(&fresh, look->bands, look->window, error) &&
-                    give_tables(s, &fresh, own->fine, error) &&
-                    give_tables(s, &fresh, own->coarse, error);
+    bool ok = device_materials_open(&list, s->world, &fresh, error) &&
+              device_materials_bake(&fresh, look->bands, look->window, error);
+    for (int i = 0; i < QUALITIES && ok; i++)
+        ok = give_tables(s, &fresh, own->renderers[i], error);
     if (!ok) { /* as before, for what is drawn next */
         cli_error ignored;
-        give_tables(s, &own->materials, own->fine, &ignored);
-        give_tables(s, &own->materials, own->coarse, &ignored);
+        for (int i = 0; i < QUALITIES; i++)
+            give_tables(s, &own->materials, own->renderers[i], &ignored);
         device_materials_free(&fresh);
         return false;
     }
@@ -178,12 +182,22 @@ const char *view_stage_pending(view_stage *s, const view_settings *settings) {
 /* --- drawing ------------------------------------------------------------------------------------
  */
 
-static bool open_side(view_stage *s, side *own, bool coarse, cli_error *error) {
-    gpu_renderer **renderer = coarse ? &own->coarse : &own->fine;
+static bool has_draft(const view_stage *s) {
+    return s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
+}
+
+/* Of a draft, by whether the view is that of the draft before. */
+static quality choose_quality(view_stage *s, const view_settings *settings) {
+    const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
+    s->camera = settings->camera;
+    return rests || !has_draft(s) ? RESTING : MOVING;
+}
+
+static bool open_side(view_stage *s, side *own, quality fineness, cli_error *error) {
+    gpu_renderer **renderer = &own->renderers[fineness];
     if (*renderer)
         return true;
-    const bool simplify =
-        coarse && s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
+    const bool simplify = fineness == MOVING;
     if (simplify && !s->draft.vertices && !view_draft_make(s->world, DRAFT_CELLS, &s->draft, error))
         return false;
     *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
@@ -217,6 +231,7 @@ static bool fill_frame(view_stage *s, const view_settings *settings, const view_
 static bool draw(view_stage *s, const view_settings *settings, int divisor, int index,
                  view_figures *figures, cli_error *error) {
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    const quality fineness = divisor > 1 ? choose_quality(s, settings) : FINE;
     memset(figures, 0, sizeof *figures);
     for (int i = 0; i < sides; i++) {
         side *own = &s->sides[i];
@@ -224,11 +239,12 @@ static bool draw(view_stage *s, const view_settings *settings, int divisor, int 
         gpu_frame frame;
         gpu_times times;
         device_kind device;
-        if (!open_side(s, own, divisor > 1, error) ||
+        if (!open_side(s, own, fineness, error) ||
             !settle_materials(s, own, settings, look, error) ||
             !fill_frame(s, settings, look, divisor, &frame, &device, error))
             return false;
-        gpu_renderer *renderer = divisor > 1 ? own->coarse : own->fine;
+        gpu_renderer *renderer = own->renderers[fineness];
+        frame.keep_geometry = fineness == RESTING && s->context.software;
         if (index < 0 ? !gpu_render(renderer, &frame, &times, error)
                       : !gpu_refine(renderer, &frame, index, &times, error))
             return false;
@@ -266,12 +282,13 @@ bool view_stage_expose(view_stage *s, const view_settings *settings, float *expo
     device_kind device;
     image picture;
     side *own = &s->sides[0];
-    if (!open_side(s, own, false, error) ||
+    if (!open_side(s, own, FINE, error) ||
         !settle_materials(s, own, settings, &settings->looks[0], error) ||
         !fill_frame(s, settings, &settings->looks[0], 1, &frame, &device, error))
         return false;
     frame.samples = 1;
-    if (!gpu_render(own->fine, &frame, NULL, error) || !gpu_read_image(own->fine, &picture, error))
+    if (!gpu_render(own->renderers[FINE], &frame, NULL, error) ||
+        !gpu_read_image(own->renderers[FINE], &picture, error))
         return false;
     *exposure = image_auto_exposure(&picture);
     image_free(&picture);

@@ -17,7 +17,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define MOVING_SECONDS 0.055 /* a frame may take while things move */
+#define MOVING_SECONDS 0.060 /* a frame may take while things move */
 #define STILL_SECONDS  0.12  /* after the last change, refining begins */
 #define WATCH_SECONDS  0.5   /* between looks at the scene file */
 #define PANEL_SECONDS  0.25  /* between updates of the figures */
@@ -59,6 +59,9 @@ typedef struct viewer {
     int sample;                          /* of the refinement, on the screen; -1: a draft */
     int divisor;                         /* of the next draft */
     double changed_at, frame_seconds;    /* seconds: of the last change; a moving frame took */
+    double slow_seconds; /* the frame before took, if it had the same size; else 0 */
+    bool moves;          /* the camera, from the frame before to the one on the screen */
+    double show_seconds; /* of these, scaling, drawing over it and the window */
     view_figures figures;
     version seen, candidate; /* of the scene file */
     double watched_at, panel_at, clock;
@@ -238,6 +241,7 @@ static void write_state(viewer *v) {
     cJSON_AddNumberToObject(ui, "drawn_width", v->figures.width);
     cJSON_AddNumberToObject(ui, "drawn_height", v->figures.height);
     cJSON_AddNumberToObject(ui, "moving_frame_ms", 1e3 * v->frame_seconds);
+    cJSON_AddNumberToObject(ui, "show_ms", 1e3 * v->show_seconds);
     cJSON_AddNumberToObject(ui, "gbuffer_ms", v->figures.times.gbuffer);
     cJSON_AddNumberToObject(ui, "shade_ms", v->figures.times.shade);
     cJSON_AddNumberToObject(ui, "transfer_ms", v->figures.times.transfer);
@@ -302,6 +306,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
             v->figures.device == DEVICE_CPU ? "processor" : "graphics card");
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
+    add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);
     if (s->recording)
         add_row(rows, &count, "Recording", "%s, %d frames", v->record, v->recorded);
     return count;
@@ -421,9 +426,11 @@ static void draw_over(viewer *v, const char *announcement) {
 }
 
 static void show(viewer *v, const char *announcement) {
+    const double began = view_window_clock();
     view_stage_show(v->stage, v->drawn, (float)(2 * view_window_scale(v->window)));
     draw_over(v, announcement);
     view_window_swap(v->window);
+    v->show_seconds = view_window_clock() - began;
 }
 
 /* --- frames -------------------------------------------------------------------------------------
@@ -453,12 +460,19 @@ static bool take_back(viewer *v, const cli_error *error) {
 
 /* How coarse a draft has to be, from how long the last one took. */
 static void adapt(viewer *v, double seconds) {
+    const gpu_times *t = &v->figures.times;
     const double finer = v->divisor > 1 ? (double)v->divisor / (v->divisor - 1) : 1;
+    /* the window costs the same however many pixels the draft has */
+    const double of_pixels = seconds - v->show_seconds - (v->moves ? 1e-3 * t->gbuffer : 0);
+    const double expected = seconds + of_pixels * (finer * finer - 1);
+    const int before = v->divisor;
     v->frame_seconds = v->frame_seconds > 0 ? 0.7 * v->frame_seconds + 0.3 * seconds : seconds;
-    if (seconds > MOVING_SECONDS * 1.15 && v->divisor < DIVISOR_MAX)
+    /* twice too slow: a first frame of its size, or of a camera that has come to rest, is slower */
+    if (fmin(seconds, v->slow_seconds) > MOVING_SECONDS * 1.1 && v->divisor < DIVISOR_MAX)
         v->divisor++;
-    else if (v->divisor > 1 && seconds * finer * finer < 0.8 * MOVING_SECONDS)
+    else if (v->divisor > 1 && expected < 0.9 * MOVING_SECONDS)
         v->divisor--;
+    v->slow_seconds = v->divisor == before ? seconds : 0;
 }
 
 /* Draws what has changed, or refines what has not; false if there was nothing to do. */
@@ -467,6 +481,7 @@ static bool draw(viewer *v, bool *worked, cli_error *error) {
     const bool draft = changed && !steps_time(v) && v->divisor > 1 && v->good->width > 0;
     *worked = false;
     if (changed) {
+        v->moves = memcmp(&v->shown->camera, &v->drawn->camera, sizeof v->drawn->camera) != 0;
         memcpy(v->drawn, v->shown, sizeof *v->drawn);
         v->changed_at = v->clock;
         v->sample = draft ? -1 : 0;
