@@ -706,6 +706,7 @@ bool view_run(const view_options *options, cli_error *error) {
     v->options = options;
     const bool ok = open_viewer(v, error) && loop(v, error);
     close_graphics(v);
+    view_window_end();
     view_state_close(&v->state);
     view_script_free(&v->script);
     free_scene(v->world);

@@ -194,7 +194,6 @@ view_window *view_window_open(const char *title, int width, int height, view_sta
     if (!window->glfw) {
         cli_fail(error, NULL, "no window with OpenGL 4.5 (%s): lampion render draws to a file",
                  last_complaint);
-        glfwTerminate();
         free(window);
         return NULL;
     }
@@ -209,8 +208,11 @@ void view_window_close(view_window *window) {
     if (!window)
         return;
     glfwDestroyWindow(window->glfw);
-    glfwTerminate();
     free(window);
+}
+
+void view_window_end(void) {
+    glfwTerminate();
 }
 
 void view_window_take_events(view_window *window, double seconds) {

@@ -13,6 +13,9 @@ view_window *view_window_open(const char *title, int width, int height, view_sta
                               cli_error *error);
 void view_window_close(view_window *window);
 
+/* Leaves the display; another window may be opened before, on the same connection to it. */
+void view_window_end(void);
+
 /* Takes what has happened; waits up to `seconds` for something to happen. */
 void view_window_take_events(view_window *window, double seconds);
 
