@@ -1,12 +1,8 @@
 -- SPDX-License-Identifier: MIT
 -- Pandoc filter of every page: links between Markdown files become links between pages, names of
--- the library link to the API, wide tables scroll, headings can be linked to.
+-- the library link to the API, wide tables scroll.
 local api = dofile(PANDOC_SCRIPT_FILE:match('^(.*/)') .. 'api.lua')
 local index = api.index()
-
-local function is_link(element)
-    return element.t == 'Link'
-end
 
 -- Inline code that is one of the library's names, outside headings and other links.
 local function link_names(element)
@@ -41,13 +37,6 @@ local names = {
 local looks = {
     Table = function(element)
         return pandoc.Div({ element }, pandoc.Attr('', { 'wide' }))
-    end,
-    Header = function(header)
-        if header.level > 1 and header.identifier ~= '' then
-            header.content:insert(pandoc.Space())
-            header.content:insert(pandoc.Link('#', '#' .. header.identifier, 'link to this section', pandoc.Attr('', { 'anchor' })))
-        end
-        return header
     end,
     RawBlock = function(block)
         return block.text:match('^<!%-%-') and {} or nil

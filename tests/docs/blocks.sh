@@ -8,8 +8,8 @@
 #   <!-- not run: REASON -->   the block is left out; the reason is printed
 #   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
 #   <!-- prints -->            a text block: what the block before it printed, to the letter
-# Pictures are small here and samples few: the last value of an option counts, and the program's
-# stand-in below adds its own; of the materials of `brdf bands` it keeps the first. Nothing else is changed.
+# Pictures are small here, samples few, and materials cut to few bands: the last value of an option
+# counts, and the program's stand-in below adds its own; of the materials of `brdf bands` it keeps the first. Nothing else is changed.
 # DOCUMENTS="docs/a.md docs/b.md" runs these alone.
 set -eu
 . tests/house/common.sh
@@ -22,6 +22,7 @@ cat >"$WORK/bin/lampion" <<SCRIPT
 case \$1:" \$* " in
 *' --help '*) ;;
 reference:*' --point '*) ;;
+render:*' --material '*) set -- "\$@" --size 96x54 --samples 1 --bands 4 ;;
 render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;
 reference:*) set -- "\$@" --size 96x54 --spp 4 ;;
 basis:*) set -- "\$@" --size 320x200 ;;
@@ -47,7 +48,7 @@ compile_c() {
 
 compile_glsl() {
     stage=$(echo "${1%.glsl}" | sed -n 's/.*\.\(vert\|frag\|comp\)$/\1/p')
-    glslangValidator -S "${stage:-frag}" "-I$WORK/prefix/share/lampion/shaders" "$1"
+    glslangValidator -G -o compiled.spv -S "${stage:-frag}" "-I$WORK/prefix/share/lampion/shaders" "$1"
 }
 
 read_json() {
