@@ -8,8 +8,9 @@
 #   <!-- not run: REASON -->   the block is left out; the reason is printed
 #   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
 #   <!-- prints -->            a text block: what the block before it printed, to the letter
-# Pictures are small here, samples few, and materials cut to few bands: the last value of an option
-# counts, and the program's stand-in below adds its own; of the materials of `brdf bands` it keeps the first. Nothing else is changed.
+# Pictures are small here, samples few, and materials cut to few bands and views: the last value of
+# an option counts, and the program's stand-in below adds its own; of the materials of `brdf bands`
+# it keeps the first. Nothing else is changed.
 # DOCUMENTS="docs/a.md docs/b.md" runs these alone.
 set -eu
 . tests/house/common.sh
@@ -26,8 +27,9 @@ render:*' --material '*) set -- "\$@" --size 96x54 --samples 1 --bands 4 ;;
 render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;
 reference:*) set -- "\$@" --size 96x54 --spp 4 ;;
 basis:*) set -- "\$@" --size 320x200 ;;
+brdf:*' bake '*) set -- "\$@" --views 8 --azimuths 8 ;;
 brdf:*' brdf bands '*) set -- brdf bands "\$3" ;;
-brdf:*' plot '*) set -- "\$@" --size 300x200 ;;
+brdf:*' plot '*) set -- "\$@" --size 300x200 --bands 4 ;;
 esac
 exec "$PROGRAM" "\$@"
 SCRIPT
