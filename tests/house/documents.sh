@@ -51,7 +51,7 @@ check_command() {
 }
 
 for document in $documents; do
-    code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/' >"$WORK/lines"
+    code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/; s/ | .*//; s/ <<.*//' >"$WORK/lines"
     while read -r line; do
         check_command "$document" "$line"
     done <"$WORK/lines"
