@@ -23,6 +23,8 @@ cat >"$WORK/bin/lampion" <<SCRIPT
 case \$1:" \$* " in
 *' --help '*) ;;
 reference:*' --point '*) ;;
+*' --from '*) ;;
+view:*) set -- "\$@" --size 160x90 --samples 1 ;;
 render:*' --material '*) set -- "\$@" --size 96x54 --samples 1 --bands 4 ;;
 render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;
 reference:*) set -- "\$@" --size 96x54 --spp 4 ;;
@@ -31,13 +33,33 @@ brdf:*' bake '*) set -- "\$@" --views 8 --azimuths 8 ;;
 brdf:*' brdf bands '*) set -- brdf bands "\$3" ;;
 brdf:*' plot '*) set -- "\$@" --size 300x200 --bands 4 ;;
 esac
+case \$1 in view) exec xvfb-run -a "$PROGRAM" "\$@" --script "$WORK/look" ;; esac
 exec "$PROGRAM" "\$@"
 SCRIPT
+printf '%s\n' "0.1 key F12" "0.2 key Ctrl+Q" >"$WORK/look" # a screenshot, and away
 chmod +x "$WORK/bin/lampion"
 export PATH="$WORK/bin:$PATH" XDG_CACHE_HOME="$WORK/cache" HOME="$WORK"
 export PKG_CONFIG_PATH="$(dirname "$(find "$WORK/prefix" -name lampion.pc)")"
 export SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=8 # as in an array job
 unset DISPLAY WAYLAND_DISPLAY
+
+# le32 NUMBER: four bytes, the least first.
+le32() {
+    printf "$(printf '\\%03o\\%03o\\%03o\\000' $(($1 % 256)) $(($1 / 256 % 256)) $(($1 / 65536)))"
+}
+
+# glb TEXT FILE: a scene of JSON and one buffer of base64 as one binary file.
+glb() {
+    sed 's/, "uri": "[^"]*"//' "$1" >"$WORK/json"
+    sed -n 's/.*;base64,\([^"]*\)".*/\1/p' "$1" | base64 -d >"$WORK/buffer"
+    json=$(wc -c <"$WORK/json") buffer=$(wc -c <"$WORK/buffer")
+    padding=$(((4 - json % 4) % 4))
+    {
+        printf glTF && le32 2 && le32 $((28 + json + padding + buffer))
+        le32 $((json + padding)) && printf JSON && cat "$WORK/json" && printf '%*s' $padding ''
+        le32 "$buffer" && printf 'BIN\000' && cat "$WORK/buffer"
+    } >"$2"
+}
 
 compile_c() {
     if grep -q 'int main' "$1"; then
@@ -78,6 +100,7 @@ run_document() {
     awk -v folder="$folder/blocks" -f tests/docs/blocks.awk "$document" >"$folder/list" || exit 1
     ln -s "$BUILD/.." "$folder/here/build"
     own_scene "$folder/here/scene.gltf"
+    glb "$folder/here/scene.gltf" "$folder/here/scene.glb"
     while read -r number line language annotation; do
         case $annotation in
         'not run: '?*)
