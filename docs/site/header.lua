@@ -4,6 +4,7 @@
 local folder = PANDOC_SCRIPT_FILE:match('^(.*/)')
 local api = dofile(folder .. 'api.lua')
 local index = api.index()
+local anchored = {} -- the names that have their anchor on this page
 
 local function escape(text)
     return (text:gsub('[&<>]', { ['&'] = '&amp;', ['<'] = '&lt;', ['>'] = '&gt;' }))
@@ -15,7 +16,6 @@ local function code_html(code, own)
     for _, name in ipairs(own) do
         defined[name] = true
     end
-    local anchored = {}
     local function mark(text)
         return (escape(text):gsub('[%a_][%w_]*', function(name)
             if defined[name] and not anchored[name] then
@@ -197,9 +197,13 @@ function Reader(input)
             append(comment_blocks(comment))
         end
         if public then
+            local fresh = {} -- a function in two forms is listed once
+            for _, name in ipairs(own) do
+                fresh[name] = not anchored[name]
+            end
             blocks[#blocks + 1] = pandoc.RawBlock('html', code_html(code, own))
             for _, name in ipairs(own) do
-                if name:match('^lmp_') and group.code:find(name .. '(', 1, true) then
+                if fresh[name] and name:match('^lmp_') and group.code:find(name .. '(', 1, true) then
                     names[#names + 1] = { pandoc.Plain({ pandoc.Link({ pandoc.Code(name) }, '#' .. name) }) }
                 end
             end
