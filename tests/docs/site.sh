@@ -54,6 +54,10 @@ while read -r page; do
 done <"$WORK/pages" >"$WORK/dead"
 [ ! -s "$WORK/dead" ] || fail "dead links, or things of the network: $(cat "$WORK/dead")"
 
+for picture in docs/images/*; do
+    grep -qF "images/$(basename "$picture")" README.md docs/*.md || fail "no document shows $picture"
+done
+
 # and a dead link would be seen
 printf '<a href="nowhere.html">x</a>\n<a href="index.html#nowhere">x</a>\n' >"$site/planted.html"
 [ "$(dead "$site/planted.html" | wc -l)" = 2 ] || fail "a dead link goes unseen"
