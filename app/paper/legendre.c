@@ -19,15 +19,18 @@ static double at_angle(double angle, void *user) {
     return paper_legendre(*(int *)user, cos(angle)) * sin(angle);
 }
 
-double paper_delta(int l, double cos_a) {
-    const double a = acos(cos_a);
-    const int parts = 1 + l / 8; /* a few oscillations each */
+static double delta_within(int l, double a) {
+    const int parts = 1 + (int)(l * a / 8); /* a few oscillations each */
     double sum = 0;
     for (int i = 0; i < parts; i++)
         sum += reference_integrate(at_angle, &l, a * i / parts, a * (i + 1) / parts);
     return sum;
 }
 
-double paper_zonal(int l, double cos_a) {
-    return sqrt(REFERENCE_PI * (2 * l + 1)) * paper_delta(l, cos_a);
+double paper_delta(int l, double cos_a) {
+    return delta_within(l, acos(cos_a));
+}
+
+double paper_zonal(int l, double a) {
+    return sqrt(REFERENCE_PI * (2 * l + 1)) * delta_within(l, a);
 }

@@ -10,7 +10,7 @@ double paper_legendre(int l, double x);
 /* ∫ P_l over cos_a … 1 by quadrature: the Delta_l of the paper's Eq. 10. */
 double paper_delta(int l, double cos_a);
 
-/* Z_l = 2 pi K_l Delta_l, paper Eq. 10, by quadrature. */
-double paper_zonal(int l, double cos_a);
+/* Z_l = 2 pi K_l Delta_l of a cap of half angle a, paper Eq. 10, by quadrature. */
+double paper_zonal(int l, double a);
 
 #endif

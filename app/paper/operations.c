@@ -147,7 +147,7 @@ bool paper_step_operations(paper *p, cli_error *error) {
             double z[BANDS_MAX], worst = 0;
             forms[i].evaluate(&t, bands, 0.8, z);
             for (int l = 0; l < bands; l++)
-                worst = fmax(worst, fabs(z[l] - paper_zonal(l, 0.8)));
+                worst = fmax(worst, fabs(z[l] - paper_zonal(l, acos(0.8))));
             page_table_row(&table, "%s|%d|%d|%d|%d|%s|%.0e", forms[i].name, bands, t.additions,
                            t.multiplications, t.divisions, forms[i].paper[n], worst);
         }

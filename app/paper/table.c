@@ -22,7 +22,7 @@ static double worst_error(const lmp_zonal_table *table, double least) {
         else
             lmp_sphere_zonal(BANDS, (float)s, 1, z);
         for (int l = 0; l < BANDS; l++) {
-            const double truth = paper_zonal(l, cos(a));
+            const double truth = paper_zonal(l, a);
             largest = fmax(largest, fabs(truth));
             error = fmax(error, fabs((double)z[l] - truth));
         }

@@ -12,7 +12,7 @@ for form in 3,3,5 6,13,19; do
     grep -q "^closed forms (Sloan 2008),$form,0," "$WORK/page/operations.csv" ||
         fail "the closed forms' operations are not the paper's $form"
 done
-for file in figure4.svg figure4.csv tabulated.csv response.csv response-memory.svg; do
+for file in figure4.svg accuracy.csv tabulated.csv response.csv response-memory.svg; do
     [ -s "$WORK/page/$file" ] || fail "$file is missing"
     grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"
 done
