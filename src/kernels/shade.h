@@ -237,9 +237,12 @@ LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
     shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
     vf weights[LMP_BANDS_MAX + 1]; /* of R_l P_l of the Phong lobe */
     for (size_t e = 0; e < count; e += LMP_LANES) {
+        const float *exponent = surfaces->exponent + e;
         shade_sums sums;
         shade_sums_load(gathered, e, &sums);
-        zonal_phong(bands, tables, vf_load(surfaces->exponent + e), weights);
+        /* Neighbours are often of one material. */
+        if (e == 0 || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
+            zonal_phong(bands, tables, vf_load(exponent), weights);
         shade_aim_all(surfaces, lights, light_count, e, aims);
         for (size_t i = 0; i < light_count; i++)
             zonal_light(bands, monic, tables, weights, &aims[i], lights[i].radiance, &sums);
