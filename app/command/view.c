@@ -109,8 +109,8 @@ static int run(const cli_command *command, int argc, char **argv) {
           0.01, 1000, NULL, NULL },
         { "state", 0, CLI_TEXT, &o->state, "FILE",
           "keep the settings in FILE, as JSON, every frame", 0, 0, NULL, NULL },
-        { "frames", 0, CLI_INT, &o->frames, "N", "quit after so many; 0: never", 0, FRAMES_MAX,
-          NULL, NULL },
+        { "frames", 0, CLI_INT, &o->frames, "N", "quit after so many were shown; 0: never", 0,
+          FRAMES_MAX, NULL, NULL },
         { .name = NULL },
     };
     int operand_count, status;

@@ -18,6 +18,8 @@ typedef struct words {
 /* Cuts a line at blanks; a file's name, the last word of drop and shot, may hold some. */
 static void split_words(char *line, words *w) {
     *w = (words) { .count = 0 };
+    for (size_t length = strlen(line); length > 0 && strchr(" \t", line[length - 1]); length--)
+        line[length - 1] = '\0';
     for (char *at = line + strspn(line, " \t"); *at && w->count < WORDS_MAX;) {
         const bool rest =
             w->count == 2 && (strcmp(w->text[1], "drop") == 0 || strcmp(w->text[1], "shot") == 0);

@@ -139,7 +139,8 @@ static bool read_int(const cJSON *object, const char *name, int minimum, int max
 static bool read_float(const cJSON *object, const char *name, double minimum, double maximum,
                        float *value) {
     double number;
-    if (!read_number(object, name, minimum, maximum, &number))
+    /* limits in float, so that the nearest float of a limit is taken again */
+    if (!read_number(object, name, (double)(float)minimum, (double)(float)maximum, &number))
         return false;
     *value = (float)number;
     return true;
@@ -152,7 +153,7 @@ static bool read_floats(const cJSON *object, const char *name, double minimum, d
         return false;
     cJSON_ArrayForEach(item, array) {
         if (!cJSON_IsNumber(item) || !(item->valuedouble >= minimum) ||
-            !(item->valuedouble <= maximum))
+            !(item->valuedouble <= (double)(float)maximum))
             return false;
         *value++ = (float)item->valuedouble;
     }

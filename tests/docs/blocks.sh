@@ -24,6 +24,7 @@ case \$1:" \$* " in
 *' --help '*) ;;
 reference:*' --point '*) ;;
 *' --from '*) ;;
+view:*' --script '*) exec xvfb-run -a "$PROGRAM" "\$@" --samples 1 ;;
 view:*) set -- "\$@" --size 160x90 --samples 1 ;;
 render:*' --material '*) set -- "\$@" --size 96x54 --samples 1 --bands 4 ;;
 render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;

@@ -10,18 +10,15 @@ if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
     export LAMPION_VIEW_DISPLAY=1
     exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view_memory.sh
 fi
-frames=${LAMPION_VIEW_FRAMES:-1000}
-
-view() {
-    "$PROGRAM" view builtin:balls --size 64x48 --samples 1 --animate orbit --frames "$frames" "$@"
-}
-
 sanitizer=$(ldd "$PROGRAM" | sed -n 's/.*libasan[^ ]* => \([^ ]*\).*/\1/p')
+frames=${LAMPION_VIEW_FRAMES:-$([ -n "$sanitizer" ] && echo 1000 || echo 400)}
+session="view builtin:balls --size 64x48 --samples 1 --animate orbit --frames $frames"
+
 if [ -n "$sanitizer" ]; then
     # the driver would be unloaded before leaks are looked for: then its own have no name
     driver=$(find /usr/lib/*/dri -name swrast_dri.so | head -n 1)
     export ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS="suppressions=$PWD/tests/program/leaks.txt"
-    LD_PRELOAD="$sanitizer $driver" view 2>"$WORK/err" || fail "$(cat "$WORK/err")"
+    LD_PRELOAD="$sanitizer $driver" "$PROGRAM" $session 2>"$WORK/err" || fail "$(cat "$WORK/err")"
     exit 0
 fi
 
@@ -36,7 +33,7 @@ memory() {
         sleep 0.05
     done
 }
-view --state "$WORK/state" 2>"$WORK/err" &
+"$PROGRAM" $session --state "$WORK/state" 2>"$WORK/err" &
 viewer=$!
 early=$(memory $((frames / 4)))
 late=$(memory $((frames - frames / 10)))

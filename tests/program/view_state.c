@@ -392,10 +392,11 @@ static bool read_script(const char *text, view_script *script) {
 static void scripts_are_read_strictly(void **unused) {
     (void)unused;
     view_script script;
-    assert_true(read_script("# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
-                            "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
-                            "4 drop a file.binary\n5 size 320 200\n6 shot out.png\n7 key Ctrl+Q",
-                            &script));
+    assert_true(
+        read_script("# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
+                    "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
+                    "4 drop a file.binary  # gold\n5 size 320 200\n6 shot out.png\n7 key Ctrl+Q",
+                    &script));
     assert_int_equal(script.count, 11);
     CHECK_NEAR(20.5, script.lines[0].event.y, 0);
     assert_true(script.lines[1].event.shift);

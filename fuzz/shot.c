@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT */
+/* Settings of screenshots: what is taken is in range, and comes back from its own JSON. */
+#include "app/file/file.h"
+#include "app/view/settings.h"
+
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void check(const view_settings *s) {
+    if (s->width < 1 || s->height < 1 || s->samples < 1 || s->light_count > SCENE_LIGHTS_MAX ||
+        s->material_count > GPU_TABLES_MAX || !(s->exposure > 0) || s->split >= GPU_SPLITS)
+        abort();
+    for (int i = 0; i < 2; i++)
+        if (s->looks[i].bands < 1 || s->looks[i].bands > view_bands_max(s->looks[i].method))
+            abort();
+    for (size_t i = 0; i < s->light_count; i++)
+        for (int k = 0; k < 3; k++)
+            if (!isfinite(s->lights[i].center[k]) || !(s->lights[i].radiance[k] >= 0))
+                abort();
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static view_settings first, second;
+    cli_error error;
+    char *text = malloc(size + 1);
+    if (!text)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    cJSON *root = file_parse_json("input", text, size, &error);
+    if (root && view_settings_from_json(root, "input", &first, &error)) {
+        check(&first);
+        cJSON *again = view_settings_to_json(&first);
+        if (!view_settings_from_json(again, "again", &second, &error) ||
+            memcmp(&first, &second, sizeof first) != 0)
+            abort();
+        cJSON_Delete(again);
+    }
+    cJSON_Delete(root);
+    free(text);
+    return 0;
+}
