@@ -414,7 +414,7 @@ static void draw_over(viewer *v, const char *announcement) {
     const double scale = view_window_scale(v->window);
     const char *message = announcement ? announcement : v->state.message;
     draw_ring(v, scale);
-    if (v->state.overlay) {
+    if (v->state.overlay && !v->state.help) {
         draw_sides(v, scale);
         draw_panel(v, scale);
     }
