@@ -52,6 +52,9 @@ check_command() {
 
 for document in $documents; do
     code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/; s/ | .*//; s/ <<.*//' >"$WORK/lines"
+    # and those in the text, between back ticks
+    sed '/^ *```/,/^ *```/d' "$document" | grep -o '`\(lampion\|\./dev\) [^`]*`' |
+        sed 's/`//g; s/ [#>].*//' >>"$WORK/lines" || true
     while read -r line; do
         check_command "$document" "$line"
     done <"$WORK/lines"
