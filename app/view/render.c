@@ -2,20 +2,6 @@
 #include "app/view/stage.h"
 #include "app/view/view.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-static bool write_picture(view_stage *stage, const view_settings *settings, const char *path,
-                          cli_error *error) {
-    unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
-    if (!rgb8)
-        return cli_fail(error, path, "out of memory");
-    const bool ok = view_stage_read(stage, settings, rgb8, error) &&
-                    view_write_shot(settings, rgb8, path, error);
-    free(rgb8);
-    return ok;
-}
-
 bool view_render(const view_settings *settings, const char *device, const char *path,
                  cli_error *error) {
     scene world;
@@ -28,7 +14,7 @@ bool view_render(const view_settings *settings, const char *device, const char *
     const bool ok = gpu_context_create(device, &context, error) &&
                     (stage = view_stage_create(&context, &world, error)) &&
                     view_stage_draw(stage, settings, &figures, error) &&
-                    write_picture(stage, settings, path, error);
+                    view_stage_write(stage, settings, path, error);
     view_stage_destroy(stage);
     gpu_context_destroy(&context);
     scene_free(&world);

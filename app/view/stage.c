@@ -305,8 +305,14 @@ void view_stage_show(view_stage *s, const view_settings *settings, float line) {
     gpu_screen_show(s->screen, &layout);
 }
 
-bool view_stage_read(view_stage *s, const view_settings *settings, unsigned char *rgb8,
-                     cli_error *error) {
+bool view_stage_write(view_stage *s, const view_settings *settings, const char *path,
+                      cli_error *error) {
     const gpu_layout layout = layout_of(settings, 0);
-    return gpu_screen_read(s->screen, &layout, rgb8, error);
+    unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
+    if (!rgb8)
+        return cli_fail(error, path, "out of memory");
+    const bool ok = gpu_screen_read(s->screen, &layout, rgb8, error) &&
+                    view_write_shot(settings, rgb8, path, error);
+    free(rgb8);
+    return ok;
 }

@@ -37,10 +37,10 @@ bool view_stage_refine(view_stage *stage, const view_settings *settings, int ind
 bool view_stage_expose(view_stage *stage, const view_settings *settings, float *exposure,
                        cli_error *error);
 
-/* What was drawn last: into the window, or into 3 * width * height bytes. */
+/* What was drawn last: into the window, or as a screenshot. */
 void view_stage_show(view_stage *stage, const view_settings *settings, float line);
-bool view_stage_read(view_stage *stage, const view_settings *settings, unsigned char *rgb8,
-                     cli_error *error);
+bool view_stage_write(view_stage *stage, const view_settings *settings, const char *path,
+                      cli_error *error);
 
 /* For drawings over it. */
 gpu_screen *view_stage_screen(view_stage *stage);

@@ -161,20 +161,16 @@ static void watch(viewer *v) {
 /* --- files out ----------------------------------------------------------------------------------
  */
 
-/* The settings with all samples, and its bytes to a file. */
+/* The settings with all samples, to a file. */
 static bool write_shot(viewer *v, const view_settings *settings, const char *path,
                        cli_error *error) {
-    unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
-    bool ok = rgb8 || cli_fail(error, path, "out of memory");
-    if (ok && (v->fresh || v->sample != settings->samples - 1)) {
+    bool ok = true;
+    if (v->fresh || v->sample != settings->samples - 1) {
         ok = view_stage_draw(v->stage, settings, &v->figures, error);
         v->sample = settings->samples - 1;
         v->fresh = !ok;
     }
-    ok = ok && view_stage_read(v->stage, settings, rgb8, error) &&
-         view_write_shot(settings, rgb8, path, error);
-    free(rgb8);
-    return ok;
+    return ok && view_stage_write(v->stage, settings, path, error);
 }
 
 static void take_shot(viewer *v, const char *path) {
