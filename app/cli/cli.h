@@ -66,8 +66,9 @@ typedef struct cli_command {
 } cli_command;
 
 /* Parses argv by the table, operands and options in any order. Returns true to go on: then
- * *operands points at the *operand_count operands (argv is permuted). Otherwise *status is the exit
- * status: 0 after --help, CLI_USAGE after a message that names the nearest option. */
+ * *operands points at the *operand_count operands (argv is permuted), of which a command whose
+ * .operands is "" has none. Otherwise *status is the exit status: 0 after --help, CLI_USAGE after a
+ * message that names the nearest option. */
 bool cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
                int *operand_count, char ***operands, int *status);
 

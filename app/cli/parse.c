@@ -129,6 +129,10 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
             return false;
         }
     }
+    if (*operand_count > 0 && command->operands && !command->operands[0]) {
+        *status = cli_usage(command, "\"%s\" is not an option", **operands);
+        return false;
+    }
     if (masked)
         lmp_cpu_mask((unsigned)mask);
     return true;

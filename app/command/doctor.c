@@ -107,8 +107,6 @@ static int run(const cli_command *command, int argc, char **argv) {
     char **operands;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
-    if (count != 0)
-        return cli_usage(command, "\"%s\" is not an option", operands[0]);
     if (clear)
         file_cache_clear();
     const uint32_t version = lmp_version();

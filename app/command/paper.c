@@ -45,8 +45,6 @@ static int run(const cli_command *command, int argc, char **argv) {
     cli_error error;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
-    if (count != 0)
-        return cli_usage(command, "\"%s\" is not an option", operands[0]);
     if (!settings.directory)
         return cli_usage(command, "-o DIR is missing");
     for (int i = 0; i < settings.steps.count; i++)

@@ -239,8 +239,6 @@ static int run(const cli_command *command, int argc, char **argv) {
     int operand_count, status;
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
-    if (operand_count > 0)
-        return cli_usage(command, "\"%s\" is not an option", operands[0]);
     if (!o.batch && !(o.light_given && o.radius_given))
         return cli_usage(command, "needs --light X,Y,Z and --radius R, or --batch FILE");
     if (o.batch && (o.light_given || o.radius_given || o.point_given))
