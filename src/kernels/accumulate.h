@@ -101,46 +101,77 @@ LMP_INLINE void accumulate_lights(int bands, int first, int end, int monic, int 
     }
 }
 
-/* Sum `value` of (l, m), normed. */
-LMP_INLINE vf accumulate_sum(const vf *column, int l, int m, int width, int value, int monic) {
-    const vf sum = column[(l - m) * width + value];
-    return monic ? sum * lmp_table_norm[lmp_table_index(l, m)] : sum;
+/* What accumulate_put writes: of a (l, m) with `planes` sums of +m, then as many of -m, the sums
+ * skip … skip+sets-1, which are the output's sets of bands^2 values. */
+typedef struct accumulate_sets {
+    int planes, skip, sets;
+} accumulate_sets;
+
+/* Value l*l+l±m of set p at to + (p*bands^2 + l*l+l±m) * stride, in the order of the sums. */
+LMP_INLINE void accumulate_put_planes(int bands, int first, int end, int monic, accumulate_sets of,
+                                      const vf *sums, float *to, size_t stride) {
+    const size_t set = (size_t)(bands * bands) * stride;
+    for (int m = first; m < end; m++) {
+        const float *norms = lmp_table_norm + lmp_table_index(m, m);
+        for (int l = m; l < bands; l++, sums += 2 * of.planes) {
+            const float norm = monic ? norms[l - m] : 1;
+            float *plus = to + (size_t)(l * l + l + m) * stride;
+            float *minus = to + (size_t)(l * l + l - m) * stride;
+            LMP_UNROLL for (int p = 0; p < of.sets; p++) {
+                const vf *sum = sums + of.skip + p;
+                vf_store(plus + (size_t)p * set, norm * sum[0]);
+                if (m > 0)
+                    vf_store(minus + (size_t)p * set, norm * sum[of.planes]);
+            }
+        }
+    }
 }
 
-/* Writes columns first … end-1. A (l, m) has `planes` sums of +m, then as many of -m; of these the
- * sums skip … skip+sets-1 are the output's sets of bands^2 values. */
-static inline void accumulate_put(int bands, int first, int end, int monic, int planes, int skip,
-                                  int sets, const vf *sums, const lmp_kernel_out *out,
-                                  size_t element, size_t live) {
-    const size_t count = (size_t)(bands * bands);
-    const int width = 2 * planes;
+/* The same as rows, or of a block that is not full. Values that follow one another go together. */
+static inline void accumulate_put_rows(int bands, int first, int end, int monic, accumulate_sets of,
+                                       const vf *sums, const lmp_kernel_out *out, size_t element,
+                                       size_t live) {
+    const int width = 2 * of.planes;
     const vf *columns[LMP_BANDS_MAX];
+    const float *norms[LMP_BANDS_MAX];
     for (int m = first; m < end; m++) {
         columns[m] = sums;
+        norms[m] = lmp_table_norm + lmp_table_index(m, m);
         sums += (bands - m) * width;
     }
-    for (int p = 0; p < sets; p++) {
-        float LMP_ALIGNED waiting[16 * LMP_LANES];
-        size_t from = 0, n = 0;
+    float LMP_ALIGNED waiting[16 * LMP_LANES];
+    size_t from = 0, n = 0;
+    for (int p = 0; p < of.sets; p++) {
         for (int l = first; l < bands; l++) {
-            for (int m = l < end ? -l : 1 - end; m <= (l < end ? l : end - 1); m++) {
-                const int column = m < 0 ? -m : m;
+            const int last = l < end ? l : end - 1;
+            size_t place = (size_t)(p * bands * bands + l * l + l - last);
+            for (int m = -last; m <= last; m++, place++) {
+                const int column = m < 0 ? -m : m, value = (m < 0 ? of.planes : 0) + of.skip + p;
                 if (column < first)
                     continue;
-                const size_t place = (size_t)p * count + (size_t)(l * l + l + m);
-                /* Values that follow one another go out together. */
                 if (n == 16 || from + n != place) {
                     layout_put(waiting, from, n, out, element, live);
                     from = place;
                     n = 0;
                 }
-                vf_store(waiting + n++ * LMP_LANES,
-                         accumulate_sum(columns[column], l, column, width,
-                                        (m < 0 ? planes : 0) + skip + p, monic));
+                const vf sum = columns[column][(l - column) * width + value];
+                vf_store(waiting + n++ * LMP_LANES, monic ? sum * norms[column][l - column] : sum);
             }
         }
-        layout_put(waiting, from, n, out, element, live);
     }
+    layout_put(waiting, from, n, out, element, live);
+}
+
+/* Writes columns first … end-1. */
+LMP_INLINE void accumulate_put(int bands, int first, int end, int monic, accumulate_sets of,
+                               const vf *sums, const lmp_kernel_out *out, size_t element,
+                               size_t live) {
+    if (LMP_LANES == 1 || (out->planar && live == LMP_LANES))
+        accumulate_put_planes(bands, first, end, monic, of, sums,
+                              out->at + element * (out->planar ? 1 : out->stride),
+                              out->planar ? out->stride : 1);
+    else
+        accumulate_put_rows(bands, first, end, monic, of, sums, out, element, live);
 }
 
 /* The end of the tile that begins with column `first`, its sums set to 0; a (l, m) takes `width`.
@@ -168,7 +199,8 @@ LMP_INLINE void accumulate_points(int bands, int monic, const lmp_kernel_lights 
                                   sums);
             for (; light < lights->count; light++)
                 accumulate_lights(bands, first, end, monic, 1, lights, light, point, sums);
-            accumulate_put(bands, first, end, monic, 3, 0, 3, sums, out, e, layout_live(count, e));
+            accumulate_put(bands, first, end, monic, (accumulate_sets) { 3, 0, 3 }, sums, out, e,
+                           layout_live(count, e));
         }
     }
 }

@@ -152,8 +152,10 @@ static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
                 gradient_prepare(bands, lights, i, point, cos_min, &light[0]);
                 gradient_columns(bands, first, end, 1, light, sums);
             }
-            accumulate_put(bands, first, end, 0, 12, 0, 3, sums, out, e, live);
-            accumulate_put(bands, first, end, 0, 12, 3, 9, sums, gradient, e, live);
+            accumulate_put(bands, first, end, 0, (accumulate_sets) { 12, 0, 3 }, sums, out, e,
+                           live);
+            accumulate_put(bands, first, end, 0, (accumulate_sets) { 12, 3, 9 }, sums, gradient, e,
+                           live);
         }
     }
 }

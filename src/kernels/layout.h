@@ -133,6 +133,14 @@ static inline void layout_rows(const float *block, size_t values, float *rows, s
             rows[e * stride + v] = block[v * LMP_LANES + e];
 }
 
+/* A plane's `live` elements. The compilers turn memcpy of any length into many instructions. */
+LMP_INLINE void layout_copy(float *to, const float *from, size_t live) {
+    if (live == LMP_LANES)
+        vf_store(to, vf_load(from));
+    else
+        memcpy(to, from, live * sizeof(float));
+}
+
 /* Writes `values` planes of a block, the values first … of an element, into the output. */
 static inline void layout_put(const float *block, size_t first, size_t values,
                               const lmp_kernel_out *out, size_t element, size_t live) {
@@ -140,9 +148,9 @@ static inline void layout_put(const float *block, size_t first, size_t values,
         layout_rows(block, values, out->at + element * out->stride + first, out->stride, live);
         return;
     }
+    float *to = out->at + first * out->stride + element;
     for (size_t v = 0; v < values; v++)
-        memcpy(out->at + (first + v) * out->stride + element, block + v * LMP_LANES,
-               live * sizeof(float));
+        layout_copy(to + v * out->stride, block + v * LMP_LANES, live);
 }
 
 /* Reads values first … first+values-1 of a block's elements into planes; lanes past `live` are 0.
@@ -164,7 +172,7 @@ static inline void layout_get(float *block, size_t first, size_t values, const l
     for (size_t v = 0; v < values; v++) {
         float *plane = block + v * LMP_LANES;
         if (in->planar)
-            memcpy(plane, from + v * in->stride, live * sizeof(float));
+            layout_copy(plane, from + v * in->stride, live);
         else
             for (size_t e = 0; e < live; e++)
                 plane[e] = from[e * in->stride + v];
