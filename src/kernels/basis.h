@@ -105,36 +105,70 @@ LMP_INLINE void basis_columns(int bands, const vf axis[3], const vf *radial, flo
     }
 }
 
+/* A column of BASIS_BLOCKS full blocks side by side. The places of the next band move along, for
+ * integer instructions pass the same decoders as the vectors'. */
+typedef struct basis_wide {
+    vf (*axis)[3], (*radial)[LMP_BANDS_MAX];
+    vf c[BASIS_BLOCKS], s[BASIS_BLOCKS];
+    float *plus, *minus;
+    size_t step, stride;
+} basis_wide;
+
+LMP_INLINE void basis_put_wide(basis_wide *w, int l, int m, const vf q[BASIS_BLOCKS]) {
+    LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
+        const vf value = w->radial ? q[k] * w->radial[k][l] : q[k];
+        vf_store(w->plus + k * LMP_LANES, m > 0 ? value * w->c[k] : value);
+        if (m > 0)
+            vf_store(w->minus + k * LMP_LANES, value * w->s[k]);
+    }
+    w->plus += w->step;
+    w->minus += w->step;
+    w->step += 2 * w->stride;
+}
+
+/* Two bands a turn, for registers that change places cost moves. */
+LMP_INLINE void basis_column_wide(int bands, int m, basis_wide *w) {
+    const float *a = lmp_table_a, *b = lmp_table_b;
+    vf even[BASIS_BLOCKS], odd[BASIS_BLOCKS];
+    LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) even[k] = vf_set(lmp_table_diagonal[m]);
+    basis_put_wide(w, m, m, even);
+    if (m + 1 == bands)
+        return;
+    LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) odd[k] =
+        basis_step(a, b, m + 1, m, w->axis[k][2], even[k], vf_set(0));
+    for (int l = m + 1;;) {
+        basis_put_wide(w, l, m, odd);
+        if (++l == bands)
+            return;
+        LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) even[k] =
+            basis_step(a, b, l, m, w->axis[k][2], odd[k], even[k]);
+        basis_put_wide(w, l, m, even);
+        if (++l == bands)
+            return;
+        LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) odd[k] =
+            basis_step(a, b, l, m, w->axis[k][2], even[k], odd[k]);
+    }
+}
+
 /* The same for BASIS_BLOCKS full blocks side by side and any number of bands. */
 LMP_INLINE void basis_columns_wide(int bands, vf (*axis)[3], vf (*radial)[LMP_BANDS_MAX], float *to,
                                    size_t stride) {
-    const float *a = lmp_table_a, *b = lmp_table_b;
-    vf c[BASIS_BLOCKS] = { 0 }, s[BASIS_BLOCKS] = { 0 }, q0[BASIS_BLOCKS], q1[BASIS_BLOCKS];
+    basis_wide w = { .axis = axis, .radial = radial, .stride = stride };
+    LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
+        w.c[k] = vf_set(1);
+        w.s[k] = vf_set(0);
+    }
     for (int m = 0; m < bands; m++) {
-        LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
-            if (m > 0)
-                basis_turn(m, axis[k][0], axis[k][1], &c[k], &s[k]);
-            q1[k] = vf_set(lmp_table_diagonal[m]);
-            q0[k] = vf_set(0);
+        w.plus = to + (size_t)(m * m + 2 * m) * stride;
+        w.minus = to + (size_t)(m * m) * stride;
+        w.step = (size_t)(2 * m + 2) * stride;
+        if (m == 0) {
+            basis_column_wide(bands, 0, &w);
+            continue;
         }
-        LMP_ROLLED for (int l = m; l < bands; l++) {
-            float *plus = to + (size_t)(l * l + l + m) * stride;
-            float *minus = to + (size_t)(l * l + l - m) * stride;
-            LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
-                const vf value = radial ? q1[k] * radial[k][l] : q1[k];
-                vf_store(plus + k * LMP_LANES, m > 0 ? value * c[k] : value);
-                if (m > 0)
-                    vf_store(minus + k * LMP_LANES, value * s[k]);
-            }
-            if (l + 1 == bands)
-                break;
-            LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++) {
-                const vf q2 = l == m ? basis_step(a, b, m + 1, m, axis[k][2], q1[k], q0[k])
-                                     : basis_step(a, b, l + 1, m, axis[k][2], q1[k], q0[k]);
-                q0[k] = q1[k];
-                q1[k] = q2;
-            }
-        }
+        LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++)
+            basis_turn(m, axis[k][0], axis[k][1], &w.c[k], &w.s[k]);
+        basis_column_wide(bands, m, &w);
     }
 }
 
