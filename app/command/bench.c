@@ -239,6 +239,13 @@ static const bench_kernel kernels[] = {
     { "dot", values_basis, slots_dot, run_dot, paper_dot, 1 },
 };
 enum { KERNELS = sizeof kernels / sizeof *kernels };
+static const char *const kernel_choices[] = { "all",   "project", "accumulate", "gradient", "lobe",
+                                              "zonal", "basis",   "rotate",     "dot",      NULL };
+_Static_assert(sizeof kernel_choices / sizeof *kernel_choices == KERNELS + 2, "all, kernels, NULL");
+
+static bool wanted(const bench_options *o, int kernel) {
+    return o->kernel == 0 || o->kernel == kernel + 1;
+}
 
 /* --- measuring ---------------------------------------------------------------------------------
  */
@@ -455,12 +462,12 @@ static void print_row(const bench_options *o, bool first, const bench_kernel *ke
 
 static void measure_kernels(const bench_options *o, bench_inputs *in) {
     const int runs = o->full ? 301 : 31;
+    const int *bands = o->bands ? &o->bands : bands_measured;
     bool first = true;
     for (int k = 0; k < KERNELS; k++)
-        for (int n = 0; n < BANDS_MEASURED; n++)
+        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_MEASURED); n++)
             for (int layout = LMP_SH_PLANES; layout >= LMP_SH_ROWS; layout--) {
-                const bench_batch b =
-                    batch_of(in, &kernels[k], bands_measured[n], (lmp_sh_layout)layout);
+                const bench_batch b = batch_of(in, &kernels[k], bands[n], (lmp_sh_layout)layout);
                 const double paper = measure_paper(&kernels[k], &b, o->full ? 31 : 5);
                 double scalar = 0;
                 for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
@@ -473,7 +480,7 @@ static void measure_kernels(const bench_options *o, bench_inputs *in) {
                     m.vs_paper = paper / m.ns.median;
                     scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
                     m.vs_scalar = scalar / m.ns.median;
-                    print_row(o, first, &kernels[k], bands_measured[n], (lmp_sh_layout)layout, &m);
+                    print_row(o, first, &kernels[k], bands[n], (lmp_sh_layout)layout, &m);
                     first = false;
                 }
             }
@@ -488,9 +495,10 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
         return false;
     memset(outputs, 0, (size_t)most * room * sizeof *outputs);
     lmp_cpu_mask((unsigned)o->mask);
-    for (int k = 0; k < 4; k++) {
+    bool first = true;
+    for (int k = 0; k < 4 && (!o->bands || o->bands == 10); k++) {
         double alone = 0;
-        for (int threads = 1; threads <= most; threads++) {
+        for (int threads = 1; wanted(o, k) && threads <= most; threads++) {
             static double ns[RUNS_MAX];
             bench_batch b = batch_of(in, &kernels[k], 10, LMP_SH_PLANES);
             const int runs = 31, calls = 50 * calls_of(&kernels[k], &b);
@@ -509,11 +517,12 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
                 printf(
                     "%s    {\"kernel\": \"%s\", \"bands\": 10, \"isa\": \"%s\", \"threads\": %d, "
                     "\"ns\": %.4g, \"speedup\": %.3g}",
-                    k || threads > 1 ? ",\n" : "", kernels[k].name, lmp_cpu_name(), threads, median,
+                    first ? "" : ",\n", kernels[k].name, lmp_cpu_name(), threads, median,
                     alone / median);
             else
                 printf("%-10s    10  %-7s %2d threads %10.4g ns  x %.2f\n", kernels[k].name,
                        lmp_cpu_name(), threads, median, alone / median);
+            first = false;
         }
     }
     free(outputs);
@@ -582,11 +591,17 @@ static int run(const cli_command *command, int argc, char **argv) {
           .help = "cpu: most threads of the scaling rows; 0 = every processor",
           .minimum = 0,
           .maximum = 1024 },
+        { .name = "kernel",
+          .kind = CLI_CHOICE,
+          .target = &o.kernel,
+          .argument = "KERNEL",
+          .help = "cpu: the rows of one kernel",
+          .choices = kernel_choices },
         { .name = "bands",
           .kind = CLI_INT,
           .target = &o.bands,
           .argument = "N",
-          .help = "gpu: the rows of so many bands alone; 0: of several",
+          .help = "the rows of so many bands alone; 0: of several",
           .minimum = 0,
           .maximum = LMP_BANDS_MAX },
         { .name = "lights",
@@ -631,6 +646,7 @@ const cli_command command_bench = {
     .summary = "measure the batch kernels on every instruction set, or the shaders",
     .examples = "lampion bench cpu\n"
                 "lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
+                "lampion bench cpu --kernel accumulate --bands 6\n"
                 "lampion bench gpu --json > gpu.json\n",
     .run = run,
 };

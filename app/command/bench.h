@@ -7,9 +7,10 @@
 
 typedef struct bench_options {
     bool json, full;
-    int mask, threads;          /* of cpu */
-    int bands, lights, size[2]; /* of gpu; bands 0: many */
-    const char *gl_device;      /* of gpu */
+    int bands;                 /* 0: many */
+    int mask, threads, kernel; /* of cpu; kernel 0: all */
+    int lights, size[2];       /* of gpu */
+    const char *gl_device;     /* of gpu */
 } bench_options;
 
 /* `lampion bench gpu`; returns the exit status. */
