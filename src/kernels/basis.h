@@ -65,6 +65,7 @@ LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, fl
     vf c = vf_set(1), s = vf_set(0);
     LMP_UNROLL for (int m = 0; m < bands; m++) {
         vf q0 = vf_set(0), q1 = vf_set(diagonal[m]);
+        LMP_OPAQUE_LANES(q1);
         if (m > 0)
             basis_turn(m, x, y, &c, &s);
         LMP_UNROLL for (int l = m; l < bands; l++) {

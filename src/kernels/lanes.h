@@ -33,6 +33,18 @@
  * otherwise the compilers hoist every one of them from the loop, and spill it as a whole vector. */
 #define LMP_OPAQUE(pointer) __asm__ volatile("" : "+r"(pointer))
 
+/* The same for a register of equal lanes: gcc would multiply the number it came from and broadcast
+ * the product, two operations for one. */
+#if LMP_LANES == 1
+#define LMP_OPAQUE_LANES(v)
+#elif defined(__AVX512F__)
+#define LMP_OPAQUE_LANES(v) __asm__("" : "+v"(v))
+#elif defined(__ARM_NEON)
+#define LMP_OPAQUE_LANES(v) __asm__("" : "+w"(v))
+#else
+#define LMP_OPAQUE_LANES(v) __asm__("" : "+x"(v))
+#endif
+
 #define LMP_ALIGNED __attribute__((aligned(64)))
 
 #if LMP_LANES == 1
