@@ -33,8 +33,9 @@
  * otherwise the compilers hoist every one of them from the loop, and spill it as a whole vector. */
 #define LMP_OPAQUE(pointer) __asm__ volatile("" : "+r"(pointer))
 
-/* The same for a register of equal lanes: gcc would multiply the number it came from and broadcast
- * the product, two operations for one. */
+/* The same for a register. Of equal lanes gcc would multiply the number they came from and
+ * broadcast the product, two operations for one; a long sum's terms it would put off to its end and
+ * spill. */
 #if LMP_LANES == 1
 #define LMP_OPAQUE_LANES(v)
 #elif defined(__AVX512F__)

@@ -12,44 +12,48 @@
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* A cap of at most a hemisphere round (x, y, z), and light from everywhere (lmp_cap). */
-typedef struct shade_cap {
-    vf x, y, z, t;
-    vf strength, mean, ambient; /* of radiance 1; mean = strength R_0, the cap's solid angle */
-} shade_cap;
+/* What the lobes of a block of surfaces are and see. */
+typedef struct shade_block {
+    vf point[3], normal[3], mirror[3];
+} shade_block;
 
-LMP_INLINE shade_cap shade_sphere(const lmp_kernel_light *light, size_t e, const vf point[3]) {
+/* What of a light they need: of its cap of at most a hemisphere u and v, the cosines of its axis
+ * with normal and mirror direction, and t; the weight of its answers, t but for the light's scale
+ * and sign. With `everywhere`, light from all around besides (lmp_cap). */
+typedef struct shade_aim {
+    vf u, v, t, weight;
+    vf ambient; /* set if everywhere */
+    int everywhere;
+} shade_aim;
+
+LMP_INLINE void shade_aim_at(const lmp_kernel_light *light, size_t e, const shade_block *block,
+                             shade_aim *aim) {
     vf x = vf_set(light->x), y = vf_set(light->y), z = vf_set(light->z);
     if (light->w > 0) {
-        x = x - point[0];
-        y = y - point[1];
-        z = z - point[2];
+        x = x - block->point[0];
+        y = y - block->point[1];
+        z = z - block->point[2];
     }
-    cap_lanes sphere = cap_from(x, y, z, vf_set(light->radius), 0);
-    cap_axis(&sphere);
-    shade_cap cap = { sphere.x,
-                      sphere.y,
-                      sphere.z,
-                      sphere.t,
-                      LMP_KERNEL_PI * sphere.s2,
-                      (2 * LMP_KERNEL_PI) * sphere.t,
-                      vf_set(0) };
-    if (__builtin_expect(sphere.inside, 0)) {
+    const cap_lanes cap = cap_from(x, y, z, vf_set(light->radius), 0);
+    const vf *normal = block->normal, *mirror = block->mirror;
+    vf per_d = cap.per_d, weight = cap.t;
+    if (__builtin_expect(cap.inside, 0)) {
         /* even is -1 inside: the complementary cap is taken away from light all around. */
-        cap.x = cap.x * sphere.even;
-        cap.y = cap.y * sphere.even;
-        cap.z = cap.z * sphere.even;
-        cap.strength = cap.strength * sphere.even;
-        cap.mean = cap.mean * sphere.even;
-        cap.ambient = (vf_set(1) - sphere.even) * 0.5f;
+        per_d = per_d * cap.even;
+        weight = weight * cap.even;
+        aim->ambient = (vf_set(1) - cap.even) * 0.5f;
     }
     if (__builtin_expect(light->scale != NULL, 0)) {
         const vf scale = vf_load(light->scale + e);
-        cap.strength = cap.strength * scale;
-        cap.mean = cap.mean * scale;
-        cap.ambient = cap.ambient * scale;
+        weight = weight * scale;
+        if (cap.inside)
+            aim->ambient = aim->ambient * scale;
     }
-    return cap;
+    aim->everywhere = cap.inside;
+    aim->u = (normal[0] * cap.x + normal[1] * cap.y + normal[2] * cap.z) * per_d;
+    aim->v = (mirror[0] * cap.x + mirror[1] * cap.y + mirror[2] * cap.z) * per_d;
+    aim->t = cap.t;
+    aim->weight = weight;
 }
 
 /* What both lobes of a block of surfaces have gathered: red, green, blue. */
@@ -87,37 +91,21 @@ LMP_INLINE void shade_sums_store(const shade_sums *sums, size_t e,
     }
 }
 
-LMP_INLINE vf shade_dot(const vf a[3], const shade_cap *cap) {
-    return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
-}
-
-/* What of a light the lobes of a block need: u and v, the cosines of its cap's axis with normal and
- * mirror direction, and the cap. */
-typedef struct shade_aim {
-    vf u, v, t;
-    vf strength, mean, ambient;
-} shade_aim;
-
 /* All lights first, then their lobes: in one loop, the roots and quotients of a light would wait
  * for each other at its beginning. */
 LMP_INLINE void shade_aim_all(const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                               size_t light_count, size_t e, shade_aim *aims) {
-    vf point[3], normal[3], mirror[3];
-    shade_planes(&surfaces->point, e, point);
-    shade_planes(&surfaces->normal, e, normal);
+    shade_block block;
+    const vf *normal = block.normal;
+    vf *mirror = block.mirror;
+    shade_planes(&surfaces->point, e, block.point);
+    shade_planes(&surfaces->normal, e, block.normal);
     shade_planes(&surfaces->view, e, mirror);
     const vf twice = 2 * (normal[0] * mirror[0] + normal[1] * mirror[1] + normal[2] * mirror[2]);
     for (int i = 0; i < 3; i++)
         mirror[i] = twice * normal[i] - mirror[i];
-    for (size_t i = 0; i < light_count; i++) {
-        const shade_cap cap = shade_sphere(&lights[i], e, point);
-        aims[i] = (shade_aim) { shade_dot(normal, &cap),
-                                shade_dot(mirror, &cap),
-                                cap.t,
-                                cap.strength,
-                                cap.mean,
-                                cap.ambient };
-    }
+    for (size_t i = 0; i < light_count; i++)
+        shade_aim_at(&lights[i], e, &block, &aims[i]);
 }
 
 /* --- zonal ------------------------------------------------------------------------------------ */
@@ -126,15 +114,19 @@ LMP_INLINE void shade_aim_all(const lmp_kernel_surfaces *surfaces, const lmp_ker
  * two monic polynomials then stays a normal float. */
 #define ZONAL_MONIC_BANDS 48
 
-/* What is the same for every surface. Members go by band; the factors of R_l P_l hold their norms.
+/* What is the same for every surface, by band, broadcast: as operands in memory they cost no
+ * instruction. The factors of R_l P_l hold their norms, of l = 0 those of strength and solid angle,
+ * which are pi (1 + |cos a|) and 2 pi times an aim's weight.
  * Even bands of the diffuse lobe take two steps at once:
- * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. One more band, of
- * weight 0, makes pairs. */
+ * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. */
 typedef struct zonal_tables {
-    float diffuse[LMP_BANDS_MAX + 2], phong[LMP_BANDS_MAX + 2];
-    float cap[LMP_BANDS_MAX + 2];
-    float even_a[LMP_BANDS_MAX + 2], even_b[LMP_BANDS_MAX + 2], even_c[LMP_BANDS_MAX + 2];
+    vf diffuse[LMP_BANDS_MAX], phong[LMP_BANDS_MAX];
+    vf cap[LMP_BANDS_MAX], lobe[LMP_BANDS_MAX]; /* c_l; only in monic form */
+    vf even_a[LMP_BANDS_MAX], even_b[LMP_BANDS_MAX], even_c[LMP_BANDS_MAX];
 } zonal_tables;
+
+/* Fewer bands are padded by some of weight 0. */
+#define ZONAL_BANDS_MIN 3
 
 /* P_l = t_l u P_(l-1) - d_l P_(l-2), or in monic form t = 1. */
 LMP_INLINE double zonal_t(int monic, int l) {
@@ -146,29 +138,27 @@ LMP_INLINE double zonal_d(int monic, int l) {
 
 static inline void zonal_prepare(int bands, int monic, const float *window, const float *diffuse,
                                  zonal_tables *tables) {
-    memset(tables, 0, sizeof *tables);
     double norm_p = 1, norm_r = 1;
-    for (int l = 0; l < bands + bands % 2; l++) {
+    for (int l = 0; l < bands || l < ZONAL_BANDS_MIN; l++) {
         if (monic && l >= 1)
             norm_p *= (2 * l - 1) / (double)l;
         if (monic && l >= 2) {
             /* R_l = (2l-1)/(l+1) alpha R_(l-1) - (l-2)/(l+1) R_(l-2) */
             norm_r *= (2 * l - 1) / (double)(l + 1);
-            tables->cap[l] =
-                l == 2 ? 0.f : (float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3)));
+            tables->cap[l] = vf_set((float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3))));
+            tables->lobe[l] = vf_set((float)zonal_d(monic, l));
         }
-        if (l < bands) {
-            const double scale = (2 * l + 1) / (4 * 3.14159265358979324) * norm_p * norm_r;
-            tables->phong[l] = (float)(scale * (double)window[l]);
-            tables->diffuse[l] = (float)(scale * (double)window[l] * (double)diffuse[l]);
-        }
+        const double scale = (l == 0 ? 0.5 : (2 * l + 1) / 4.0) * norm_p * norm_r;
+        const double factor = l < bands ? scale * (double)window[l] : 0;
+        tables->phong[l] = vf_set((float)factor);
+        tables->diffuse[l] = vf_set(l < bands ? (float)(factor * (double)diffuse[l]) : 0);
         if (l >= 2) {
             const double t2 = zonal_t(monic, l), t1 = zonal_t(monic, l - 1);
             const double d2 = zonal_d(monic, l), d1 = zonal_d(monic, l - 1);
             const double down = l == 2 ? 0 : t2 * d1 / zonal_t(monic, l - 2);
-            tables->even_a[l] = (float)(t2 * t1);
-            tables->even_b[l] = (float)(down + d2);
-            tables->even_c[l] = l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2));
+            tables->even_a[l] = vf_set((float)(t2 * t1));
+            tables->even_b[l] = vf_set((float)(down + d2));
+            tables->even_c[l] = vf_set(l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2)));
         }
     }
 }
@@ -177,7 +167,7 @@ static inline void zonal_prepare(int bands, int monic, const float *window, cons
 LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, vf *weights) {
     vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
     weights[0] = before * tables->phong[0];
-    LMP_ROLLED for (int l = 1; l <= bands; l++) {
+    LMP_ROLLED for (int l = 1; l < bands || l < ZONAL_BANDS_MIN; l++) {
         weights[l] = lambda * tables->phong[l];
         const vf next = before * ((exponent - (float)(l - 1)) / (exponent + (float)(l + 2)));
         before = lambda;
@@ -185,57 +175,102 @@ LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, 
     }
 }
 
-/* One step of R_l, from r1 = R_(l-1) and r0: its predecessor, or in difference form R_(l-1) -
- * R_(l-2), which costs more and keeps more bands exact. */
-LMP_INLINE void zonal_cap_step(int monic, const float *cap, int l, vf x, vf *r1, vf *r0) {
-    if (monic) {
-        const vf r2 = x * *r1 - cap[l] * *r0;
-        *r0 = *r1;
-        *r1 = r2;
-    } else {
-        *r0 = lmp_table_cap_d[l] * *r0 - lmp_table_cap_t[l] * (x * *r1);
-        *r1 = *r1 + *r0;
-    }
+/* Both lobes' sums on their way through the bands: R_l, P_l of the normal (even l) and of the
+ * mirror direction, each with the one before. */
+typedef struct zonal_sums {
+    vf r1, r0, p1, p0, q1, q0;
+    vf diffuse, specular;
+} zonal_sums;
+
+LMP_INLINE void zonal_add_specular(const vf *weights, int l, zonal_sums *sums) {
+    sums->specular = sums->specular + weights[l] * (sums->r1 * sums->q1);
+    LMP_OPAQUE_LANES(sums->specular);
 }
 
-LMP_INLINE void zonal_lobe_step(int monic, int l, vf v, vf *q1, vf *q0) {
-    const vf q2 = monic ? v * *q1 - lmp_table_monic[l] * *q0
-                        : lmp_table_legendre_t[l] * (v * *q1) - lmp_table_legendre_d[l] * *q0;
-    *q0 = *q1;
-    *q1 = q2;
+LMP_INLINE void zonal_add_diffuse(const zonal_tables *tables, int l, vf square, zonal_sums *sums) {
+    const vf p2 = (square - tables->even_b[l]) * sums->p1 - tables->even_c[l] * sums->p0;
+    sums->p0 = sums->p1;
+    sums->p1 = p2;
+    sums->diffuse = sums->diffuse + tables->diffuse[l] * (sums->r1 * p2);
+    LMP_OPAQUE_LANES(sums->diffuse);
+}
+
+/* Monic form, x = |cos a|. */
+LMP_INLINE void zonal_step(const zonal_tables *tables, int l, vf x, vf v, zonal_sums *sums) {
+    const vf r2 = x * sums->r1 - tables->cap[l] * sums->r0;
+    const vf q2 = v * sums->q1 - tables->lobe[l] * sums->q0;
+    sums->r0 = sums->r1;
+    sums->r1 = r2;
+    sums->q0 = sums->q1;
+    sums->q1 = q2;
+}
+
+LMP_INLINE zonal_sums zonal_monic(int bands, const zonal_tables *tables, const vf *weights,
+                                  const shade_aim *aim) {
+    const vf one = vf_set(1), v = aim->v, square = aim->u * aim->u, x = one - aim->t;
+    zonal_sums sums = { x,
+                        one,
+                        square - tables->even_b[2],
+                        one,
+                        v * v - tables->lobe[2],
+                        v,
+                        tables->diffuse[1] * aim->u,
+                        weights[1] * v };
+    sums.diffuse = sums.diffuse + tables->diffuse[2] * (x * sums.p1);
+    zonal_add_specular(weights, 2, &sums);
+    LMP_UNROLL for (int l = 3; l < bands; l += 2) {
+        zonal_step(tables, l, x, v, &sums);
+        zonal_add_specular(weights, l, &sums);
+        if (l + 1 == bands)
+            break;
+        zonal_step(tables, l + 1, x, v, &sums);
+        zonal_add_specular(weights, l + 1, &sums);
+        zonal_add_diffuse(tables, l + 1, square, &sums);
+    }
+    return sums;
+}
+
+/* The same of more bands: R_l by its differences r0 = R_l - R_(l-1), which keeps more of them
+ * exact. */
+LMP_INLINE zonal_sums zonal_long(int bands, const zonal_tables *tables, const vf *weights,
+                                 const shade_aim *aim) {
+    const vf one = vf_set(1), zero = vf_set(0), v = aim->v, square = aim->u * aim->u;
+    zonal_sums sums = { one, zero, one, zero, v, one, tables->diffuse[1] * aim->u, weights[1] * v };
+    LMP_ROLLED for (int l = 2; l < bands; l++) {
+        const float *d = lmp_table_legendre_d, *t = lmp_table_legendre_t;
+        sums.r0 = lmp_table_cap_d[l] * sums.r0 - lmp_table_cap_t[l] * (aim->t * sums.r1);
+        sums.r1 = sums.r1 + sums.r0;
+        const vf q2 = t[l] * (v * sums.q1) - d[l] * sums.q0;
+        sums.q0 = sums.q1;
+        sums.q1 = q2;
+        zonal_add_specular(weights, l, &sums);
+        if (l % 2 == 0)
+            zonal_add_diffuse(tables, l, tables->even_a[l] * square, &sums);
+    }
+    return sums;
 }
 
 /* Adds one light's answers to the block's sums. The chains of successive lights run side by side:
  * none waits for the one before. */
 LMP_INLINE void zonal_light(int bands, int monic, const zonal_tables *tables, const vf *weights,
                             const shade_aim *aim, lmp_rgb rgb, shade_sums *sums) {
-    const vf v = aim->v, square = aim->u * aim->u;
-    const vf x = monic ? vf_set(1) - aim->t : aim->t;
-    vf r0 = vf_set(0), r1 = vf_set(1), p0 = vf_set(0), p1 = vf_set(1), q0 = vf_set(1), q1 = v;
-    vf diffuse = tables->diffuse[1] * aim->u, specular = weights[1] * v;
-    LMP_ROLLED for (int l = 2; l < bands; l += 2) {
-        zonal_cap_step(monic, tables->cap, l, x, &r1, &r0);
-        zonal_lobe_step(monic, l, v, &q1, &q0);
-        const vf u2 = monic ? square : tables->even_a[l] * square;
-        const vf p2 = (u2 - tables->even_b[l]) * p1 - tables->even_c[l] * p0;
-        p0 = p1;
-        p1 = p2;
-        diffuse = diffuse + tables->diffuse[l] * (r1 * p2);
-        specular = specular + weights[l] * (r1 * q1);
-        zonal_cap_step(monic, tables->cap, l + 1, x, &r1, &r0);
-        zonal_lobe_step(monic, l + 1, v, &q1, &q0);
-        specular = specular + weights[l + 1] * (r1 * q1);
+    const zonal_sums zonal =
+        monic ? zonal_monic(bands, tables, weights, aim) : zonal_long(bands, tables, weights, aim);
+    const vf rise = vf_set(2) - aim->t;
+    vf diffuse = aim->weight * (rise * zonal.diffuse + tables->diffuse[0]);
+    vf specular = aim->weight * (rise * zonal.specular + weights[0]);
+    if (__builtin_expect(aim->everywhere, 0)) {
+        diffuse = diffuse + 2 * tables->diffuse[0] * aim->ambient;
+        specular = specular + 2 * weights[0] * aim->ambient;
     }
-    const vf zero = aim->mean + (4 * LMP_KERNEL_PI) * aim->ambient;
-    shade_gather(rgb, aim->strength * diffuse + tables->diffuse[0] * zero,
-                 aim->strength * specular + weights[0] * zero, sums);
+    shade_gather(rgb, diffuse, specular, sums);
 }
 
 LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
                           const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                           size_t light_count, size_t count, const lmp_kernel_gathered *gathered) {
     shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
-    vf weights[LMP_BANDS_MAX + 1]; /* of R_l P_l of the Phong lobe */
+    vf weights[LMP_BANDS_MAX]; /* of R_l P_l of the Phong lobe */
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const float *exponent = surfaces->exponent + e;
         shade_sums sums;
@@ -244,10 +279,22 @@ LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
         if (e == 0 || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
             zonal_phong(bands, tables, vf_load(exponent), weights);
         shade_aim_all(surfaces, lights, light_count, e, aims);
-        for (size_t i = 0; i < light_count; i++)
+        for (size_t i = 0; i < light_count; i++) {
+            LMP_OPAQUE(tables);
             zonal_light(bands, monic, tables, weights, &aims[i], lights[i].radiance, &sums);
+        }
         shade_sums_store(&sums, e, gathered);
     }
+}
+
+LMP_INLINE void zonal_surfaces(int bands, int constant, const zonal_tables *tables,
+                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                               size_t light_count, size_t count,
+                               const lmp_kernel_gathered *gathered) {
+    if (constant || bands <= ZONAL_MONIC_BANDS)
+        zonal_all(bands, 1, tables, surfaces, lights, light_count, count, gathered);
+    else
+        zonal_all(bands, 0, tables, surfaces, lights, light_count, count, gathered);
 }
 
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
@@ -255,12 +302,8 @@ static void kernel_shade_zonal(int bands, const float *window, const float *diff
                                size_t light_count, size_t count,
                                const lmp_kernel_gathered *gathered) {
     zonal_tables tables;
-    const int monic = bands <= ZONAL_MONIC_BANDS;
-    zonal_prepare(bands, monic, window, diffuse, &tables);
-    if (monic)
-        zonal_all(bands, 1, &tables, surfaces, lights, light_count, count, gathered);
-    else
-        zonal_all(bands, 0, &tables, surfaces, lights, light_count, count, gathered);
+    zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
+    BASIS_SPECIALISE(bands, zonal_surfaces, &tables, surfaces, lights, light_count, count, gathered)
 }
 
 /* --- response --------------------------------------------------------------------------------- */
@@ -446,9 +489,13 @@ static void kernel_shade_response(const lmp_kernel_response *response,
             const vf s = response_read(&sharp, shade_angle(aims[i].v), a);
             /* One division for both: mean over the cap = reading / (cap's + lobe's angle). */
             const vf wide = covered + broad.angle, narrow = covered + sharp.angle;
-            const vf each = aims[i].mean / (wide * narrow);
-            shade_gather(lights[i].radiance, d * narrow * each + aims[i].ambient,
-                         s * wide * each + aims[i].ambient, &sums);
+            const vf each = 2 * LMP_KERNEL_PI * aims[i].weight / (wide * narrow);
+            vf broad_sum = d * narrow * each, sharp_sum = s * wide * each;
+            if (__builtin_expect(aims[i].everywhere, 0)) {
+                broad_sum = broad_sum + aims[i].ambient;
+                sharp_sum = sharp_sum + aims[i].ambient;
+            }
+            shade_gather(lights[i].radiance, broad_sum, sharp_sum, &sums);
         }
         shade_sums_store(&sums, e, gathered);
     }
