@@ -107,71 +107,68 @@ typedef struct accumulate_sets {
     int planes, skip, sets;
 } accumulate_sets;
 
-/* Value l*l+l±m of set p at to + (p*bands^2 + l*l+l±m) * stride, in the order of the sums. */
-LMP_INLINE void accumulate_put_planes(int bands, int first, int end, int monic, accumulate_sets of,
-                                      const vf *sums, float *to, size_t stride) {
-    const size_t set = (size_t)(bands * bands) * stride;
-    for (int m = first; m < end; m++) {
+/* One set in the order of the sums: columns first … end-1 of bands low … high-1, value l*l+l±m at
+ * to + (l*l+l±m - from) * stride. */
+LMP_INLINE void accumulate_set(int bands, int first, int end, int low, int high, int monic,
+                               int planes, const vf *sums, float *to, int from, size_t stride) {
+    for (int m = first; m < end && m < high; m++) {
         const float *norms = lmp_table_norm + lmp_table_index(m, m);
-        for (int l = m; l < bands; l++, sums += 2 * of.planes) {
+        for (int l = m > low ? m : low; l < high; l++) {
+            const vf *sum = sums + (l - m) * 2 * planes;
             const float norm = monic ? norms[l - m] : 1;
-            float *plus = to + (size_t)(l * l + l + m) * stride;
-            float *minus = to + (size_t)(l * l + l - m) * stride;
-            LMP_UNROLL for (int p = 0; p < of.sets; p++) {
-                const vf *sum = sums + of.skip + p;
-                vf_store(plus + (size_t)p * set, norm * sum[0]);
-                if (m > 0)
-                    vf_store(minus + (size_t)p * set, norm * sum[of.planes]);
-            }
+            float *middle = to + (size_t)(l * l + l - from) * stride;
+            vf_store(middle + (size_t)m * stride, norm * sum[0]);
+            if (m > 0)
+                vf_store(middle - (size_t)m * stride, norm * sum[planes]);
         }
+        sums += (bands - m) * 2 * planes;
     }
 }
 
-/* The same as rows, or of a block that is not full. Values that follow one another go together. */
-static inline void accumulate_put_rows(int bands, int first, int end, int monic, accumulate_sets of,
-                                       const vf *sums, const lmp_kernel_out *out, size_t element,
-                                       size_t live) {
-    const int width = 2 * of.planes;
-    const vf *columns[LMP_BANDS_MAX];
-    const float *norms[LMP_BANDS_MAX];
-    for (int m = first; m < end; m++) {
-        columns[m] = sums;
-        norms[m] = lmp_table_norm + lmp_table_index(m, m);
-        sums += (bands - m) * width;
+/* Bands low … high-1 of a set, which lie in planes from value low*low on, as rows. */
+static inline void accumulate_rows(int first, int end, int low, int high, const float *planes,
+                                   size_t place, const lmp_kernel_out *out, size_t element,
+                                   size_t live) {
+    if (first == 0 && high <= end) {
+        layout_put(planes, place, (size_t)(high * high - low * low), out, element, live);
+        return;
     }
-    float LMP_ALIGNED waiting[16 * LMP_LANES];
-    size_t from = 0, n = 0;
-    for (int p = 0; p < of.sets; p++) {
-        for (int l = first; l < bands; l++) {
-            const int last = l < end ? l : end - 1;
-            size_t place = (size_t)(p * bands * bands + l * l + l - last);
-            for (int m = -last; m <= last; m++, place++) {
-                const int column = m < 0 ? -m : m, value = (m < 0 ? of.planes : 0) + of.skip + p;
-                if (column < first)
-                    continue;
-                if (n == 16 || from + n != place) {
-                    layout_put(waiting, from, n, out, element, live);
-                    from = place;
-                    n = 0;
-                }
-                const vf sum = columns[column][(l - column) * width + value];
-                vf_store(waiting + n++ * LMP_LANES, monic ? sum * norms[column][l - column] : sum);
-            }
-        }
+    for (int l = low; l < high; l++) {
+        const int middle = l * l + l - low * low, last = l < end ? l : end - 1;
+        const size_t run = (size_t)(first == 0 ? 2 * last + 1 : last - first + 1);
+        const int runs[] = { middle - last, middle + first };
+        for (int i = 0; i < (first == 0 ? 1 : 2); i++)
+            layout_put(planes + runs[i] * LMP_LANES, place + (size_t)runs[i], run, out, element,
+                       live);
     }
-    layout_put(waiting, from, n, out, element, live);
 }
 
 /* Writes columns first … end-1. */
 LMP_INLINE void accumulate_put(int bands, int first, int end, int monic, accumulate_sets of,
                                const vf *sums, const lmp_kernel_out *out, size_t element,
                                size_t live) {
-    if (LMP_LANES == 1 || (out->planar && live == LMP_LANES))
-        accumulate_put_planes(bands, first, end, monic, of, sums,
-                              out->at + element * (out->planar ? 1 : out->stride),
-                              out->planar ? out->stride : 1);
-    else
-        accumulate_put_rows(bands, first, end, monic, of, sums, out, element, live);
+    const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
+    const size_t stride = out->planar ? out->stride : 1;
+    for (int p = 0; p < of.sets; p++) {
+        const vf *set = sums + of.skip + p;
+        const size_t place = (size_t)(p * bands * bands);
+        if (direct) {
+            float *to = out->at + element * (out->planar ? 1 : out->stride) + place * stride;
+            accumulate_set(bands, first, end, first, bands, monic, of.planes, set, to, 0, stride);
+            continue;
+        }
+        /* Some bands at a time. */
+        float LMP_ALIGNED block[BASIS_WAITING * LMP_LANES];
+        for (int low = first, high; low < bands; low = high) {
+            const int from = low * low;
+            high = low + 1;
+            while (high < bands && (high + 1) * (high + 1) - from <= BASIS_WAITING)
+                high++;
+            accumulate_set(bands, first, end, low, high, monic, of.planes, set, block, from,
+                           LMP_LANES);
+            accumulate_rows(first, end, low, high, block, place + (size_t)from, out, element, live);
+        }
+    }
 }
 
 /* The end of the tile that begins with column `first`, its sums set to 0; a (l, m) takes `width`.
