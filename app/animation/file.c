@@ -22,50 +22,31 @@ static bool fail_path(const path_reader *reader, const char *wrong) {
 }
 
 static bool read_numbers(const cJSON *item, int count, double *numbers) {
-    if (!cJSON_IsArray(item) || cJSON_GetArraySize(item) != count)
-        return false;
-    const cJSON *entry;
-    cJSON_ArrayForEach(entry, item) {
-        if (!cJSON_IsNumber(entry) || !(fabs(entry->valuedouble) <= (double)LMP_LENGTH_MAX))
-            return false;
-        *numbers++ = entry->valuedouble;
-    }
-    return true;
-}
-
-static const cJSON *member(const cJSON *object, const char *name) {
-    return cJSON_GetObjectItemCaseSensitive(object, name);
+    return file_json_numbers(item, count, -(double)LMP_LENGTH_MAX, (double)LMP_LENGTH_MAX, numbers);
 }
 
 static bool only_keys(const path_reader *reader, const cJSON *object, const char *const *known) {
-    for (const cJSON *item = object->child; item; item = item->next) {
-        size_t i = 0;
-        while (known[i] && strcmp(known[i], item->string) != 0)
-            i++;
-        if (!known[i])
-            return cli_fail(reader->error, reader->file, "paths[%d] has an unknown key \"%.64s\"",
-                            reader->number, item->string);
-    }
-    return true;
+    const char *key = file_json_unknown_key(object, known);
+    return !key || cli_fail(reader->error, reader->file, "paths[%d] has an unknown key \"%.64s\"",
+                            reader->number, key);
 }
 
 static bool read_period(const path_reader *reader, const cJSON *object, path *p) {
-    const cJSON *period = member(object, "period");
-    if (!cJSON_IsNumber(period) || !(period->valuedouble > 0 && period->valuedouble <= SECONDS_MAX))
+    if (!file_json_number(file_json_member(object, "period"), 0, SECONDS_MAX, &p->period) ||
+        !(p->period > 0))
         return fail_path(reader, "has no period above 0 and up to 1e6 seconds");
-    p->period = period->valuedouble;
     return true;
 }
 
 /* { "center": [x, y, z], "axis": [x, y, z], "period": s } */
 static bool read_circle(const path_reader *reader, const cJSON *object, path *p) {
     static const char *const known[] = { "center", "axis", "period", NULL };
-    const cJSON *axis = member(object, "axis");
+    const cJSON *axis = file_json_member(object, "axis");
     p->kind = PATH_CIRCLE;
     memcpy(p->axis, (const double[3]) { 0, 1, 0 }, sizeof p->axis);
     if (!only_keys(reader, object, known) || !read_period(reader, object, p))
         return false;
-    if (!read_numbers(member(object, "center"), 3, p->center))
+    if (!read_numbers(file_json_member(object, "center"), 3, p->center))
         return fail_path(reader, "has no center of three numbers");
     if (axis && !read_numbers(axis, 3, p->axis))
         return fail_path(reader, "has an axis that is not three numbers");
@@ -81,13 +62,12 @@ static bool read_circle(const path_reader *reader, const cJSON *object, path *p)
 /* { "bottom": y, "period": s } */
 static bool read_bounce(const path_reader *reader, const cJSON *object, path *p) {
     static const char *const known[] = { "bottom", "period", NULL };
-    const cJSON *bottom = member(object, "bottom");
+    const double far = (double)LMP_LENGTH_MAX;
     p->kind = PATH_BOUNCE;
     if (!only_keys(reader, object, known) || !read_period(reader, object, p))
         return false;
-    if (!cJSON_IsNumber(bottom) || !(fabs(bottom->valuedouble) <= (double)LMP_LENGTH_MAX))
+    if (!file_json_number(file_json_member(object, "bottom"), -far, far, &p->bottom))
         return fail_path(reader, "has no bottom, a height");
-    p->bottom = bottom->valuedouble;
     return true;
 }
 
@@ -121,8 +101,9 @@ static bool read_keys(const path_reader *reader, const cJSON *array, const scene
 static bool read_path(const path_reader *reader, const cJSON *entry, const scene *world,
                       animation *all) {
     static const char *const known[] = { "light", "keys", "smooth", "circle", "bounce", NULL };
-    const cJSON *light = member(entry, "light"), *keys = member(entry, "keys"),
-                *round = member(entry, "circle"), *fall = member(entry, "bounce");
+    const cJSON *light = file_json_member(entry, "light"), *keys = file_json_member(entry, "keys"),
+                *round = file_json_member(entry, "circle"),
+                *fall = file_json_member(entry, "bounce");
     if (!cJSON_IsObject(entry))
         return fail_path(reader, "is no object");
     if (!only_keys(reader, entry, known))
@@ -140,7 +121,7 @@ static bool read_path(const path_reader *reader, const cJSON *entry, const scene
     const size_t index = light ? (size_t)light->valuedouble : 0;
     if (light && all->paths[index].kind != PATH_REST)
         return fail_path(reader, "is the second path of its light");
-    path own = { .smooth = cJSON_IsTrue(member(entry, "smooth")) };
+    path own = { .smooth = cJSON_IsTrue(file_json_member(entry, "smooth")) };
     path *p = light ? &all->paths[index] : &own;
     *p = own;
     if (keys ? !read_keys(reader, keys, &world->lights[index], p)
@@ -156,15 +137,9 @@ bool animation_read(const char *file, const scene *world, animation *all, cli_er
     cJSON *root = file_read_json(file, FILE_LIMIT, error);
     if (!root)
         return false;
-    const cJSON *list = cJSON_IsObject(root) ? member(root, "paths") : NULL, *entry;
+    const cJSON *list = file_json_list(file, root, "paths", error), *entry;
     path_reader reader = { file, 0, error };
-    bool ok = true;
-    if (!cJSON_IsArray(list))
-        ok = cli_fail(error, file, "has no array \"paths\"");
-    else if (cJSON_GetArraySize(root) != 1)
-        ok = cli_fail(error, file, "has keys other than \"paths\"");
-    if (!ok)
-        list = NULL;
+    bool ok = list;
     cJSON_ArrayForEach(entry, list) {
         ok = ok && read_path(&reader, entry, world, all);
         reader.number++;

@@ -17,6 +17,19 @@ bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_er
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error);
 struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error);
 
+/* Its values, strictly: what has another type, count or range is not read. An item may be NULL. */
+const struct cJSON *file_json_member(const struct cJSON *object, const char *name);
+bool file_json_number(const struct cJSON *item, double minimum, double maximum, double *number);
+bool file_json_numbers(const struct cJSON *item, int count, double minimum, double maximum,
+                       double *numbers);
+
+/* The first key of an object that is none of the NULL-terminated ones; NULL if there is none. */
+const char *file_json_unknown_key(const struct cJSON *object, const char *const *known);
+
+/* The array of { "name": [ … ] }, a file that holds nothing else; NULL on failure. */
+const struct cJSON *file_json_list(const char *path, const struct cJSON *root, const char *name,
+                                   cli_error *error);
+
 /* A file that appears under its name only when complete: written beside it, then renamed. */
 typedef struct file_writer {
     FILE *stream; /* write here */

@@ -27,3 +27,49 @@ struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error) {
     free(data);
     return root;
 }
+
+const struct cJSON *file_json_member(const struct cJSON *object, const char *name) {
+    return cJSON_GetObjectItemCaseSensitive(object, name);
+}
+
+bool file_json_number(const struct cJSON *item, double minimum, double maximum, double *number) {
+    if (!cJSON_IsNumber(item) || !(item->valuedouble >= minimum && item->valuedouble <= maximum))
+        return false;
+    *number = item->valuedouble;
+    return true;
+}
+
+bool file_json_numbers(const struct cJSON *item, int count, double minimum, double maximum,
+                       double *numbers) {
+    if (!cJSON_IsArray(item) || cJSON_GetArraySize(item) != count)
+        return false;
+    const cJSON *entry;
+    cJSON_ArrayForEach(entry, item) {
+        if (!file_json_number(entry, minimum, maximum, numbers++))
+            return false;
+    }
+    return true;
+}
+
+const char *file_json_unknown_key(const struct cJSON *object, const char *const *known) {
+    for (const cJSON *item = object->child; item; item = item->next) {
+        size_t i = 0;
+        while (known[i] && strcmp(known[i], item->string) != 0)
+            i++;
+        if (!known[i])
+            return item->string;
+    }
+    return NULL;
+}
+
+const struct cJSON *file_json_list(const char *path, const struct cJSON *root, const char *name,
+                                   cli_error *error) {
+    const cJSON *list = cJSON_IsObject(root) ? file_json_member(root, name) : NULL;
+    if (!cJSON_IsArray(list))
+        cli_fail(error, path, "has no array \"%s\"", name);
+    else if (cJSON_GetArraySize(root) != 1)
+        cli_fail(error, path, "has keys other than \"%s\"", name);
+    else
+        return list;
+    return NULL;
+}

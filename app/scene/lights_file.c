@@ -19,39 +19,31 @@ static bool fail_light(const lights_reader *reader, const char *wrong) {
     return cli_fail(reader->error, reader->path, "lights[%d] %s", reader->number, wrong);
 }
 
+/* Of any size: the floats they become are checked. */
+static bool read_three(const cJSON *item, double numbers[3]) {
+    return file_json_numbers(item, 3, -HUGE_VAL, HUGE_VAL, numbers);
+}
+
 static bool read_color(const cJSON *item, double color[3]) {
-    int count = 0;
-    const cJSON *channel;
-    if (cJSON_IsNumber(item)) {
-        color[0] = color[1] = color[2] = item->valuedouble;
-        return true;
-    }
-    if (!cJSON_IsArray(item))
-        return false;
-    cJSON_ArrayForEach(channel, item) {
-        if (!cJSON_IsNumber(channel) || count == 3)
-            return false;
-        color[count++] = channel->valuedouble;
-    }
-    return count == 3;
+    if (!cJSON_IsNumber(item))
+        return read_three(item, color);
+    color[0] = color[1] = color[2] = item->valuedouble;
+    return true;
 }
 
 static bool check_keys(const lights_reader *reader, const cJSON *entry) {
-    static const char *const known[] = { "name",     "position", "radius",
-                                         "radiance", "power",    "intensity" };
-    for (const cJSON *item = entry->child; item; item = item->next) {
-        bool found = false;
-        for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-            found = found || strcmp(item->string, known[i]) == 0;
-        if (!found)
-            return cli_fail(reader->error, reader->path,
-                            "lights[%d] has an unknown key \"%.64s\" (there are position, radius "
-                            "and radiance, power or intensity)",
-                            reader->number, item->string);
+    static const char *const known[] = { "name",  "position",  "radius", "radiance",
+                                         "power", "intensity", NULL };
+    const char *key = file_json_unknown_key(entry, known);
+    if (key)
+        return cli_fail(reader->error, reader->path,
+                        "lights[%d] has an unknown key \"%.64s\" (there are position, radius "
+                        "and radiance, power or intensity)",
+                        reader->number, key);
+    for (const cJSON *item = entry->child; item; item = item->next)
         for (const cJSON *other = item->next; other; other = other->next)
             if (strcmp(item->string, other->string) == 0)
                 return fail_light(reader, "has a key twice");
-    }
     return true;
 }
 
@@ -61,12 +53,11 @@ static bool read_light(const lights_reader *reader, const cJSON *entry, scene_li
     if (!check_keys(reader, entry))
         return false;
     double position[3], color[3] = { 0.0, 0.0, 0.0 };
-    const cJSON *place = cJSON_GetObjectItemCaseSensitive(entry, "position");
-    const cJSON *radius = cJSON_GetObjectItemCaseSensitive(entry, "radius");
-    const cJSON *radiance = cJSON_GetObjectItemCaseSensitive(entry, "radiance");
-    const cJSON *power = cJSON_GetObjectItemCaseSensitive(entry, "power");
-    const cJSON *intensity = cJSON_GetObjectItemCaseSensitive(entry, "intensity");
-    if (!cJSON_IsArray(place) || !read_color(place, position))
+    const cJSON *radius = file_json_member(entry, "radius");
+    const cJSON *radiance = file_json_member(entry, "radiance");
+    const cJSON *power = file_json_member(entry, "power");
+    const cJSON *intensity = file_json_member(entry, "intensity");
+    if (!read_three(file_json_member(entry, "position"), position))
         return fail_light(reader, "has no position of three numbers");
     if (!cJSON_IsNumber(radius) || !((float)radius->valuedouble > 0.0f))
         return fail_light(reader, "has no radius above 0");
@@ -95,25 +86,20 @@ bool scene_add_lights_file(scene *s, const char *path, cli_error *error) {
     cJSON *root = file_read_json(path, FILE_LIMIT, error);
     if (!root)
         return false;
-    const cJSON *list =
-        cJSON_IsObject(root) ? cJSON_GetObjectItemCaseSensitive(root, "lights") : NULL;
+    const cJSON *list = file_json_list(path, root, "lights", error), *entry;
     lights_reader reader = { path, 0, error };
-    bool ok = true;
-    if (!cJSON_IsArray(list))
-        ok = cli_fail(error, path, "has no array \"lights\"");
-    else if (cJSON_GetArraySize(root) != 1)
-        ok = cli_fail(error, path, "has keys other than \"lights\"");
-    else if ((size_t)cJSON_GetArraySize(list) > SCENE_LIGHTS_MAX - s->light_count)
+    bool ok = list;
+    if (ok && (size_t)cJSON_GetArraySize(list) > SCENE_LIGHTS_MAX - s->light_count)
         ok = cli_fail(error, path, "makes %zu lights (at most %d)",
                       (size_t)cJSON_GetArraySize(list) + s->light_count, SCENE_LIGHTS_MAX);
     size_t count = s->light_count;
-    const cJSON *entry;
-    if (ok)
-        cJSON_ArrayForEach(entry, list) {
-            ok = ok && read_light(&reader, entry, &s->lights[count]);
-            reader.number++;
-            count++;
-        }
+    if (!ok)
+        list = NULL;
+    cJSON_ArrayForEach(entry, list) {
+        ok = ok && read_light(&reader, entry, &s->lights[count]);
+        reader.number++;
+        count++;
+    }
     if (ok)
         s->light_count = count;
     cJSON_Delete(root);

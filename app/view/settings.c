@@ -115,22 +115,10 @@ cJSON *view_settings_to_json(const view_settings *s) {
 /* --- from JSON ----------------------------------------------------------------------------------
  */
 
-static const cJSON *member(const cJSON *object, const char *name) {
-    return cJSON_GetObjectItemCaseSensitive(object, name);
-}
-
-static bool read_number(const cJSON *object, const char *name, double minimum, double maximum,
-                        double *value) {
-    const cJSON *item = member(object, name);
-    if (!cJSON_IsNumber(item) || !(item->valuedouble >= minimum) || !(item->valuedouble <= maximum))
-        return false;
-    *value = item->valuedouble;
-    return true;
-}
-
 static bool read_int(const cJSON *object, const char *name, int minimum, int maximum, int *value) {
     double number;
-    if (!read_number(object, name, minimum, maximum, &number) || number != floor(number))
+    if (!file_json_number(file_json_member(object, name), minimum, maximum, &number) ||
+        number != floor(number))
         return false;
     *value = (int)number;
     return true;
@@ -140,7 +128,8 @@ static bool read_float(const cJSON *object, const char *name, double minimum, do
                        float *value) {
     double number;
     /* limits in float, so that the nearest float of a limit is taken again */
-    if (!read_number(object, name, (double)(float)minimum, (double)(float)maximum, &number))
+    if (!file_json_number(file_json_member(object, name), (double)(float)minimum,
+                          (double)(float)maximum, &number))
         return false;
     *value = (float)number;
     return true;
@@ -148,21 +137,18 @@ static bool read_float(const cJSON *object, const char *name, double minimum, do
 
 static bool read_floats(const cJSON *object, const char *name, double minimum, double maximum,
                         float value[3]) {
-    const cJSON *array = member(object, name), *item;
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) != 3)
+    double numbers[3];
+    if (!file_json_numbers(file_json_member(object, name), 3, minimum, (double)(float)maximum,
+                           numbers))
         return false;
-    cJSON_ArrayForEach(item, array) {
-        if (!cJSON_IsNumber(item) || !(item->valuedouble >= minimum) ||
-            !(item->valuedouble <= (double)(float)maximum))
-            return false;
-        *value++ = (float)item->valuedouble;
-    }
+    for (int i = 0; i < 3; i++)
+        value[i] = (float)numbers[i];
     return true;
 }
 
 static bool read_choice(const cJSON *object, const char *name, const char *const *choices,
                         int *value) {
-    const cJSON *item = member(object, name);
+    const cJSON *item = file_json_member(object, name);
     for (int i = 0; cJSON_IsString(item) && choices[i]; i++)
         if (strcmp(choices[i], item->valuestring) == 0) {
             *value = i;
@@ -173,7 +159,7 @@ static bool read_choice(const cJSON *object, const char *name, const char *const
 
 static bool read_camera(const cJSON *root, scene_camera *camera) {
     const double far = (double)LMP_LENGTH_MAX;
-    const cJSON *object = member(root, "camera");
+    const cJSON *object = file_json_member(root, "camera");
     return read_floats(object, "eye", -far, far, camera->eye) &&
            read_floats(object, "target", -far, far, camera->target) &&
            read_floats(object, "up", -far, far, camera->up) &&
@@ -191,7 +177,7 @@ static bool read_look(const cJSON *object, view_look *look) {
 }
 
 static bool read_looks(const cJSON *root, view_look looks[2]) {
-    const cJSON *array = member(root, "looks");
+    const cJSON *array = file_json_member(root, "looks");
     return cJSON_IsArray(array) && cJSON_GetArraySize(array) == 2 &&
            read_look(cJSON_GetArrayItem(array, 0), &looks[0]) &&
            read_look(cJSON_GetArrayItem(array, 1), &looks[1]);
@@ -199,14 +185,14 @@ static bool read_looks(const cJSON *root, view_look looks[2]) {
 
 static bool read_light(const cJSON *object, scene_light *light) {
     const double far = (double)LMP_LENGTH_MAX, bright = 3e38;
-    light->hidden = cJSON_IsTrue(member(object, "hidden")) ? 1 : 0;
+    light->hidden = cJSON_IsTrue(file_json_member(object, "hidden")) ? 1 : 0;
     return read_floats(object, "position", -far, far, light->center) &&
            read_float(object, "radius", 0, far, &light->radius) && light->radius > 0 &&
            read_floats(object, "radiance", 0, bright, light->radiance);
 }
 
 static bool read_lights(const cJSON *root, view_settings *s) {
-    const cJSON *array = member(root, "lights"), *item;
+    const cJSON *array = file_json_member(root, "lights"), *item;
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > SCENE_LIGHTS_MAX)
         return false;
     cJSON_ArrayForEach(item,
@@ -215,7 +201,7 @@ static bool read_lights(const cJSON *root, view_settings *s) {
 }
 
 static bool read_materials(const cJSON *root, view_settings *s) {
-    const cJSON *array = member(root, "materials"), *item;
+    const cJSON *array = file_json_member(root, "materials"), *item;
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > GPU_TABLES_MAX)
         return false;
     cJSON_ArrayForEach(item, array) {
@@ -232,7 +218,7 @@ static bool read_materials(const cJSON *root, view_settings *s) {
 }
 
 static bool read_scene(const cJSON *root, char name[VIEW_PATH_SIZE]) {
-    const cJSON *item = member(root, "scene");
+    const cJSON *item = file_json_member(root, "scene");
     if (!cJSON_IsString(item) || strlen(item->valuestring) >= VIEW_PATH_SIZE)
         return false;
     strcpy(name, item->valuestring);
