@@ -575,7 +575,9 @@ static int bench_cpu(const bench_options *o) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    bench_options o = { .mask = LMP_CPU_ALL, .lights = 30, .size = { 1980, 995 } };
+    bench_options o = {
+        .mask = LMP_CPU_ALL, .lights = 30, .size = { 1980, 995 }, .scene = "builtin:atrium"
+    };
     const cli_option options[] = {
         { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
         { .name = "full",
@@ -604,6 +606,11 @@ static int run(const cli_command *command, int argc, char **argv) {
           .help = "the rows of so many bands alone; 0: of several",
           .minimum = 0,
           .maximum = LMP_BANDS_MAX },
+        { .name = "scene",
+          .kind = CLI_TEXT,
+          .target = &o.scene,
+          .argument = "SCENE",
+          .help = "gpu: of the rows of the short selection" },
         { .name = "lights",
           .kind = CLI_INT,
           .target = &o.lights,
@@ -647,6 +654,7 @@ const cli_command command_bench = {
     .examples = "lampion bench cpu\n"
                 "lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
                 "lampion bench cpu --kernel accumulate --bands 6\n"
-                "lampion bench gpu --json > gpu.json\n",
+                "lampion bench gpu --json > gpu.json\n"
+                "lampion bench gpu --scene builtin:ball --bands 8 --size 3400x900\n",
     .run = run,
 };

@@ -10,6 +10,7 @@ typedef struct bench_options {
     int bands;                 /* 0: many */
     int mask, threads, kernel; /* of cpu; kernel 0: all */
     int lights, size[2];       /* of gpu */
+    const char *scene;         /* of gpu */
     const char *gl_device;     /* of gpu */
 } bench_options;
 

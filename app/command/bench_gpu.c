@@ -234,7 +234,9 @@ int bench_gpu(const bench_options *o) {
     cli_error error = { "" };
     bool ok = true, first = true;
     for (int i = 0; i < (o->full ? 2 : 1) && ok; i++) {
-        bench_stage stage = { .options = o, .name = scenes[i], .first = first };
+        bench_stage stage = { .options = o,
+                              .name = o->full ? scenes[i] : o->scene,
+                              .first = first };
         ok = open_stage(&stage, &error);
         if (ok && i == 0) {
             if (o->json)
