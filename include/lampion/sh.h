@@ -133,7 +133,8 @@ LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, cons
  *   LMP_SH_PLANES  value after value, the faster one: out[v * stride + i]. Where 4 * stride is a
  *                  power of two, planes compete for the same places of the cache: pad it.
  * stride is in floats, 0 means tight: V for rows, count for planes. What lies between the elements
- * is left alone. */
+ * is left alone. Any alignment will do; planes that all begin at multiples of 64 bytes spare the
+ * widest stores a crossing of cache lines. */
 typedef enum lmp_sh_layout { LMP_SH_ROWS = 0, LMP_SH_PLANES } lmp_sh_layout;
 
 /* lmp_sh_eval of many directions: LMP_SH_COUNT(bands) values an element. */
