@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion/response.h - lobes integrated against caps beforehand: shading whose cost does not grow
- * with the bands.
+/* lampion/response.h - lobes and measured materials integrated against caps beforehand: shading
+ * whose cost does not grow with the bands.
  *
  * The integral of a Phong lobe, cut to n bands and windowed, over a spherical cap of half angle a
  * depends on three numbers: the exponent e, a, and the angle g between the axes of lobe and cap.
@@ -18,6 +18,7 @@
 #ifndef LAMPION_RESPONSE_H
 #define LAMPION_RESPONSE_H
 
+#include <lampion/brdf.h>
 #include <lampion/lobe.h>
 
 #ifdef __cplusplus
@@ -94,6 +95,92 @@ LMP_API size_t lmp_response_size(const lmp_response *response);
 LMP_API void lmp_response_write(const lmp_response *response, void *bytes);
 LMP_API lmp_result lmp_response_read(const lmp_allocator *allocator, const void *data, size_t size,
                                      lmp_response **response);
+
+/* --- measured materials --------------------------------------------------------------------------
+ * The integral of an isotropic BRDF's table over a cap depends on four numbers: the angle of the
+ * view, a, and the direction of the cap's axis in the frame of the view.
+ *
+ * How it is stored
+ *   slices   of a view and a half angle each; between them the value is linear in the coordinates
+ *            view_warp and cap_warp.
+ *   grid     of a slice: polar about the mirror direction. Rows follow the angle g to it, measured
+ *            from where the cap's rim shows, x = g - a² / (sqrt(a² + radius²) + radius), so that
+ * the rim lies on the same row in every slice: s = x (reach / width / sqrt(x² + reach²) + slope),
+ * row = s row_density - row_origin. Columns follow the azimuth p round it, from the side of the
+ * normal: column = p column_density + 1. Cubic B-splines in both, 4 x 4 coefficients a reading, the
+ *            second of them at the whole part of row and column.
+ *   value    mean over the cap of BRDF times cosine, times the cap's solid angle plus lobe_angle.
+ *            Red, green, blue in 16 bits each. */
+typedef struct lmp_brdf_response lmp_brdf_response;
+
+/* How to make one; zero-initialise it, zero means the default. */
+typedef struct lmp_brdf_response_desc {
+    float error;      /* as in lmp_response_desc, relative to the largest value, of any channel,
+                         over all directions at that view and a, or to a twentieth of all views' */
+    size_t bytes_max; /* more memory than that is LMP_ERROR_MEMORY; LMP_BRDF_RESPONSE_BYTES_MAX */
+    lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
+    void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
+    void *user;                                /* of both hooks */
+} lmp_brdf_response_desc;
+#define LMP_BRDF_RESPONSE_BYTES_MAX ((size_t)1 << 27)
+
+/* allocator and desc may be NULL; *response is NULL on failure. The table is not kept.
+ * LMP_ERROR_ARGUMENT: a member outside its range, or an anisotropic table: its azimuth of the view
+ * would be a fifth number. Immutable: share it freely. */
+LMP_API lmp_result lmp_brdf_response_create(const lmp_allocator *allocator,
+                                            const lmp_brdf_table *table,
+                                            const lmp_brdf_response_desc *desc,
+                                            lmp_brdf_response **response);
+LMP_API void lmp_brdf_response_destroy(lmp_brdf_response *response);
+
+/* The response of the table to a cap of unit strength, as lmp_response_eval; not clamped.
+ *
+ * cos_theta_o is clamped to 0 … 1; axis is unit, in the frame of the view (brdf.h); one_minus = 1 -
+ * cos a, 0 … 1 */
+LMP_API lmp_rgb lmp_brdf_response_eval(const lmp_brdf_response *response, float cos_theta_o,
+                                       lmp_vec3 axis, float one_minus);
+
+/* The same to radiance 1 from everywhere: multiply by a cap's ambient. */
+LMP_API lmp_rgb lmp_brdf_response_ambient(const lmp_brdf_response *response, float cos_theta_o);
+
+/* One slice: rows times columns texels from `first` on. */
+typedef struct lmp_brdf_response_slice {
+    uint32_t first;
+    uint32_t rows, columns; /* texels: `columns` a row, tight; at least 4 by 4 */
+    float row_density, row_origin, column_density;
+    float unit; /* of its values */
+} lmp_brdf_response_slice;
+
+/* What it is made of. A coordinate is the index of the first of two slices plus the share of the
+ * second; warp[i] is the one at i / steps, linear between, of
+ *   view_warp   theta_o / (pi/2)
+ *   cap_warp    a / (a + 0.5), over the same of pi/2 */
+typedef struct lmp_brdf_response_info {
+    int bands; /* and window: of the table */
+    lmp_window window;
+    float window_size;
+    float error;
+    bool mirrored;                  /* azimuths 0 … pi alone; otherwise 0 … 2 pi */
+    float width, radius;            /* radians: of the finest detail, of the lobe */
+    float reach;                    /* radians */
+    float slope;                    /* 1/radians */
+    float lobe_angle;               /* sr */
+    uint32_t view_count, cap_count; /* of slices, 2 and up */
+    uint32_t view_steps, cap_steps;
+    const float *view_warp, *cap_warp;     /* steps + 1 */
+    const lmp_rgb *ambient;                /* of every view */
+    const lmp_brdf_response_slice *slices; /* [view][cap] */
+    const int16_t *texels;                 /* red, green, blue */
+    size_t texel_count;
+    size_t bytes; /* of all that */
+} lmp_brdf_response_info;
+LMP_API lmp_brdf_response_info lmp_brdf_response_describe(const lmp_brdf_response *response);
+
+/* As bytes, like lmp_response_write and lmp_response_read. */
+LMP_API size_t lmp_brdf_response_size(const lmp_brdf_response *response);
+LMP_API void lmp_brdf_response_write(const lmp_brdf_response *response, void *bytes);
+LMP_API lmp_result lmp_brdf_response_read(const lmp_allocator *allocator, const void *data,
+                                          size_t size, lmp_brdf_response **response);
 
 #ifdef __cplusplus
 }

@@ -20,10 +20,11 @@ extern "C" {
 
 /* The paper's two lobes. */
 typedef struct lmp_material {
-    lmp_rgb diffuse;             /* albedo of the diffuse lobe */
-    lmp_rgb specular;            /* reflectance of the Phong lobe */
-    float exponent;              /* of the Phong lobe, >= 0 */
-    const lmp_brdf_table *table; /* instead of the lobes, or NULL; see lmp_shade_table */
+    lmp_rgb diffuse;                   /* albedo of the diffuse lobe */
+    lmp_rgb specular;                  /* reflectance of the Phong lobe */
+    float exponent;                    /* of the Phong lobe, >= 0 */
+    const lmp_brdf_table *table;       /* instead of the lobes, or NULL; see lmp_shade_table */
+    const lmp_brdf_response *response; /* of that table, for lmp_shade_preintegrated; may be NULL */
 } lmp_material;
 
 /* glTF's metallic-roughness as two lobes: diffuse = base (1 - metallic), specular = Schlick's F0 =
@@ -73,8 +74,15 @@ LMP_API lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_ma
 LMP_API lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
                                 lmp_vec3 tangent, const lmp_light *lights, size_t count);
 
+/* The same from the table's response, within its error: no sum over bands, no stack to speak of. An
+ * isotropic material needs no tangent. */
+LMP_API lmp_rgb lmp_shade_table_preintegrated(const lmp_brdf_response *response,
+                                              const lmp_surface *surface, const lmp_light *lights,
+                                              size_t count);
+
 /* lmp_shade from a response of the same bands and window, within the response's error: its cost
- * does not depend on the bands. */
+ * does not depend on the bands. A material with a table is read from its own response; without one
+ * it is summed by bands. */
 LMP_API lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_material *material,
                                         const lmp_surface *surface, const lmp_light *lights,
                                         size_t count);
@@ -91,6 +99,9 @@ typedef struct lmp_surfaces {
     lmp_float_array exponent;
     const lmp_brdf_table *const *table; /* of the first surface; NULL: all have lobes */
     size_t table_stride; /* bytes from one to the next; such surfaces go one by one */
+    const lmp_brdf_response *const *response; /* of the first surface's table, or NULL; read by
+                                                 lmp_shade_preintegrated_n */
+    size_t response_stride;
 } lmp_surfaces;
 
 /* Reflected radiance of `count` surfaces under the sum of the lights.

@@ -25,3 +25,16 @@ uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
         crc = crc >> 8 ^ table[0][(crc ^ *p++) & 0xff];
     return ~crc;
 }
+
+lmp_result lmp_bytes_check_frame(const void *bytes, size_t size, const unsigned char magic[8],
+                                 uint32_t version, size_t header) {
+    const size_t checksum = 4;
+    const unsigned char *p = bytes;
+    if (size < header + checksum || memcmp(p, magic, 8) != 0)
+        return LMP_ERROR_FORMAT;
+    if (lmp_bytes_at_u32(p + 8) != version)
+        return LMP_ERROR_VERSION;
+    if (lmp_bytes_checksum(p, size - checksum) != lmp_bytes_at_u32(p + size - checksum))
+        return LMP_ERROR_CHECKSUM;
+    return LMP_OK;
+}

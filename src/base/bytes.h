@@ -3,6 +3,8 @@
 #ifndef LAMPION_BASE_BYTES_H
 #define LAMPION_BASE_BYTES_H
 
+#include <lampion/base.h>
+
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -69,5 +71,10 @@ static inline float lmp_bytes_load_f32(const unsigned char **from) {
 
 /* CRC-32C (Castagnoli), eight bytes a step. */
 uint32_t lmp_bytes_checksum(const void *bytes, size_t size);
+
+/* Whether a file holds a header of so many bytes that begins with the magic and the version, and
+ * ends with the checksum of what is before: LMP_OK, or what is wrong. */
+lmp_result lmp_bytes_check_frame(const void *bytes, size_t size, const unsigned char magic[8],
+                                 uint32_t version, size_t header);
 
 #endif

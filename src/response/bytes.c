@@ -92,22 +92,11 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_respons
                : LMP_ERROR_FORMAT;
 }
 
-static lmp_result check_frame(const unsigned char *bytes, size_t size) {
-    if (size < HEADER + CHECKSUM || memcmp(bytes, magic, sizeof magic) != 0)
-        return LMP_ERROR_FORMAT;
-    const unsigned char *version = bytes + sizeof magic, *checksum = bytes + size - CHECKSUM;
-    if (lmp_bytes_load_u32(&version) != FORMAT_VERSION)
-        return LMP_ERROR_VERSION;
-    if (lmp_bytes_checksum(bytes, size - CHECKSUM) != lmp_bytes_load_u32(&checksum))
-        return LMP_ERROR_CHECKSUM;
-    return LMP_OK;
-}
-
 lmp_result lmp_response_read(const lmp_allocator *allocator, const void *data, size_t size,
                              lmp_response **response) {
     *response = NULL;
     const unsigned char *bytes = data;
-    lmp_result result = check_frame(bytes, size);
+    lmp_result result = lmp_bytes_check_frame(bytes, size, magic, FORMAT_VERSION, HEADER);
     if (result != LMP_OK)
         return result;
     const lmp_allocator heap = lmp_heap_resolve(allocator);

@@ -2,6 +2,8 @@
 /* eval.c - one reading of a response; the kernels and the shader do the same (docs/shading.md). */
 #include "src/response/eval.h"
 
+#include "src/response/spline.h"
+
 #include <assert.h>
 #include <math.h>
 
@@ -25,15 +27,6 @@ void lmp_response_seek(const lmp_response_info *info, float exponent, lmp_respon
     };
 }
 
-/* The cubic B-spline's weights of four neighbours, the point `x` past the second. */
-static void spline_weights(float x, float w[4]) {
-    const float y = 1 - x;
-    w[0] = y * y * y / 6;
-    w[1] = (4 + 3 * x * x * (x - 2)) / 6;
-    w[2] = (4 + 3 * y * y * (y - 2)) / 6;
-    w[3] = x * x * x / 6;
-}
-
 float lmp_response_at(const lmp_response_info *info, const lmp_response_place *place,
                       float one_minus, float cosine) {
     const float across = lmp_response_angle(1 - fabsf(cosine));
@@ -41,8 +34,8 @@ float lmp_response_at(const lmp_response_info *info, const lmp_response_place *p
     const float x = g * place->density, y = lmp_response_angle(one_minus) * place->density;
     const size_t column = (size_t)x, row = (size_t)y;
     float wx[4], wy[4], sum = 0;
-    spline_weights(x - (float)column, wx);
-    spline_weights(y - (float)row, wy);
+    lmp_spline_weights(x - (float)column, wx);
+    lmp_spline_weights(y - (float)row, wy);
     for (size_t i = 0; i < 4; i++) {
         const int16_t *pair =
             info->coefficients + 2 * (place->first + (row + i) * place->columns + column);

@@ -4,6 +4,7 @@
 #include "src/response/response.h"
 
 #include "src/base/heap.h"
+#include "src/response/spline.h"
 
 #include <lampion/lobe.h>
 
@@ -74,26 +75,6 @@ static void sum_bands(const slice_grid *grid) {
     }
 }
 
-/* In place, `count` values become the coefficients of the interpolating cubic B-spline, the series
- * mirrored at both ends (Unser 1999). Consecutive values are `stride` apart. */
-static void spline(float *values, size_t count, size_t stride) {
-    const float pole = -0.26794919243f;
-    float sum = values[0], power = pole;
-    for (size_t k = 1; k < count && k < 20; k++, power *= pole)
-        sum += power * values[k * stride];
-    /* The mirrored series has its first value once, the others on both sides; the causal half
-     * starts from the far side. */
-    values[0] = sum;
-    for (size_t k = 1; k < count; k++)
-        values[k * stride] += pole * values[(k - 1) * stride];
-    float *last = values + (count - 1) * stride;
-    *last = pole / (pole * pole - 1) * (*last + pole * *(last - stride));
-    for (size_t k = count - 1; k-- > 0;)
-        values[k * stride] = pole * (values[(k + 1) * stride] - values[k * stride]);
-    for (size_t k = 0; k < count; k++)
-        values[k * stride] *= 6;
-}
-
 static int16_t quantise(float value) {
     const float units = value / LMP_RESPONSE_UNIT;
     return (int16_t)lrintf(fminf(fmaxf(units, -32767), 32767));
@@ -138,9 +119,9 @@ lmp_result lmp_response_fill(lmp_response *response, uint32_t cell_index, uint32
     legendre(&grid);
     sum_bands(&grid);
     for (size_t i = 0; i < grid.rows; i++)
-        spline(grid.values + i * grid.columns, grid.columns, 1);
+        lmp_spline_coefficients(grid.values + i * grid.columns, grid.columns, 1);
     for (size_t j = 0; j < grid.columns; j++)
-        spline(grid.values + j, grid.rows, grid.columns);
+        lmp_spline_coefficients(grid.values + j, grid.rows, grid.columns);
     store(&grid, cell, response->coefficients + 2 * (size_t)cell->first + side);
     lmp_heap_release(&response->allocator, memory);
     return LMP_OK;

@@ -64,20 +64,33 @@ static void store_chunk(const chunk_planes *chunk, const float *ambient, size_t 
         }
 }
 
+/* Surface i's pointer, at a stride. */
+static const void *pointer_at(const void *first, size_t stride, size_t i) {
+    const void *at = NULL;
+    if (first)
+        memcpy(&at, (const char *)first + i * stride, sizeof at);
+    return at;
+}
+
 /* Surfaces with a table: one by one, over what their lobes gave. */
-static void shade_tables(const lmp_surfaces *surfaces, size_t first, const chunk_planes *chunk,
-                         const lmp_light *lights, size_t light_count, size_t stride, float *rgb) {
+static void shade_tables(const lmp_surfaces *surfaces, bool preintegrated, size_t first,
+                         const chunk_planes *chunk, const lmp_light *lights, size_t light_count,
+                         size_t stride, float *rgb) {
     for (size_t i = 0; surfaces->table && i < chunk->count; i++) {
-        const lmp_brdf_table *table;
-        memcpy(&table, (const char *)surfaces->table + (first + i) * surfaces->table_stride,
-               sizeof table);
+        const lmp_brdf_table *table =
+            pointer_at(surfaces->table, surfaces->table_stride, first + i);
+        const lmp_brdf_response *response =
+            preintegrated ? pointer_at(surfaces->response, surfaces->response_stride, first + i)
+                          : NULL;
         if (!table)
             continue;
         const lmp_surface surface = { vector_at(&surfaces->position, first + i),
                                       vector_at(&surfaces->normal, first + i),
                                       vector_at(&surfaces->view, first + i) };
         const lmp_rgb color =
-            lmp_shade_table(table, &surface, (lmp_vec3) { 0, 0, 0 }, lights, light_count);
+            response
+                ? lmp_shade_table_preintegrated(response, &surface, lights, light_count)
+                : lmp_shade_table(table, &surface, (lmp_vec3) { 0, 0, 0 }, lights, light_count);
         memcpy(rgb + i * stride, &color, sizeof color);
     }
 }
@@ -214,7 +227,8 @@ static void shade_chunks(const shade_method *method, const lmp_surfaces *surface
             gather(method, &chunk, some, taken);
         }
         store_chunk(&chunk, ambient, stride, rgb + first * stride);
-        shade_tables(surfaces, first, &chunk, lights, light_count, stride, rgb + first * stride);
+        shade_tables(surfaces, method->response != NULL, first, &chunk, lights, light_count, stride,
+                     rgb + first * stride);
     }
 }
 
@@ -262,6 +276,8 @@ lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_material
         .exponent = { &material->exponent, 0 },
     };
     float rgb[3];
+    if (material->table && material->response)
+        return lmp_shade_table_preintegrated(material->response, surface, lights, count);
     if (material->table)
         return lmp_shade_table(material->table, surface, (lmp_vec3) { 0, 0, 0 }, lights, count);
     lmp_shade_preintegrated_n(response, &one, 1, lights, count, 3, rgb);

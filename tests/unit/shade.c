@@ -94,7 +94,8 @@ static void both_methods_agree_with_the_definition(void **state) {
             lmp_light lights[6];
             random_spheres(6, lights);
             const lmp_surface surface = random_surface();
-            const lmp_material material = { random_color(), random_color(), exponents[j], NULL };
+            const lmp_material material = { random_color(), random_color(), exponents[j], NULL,
+                                            NULL };
             const lmp_shade_settings settings = { .bands = counts[i],
                                                   .window = j % 2 ? LMP_WINDOW_HANNING
                                                                   : LMP_WINDOW_NONE };
@@ -128,7 +129,7 @@ static void both_methods_agree_for_every_kind_of_light(void **state) {
         }
         const lmp_surface surface = random_surface();
         const lmp_material material = { random_color(), random_color(), (float)(trial * trial),
-                                        NULL };
+                                        NULL, NULL };
         float zonal[3], coefficients[3];
         double expected[3];
         to_array(lmp_shade_zonal(NULL, &material, &surface, lights, 6), zonal);
@@ -144,7 +145,7 @@ static void defaults_are_ten_bands_and_no_window(void **state) {
     lmp_light light;
     random_spheres(1, &light);
     const lmp_surface surface = random_surface();
-    const lmp_material material = { random_color(), random_color(), 50, NULL };
+    const lmp_material material = { random_color(), random_color(), 50, NULL, NULL };
     const lmp_shade_settings ten = { .bands = 10 }, zero = { 0 };
     float expected[3], channels[3];
     to_array(lmp_shade(&ten, &material, &surface, &light, 1), expected);
@@ -161,7 +162,7 @@ static void never_goes_below_zero(void **state) {
         lmp_light light;
         random_spheres(1, &light);
         const lmp_surface surface = random_surface();
-        const lmp_material material = { { 0, 0, 0 }, { 1, 1, 1 }, 200, NULL };
+        const lmp_material material = { { 0, 0, 0 }, { 1, 1, 1 }, 200, NULL, NULL };
         float channels[3];
         to_array(lmp_shade(NULL, &material, &surface, &light, 1), channels);
         for (int c = 0; c < 3; c++)

@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: MIT */
+/* measured_series.c - a table's series seen from the mirror direction, summed on rings round it.
+ *
+ * There a lobe is nearly round, so few orders m matter but at grazing views; and a ring's azimuths
+ * share the sum over l (paper Eq. 6 with the cap's R_l, Eq. 13). */
+#include "src/response/measured.h"
+
+#include "src/base/heap.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define TAIL_BANDS  0.06 /* of the error: what the bands left out may reach */
+#define TAIL_ORDERS 0.12
+#define CUT_VIEWS   32 /* that decide how many bands matter */
+#define STEPS_BANDS 40 /* up to which views are in MEASURED_STEPS_MAX steps */
+#define STEPS_FEW   256
+#define SAMPLES_MIN 16   /* and two a band */
+#define WIDTH       1.2f /* of the finest detail, times the bands */
+#define ROWS        16   /* rings at a time */
+#define COLUMNS_MIN 4
+#define FEW_ORDERS  16
+#define COLUMNS_MAX 128
+
+void lmp_measured_run(const lmp_brdf_response_desc *desc, size_t count,
+                      void (*task)(size_t index, void *data), void *data) {
+    if (desc->parallel) {
+        desc->parallel(desc->user, count, task, data);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        task(i, data);
+}
+
+/* --- the coefficients ---------------------------------------------------------------------------
+ */
+
+/* One channel of a view on the full layout l² + l + m, `bands` bands of it. */
+static void expand(const lmp_brdf_table_info *info, const float *plane, int bands, float *sh) {
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++) {
+            const int half = l * (l + 1) / 2 + m, full = l * l + l + m;
+            sh[full] = !info->mirrored ? plane[full] : m < 0 ? 0 : plane[half];
+        }
+}
+
+/* Where series are sampled: angles g from the mirror direction, Y_lm at azimuth 0. */
+typedef struct samples {
+    int bands;
+    size_t count;
+    float *basis; /* [sample][bands²] */
+} samples;
+
+static lmp_result samples_create(const lmp_allocator *heap, int bands, samples *made) {
+    *made = (samples) { .bands = bands, .count = (size_t)(2 * bands + SAMPLES_MIN) };
+    made->basis = lmp_heap_allocate(heap, made->count * LMP_SH_COUNT(bands) * sizeof *made->basis);
+    if (!made->basis)
+        return LMP_ERROR_MEMORY;
+    for (size_t i = 0; i < made->count; i++) {
+        const double g = MEASURED_PI * (double)i / (double)(made->count - 1);
+        lmp_sh_eval(bands, (lmp_vec3) { (float)sin(g), 0, (float)cos(g) },
+                    made->basis + i * LMP_SH_COUNT(bands));
+    }
+    return LMP_OK;
+}
+
+/* One view on its way to the lobe's frame. */
+typedef struct turning {
+    const lmp_brdf_table *table;
+    measured_series *series;
+    const lmp_brdf_response_desc *desc;
+    samples samples;
+    float floor;                         /* peaks count as at least that */
+    float peaks[MEASURED_STEPS_MAX + 1]; /* < 0: no memory */
+    int bands[MEASURED_STEPS_MAX + 1];   /* that matter */
+} turning;
+
+/* The first `bands` bands of a view of the table, turned: [channel][bands²]. */
+static bool turn(const turning *job, int step, int bands, float *turned) {
+    const measured_series *series = job->series;
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(job->table);
+    const size_t count = LMP_SH_COUNT(bands);
+    const double theta = MEASURED_PI / 2 * step / series->steps;
+    const lmp_quat to_mirror = { 0, (float)sin(theta / 2), 0, (float)cos(theta / 2) };
+    float *memory = lmp_heap_allocate(
+        &series->heap, (3 * info.count + count + LMP_SH_ROTATION_COUNT(bands)) * sizeof *memory);
+    if (!memory)
+        return false;
+    float *planes = memory, *sh = planes + 3 * info.count, *matrices = sh + count;
+    lmp_sh_rotation(bands, to_mirror, matrices);
+    lmp_brdf_table_view(job->table, (float)cos(theta), 0, planes);
+    for (size_t c = 0; c < 3; c++) {
+        expand(&info, planes + c * info.count, bands, sh);
+        lmp_sh_rotate(bands, matrices, sh, turned + c * count);
+    }
+    lmp_heap_release(&series->heap, memory);
+    return true;
+}
+
+/* Band l of a channel at a sample, on both sides of the mirror direction. */
+static void band_at(const float *sh, const float *basis, int l, float sides[2]) {
+    const int at = l * l + l;
+    float even = 0, odd = 0;
+    for (int m = 0; m <= l; m += 2)
+        even += sh[at + m] * basis[at + m];
+    for (int m = 1; m <= l; m += 2)
+        odd += sh[at + m] * basis[at + m];
+    sides[0] = even + odd;
+    sides[1] = even - odd;
+}
+
+/* The largest of the bands from l on, as one falls to 0: peaks[l], for every l. */
+static void tails(const turning *job, const float *turned, float *peaks) {
+    const int bands = job->samples.bands;
+    const size_t count = LMP_SH_COUNT(bands);
+    for (int l = 0; l < bands; l++)
+        peaks[l] = 0;
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < job->samples.count; i++) {
+            float sums[2] = { 0, 0 }, sides[2];
+            for (int l = bands - 1; l >= 0; l--) {
+                band_at(turned + c * count, job->samples.basis + i * count, l, sides);
+                sums[0] += sides[0];
+                sums[1] += sides[1];
+                peaks[l] = fmaxf(peaks[l], fmaxf(fabsf(sums[0]), fabsf(sums[1])));
+            }
+        }
+}
+
+/* How many bands of one view matter. */
+static void cut_view(size_t index, void *data) {
+    turning *job = data;
+    const int bands = job->samples.bands, step = (int)index * job->series->steps / CUT_VIEWS;
+    float peaks[LMP_BANDS_MAX];
+    float *turned = lmp_heap_allocate(&job->series->heap, 3 * LMP_SH_COUNT(bands) * sizeof *turned);
+    job->peaks[index] = -1;
+    if (turned && turn(job, step, bands, turned)) {
+        tails(job, turned, peaks);
+        job->peaks[index] = peaks[0];
+        job->bands[index] = 1;
+        for (int l = 1; l < bands; l++)
+            if (!(peaks[l] <= (float)TAIL_BANDS * job->desc->error * peaks[0]))
+                job->bands[index] = l + 1;
+    }
+    lmp_heap_release(&job->series->heap, turned);
+}
+
+static bool cut_bands(turning *job) {
+    const size_t views = CUT_VIEWS + 1;
+    lmp_measured_run(job->desc, views, cut_view, job);
+    job->series->bands = 1;
+    for (size_t i = 0; i < views; i++) {
+        if (job->peaks[i] < 0)
+            return false;
+        if (job->bands[i] > job->series->bands)
+            job->series->bands = job->bands[i];
+        job->floor = fmaxf(job->floor, (float)LMP_MEASURED_FLOOR * job->peaks[i]);
+    }
+    return true;
+}
+
+/* Adds what each order of a channel gives at a sample. */
+static void add_orders(const float *sh, const float *basis, int bands, float *cosines,
+                       float *sines) {
+    for (int m = 0; m < bands; m++)
+        cosines[m] = sines[m] = 0;
+    for (int l = 0; l < bands; l++) {
+        const float *c = sh + l * l + l, *y = basis + l * l + l;
+        for (int m = 0; m <= l; m++)
+            cosines[m] += c[m] * y[m];
+        for (int m = 1; m <= l; m++)
+            sines[m] += c[-m] * y[m];
+    }
+}
+
+/* The orders without which a view keeps its values, and its largest value. */
+static int count_orders(const turning *job, const float *turned, float *peak) {
+    const int bands = job->series->bands;
+    const size_t count = LMP_SH_COUNT(bands), all = LMP_SH_COUNT(job->samples.bands);
+    float largest[LMP_BANDS_MAX] = { 0 }, cosines[LMP_BANDS_MAX], sines[LMP_BANDS_MAX];
+    *peak = 0;
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < job->samples.count; i++) {
+            float even = 0, odd = 0;
+            add_orders(turned + c * count, job->samples.basis + i * all, bands, cosines, sines);
+            for (int m = 0; m < bands; m++) {
+                *(m % 2 ? &odd : &even) += cosines[m];
+                largest[m] = fmaxf(largest[m], fmaxf(fabsf(cosines[m]), fabsf(sines[m])));
+            }
+            *peak = fmaxf(*peak, fmaxf(fabsf(even + odd), fabsf(even - odd)));
+        }
+    const float limit = (float)TAIL_ORDERS * job->desc->error * fmaxf(*peak, job->floor);
+    float rest = 0;
+    for (int m = bands - 1; m > 0; m--) {
+        rest += largest[m];
+        if (!(rest <= limit))
+            return m + 1;
+    }
+    return 1;
+}
+
+static void turn_view(size_t index, void *data) {
+    turning *job = data;
+    measured_series *series = job->series;
+    const size_t count = LMP_SH_COUNT(series->bands);
+    float *turned = series->coefficients + 3 * count * index, ambient[3];
+    job->peaks[index] = -1;
+    if (!turn(job, (int)index, series->bands, turned))
+        return;
+    for (size_t c = 0; c < 3; c++)
+        ambient[c] = turned[c * count] * (float)sqrt(4 * MEASURED_PI);
+    series->ambient[index] = (lmp_rgb) { ambient[0], ambient[1], ambient[2] };
+    series->orders[index] = count_orders(job, turned, &job->peaks[index]);
+}
+
+/* The solid angle of a lobe as high as its peak with all that it reflects, of the narrowest. */
+static float lobe_angle(const turning *job) {
+    const int bands = job->series->bands;
+    float angle = (float)(2 * MEASURED_PI);
+    for (int i = 0; i < job->series->steps * 3 / 4; i++) {
+        const lmp_rgb all = job->series->ambient[i];
+        const float most = fmaxf(all.r, fmaxf(all.g, all.b));
+        if (most < angle * job->peaks[i])
+            angle = most / job->peaks[i];
+    }
+    return fmaxf(angle, (float)MEASURED_PI / (float)(bands * bands));
+}
+
+/* A table bends between its views, and steps where a fit's shadowing begins: parts of the views'
+ * step keep every bend. As fine as time allows: turning a view costs bands³. */
+static int count_steps(int views, int bands) {
+    const int halves = 2 * views - 1, most = bands <= STEPS_BANDS ? MEASURED_STEPS_MAX : STEPS_FEW;
+    return halves > most ? most : halves * (most / halves);
+}
+
+static lmp_result turn_all(turning *job) {
+    measured_series *series = job->series;
+    const size_t views = (size_t)series->steps + 1;
+    if (!cut_bands(job))
+        return LMP_ERROR_MEMORY;
+    series->coefficients = lmp_heap_allocate(
+        &series->heap, 3 * LMP_SH_COUNT(series->bands) * views * sizeof *series->coefficients);
+    if (!series->coefficients)
+        return LMP_ERROR_MEMORY;
+    lmp_measured_run(job->desc, views, turn_view, job);
+    for (size_t i = 0; i < views; i++) {
+        if (job->peaks[i] < 0)
+            return LMP_ERROR_MEMORY;
+        if (i > 0 && series->orders[i] < series->orders[i - 1])
+            series->orders[i] = series->orders[i - 1];
+    }
+    series->width = WIDTH / (float)series->bands;
+    series->lobe_angle = lobe_angle(job);
+    series->radius = sqrtf(series->lobe_angle / (float)MEASURED_PI);
+    return LMP_OK;
+}
+
+lmp_result lmp_measured_series(const lmp_allocator *allocator, const lmp_brdf_table *table,
+                               const lmp_brdf_response_desc *desc, measured_series *series) {
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    *series = (measured_series) { .heap = lmp_heap_resolve(allocator),
+                                  .steps = count_steps(info.views, info.bands),
+                                  .mirrored = info.mirrored };
+    turning *job = lmp_heap_allocate(&series->heap, sizeof *job);
+    if (!job)
+        return LMP_ERROR_MEMORY;
+    *job = (turning) { .table = table, .series = series, .desc = desc };
+    lmp_result result = samples_create(&series->heap, info.bands, &job->samples);
+    if (result == LMP_OK)
+        result = turn_all(job);
+    if (result != LMP_OK)
+        lmp_measured_series_free(series);
+    lmp_heap_release(&series->heap, job->samples.basis);
+    lmp_heap_release(&series->heap, job);
+    return result;
+}
+
+void lmp_measured_series_free(measured_series *series) {
+    lmp_heap_release(&series->heap, series->coefficients);
+    series->coefficients = NULL;
+}
+
+/* --- sets of views ------------------------------------------------------------------------------
+ */
+
+/* Intervals over the azimuths: a power of two, for slices to halve it. Where there are many orders
+ * the last ones are faint. */
+static int columns_for(const measured_series *series, int orders) {
+    int intervals = COLUMNS_MIN;
+    while (intervals < COLUMNS_MAX &&
+           intervals < (orders <= FEW_ORDERS ? 2 * orders : orders * 5 / 4))
+        intervals *= 2;
+    return series->mirrored ? intervals + 1 : 2 * intervals;
+}
+
+lmp_result lmp_measured_views(const measured_series *series, const int *view, size_t count,
+                              int columns, measured_views *views) {
+    const size_t values = LMP_SH_COUNT(series->bands);
+    *views = (measured_views) { .series = series, .count = count };
+    views->coefficients =
+        lmp_heap_allocate(&series->heap, values * count * 3 * sizeof *views->coefficients);
+    if (!views->coefficients)
+        return LMP_ERROR_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const float *from = series->coefficients + 3 * values * (size_t)view[i];
+        views->view[i] = view[i];
+        views->columns[i] = columns ? columns : columns_for(series, series->orders[view[i]]);
+        for (size_t c = 0; c < 3; c++)
+            for (size_t k = 0; k < values; k++)
+                views->coefficients[(k * count + i) * 3 + c] = from[c * values + k];
+    }
+    return LMP_OK;
+}
+
+void lmp_measured_views_free(measured_views *views) {
+    lmp_heap_release(&views->series->heap, views->coefficients);
+    views->coefficients = NULL;
+}
+
+/* --- the sum ------------------------------------------------------------------------------------
+ */
+
+/* The mean of P_l over the cap, times the solid angles: even in a (fill.c). */
+static void cap_means(const measured_series *series, double half_angle, float *means) {
+    const double one_minus = 2 * sin(half_angle / 2) * sin(half_angle / 2);
+    const double angle = 2 * MEASURED_PI * one_minus + (double)series->lobe_angle;
+    double r = 1, d = 0;
+    for (int l = 0; l < series->bands; l++) {
+        if (l >= 2) {
+            d = ((l - 2) * d - (2 * l - 1) * one_minus * r) / (l + 1);
+            r += d;
+        }
+        means[l] = (float)(angle * (l == 0 ? 1 : r * (1 - one_minus / 2)));
+    }
+}
+
+/* What a thread of the sum works on. */
+typedef struct rings {
+    const measured_views *views;
+    size_t rows;
+    size_t first[LMP_BANDS_MAX]; /* the first view that order m matters to */
+    int orders;
+    float means[LMP_BANDS_MAX];
+    float *basis;                  /* ROWS * bands²: Y_lm at azimuth 0 */
+    float *sums;                   /* [row][view][channel], of one order */
+    float circle[2 * COLUMNS_MAX]; /* cosines of a turn */
+    float turns[2 * COLUMNS_MAX];  /* of the azimuths of one order */
+} rings;
+
+/* Σ_l of one order m, negative for the sines. */
+static void sum_bands(const rings *r, int m) {
+    const size_t width = 3 * r->views->count, bands = (size_t)r->views->series->bands;
+    const size_t order = (size_t)(m < 0 ? -m : m), first = 3 * r->first[order];
+    for (size_t row = 0; row < r->rows; row++) {
+        float *restrict sum = r->sums + row * width;
+        memset(sum, 0, width * sizeof *sum);
+        for (size_t l = order; l < bands; l++) {
+            const size_t at = l * l + l;
+            const float *restrict from =
+                r->views->coefficients + (m < 0 ? at - order : at + order) * width;
+            const float weight = r->means[l] * r->basis[row * bands * bands + at + order];
+            for (size_t k = first; k < width; k++)
+                sum[k] += weight * from[k];
+        }
+    }
+}
+
+/* cos(m p) at the azimuths p; sines for negative m. */
+static void turn_order(rings *r, int m, int columns) {
+    const int circle = 2 * COLUMNS_MAX;
+    const int intervals = r->views->series->mirrored ? 2 * (columns - 1) : columns;
+    for (int j = 0; j < columns; j++) {
+        const int at = abs(m) * j * (circle / intervals) + (m < 0 ? circle * 3 / 4 : 0);
+        r->turns[j] = r->circle[at % circle];
+    }
+}
+
+/* Adds one order to the values at all azimuths. */
+static void add_order(rings *r, int m, size_t row_first, size_t row_count, float *const *values) {
+    const measured_views *views = r->views;
+    int columns = 0;
+    for (size_t v = r->first[abs(m)]; v < views->count; v++) {
+        if (views->columns[v] != columns) {
+            columns = views->columns[v];
+            turn_order(r, m, columns);
+        }
+        for (size_t c = 0; c < 3; c++)
+            for (size_t row = 0; row < r->rows; row++) {
+                const float sum = r->sums[(row * views->count + v) * 3 + c];
+                float *restrict to =
+                    values[v] + (c * row_count + row_first + row) * (size_t)columns;
+                for (int j = 0; j < columns; j++)
+                    to[j] += sum * r->turns[j];
+            }
+    }
+}
+
+static void sum_rows(rings *r, const double *g, size_t row_first, size_t row_count,
+                     float *const *values) {
+    const measured_series *series = r->views->series;
+    float x[ROWS], z[ROWS];
+    const float y = 0;
+    for (size_t i = 0; i < r->rows; i++) {
+        x[i] = (float)sin(g[row_first + i]);
+        z[i] = (float)cos(g[row_first + i]);
+    }
+    for (size_t i = 0; i < r->rows; i++)
+        lmp_sh_eval(series->bands, (lmp_vec3) { x[i], y, z[i] },
+                    r->basis + i * LMP_SH_COUNT(series->bands));
+    for (int m = 0; m < r->orders; m++) {
+        sum_bands(r, m);
+        add_order(r, m, row_first, row_count, values);
+        if (m > 0 && !series->mirrored) {
+            sum_bands(r, -m);
+            add_order(r, -m, row_first, row_count, values);
+        }
+    }
+}
+
+lmp_result lmp_measured_sum(const measured_views *views, double angle, const double *g, size_t rows,
+                            float *const *values) {
+    const measured_series *series = views->series;
+    const size_t basis = ROWS * LMP_SH_COUNT(series->bands), sums = ROWS * 3 * views->count;
+    rings r = { .views = views, .orders = series->orders[views->view[views->count - 1]] };
+    r.basis = lmp_heap_allocate(&series->heap, (basis + sums) * sizeof *r.basis);
+    if (!r.basis)
+        return LMP_ERROR_MEMORY;
+    r.sums = r.basis + basis;
+    for (int i = 0; i < 2 * COLUMNS_MAX; i++)
+        r.circle[i] = (float)cos(MEASURED_PI * i / COLUMNS_MAX);
+    for (int m = 0; m < r.orders; m++)
+        while (series->orders[views->view[r.first[m]]] <= m)
+            r.first[m]++;
+    cap_means(series, angle, r.means);
+    for (size_t v = 0; v < views->count; v++)
+        memset(values[v], 0, 3 * rows * (size_t)views->columns[v] * sizeof *values[v]);
+    for (size_t row = 0; row < rows; row += ROWS) {
+        r.rows = rows - row < ROWS ? rows - row : ROWS;
+        sum_rows(&r, g, row, rows, values);
+    }
+    lmp_heap_release(&series->heap, r.basis);
+    return LMP_OK;
+}

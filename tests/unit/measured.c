@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: MIT */
+/* Responses of measured materials against the sums over bands that they stand for. */
+#include "src/base/bytes.h"
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979324;
+
+static lmp_brdf *sgd_brdf(const char *name) {
+    lmp_sgd sgd;
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_sgd_find(name, &sgd), LMP_OK);
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf_table *table_of(lmp_brdf *brdf, const lmp_brdf_table_desc *desc) {
+    lmp_brdf_table *table;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, desc, &table), LMP_OK);
+    lmp_brdf_destroy(brdf);
+    return table;
+}
+
+static lmp_brdf_table *sgd_table(const char *name, int bands, lmp_window window) {
+    const lmp_brdf_table_desc desc = { .bands = bands, .window = window, .rings_max = 128 };
+    return table_of(sgd_brdf(name), &desc);
+}
+
+static lmp_brdf_response *created(const lmp_brdf_table *table, float error) {
+    lmp_brdf_response *response;
+    const lmp_brdf_response_desc desc = { .error = error };
+    assert_int_equal(lmp_brdf_response_create(NULL, table, &desc, &response), LMP_OK);
+    return response;
+}
+
+/* --- errors ------------------------------------------------------------------------------------
+ */
+
+/* A view, and a sphere of radiance 1 that looks r / 1 large: where a cap of a given size may lie.
+ */
+typedef struct probe {
+    double theta;
+    float radius;
+} probe;
+
+/* A direction at g, p round the mirror direction, of the frame whose z is the normal. */
+static lmp_vec3 around_mirror(const probe *p, double g, double azimuth) {
+    const double x = sin(g) * cos(azimuth), y = sin(g) * sin(azimuth), z = cos(g);
+    const double c = cos(p->theta), s = sin(p->theta);
+    return (lmp_vec3) { (float)(c * x - s * z), (float)y, (float)(s * x + c * z) };
+}
+
+static lmp_vec3 random_direction(const probe *p, int i, double detail) {
+    double g = fabs(asin(fmin((double)p->radius, 1)) + detail * check_random_between(-4, 4));
+    if (i % 3 == 1)
+        g = acos(check_random_between(-1, 1));
+    if (i % 3 == 2)
+        g = check_random_between(0, 0.3);
+    return around_mirror(p, i == 0 ? 0 : fmin(g, pi), check_random_between(0, 2 * pi));
+}
+
+static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_brdf_response *response,
+                      const probe *p, lmp_vec3 direction) {
+    const lmp_light light = { .position = direction, .radius = p->radius, .radiance = { 1, 1, 1 } };
+    const lmp_surface surface = { .normal = { 0, 0, 1 },
+                                  .view = { (float)sin(p->theta), 0, (float)cos(p->theta) } };
+    const lmp_material material = { .table = table, .response = response };
+    if (!response)
+        return lmp_shade(NULL, &material, &surface, &light, 1);
+    return lmp_shade_preintegrated(NULL, &material, &surface, &light, 1);
+}
+
+static float largest_of(lmp_rgb c) {
+    return fmaxf(c.r, fmaxf(c.g, c.b));
+}
+
+/* The largest value of all views, at the mirror direction. */
+static float peak_of_views(const lmp_brdf_table *table, float radius) {
+    float peak = 0;
+    for (int i = 0; i < 16; i++) {
+        const probe p = { pi / 2 * i / 16, radius };
+        peak = fmaxf(peak, largest_of(shaded(table, NULL, &p, around_mirror(&p, 0, 0))));
+    }
+    return peak;
+}
+
+typedef struct error_sum {
+    double largest, squares;
+    long count;
+} error_sum;
+
+enum { DIRECTIONS = 40 };
+
+static void compare(const lmp_brdf_table *table, const lmp_brdf_response *response, const probe *p,
+                    error_sum *errors) {
+    const double detail = (double)lmp_brdf_response_describe(response).width;
+    lmp_rgb expected[DIRECTIONS], read[DIRECTIONS];
+    float peak = 0.05f * peak_of_views(table, p->radius);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const lmp_vec3 direction = random_direction(p, i, detail);
+        expected[i] = shaded(table, NULL, p, direction);
+        read[i] = shaded(table, response, p, direction);
+        peak = fmaxf(peak, largest_of(expected[i]));
+    }
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double off[3] = { (double)(read[i].r - expected[i].r),
+                                (double)(read[i].g - expected[i].g),
+                                (double)(read[i].b - expected[i].b) };
+        for (int c = 0; c < 3; c++) {
+            const double error = fabs(off[c]) / (double)peak;
+            if (!(error <= errors->largest))
+                errors->largest = error;
+            errors->squares += error * error;
+            errors->count++;
+        }
+    }
+}
+
+static probe random_probe(double least, double most) {
+    return (probe) { check_random() < 0.8 ? pi / 2 * check_random()
+                                          : pi / 2 * (1 - 0.1 * check_random()),
+                     (float)pow(10, check_random_between(least, most)) };
+}
+
+static void check_probes(const char *what, const lmp_brdf_table *table, int probes) {
+    lmp_brdf_response *response = created(table, 0);
+    const lmp_brdf_response_info info = lmp_brdf_response_describe(response);
+    error_sum errors = { 0 };
+    for (int i = 0; i < probes; i++) {
+        const probe p = random_probe(-4, log10(0.99));
+        compare(table, response, &p, &errors);
+    }
+    const double rms = sqrt(errors.squares / (double)errors.count);
+    print_message("%s, %d bands, window %d: %.1f MB, %ld values, error max %.3f %%, rms %.4f %%\n",
+                  what, info.bands, (int)info.window, (double)info.bytes / 1e6, errors.count,
+                  100 * errors.largest, 100 * rms);
+    CHECK_WITHIN(errors.largest, 5e-3);
+    CHECK_WITHIN(rms, 5e-4);
+    lmp_brdf_response_destroy(response);
+}
+
+static void ten_materials_match_their_sums_within_the_error(void **state) {
+    (void)state;
+    static const char *const names[] = { "gold-metallic-paint",
+                                         "blue-metallic-paint",
+                                         "nickel",
+                                         "chrome",
+                                         "steel",
+                                         "white-fabric",
+                                         "red-fabric",
+                                         "green-plastic",
+                                         "black-phenolic",
+                                         "pearl-paint" };
+    for (int i = 0; i < 10; i++) {
+        lmp_brdf_table *table = sgd_table(names[i], 10, LMP_WINDOW_HANNING);
+        check_probes(names[i], table, 250);
+        lmp_brdf_table_destroy(table);
+    }
+}
+
+static void more_bands_and_no_window_match_as_well(void **state) {
+    (void)state;
+    lmp_brdf_table *sharp = sgd_table("gold-metallic-paint", 8, LMP_WINDOW_NONE);
+    check_probes("gold-metallic-paint", sharp, 100);
+    lmp_brdf_table_destroy(sharp);
+    lmp_brdf_table *fine = sgd_table("green-plastic", 20, LMP_WINDOW_LANCZOS);
+    check_probes("green-plastic", fine, 60);
+    lmp_brdf_table_destroy(fine);
+    const int few[] = { 1, 2, 3 };
+    for (int i = 0; i < 3; i++) {
+        lmp_brdf_table *table = sgd_table("white-fabric", few[i], LMP_WINDOW_NONE);
+        check_probes("white-fabric", table, 60);
+        lmp_brdf_table_destroy(table);
+    }
+}
+
+static void a_table_of_all_orders_and_few_views_matches_as_well(void **state) {
+    (void)state;
+    const lmp_brdf_table_desc desc = {
+        .bands = 7, .views = 12, .rings_max = 64, .symmetry = LMP_BRDF_SYMMETRY_NONE
+    };
+    lmp_brdf_table *table = table_of(sgd_brdf("nickel"), &desc);
+    assert_false(lmp_brdf_table_describe(table).mirrored);
+    check_probes("nickel, all orders", table, 60);
+    lmp_brdf_table_destroy(table);
+}
+
+static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
+    (void)state;
+    lmp_brdf_table *table = sgd_table("red-fabric", 8, LMP_WINDOW_HANNING);
+    lmp_brdf_response *response = created(table, 0);
+    error_sum errors = { 0 };
+    for (int i = 0; i < 60; i++) {
+        const probe p = i % 2 ? random_probe(0, 2) : random_probe(-1e-4, 1e-4);
+        compare(table, response, &p, &errors);
+    }
+    CHECK_WITHIN(errors.largest, 5e-3);
+    lmp_brdf_response_destroy(response);
+    lmp_brdf_table_destroy(table);
+}
+
+static void many_surfaces_are_shaded_like_one(void **state) {
+    (void)state;
+    lmp_brdf_table *table = sgd_table("green-plastic", 6, LMP_WINDOW_HANNING);
+    lmp_brdf_response *response = created(table, 0.02f);
+    lmp_response *lobes;
+    assert_int_equal(
+        lmp_response_create(NULL, &(lmp_response_desc) { .bands = 6, .error = 0.05f }, &lobes),
+        LMP_OK);
+    lmp_light lights[4] = {
+        { .position = { 0.3f, 1, 2 }, .radius = 0.4f, .radiance = { 3, 2, 1 } },
+        { .kind = LMP_LIGHT_HEMISPHERE, .direction = { 0, 0, 1 }, .radiance = { 1, 1, 1 } },
+        { .kind = LMP_LIGHT_POINT, .position = { -1, 0, 1 }, .intensity = { 1, 2, 3 } },
+        { .position = { 0, 0, 0.1f }, .radius = 2, .radiance = { 0.5f, 0.5f, 0.5f } },
+    };
+    const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { 0.6f, 0, 0.8f } };
+    const lmp_material materials[2] = { { .diffuse = { 0.5f, 0.4f, 0.3f }, .exponent = 3 },
+                                        { .table = table, .response = response } };
+    const lmp_surfaces two = {
+        .position = lmp_vec3_array_same(&surface.position),
+        .normal = lmp_vec3_array_same(&surface.normal),
+        .view = lmp_vec3_array_same(&surface.view),
+        .diffuse = { &materials->diffuse.r, &materials->diffuse.g, &materials->diffuse.b,
+                     sizeof *materials },
+        .specular = { &materials->specular.r, &materials->specular.g, &materials->specular.b,
+                      sizeof *materials },
+        .exponent = { &materials->exponent, sizeof *materials },
+        .table = &materials->table,
+        .table_stride = sizeof *materials,
+        .response = &materials->response,
+        .response_stride = sizeof *materials,
+    };
+    float rgb[6];
+    lmp_shade_preintegrated_n(lobes, &two, 2, lights, 4, 3, rgb);
+    for (size_t i = 0; i < 2; i++) {
+        const lmp_rgb one = lmp_shade_preintegrated(lobes, &materials[i], &surface, lights, 4);
+        const lmp_rgb sum =
+            lmp_shade(&(lmp_shade_settings) { .bands = 6 }, &materials[i], &surface, lights, 4);
+        assert_memory_equal(&one, rgb + 3 * i, sizeof one);
+        CHECK_WITHIN(fabsf(one.r - sum.r), 0.03 * (double)sum.r);
+    }
+    lmp_response_destroy(lobes);
+    lmp_brdf_response_destroy(response);
+    lmp_brdf_table_destroy(table);
+}
+
+static void a_larger_error_takes_less_memory(void **state) {
+    (void)state;
+    lmp_brdf_table *table = sgd_table("white-fabric", 8, LMP_WINDOW_HANNING);
+    lmp_brdf_response *fine = created(table, 0.002f), *coarse = created(table, 0.05f);
+    assert_true(lmp_brdf_response_describe(coarse).bytes <
+                lmp_brdf_response_describe(fine).bytes / 2);
+    lmp_brdf_response_destroy(fine);
+    lmp_brdf_response_destroy(coarse);
+    lmp_brdf_table_destroy(table);
+}
+
+/* --- making ------------------------------------------------------------------------------------
+ */
+
+static lmp_brdf_table *small_table(void) {
+    const lmp_brdf_table_desc desc = { .bands = 2, .views = 3, .rings_max = 32 };
+    return table_of(sgd_brdf("white-fabric"), &desc);
+}
+
+static void backwards(void *user, size_t count, void (*task)(size_t index, void *data),
+                      void *data) {
+    (void)user;
+    for (size_t i = count; i-- > 0;)
+        task(i, data);
+}
+
+static void progressed(void *user, double done) {
+    double *before = user;
+    assert_true(done > *before && done <= 1);
+    *before = done;
+}
+
+static void *written(const lmp_brdf_response *response, size_t *size) {
+    *size = lmp_brdf_response_size(response);
+    void *bytes = malloc(*size);
+    assert_non_null(bytes);
+    lmp_brdf_response_write(response, bytes);
+    return bytes;
+}
+
+static void tasks_in_any_order_give_the_same_bytes(void **state) {
+    (void)state;
+    double done = 0;
+    const lmp_brdf_response_desc desc = { .parallel = backwards,
+                                          .progress = progressed,
+                                          .user = &done };
+    lmp_brdf_table *table = sgd_table("nickel", 5, LMP_WINDOW_NONE);
+    lmp_brdf_response *plain = created(table, 0), *other;
+    assert_int_equal(lmp_brdf_response_create(NULL, table, &desc, &other), LMP_OK);
+    CHECK_WITHIN(fabs(done - 1), 0);
+    size_t size, other_size;
+    void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
+    assert_int_equal(size, other_size);
+    assert_memory_equal(bytes, other_bytes, size);
+    free(bytes);
+    free(other_bytes);
+    lmp_brdf_response_destroy(plain);
+    lmp_brdf_response_destroy(other);
+    lmp_brdf_table_destroy(table);
+}
+
+static void what_cannot_be_made_is_refused(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    const float wrong[] = { 1e-5f, 0.5f, NAN, -1 };
+    for (int i = 0; i < 4; i++) {
+        lmp_brdf_response *response = (lmp_brdf_response *)1;
+        assert_int_equal(lmp_brdf_response_create(NULL, table,
+                                                  &(lmp_brdf_response_desc) { .error = wrong[i] },
+                                                  &response),
+                         LMP_ERROR_ARGUMENT);
+        assert_null(response);
+    }
+    lmp_brdf_response *response;
+    assert_int_equal(lmp_brdf_response_create(
+                         NULL, table, &(lmp_brdf_response_desc) { .bytes_max = 1000 }, &response),
+                     LMP_ERROR_MEMORY);
+    lmp_brdf_table_destroy(table);
+
+    const lmp_ggx ggx = { 0.6f, 0.3f, { 0.9f, 0.8f, 0.6f }, { 0, 0, 0 } };
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
+    const lmp_brdf_table_desc desc = { .bands = 3, .views = 4, .azimuths = 4, .rings_max = 32 };
+    table = table_of(brdf, &desc);
+    assert_int_equal(lmp_brdf_response_create(NULL, table, NULL, &response), LMP_ERROR_ARGUMENT);
+    lmp_brdf_table_destroy(table);
+}
+
+static void a_refused_allocation_leaks_nothing(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    const lmp_brdf_response_desc desc = { .error = 0.1f };
+    for (int refuse = 0, step = 1;; refuse += step) {
+        check_heap heap = { .refuse = refuse };
+        const lmp_allocator allocator = check_allocator(&heap);
+        lmp_brdf_response *response;
+        const lmp_result result = lmp_brdf_response_create(&allocator, table, &desc, &response);
+        lmp_brdf_response_destroy(response);
+        assert_int_equal(heap.live, 0);
+        if (result == LMP_OK)
+            break;
+        assert_int_equal(result, LMP_ERROR_MEMORY);
+        assert_null(response);
+    }
+    lmp_brdf_table_destroy(table);
+}
+
+/* --- bytes -------------------------------------------------------------------------------------
+ */
+
+static void bytes_read_back_are_the_same_response(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    lmp_brdf_response *response = created(table, 0), *copy;
+    size_t size, again_size;
+    void *bytes = written(response, &size);
+    assert_int_equal(lmp_brdf_response_read(NULL, bytes, size, &copy), LMP_OK);
+    void *again = written(copy, &again_size);
+    assert_int_equal(size, again_size);
+    assert_memory_equal(bytes, again, size);
+    for (int i = 0; i < 200; i++) {
+        const probe p = random_probe(-3, 0);
+        const lmp_vec3 axis = random_direction(&p, i, 0.1);
+        const lmp_rgb a = lmp_brdf_response_eval(response, (float)cos(p.theta), axis, 0.1f),
+                      b = lmp_brdf_response_eval(copy, (float)cos(p.theta), axis, 0.1f);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    free(bytes);
+    free(again);
+    lmp_brdf_response_destroy(response);
+    lmp_brdf_response_destroy(copy);
+    lmp_brdf_table_destroy(table);
+}
+
+static void sign(unsigned char *bytes, size_t size) {
+    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
+}
+
+static void damaged_bytes_are_refused(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    lmp_brdf_response *response = created(table, 0.1f), *copy;
+    size_t size;
+    unsigned char *bytes = written(response, &size);
+    const size_t texels = 6 * lmp_brdf_response_describe(response).texel_count;
+    lmp_brdf_response_destroy(response);
+    lmp_brdf_table_destroy(table);
+
+    for (size_t cut = 0; cut < size; cut += 1 + cut / 16)
+        assert_int_not_equal(lmp_brdf_response_read(NULL, bytes, cut, &copy), LMP_OK);
+    bytes[size / 2] ^= 1;
+    assert_int_equal(lmp_brdf_response_read(NULL, bytes, size, &copy), LMP_ERROR_CHECKSUM);
+    bytes[size / 2] ^= 1;
+    bytes[8] = 99;
+    assert_int_equal(lmp_brdf_response_read(NULL, bytes, size, &copy), LMP_ERROR_VERSION);
+    assert_null(copy);
+    bytes[8] = 1;
+    /* Any change before the texels is refused, or gives a response that stays in bounds. */
+    for (int i = 0; i < 2000; i++) {
+        const size_t at = 12 + (size_t)(check_random() * (double)(size - texels - 16));
+        const unsigned char was = bytes[at];
+        bytes[at] = (unsigned char)(check_random() * 256);
+        sign(bytes, size);
+        if (lmp_brdf_response_read(NULL, bytes, size, &copy) == LMP_OK)
+            for (int k = 0; k < 20; k++) {
+                const probe p = random_probe(-3, 0);
+                (void)lmp_brdf_response_eval(copy, (float)cos(p.theta),
+                                             random_direction(&p, k, 0.5), (float)check_random());
+                (void)lmp_brdf_response_ambient(copy, (float)cos(p.theta));
+            }
+        lmp_brdf_response_destroy(copy);
+        bytes[at] = was;
+    }
+    free(bytes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ten_materials_match_their_sums_within_the_error),
+        cmocka_unit_test(more_bands_and_no_window_match_as_well),
+        cmocka_unit_test(a_table_of_all_orders_and_few_views_matches_as_well),
+        cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
+        cmocka_unit_test(many_surfaces_are_shaded_like_one),
+        cmocka_unit_test(a_larger_error_takes_less_memory),
+        cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
+        cmocka_unit_test(what_cannot_be_made_is_refused),
+        cmocka_unit_test(a_refused_allocation_leaks_nothing),
+        cmocka_unit_test(bytes_read_back_are_the_same_response),
+        cmocka_unit_test(damaged_bytes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
