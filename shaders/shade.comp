@@ -29,11 +29,36 @@ layout(std430, binding = SHARED_RESPONSE) readonly buffer response_block {
 #define LMP_RESPONSE_WARP(i) warp[i]
 #define LMP_RESPONSE_SHAPE   shape
 #include "response.glsl"
+#ifdef MEASURED
+layout(binding = SHARED_MEASURED_TEXELS) uniform sampler2D measured_texels;
+/* first, for every table, the place of its response's numbers, or 0 */
+layout(std430, binding = SHARED_MEASURED) readonly buffer measured_block {
+    float measured[];
+};
+#define LMP_MEASURED_TEXEL(p) textureLod(measured_texels, (p) / vec2(textureSize(measured_texels, 0)), 0.0).rgb
+#define LMP_MEASURED_VALUE(i) measured[i]
+#include "measured.glsl"
+#endif
 #endif
 
 #include "pixel.glsl"
 #ifdef TABLE_FULL
 #include "table.glsl"
+#endif
+
+#if defined(TABLE_FULL) || defined(MEASURED)
+vec3 shade_by_table(lmp_surface surface, int table) {
+#ifdef MEASURED
+    int first = int(measured[table]);
+#ifdef TABLE_FULL
+    if (first == 0)
+        return shade_table(surface, table);
+#endif
+    return lmp_shade_measured(surface, first);
+#else
+    return shade_table(surface, table);
+#endif
+}
 #endif
 
 layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
@@ -51,9 +76,9 @@ void main() {
         pixel p = pixel_read(at);
         radiance = SHADE(p.surface, p.material) + pixel_emission(at);
     }
-#ifdef TABLE_FULL
+#if defined(TABLE_FULL) || defined(MEASURED)
     if (kind >= SHARED_KIND_TABLE)
-        radiance = shade_table(pixel_read(at).surface, kind - SHARED_KIND_TABLE) + pixel_emission(at);
+        radiance = shade_by_table(pixel_read(at).surface, kind - SHARED_KIND_TABLE) + pixel_emission(at);
 #endif
     imageStore(hdr, at, vec4(radiance, 1.0));
 }

@@ -55,6 +55,10 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_RESPONSE_CELLS 128
 #define SHARED_RESPONSE_WARP  321
 
+/* Texture unit and storage block of measured materials' responses (measured.glsl). */
+#define SHARED_MEASURED_TEXELS 8
+#define SHARED_MEASURED        4
+
 /* Texture unit of the paper's tabulated Z_l, 4 bands a row, and its entries. */
 #define SHARED_ZONAL         7
 #define SHARED_ZONAL_ENTRIES 1024

@@ -295,9 +295,8 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return cli_fail(error, NULL, "out of memory");
-    return j->renderer &&
-           device_materials_apply(&o->materials, &j->world, o->bands, (lmp_window)o->window,
-                                  j->renderer, &j->materials, error);
+    return j->renderer && device_materials_apply(&o->materials, &j->world, &j->frame, j->renderer,
+                                                 &j->materials, error);
 }
 
 static void close_job(job *j) {

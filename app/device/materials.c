@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/device/materials.h"
 
+#include "app/device/device.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,28 +55,38 @@ bool device_materials_open(const cli_list *list, const scene *world, device_mate
     return true;
 }
 
-bool device_materials_bake(device_materials *all, int bands, lmp_window window, cli_error *error) {
+bool device_materials_bake(device_materials *all, int bands, lmp_window window, bool preintegrated,
+                           cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = bands,
                                        .views = LMP_BRDF_VIEWS_DEFAULT,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
                                        .window = window };
     for (int i = 0; i < all->count; i++)
-        if (!material_bake(&all->opened[i], &desc, &all->tables[i], error))
+        if (!material_bake(&all->opened[i], &desc, &all->tables[i], error) ||
+            (preintegrated &&
+             !device_brdf_response(&all->opened[i], all->tables[i], &all->responses[i], error)))
             return false;
     return true;
 }
 
-bool device_materials_apply(const cli_list *list, const scene *world, int bands, lmp_window window,
+bool device_materials_apply(const cli_list *list, const scene *world, const gpu_frame *frame,
                             gpu_renderer *renderer, device_materials *all, cli_error *error) {
     if (!device_materials_open(list, world, all, error) ||
-        !device_materials_bake(all, bands, window, error))
+        !device_materials_bake(all, frame->bands, frame->window,
+                               frame->method == GPU_METHOD_PREINTEGRATED, error))
         return false;
-    return all->count == 0 || gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables,
-                                             all->count, all->uses, world->material_count, error);
+    if (all->count == 0)
+        return true;
+    if (!gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count, all->uses,
+                        world->material_count, error))
+        return false;
+    gpu_set_responses(renderer, (const lmp_brdf_response *const *)all->responses);
+    return true;
 }
 
 void device_materials_free(device_materials *all) {
     for (int i = 0; i < all->count; i++) {
+        lmp_brdf_response_destroy(all->responses[i]);
         lmp_brdf_table_destroy(all->tables[i]);
         material_close(&all->opened[i]);
     }

@@ -14,7 +14,8 @@
 
 typedef struct device_materials {
     material opened[GPU_TABLES_MAX];
-    lmp_brdf_table *tables[GPU_TABLES_MAX]; /* NULL before device_materials_bake */
+    lmp_brdf_table *tables[GPU_TABLES_MAX];       /* NULL before device_materials_bake */
+    lmp_brdf_response *responses[GPU_TABLES_MAX]; /* of tables; NULL unless asked for */
     int count;
     int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
 } device_materials;
@@ -24,12 +25,12 @@ typedef struct device_materials {
 bool device_materials_open(const cli_list *list, const scene *scene, device_materials *materials,
                            cli_error *error);
 
-/* Makes a table of each. */
+/* Makes a table of each; and a response, where it has one, for the method preintegrated. */
 bool device_materials_bake(device_materials *materials, int bands, lmp_window window,
-                           cli_error *error);
+                           bool preintegrated, cli_error *error);
 
-/* Both, and has the renderer shade by the tables. */
-bool device_materials_apply(const cli_list *list, const scene *scene, int bands, lmp_window window,
+/* Both, for the frame's method, bands and window, and has the renderer shade by them. */
+bool device_materials_apply(const cli_list *list, const scene *scene, const gpu_frame *frame,
                             gpu_renderer *renderer, device_materials *materials, cli_error *error);
 /* After the renderer. */
 void device_materials_free(device_materials *materials);

@@ -3,6 +3,7 @@
 #include "app/file/file.h"
 
 #include <omp.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,45 +25,56 @@ static void parallel(void *user, size_t count, void (*task)(size_t index, void *
 }
 
 static void progress(void *user, double done) {
-    (void)user;
     if (omp_get_thread_num() == 0)
-        cli_progress("integrating lobes", done);
+        cli_progress((const char *)user, done);
 }
 
-/* What decides the bytes: how they are made, and what is asked for. */
-static bool cache_path(const lmp_response_desc *desc, char path[PATH_SIZE]) {
+/* --- the cache ----------------------------------------------------------------------------------
+ */
+
+/* What decides the bytes of a response: of which `what`, and how it is made. */
+static bool cache_path(file_hash hash, const char *what, int bands, lmp_window window,
+                       float window_size, char path[PATH_SIZE]) {
     char text[33], name[64];
     const struct {
         uint32_t library;
         int32_t bands, window;
-    } key = { lmp_version(), desc->bands, (int32_t)desc->window };
-    file_hash hash = { 0 };
-    file_hash_add(&hash, "response 1", 10);
+        float window_size;
+    } key = { lmp_version(), bands, (int32_t)window, window_size };
+    file_hash_add(&hash, what, strlen(what));
     file_hash_add(&hash, &key, sizeof key);
     file_hash_text(&hash, text);
-    snprintf(name, sizeof name, "%s.lmpr", text);
+    snprintf(name, sizeof name, "%s.%.4s", text, what);
     return file_cache_path(name, path, PATH_SIZE);
 }
 
-/* A cache that cannot be read is no cache. */
-static bool read_cached(const char *path, const lmp_response_desc *desc, lmp_response **response) {
+/* The bytes of a cached file, or NULL: a cache that cannot be read is no cache. */
+static void *read_cached(const char *path, size_t *size) {
     cli_error ignored;
     void *data;
-    size_t size;
-    if (!file_read(path, RESPONSE_BYTES_MAX, &data, &size, &ignored))
-        return false;
-    const lmp_result result = lmp_response_read(NULL, data, size, response);
-    free(data);
-    if (result != LMP_OK)
-        return false;
-    const lmp_response_info info = lmp_response_describe(*response);
-    if (info.bands == desc->bands && info.window == desc->window)
-        return true;
-    lmp_response_destroy(*response);
-    return false;
+    return file_read(path, RESPONSE_BYTES_MAX, &data, size, &ignored) ? data : NULL;
 }
 
-static void write_cached(const char *path, const lmp_response *response) {
+/* --- lobes --------------------------------------------------------------------------------------
+ */
+
+static lmp_response *read_lobes(const char *path, const lmp_response_desc *desc) {
+    size_t size;
+    void *data = read_cached(path, &size);
+    lmp_response *response = NULL;
+    if (!data || lmp_response_read(NULL, data, size, &response) != LMP_OK)
+        response = NULL;
+    free(data);
+    if (!response)
+        return NULL;
+    const lmp_response_info info = lmp_response_describe(response);
+    if (info.bands == desc->bands && info.window == desc->window)
+        return response;
+    lmp_response_destroy(response);
+    return NULL;
+}
+
+static void write_lobes(const char *path, const lmp_response *response) {
     const size_t size = lmp_response_size(response);
     void *bytes = malloc(size);
     if (bytes) {
@@ -73,18 +85,78 @@ static void write_cached(const char *path, const lmp_response *response) {
 }
 
 bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error) {
+    static char what[] = "integrating lobes";
     const lmp_response_desc desc = {
-        .bands = bands, .window = window, .parallel = parallel, .progress = progress
+        .bands = bands, .window = window, .parallel = parallel, .progress = progress, .user = what
     };
     char path[PATH_SIZE];
-    const bool cached = cache_path(&desc, path);
-    if (cached && read_cached(path, &desc, response))
+    const bool cached = cache_path((file_hash) { 0 }, "lmpr 1", bands, window, 0, path);
+    if (cached && (*response = read_lobes(path, &desc)))
         return true;
     const lmp_result result = lmp_response_create(NULL, &desc, response);
     cli_progress_end();
     if (result != LMP_OK)
         return cli_fail(error, NULL, "the lobes of %d bands: %s", bands, lmp_result_text(result));
     if (cached)
-        write_cached(path, *response);
+        write_lobes(path, *response);
+    return true;
+}
+
+/* --- measured materials --------------------------------------------------------------------------
+ */
+
+static lmp_brdf_response *read_measured(const char *path) {
+    size_t size;
+    void *data = read_cached(path, &size);
+    lmp_brdf_response *response = NULL;
+    if (!data || lmp_brdf_response_read(NULL, data, size, &response) != LMP_OK)
+        response = NULL;
+    free(data);
+    return response;
+}
+
+static void write_measured(const char *path, const lmp_brdf_response *response) {
+    const size_t size = lmp_brdf_response_size(response);
+    void *bytes = malloc(size);
+    if (bytes) {
+        lmp_brdf_response_write(response, bytes);
+        file_cache_store(path, bytes, size);
+    }
+    free(bytes);
+}
+
+/* Says why a material is summed by its bands. */
+static void note_without(const material *from, const char *why) {
+    fprintf(stderr, "lampion: %s: %s: shaded by its bands (as by --method coefficients)\n",
+            from->name, why);
+}
+
+bool device_brdf_response(const material *from, const lmp_brdf_table *table,
+                          lmp_brdf_response **response, cli_error *error) {
+    static char what[] = "integrating the BRDF";
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    const lmp_brdf_response_desc desc = { .parallel = parallel,
+                                          .progress = progress,
+                                          .user = what };
+    char path[PATH_SIZE];
+    *response = NULL;
+    if (info.azimuths > 1) {
+        note_without(from, "an anisotropic material's response would take gigabytes");
+        return true;
+    }
+    const bool cached =
+        cache_path(from->hash, "lmps 1", info.bands, info.window, info.window_size, path);
+    if (cached && (*response = read_measured(path)))
+        return true;
+    const lmp_result result = lmp_brdf_response_create(NULL, table, &desc, response);
+    cli_progress_end();
+    if (result == LMP_ERROR_MEMORY) {
+        note_without(from, "its response is too large");
+        return true;
+    }
+    if (result != LMP_OK)
+        return cli_fail(error, from->name, "%s", lmp_result_text(result));
+    if (cached)
+        write_measured(path, *response);
     return true;
 }

@@ -36,6 +36,8 @@ static void shade_run(const gpu_frame *frame, const lmp_light *lights, const gpu
         .exponent = { row->exponent + first, sizeof(float) },
         .table = row->tables ? row->table + first : NULL,
         .table_stride = sizeof *row->table,
+        .response = row->tables ? row->response + first : NULL,
+        .response_stride = sizeof *row->response,
     };
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
     if (frame->method == GPU_METHOD_PREINTEGRATED)

@@ -71,6 +71,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     g->block = *block;
     g->frame = frame;
     g->tables = r->tables;
+    g->responses = r->responses;
     return true;
 }
 
@@ -80,11 +81,13 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
 bool gpu_row_create(int width, gpu_row *row) {
     const size_t count = (size_t)width;
     memset(row, 0, sizeof *row);
-    float *memory = malloc(count * (19 * sizeof(float) + sizeof *row->table + 1));
+    float *memory =
+        malloc(count * (19 * sizeof(float) + sizeof *row->table + sizeof *row->response + 1));
     if (!memory)
         return false;
     row->table = (const lmp_brdf_table **)(void *)memory;
-    memory = (float *)(void *)(row->table + count);
+    row->response = (const lmp_brdf_response **)(void *)(row->table + count);
+    memory = (float *)(void *)(row->response + count);
     float **planes[] = { row->position, row->normal,   row->view,
                          row->diffuse,  row->specular, row->emission };
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
@@ -209,6 +212,8 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
         const int kind = g->roughness_kind[first + x][1];
         row->kind[x] = (unsigned char)(kind >= SHARED_KIND_TABLE ? GPU_KIND_SURFACE : kind);
         row->table[x] = kind >= SHARED_KIND_TABLE ? g->tables[kind - SHARED_KIND_TABLE] : NULL;
+        row->response[x] =
+            kind >= SHARED_KIND_TABLE ? g->responses[kind - SHARED_KIND_TABLE] : NULL;
         row->tables |= kind >= SHARED_KIND_TABLE;
         if (kind == SHARED_KIND_LIGHT) {
             decode_light(g, g->normal[first + x].u, x, row);

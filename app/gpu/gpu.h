@@ -93,10 +93,14 @@ void gpu_renderer_destroy(gpu_renderer *renderer);
 
 /* Shades materials of the scene by tables instead: uses[i] is the table of material i, or -1. The
  * tables must outlive the renderer; all have the bands of the frames to come. They are shaded by
- * the method of coefficients whatever the frame's is. */
+ * the method of coefficients whatever the frame's is, unless gpu_set_responses says more. */
 #define GPU_TABLES_MAX 64
 bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables, int count,
                     const int *uses, size_t material_count, cli_error *error);
+
+/* After gpu_set_tables: responses[i] of table i, or NULL, for frames of GPU_METHOD_PREINTEGRATED.
+ * They must outlive the renderer. */
+void gpu_set_responses(gpu_renderer *renderer, const lmp_brdf_response *const *responses);
 
 /* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number
  * of bands and a window. times may be NULL, and then nothing waits for the device. */
@@ -187,7 +191,8 @@ typedef struct gpu_row {
     float *diffuse[3], *specular[3], *exponent;
     float *emission[3];
     const lmp_brdf_table **table;
-    bool tables; /* some pixel has one */
+    const lmp_brdf_response **response; /* of the table, or NULL */
+    bool tables;                        /* some pixel has one */
 } gpu_row;
 bool gpu_row_create(int width, gpu_row *row);
 void gpu_row_free(gpu_row *row);

@@ -62,7 +62,8 @@ typedef struct gpu_variant {
     gpu_method method;
     int bands;
     lmp_window window;
-    int tables; /* 0 without, 1 mirrored ones, 2 any */
+    int tables;    /* summed by bands: 0 none, 1 mirrored ones, 2 any */
+    bool measured; /* some are read from responses */
     GLuint program;
 } gpu_variant;
 
@@ -71,6 +72,24 @@ typedef struct gpu_variant {
 
 /* Uploads a response once, and again when another one takes its place. */
 bool gpu_bind_response(gpu_renderer *renderer, const lmp_response *response, cli_error *error);
+
+/* --- table.c ------------------------------------------------------------------------------------
+ */
+
+/* Which tables a frame sums by bands: as in gpu_variant. */
+int gpu_tables_by_bands(const gpu_renderer *renderer, gpu_method method);
+
+/* Uploads the tables that a frame sums by bands, once. */
+bool gpu_bind_tables(gpu_renderer *renderer, gpu_method method, cli_error *error);
+
+/* --- measured.c ---------------------------------------------------------------------------------
+ */
+
+/* Whether some material has a response. */
+bool gpu_has_measured(const gpu_renderer *renderer);
+
+/* Uploads the materials' responses, once. */
+bool gpu_bind_measured(gpu_renderer *renderer, cli_error *error);
 
 /* --- zonal.c ------------------------------------------------------------------------------------
  */
@@ -97,6 +116,7 @@ struct gpu_gbuffer {
     shared_frame block;
     const gpu_frame *frame;
     const lmp_brdf_table *const *tables;
+    const lmp_brdf_response *const *responses;
 };
 
 /* Allocates at the first frame of a size. */
@@ -128,10 +148,12 @@ struct gpu_renderer {
     double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
     const lmp_brdf_table *tables[GPU_TABLES_MAX]; /* not owned */
     int table_count, table_bands;
-    bool tables_full; /* not all mirrored */
-    GLuint tables_buffer;
-    float near;          /* distance of the near plane */
-    gpu_gbuffer gbuffer; /* of host shaders */
+    GLuint tables_buffer;                               /* of the tables summed by bands, or 0 */
+    gpu_method tables_method;                           /* that it was made for */
+    const lmp_brdf_response *responses[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
+    GLuint measured_texels, measured_block;             /* texture, buffer; or 0 */
+    float near;                                         /* distance of the near plane */
+    gpu_gbuffer gbuffer;                                /* of host shaders */
 };
 
 /* What a frame of keep_geometry has left is not used any more. */

@@ -26,7 +26,8 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
             .material = { .diffuse = as_rgb(from[i].diffuse),
                           .specular = as_rgb(from[i].specular),
                           .exponent = from[i].normal_exponent[3],
-                          .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL },
+                          .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL,
+                          .response = by_table ? r->responses[kind - SHARED_KIND_TABLE] : NULL },
             .emission = as_rgb(from[i].emission),
         };
     }

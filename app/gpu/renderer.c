@@ -112,6 +112,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
     glDeleteBuffers(1, &r->tables_buffer);
+    gpu_set_responses(r, NULL);
     glDeleteBuffers(1, &r->response_block);
     glDeleteTextures(1, &r->response_pairs);
     glDeleteTextures(1, &r->zonal);
@@ -262,8 +263,10 @@ static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
  */
 
 static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
-    const int tables = r->table_count == 0 ? 0 : r->tables_full ? 2 : 1;
-    if (tables && r->table_bands != frame->bands) {
+    const bool preintegrated = frame->method == GPU_METHOD_PREINTEGRATED;
+    const int tables = gpu_tables_by_bands(r, frame->method);
+    const bool measured = preintegrated && gpu_has_measured(r);
+    if (r->table_count && r->table_bands != frame->bands) {
         cli_fail(error, NULL, "the tables of the materials have %d bands, the picture %d",
                  r->table_bands, frame->bands);
         return 0;
@@ -271,11 +274,11 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     for (int i = 0; i < r->variant_count; i++) {
         const gpu_variant *v = &r->variants[i];
         const bool same = v->bands == frame->bands && v->window == frame->window;
-        if (v->method == frame->method && v->tables == tables &&
-            (same || (v->method == GPU_METHOD_PREINTEGRATED && !tables)))
+        if (v->method == frame->method && v->tables == tables && v->measured == measured &&
+            (same || (preintegrated && !tables)))
             return v->program;
     }
-    const int bands_max = tables && frame->method == GPU_METHOD_PREINTEGRATED
+    const int bands_max = tables && preintegrated
                               ? GPU_BANDS_MAX /* the tables are summed by bands */
                               : gpu_bands_max(frame->method);
     if (frame->bands < 1 || frame->bands > bands_max) {
@@ -288,10 +291,10 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     char defines[256];
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
-             "#define LMP_ALPHA_MIN %.9g\n%s",
+             "#define LMP_ALPHA_MIN %.9g\n%s%s",
              method_shaders[frame->method].define, method_shaders[frame->method].function,
-             frame->method == GPU_METHOD_PREINTEGRATED && !tables ? 1 : frame->bands,
-             (int)frame->window, (double)LMP_ALPHA_MIN, table_defines[tables]);
+             preintegrated && !tables ? 1 : frame->bands, (int)frame->window, (double)LMP_ALPHA_MIN,
+             table_defines[tables], measured ? "#define MEASURED\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, "shade.comp" };
     const gpu_stage paper[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                 { GL_FRAGMENT_SHADER, "paper.frag" } };
@@ -303,7 +306,7 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     if (r->variant_count == GPU_VARIANTS)
         glDeleteProgram(r->variants[--r->variant_count].program);
     r->variants[r->variant_count++] =
-        (gpu_variant) { frame->method, frame->bands, frame->window, tables, program };
+        (gpu_variant) { frame->method, frame->bands, frame->window, tables, measured, program };
     return program;
 }
 
@@ -377,8 +380,6 @@ static GLuint groups(int pixels) {
 
 static void shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
     gpu_bind_gbuffer(r);
-    if (r->table_count)
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
     glUseProgram(program);
     if (frame->method == GPU_METHOD_PAPER) {
         glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->hdr, 0);
@@ -492,7 +493,10 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
     if ((!frame->host && !program) || !create_targets(r, frame->width, frame->height, error))
         return false;
     if (!frame->host && frame->method == GPU_METHOD_PREINTEGRATED &&
-        !gpu_bind_response(r, frame->response, error))
+        (!gpu_bind_response(r, frame->response, error) || !gpu_bind_measured(r, error)))
+        return false;
+    if (!frame->host && gpu_tables_by_bands(r, frame->method) &&
+        !gpu_bind_tables(r, frame->method, error))
         return false;
     if (frame->method == GPU_METHOD_TABULATED && !gpu_bind_zonal(r, frame->bands, error))
         return false;

@@ -46,19 +46,70 @@ static bool fill_table(const lmp_brdf_table *table, bool full, size_t stride, ve
     return true;
 }
 
-static bool fill_tables(const gpu_renderer *r, size_t stride, size_t total, vec4 *values) {
+/* Whether frames of a method sum table t by its bands. */
+static bool by_bands(const gpu_renderer *r, gpu_method method, int t) {
+    return method != GPU_METHOD_PREINTEGRATED || !r->responses[t];
+}
+
+int gpu_tables_by_bands(const gpu_renderer *r, gpu_method method) {
+    int tables = 0;
+    for (int t = 0; t < r->table_count; t++)
+        if (by_bands(r, method, t)) {
+            const int one = lmp_brdf_table_describe(r->tables[t]).mirrored ? 1 : 2;
+            tables = one > tables ? one : tables;
+        }
+    return tables;
+}
+
+/* Vectors of the buffer: one a table, then the values of those summed by bands. */
+static size_t count_values(const gpu_renderer *r, gpu_method method, size_t stride) {
+    size_t total = (size_t)r->table_count;
+    for (int t = 0; t < r->table_count; t++) {
+        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
+        const resampled shape = shape_of(&info);
+        total += by_bands(r, method, t) ? shape.rows * shape.columns * stride : 0;
+    }
+    return total;
+}
+
+static bool fill_tables(const gpu_renderer *r, gpu_method method, bool full, size_t stride,
+                        vec4 *values) {
     size_t first = (size_t)r->table_count;
     for (int t = 0; t < r->table_count; t++) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
         const resampled shape = shape_of(&info);
+        if (!by_bands(r, method, t))
+            continue;
         values[t][0] = (float)first;
         values[t][1] = (float)shape.rows;
         values[t][2] = (float)shape.columns;
-        if (!fill_table(r->tables[t], r->tables_full, stride, values + first))
+        if (!fill_table(r->tables[t], full, stride, values + first))
             return false;
         first += shape.rows * shape.columns * stride;
     }
-    return first == total;
+    return true;
+}
+
+bool gpu_bind_tables(gpu_renderer *r, gpu_method method, cli_error *error) {
+    const int tables = gpu_tables_by_bands(r, method);
+    if (!r->tables_buffer || r->tables_method != method) {
+        const size_t n = (size_t)r->table_bands, stride = tables == 2 ? n * n : n * (n + 1) / 2;
+        const size_t total = count_values(r, method, stride);
+        vec4 *values = total < (size_t)1 << 23 ? calloc(total + 1, sizeof *values) : NULL;
+        if (!values || !fill_tables(r, method, tables == 2, stride, values)) {
+            free(values);
+            return cli_fail(error, NULL,
+                            "the tables of the materials are too large (fewer --bands)");
+        }
+        glDeleteBuffers(1, &r->tables_buffer);
+        glCreateBuffers(1, &r->tables_buffer);
+        glNamedBufferStorage(r->tables_buffer, (GLsizeiptr)((total + 1) * sizeof *values), values,
+                             0);
+        r->tables_method = method;
+        free(values);
+    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
+    return true;
 }
 
 bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int count,
@@ -66,36 +117,24 @@ bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int co
     if (count > GPU_TABLES_MAX)
         return cli_fail(error, NULL, "%d materials with tables: the shaders take %d", count,
                         GPU_TABLES_MAX);
+    for (int t = 1; t < count; t++) {
+        const int first = lmp_brdf_table_describe(tables[0]).bands,
+                  bands = lmp_brdf_table_describe(tables[t]).bands;
+        if (bands != first)
+            return cli_fail(error, NULL, "tables of %d and of %d bands in one picture", first,
+                            bands);
+    }
     r->table_count = count;
-    r->tables_full = false;
     for (int t = 0; t < count; t++) {
         r->tables[t] = tables[t];
-        r->tables_full |= !lmp_brdf_table_describe(tables[t]).mirrored;
+        r->table_bands = lmp_brdf_table_describe(tables[t]).bands;
     }
-    size_t total = (size_t)count, stride = 0;
-    for (int t = 0; t < count; t++) {
-        const lmp_brdf_table_info info = lmp_brdf_table_describe(tables[t]);
-        const size_t n = (size_t)info.bands;
-        const resampled shape = shape_of(&info);
-        if (stride && info.bands != r->table_bands)
-            return cli_fail(error, NULL, "tables of %d and of %d bands in one picture",
-                            r->table_bands, info.bands);
-        r->table_bands = info.bands;
-        stride = r->tables_full ? n * n : n * (n + 1) / 2;
-        total += shape.rows * shape.columns * stride;
-    }
-    vec4 *values = total < (size_t)1 << 23 ? calloc(total + 1, sizeof *values) : NULL;
-    const bool ok = values && fill_tables(r, stride, total, values);
+    glDeleteBuffers(1, &r->tables_buffer);
+    r->tables_buffer = 0;
+    gpu_set_responses(r, NULL);
     gpu_forget_geometry(r);
-    if (ok) {
-        glDeleteBuffers(1, &r->tables_buffer);
-        glCreateBuffers(1, &r->tables_buffer);
-        glNamedBufferStorage(r->tables_buffer, (GLsizeiptr)((total + 1) * sizeof *values), values,
-                             0);
-        for (size_t i = 0; i < material_count; i++)
-            gpu_mesh_set_kind(&r->mesh, i,
-                              uses[i] < 0 ? SHARED_KIND_SURFACE : SHARED_KIND_TABLE + uses[i]);
-    }
-    free(values);
-    return ok || cli_fail(error, NULL, "the tables of the materials are too large (fewer --bands)");
+    for (size_t i = 0; i < material_count; i++)
+        gpu_mesh_set_kind(&r->mesh, i,
+                          uses[i] < 0 ? SHARED_KIND_SURFACE : SHARED_KIND_TABLE + uses[i]);
+    return true;
 }

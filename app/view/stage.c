@@ -27,6 +27,7 @@ typedef struct side {
     char (*names)[VIEW_MATERIAL_SIZE]; /* of them, GPU_TABLES_MAX allocated */
     int count, bands;
     lmp_window window;
+    bool preintegrated;
 } side;
 
 struct view_stage {
@@ -112,9 +113,14 @@ static const lmp_response *get_response(view_stage *s, const view_look *look, cl
 /* --- materials ----------------------------------------------------------------------------------
  */
 
+static bool is_preintegrated(const view_look *look) {
+    return look->method == GPU_METHOD_PREINTEGRATED;
+}
+
 static bool has_materials(const side *own, const view_settings *settings, const view_look *look) {
     return own->count == settings->material_count &&
            (own->count == 0 || (own->bands == look->bands && own->window == look->window &&
+                                own->preintegrated == is_preintegrated(look) &&
                                 memcmp(own->names, settings->materials,
                                        (size_t)own->count * sizeof *own->names) == 0));
 }
@@ -133,6 +139,8 @@ static bool give_tables(const view_stage *s, const device_materials *all, gpu_re
     }
     const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
                                    all->uses ? all->uses : none, count, error);
+    if (ok)
+        gpu_set_responses(renderer, (const lmp_brdf_response *const *)all->responses);
     free(none);
     return ok;
 }
@@ -147,8 +155,9 @@ static bool settle_materials(view_stage *s, side *own, const view_settings *sett
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
-    bool ok = device_materials_open(&list, s->world, &fresh, error) &&
-              device_materials_bake(&fresh, look->bands, look->window, error);
+    bool ok =
+        device_materials_open(&list, s->world, &fresh, error) &&
+        device_materials_bake(&fresh, look->bands, look->window, is_preintegrated(look), error);
     for (int i = 0; i < QUALITIES && ok; i++)
         ok = give_tables(s, &fresh, own->renderers[i], error);
     if (!ok) { /* as before, for what is drawn next */
@@ -163,6 +172,7 @@ static bool settle_materials(view_stage *s, side *own, const view_settings *sett
     own->count = settings->material_count;
     own->bands = look->bands;
     own->window = look->window;
+    own->preintegrated = is_preintegrated(look);
     memcpy(own->names, settings->materials, (size_t)own->count * sizeof *own->names);
     return true;
 }

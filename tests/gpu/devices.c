@@ -100,6 +100,54 @@ static void preintegrated_pictures_are_those_of_coefficients(void **state) {
     close_stage(&s);
 }
 
+/* Measured materials on both devices; the gold is read from its response, the last by its bands. */
+static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s, "builtin:ball");
+    s.frame.bands = 10;
+    s.frame.window = LMP_WINDOW_HANNING;
+    lmp_brdf_table *tables[2];
+    lmp_brdf_response *responses[2] = { NULL, NULL };
+    const char *const names[2] = { "gold-metallic-paint", "red-fabric" };
+    for (int i = 0; i < 2; i++) {
+        lmp_sgd sgd;
+        lmp_brdf *brdf;
+        const lmp_brdf_table_desc desc = { .bands = 10,
+                                           .window = LMP_WINDOW_HANNING,
+                                           .rings_max = 64 };
+        assert_int_equal(lmp_sgd_find(names[i], &sgd), LMP_OK);
+        assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
+        assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &tables[i]), LMP_OK);
+        lmp_brdf_destroy(brdf);
+        assert_int_equal(lmp_brdf_response_create(NULL, tables[i], NULL, &responses[i]), LMP_OK);
+    }
+    int uses[8] = { -1, 1, 0 };
+    cli_error error = { "" };
+    expect(gpu_set_tables(s.renderer, (const lmp_brdf_table *const *)tables, 2, uses,
+                          s.world.material_count, &error),
+           &error);
+    s.frame.method = GPU_METHOD_COEFFICIENTS;
+    draw(s.renderer, &s.frame, first);
+    lmp_response *lobes = response_of(&s.frame);
+    s.frame.response = lobes;
+    s.frame.method = GPU_METHOD_PREINTEGRATED;
+    for (int pass = 0; pass < 3; pass++) {
+        const lmp_brdf_response *given[2] = { responses[0], pass == 2 ? NULL : responses[1] };
+        gpu_set_responses(s.renderer, given);
+        s.frame.host = pass == 1 ? device_shade : NULL;
+        draw(s.renderer, &s.frame, second);
+        assert_true(beyond(1) <= PIXELS / 1000);
+        assert_int_equal(beyond(2), 0);
+    }
+    lmp_response_destroy(lobes);
+    close_stage(&s);
+    for (int i = 0; i < 2; i++) {
+        lmp_brdf_table_destroy(tables[i]);
+        lmp_brdf_response_destroy(responses[i]);
+    }
+}
+
 static void what_is_timed_for_comparison_draws_the_same_picture(void **state) {
     (void)state;
     stage s;
@@ -141,6 +189,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_devices_draw_the_same_picture),
         cmocka_unit_test(preintegrated_pictures_are_those_of_coefficients),
+        cmocka_unit_test(measured_materials_are_drawn_alike_by_sums_and_by_responses),
         cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_picture),
         cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_responses),
     };

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion.glsl, with response.glsl and without, is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
+# lampion.glsl, with response.glsl and measured.glsl and without, is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
 # (glslang's judgement), in a compute shader that calls all of it and in the example's fragment shader.
 set -eu
 . tests/house/common.sh
@@ -33,6 +33,13 @@ layout(std430, binding = 2) readonly buffer response_block { vec4 shape; vec4 ce
 GLSL
     cat shaders/response.glsl
     cat <<'GLSL'
+layout(binding = 3) uniform highp sampler2D texels;
+layout(std430, binding = 4) readonly buffer measured_block { float measured[]; };
+#define LMP_MEASURED_TEXEL(p) textureLod(texels, p / 4096.0, 0.0).rgb
+#define LMP_MEASURED_VALUE(i) measured[i]
+GLSL
+    cat shaders/measured.glsl
+    cat <<'GLSL'
 void main() {
     lmp_surface s;
     s.position = vec3(gl_GlobalInvocationID);
@@ -41,7 +48,9 @@ void main() {
     float sh[LMP_SH_COUNT];
     lmp_sphere_project(lights[0], s.position, sh);
     values[gl_GlobalInvocationID.x] =
-        vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m) + lmp_shade_preintegrated(s, m), sh[0]);
+        vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m) + lmp_shade_preintegrated(s, m) +
+                 lmp_shade_measured(s, 0),
+             sh[0]);
 }
 GLSL
 }
