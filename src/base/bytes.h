@@ -69,6 +69,16 @@ static inline float lmp_bytes_load_f32(const unsigned char **from) {
     return lmp_bytes_at_f32(*from - 4);
 }
 
+/* Many of them, as they lie where that is their order here. */
+static inline void lmp_bytes_load_i16s(const unsigned char *from, size_t count, int16_t *values) {
+    const uint16_t one = 1;
+    if (*(const unsigned char *)&one == 1)
+        memcpy(values, from, count * sizeof *values);
+    else
+        for (size_t i = 0; i < count; i++)
+            values[i] = (int16_t)lmp_bytes_at_u16(from + 2 * i);
+}
+
 /* CRC-32C (Castagnoli), eight bytes a step. */
 uint32_t lmp_bytes_checksum(const void *bytes, size_t size);
 

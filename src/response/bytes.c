@@ -111,7 +111,6 @@ lmp_result lmp_response_read(const lmp_allocator *allocator, const void *data, s
     if (result != LMP_OK)
         return result;
     const unsigned char *p = bytes + size - CHECKSUM - 4 * (*response)->info.pair_count;
-    for (size_t i = 0; i < 2 * (*response)->info.pair_count; i++)
-        (*response)->coefficients[i] = (int16_t)lmp_bytes_load_u16(&p);
+    lmp_bytes_load_i16s(p, 2 * (*response)->info.pair_count, (*response)->coefficients);
     return LMP_OK;
 }

@@ -120,8 +120,7 @@ lmp_result lmp_response_fill(lmp_response *response, uint32_t cell_index, uint32
     sum_bands(&grid);
     for (size_t i = 0; i < grid.rows; i++)
         lmp_spline_coefficients(grid.values + i * grid.columns, grid.columns, 1);
-    for (size_t j = 0; j < grid.columns; j++)
-        lmp_spline_coefficients(grid.values + j, grid.rows, grid.columns);
+    lmp_spline_coefficients(grid.values, grid.rows, grid.columns);
     store(&grid, cell, response->coefficients + 2 * (size_t)cell->first + side);
     lmp_heap_release(&response->allocator, memory);
     return LMP_OK;

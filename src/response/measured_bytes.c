@@ -146,8 +146,7 @@ static bool read_body(const unsigned char *p, lmp_brdf_response *response) {
     }
     if (!read_slices(&p, response))
         return false;
-    for (size_t i = 0; i < 3 * info->texel_count; i++)
-        response->texels[i] = (int16_t)lmp_bytes_load_u16(&p);
+    lmp_bytes_load_i16s(p, 3 * info->texel_count, response->texels);
     return true;
 }
 

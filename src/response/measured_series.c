@@ -334,7 +334,8 @@ static void cap_means(const measured_series *series, double half_angle, float *m
     }
 }
 
-/* What a thread of the sum works on. */
+/* What a thread of the sum works on. A table of all orders is mirrored (cosines alone), or holds
+ * the sines of order m after its cosines. */
 typedef struct rings {
     const measured_views *views;
     size_t rows;
@@ -342,22 +343,29 @@ typedef struct rings {
     int orders;
     float means[LMP_BANDS_MAX];
     float *basis;                  /* ROWS * bands²: Y_lm at azimuth 0 */
-    float *sums;                   /* [row][view][channel], of one order */
+    float *sums;                   /* [order][row][view][channel] */
     float circle[2 * COLUMNS_MAX]; /* cosines of a turn */
-    float turns[2 * COLUMNS_MAX];  /* of the azimuths of one order */
+    float *turns;                  /* [order][column]: of the azimuths */
 } rings;
 
-/* Σ_l of one order m, negative for the sines. */
+/* Where an order's cosines, or for negative m its sines, lie in such a table. */
+static size_t slot_of(const rings *r, int m) {
+    return r->views->series->mirrored ? (size_t)m : (size_t)(m > 0 ? 2 * m - 1 : -2 * m);
+}
+
+/* Σ_l of one order, negative for the sines. Band by band, so that its coefficients are fetched once
+ * for all rows. */
 static void sum_bands(const rings *r, int m) {
     const size_t width = 3 * r->views->count, bands = (size_t)r->views->series->bands;
-    const size_t order = (size_t)(m < 0 ? -m : m), first = 3 * r->first[order];
-    for (size_t row = 0; row < r->rows; row++) {
-        float *restrict sum = r->sums + row * width;
-        memset(sum, 0, width * sizeof *sum);
-        for (size_t l = order; l < bands; l++) {
-            const size_t at = l * l + l;
-            const float *restrict from =
-                r->views->coefficients + (m < 0 ? at - order : at + order) * width;
+    const size_t order = (size_t)abs(m), first = 3 * r->first[order];
+    float *sums = r->sums + slot_of(r, m) * ROWS * width;
+    memset(sums, 0, ROWS * width * sizeof *sums);
+    for (size_t l = order; l < bands; l++) {
+        const size_t at = l * l + l;
+        const float *restrict from =
+            r->views->coefficients + (m < 0 ? at - order : at + order) * width;
+        for (size_t row = 0; row < r->rows; row++) {
+            float *restrict sum = sums + row * width;
             const float weight = r->means[l] * r->basis[row * bands * bands + at + order];
             for (size_t k = first; k < width; k++)
                 sum[k] += weight * from[k];
@@ -369,71 +377,76 @@ static void sum_bands(const rings *r, int m) {
 static void turn_order(rings *r, int m, int columns) {
     const int circle = 2 * COLUMNS_MAX;
     const int intervals = r->views->series->mirrored ? 2 * (columns - 1) : columns;
+    float *turns = r->turns + slot_of(r, m) * 2 * COLUMNS_MAX;
     for (int j = 0; j < columns; j++) {
         const int at = abs(m) * j * (circle / intervals) + (m < 0 ? circle * 3 / 4 : 0);
-        r->turns[j] = r->circle[at % circle];
+        turns[j] = r->circle[at % circle];
     }
 }
 
-/* Adds one order to the values at all azimuths. */
-static void add_order(rings *r, int m, size_t row_first, size_t row_count, float *const *values) {
+/* One view's values of the rings, from all orders' sums. */
+static void add_orders_of(const rings *r, size_t v, size_t row_first, size_t row_count,
+                          float *values) {
     const measured_views *views = r->views;
-    int columns = 0;
-    for (size_t v = r->first[abs(m)]; v < views->count; v++) {
-        if (views->columns[v] != columns) {
-            columns = views->columns[v];
-            turn_order(r, m, columns);
-        }
-        for (size_t c = 0; c < 3; c++)
-            for (size_t row = 0; row < r->rows; row++) {
-                const float sum = r->sums[(row * views->count + v) * 3 + c];
-                float *restrict to =
-                    values[v] + (c * row_count + row_first + row) * (size_t)columns;
-                for (int j = 0; j < columns; j++)
-                    to[j] += sum * r->turns[j];
+    const size_t columns = (size_t)views->columns[v], width = 3 * views->count;
+    const int orders = views->series->orders[views->view[v]];
+    const size_t slots = views->series->mirrored ? (size_t)orders : 2 * (size_t)orders - 1;
+    for (size_t c = 0; c < 3; c++)
+        for (size_t row = 0; row < r->rows; row++) {
+            float *restrict to = values + (c * row_count + row_first + row) * columns;
+            memset(to, 0, columns * sizeof *to);
+            for (size_t slot = 0; slot < slots; slot++) {
+                const float sum = r->sums[(slot * ROWS + row) * width + 3 * v + c];
+                const float *restrict turns = r->turns + slot * 2 * COLUMNS_MAX;
+                for (size_t j = 0; j < columns; j++)
+                    to[j] += sum * turns[j];
             }
-    }
+        }
 }
 
 static void sum_rows(rings *r, const double *g, size_t row_first, size_t row_count,
                      float *const *values) {
     const measured_series *series = r->views->series;
-    float x[ROWS], z[ROWS];
-    const float y = 0;
     for (size_t i = 0; i < r->rows; i++) {
-        x[i] = (float)sin(g[row_first + i]);
-        z[i] = (float)cos(g[row_first + i]);
-    }
-    for (size_t i = 0; i < r->rows; i++)
-        lmp_sh_eval(series->bands, (lmp_vec3) { x[i], y, z[i] },
+        const double angle = g[row_first + i];
+        lmp_sh_eval(series->bands, (lmp_vec3) { (float)sin(angle), 0, (float)cos(angle) },
                     r->basis + i * LMP_SH_COUNT(series->bands));
+    }
     for (int m = 0; m < r->orders; m++) {
         sum_bands(r, m);
-        add_order(r, m, row_first, row_count, values);
-        if (m > 0 && !series->mirrored) {
+        if (m > 0 && !series->mirrored)
             sum_bands(r, -m);
-            add_order(r, -m, row_first, row_count, values);
+    }
+    int columns = 0;
+    for (size_t v = 0; v < r->views->count; v++) {
+        for (int m = 0; m < r->orders && r->views->columns[v] != columns; m++) {
+            turn_order(r, m, r->views->columns[v]);
+            if (m > 0 && !series->mirrored)
+                turn_order(r, -m, r->views->columns[v]);
         }
+        columns = r->views->columns[v];
+        add_orders_of(r, v, row_first, row_count, values[v]);
     }
 }
 
 lmp_result lmp_measured_sum(const measured_views *views, double angle, const double *g, size_t rows,
                             float *const *values) {
     const measured_series *series = views->series;
-    const size_t basis = ROWS * LMP_SH_COUNT(series->bands), sums = ROWS * 3 * views->count;
     rings r = { .views = views, .orders = series->orders[views->view[views->count - 1]] };
-    r.basis = lmp_heap_allocate(&series->heap, (basis + sums) * sizeof *r.basis);
+    const size_t slots = (size_t)(series->mirrored ? r.orders : 2 * r.orders - 1);
+    const size_t basis = ROWS * LMP_SH_COUNT(series->bands);
+    const size_t sums = slots * ROWS * 3 * views->count, turns = slots * 2 * COLUMNS_MAX;
+    r.basis = lmp_heap_allocate(&series->heap, (basis + sums + turns) * sizeof *r.basis);
     if (!r.basis)
         return LMP_ERROR_MEMORY;
     r.sums = r.basis + basis;
+    r.turns = r.sums + sums;
     for (int i = 0; i < 2 * COLUMNS_MAX; i++)
         r.circle[i] = (float)cos(MEASURED_PI * i / COLUMNS_MAX);
     for (int m = 0; m < r.orders; m++)
         while (series->orders[views->view[r.first[m]]] <= m)
             r.first[m]++;
     cap_means(series, angle, r.means);
-    for (size_t v = 0; v < views->count; v++)
-        memset(values[v], 0, 3 * rows * (size_t)views->columns[v] * sizeof *values[v]);
     for (size_t row = 0; row < rows; row += ROWS) {
         r.rows = rows - row < ROWS ? rows - row : ROWS;
         sum_rows(&r, g, row, rows, values);

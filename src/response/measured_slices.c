@@ -8,11 +8,11 @@
 
 #include <string.h>
 
-#define STEP      0.35 /* of the row coordinate; 1 is about the finest detail's width */
-#define THINNING  8    /* the most, of rows: a power of two */
-#define MARGIN    24   /* rows past the far ends: what is unknown there has faded */
-#define WRAP      8    /* the same of columns */
-#define TOLERANCE 0.3  /* of the error, of rows and of columns each */
+#define STEP      0.6 /* of the row coordinate; 1 is about the finest detail's width */
+#define THINNING  8   /* the most, of rows: a power of two */
+#define MARGIN    16  /* rows past the far ends: what is unknown there has faded */
+#define WRAP      8   /* the same of columns */
+#define TOLERANCE 0.5 /* of the error, of rows and of columns each */
 
 double lmp_measured_row_of(const measured_series *series, double x) {
     const double reach = (double)series->reach;
@@ -58,7 +58,7 @@ typedef struct grid {
     size_t row_factor, column_factor;
     bool mirrored;
     float *coefficients; /* room for them, with the columns past the ends */
-    float *line;         /* room for two rows or columns with their margins */
+    float *line;         /* room for two rows with their margins */
 } grid;
 
 /* Copies a row's columns first … first + count - 1, `step` apart: azimuths go round, or mirror. */
@@ -78,20 +78,25 @@ static float larger(float a, float b) {
     return a > b ? a : b;
 }
 
-/* Largest difference between a line's dropped values and the spline through the others. */
-static float spline_error(const float *values, size_t count, size_t stride, size_t factor,
-                          float *line, size_t skip) {
+/* The largest difference between dropped values and the spline through the others, of `width`
+ * series side by side; `skip` values at either end do not count. */
+static float spline_error(const float *values, size_t count, size_t width, size_t factor,
+                          float *kept_values, size_t skip) {
     const size_t kept = (count - 1) / factor + 1;
     float error = 0, w[4];
     for (size_t i = 0; i < kept; i++)
-        line[i] = values[i * factor * stride];
-    lmp_spline_coefficients(line, kept, 1);
+        memcpy(kept_values + i * width, values + i * factor * width, width * sizeof *values);
+    lmp_spline_coefficients(kept_values, kept, width);
     for (size_t phase = 1; phase < factor; phase++) {
         lmp_spline_weights((float)phase / (float)factor, w);
         for (size_t i = skip / factor; i + 2 < kept && i * factor + phase + skip < count; i++) {
-            const float *c = line + i - 1;
-            const float sum = w[0] * c[0] + w[1] * c[1] + w[2] * c[2] + w[3] * c[3];
-            error = larger(error, fabsf(sum - values[(i * factor + phase) * stride]));
+            const float *c = kept_values + (i - 1) * width;
+            const float *value = values + (i * factor + phase) * width;
+            for (size_t j = 0; j < width; j++) {
+                const float sum = w[0] * c[j] + w[1] * c[width + j] + w[2] * c[2 * width + j] +
+                                  w[3] * c[3 * width + j];
+                error = larger(error, fabsf(sum - value[j]));
+            }
         }
     }
     return error;
@@ -99,17 +104,17 @@ static float spline_error(const float *values, size_t count, size_t stride, size
 
 static bool rows_thin(const grid *g, size_t factor, float limit) {
     for (size_t c = 0; c < 3; c++)
-        for (size_t j = 0; j < g->columns; j += g->column_factor)
-            if (!(spline_error(g->values + c * g->rows * g->columns + j, g->rows, g->columns,
-                               factor, g->line, MARGIN) <= limit))
-                return false;
+        if (!(spline_error(g->values + c * g->rows * g->columns, g->rows, g->columns, factor,
+                           g->coefficients, MARGIN) <= limit))
+            return false;
     return true;
 }
 
+/* Some of the rows tell: they are much closer than what they show. */
 static bool columns_thin(const grid *g, size_t factor, float limit) {
     const size_t count = g->columns + 2 * WRAP * factor;
     float *around = g->line, *line = around + count;
-    for (size_t row = MARGIN; row + MARGIN < 3 * g->rows; row++) {
+    for (size_t row = MARGIN; row + MARGIN < 3 * g->rows; row += 4) {
         const float *values = g->values + row * g->columns;
         if (row % g->rows < MARGIN || row % g->rows + MARGIN >= g->rows)
             continue;
@@ -155,8 +160,7 @@ static void to_coefficients(const grid *g, size_t *rows, size_t *columns) {
                    *columns * sizeof *g->coefficients);
         }
     for (size_t c = 0; c < 3; c++)
-        for (size_t j = 0; j < *columns; j++)
-            lmp_spline_coefficients(g->coefficients + c * *rows * *columns + j, *rows, *columns);
+        lmp_spline_coefficients(g->coefficients + c * *rows * *columns, *rows, *columns);
 }
 
 /* Where the rows of one half angle lie: s = STEP (first + i). */
@@ -229,7 +233,7 @@ static room room_for(const measured_views *views, size_t rows) {
         need.texels += rows * (columns + 3);
         need.values += 3 * rows * columns;
         const size_t coefficients = 3 * rows * (columns + 3);
-        const size_t line = rows + 2 * (columns * (1 + 2 * WRAP));
+        const size_t line = 2 * (columns * (1 + 2 * WRAP));
         need.largest = coefficients > need.largest ? coefficients : need.largest;
         need.line = line > need.line ? line : need.line;
     }
@@ -305,8 +309,7 @@ static int rows_hold(const measured_views *views, double angle, float error) {
     const size_t rows = 2 * (size_t)(ceil(high) - floor(low)) + 1;
     const size_t columns = (size_t)views->columns[0], size = 3 * rows * columns;
     double *g = lmp_heap_allocate(&series->heap, rows * sizeof *g);
-    float *memory =
-        lmp_heap_allocate(&series->heap, (views->count * size + 2 * rows) * sizeof *memory);
+    float *memory = lmp_heap_allocate(&series->heap, (views->count + 1) * size * sizeof *memory);
     float *values[MEASURED_STEPS_MAX + 1];
     int holds = g && memory ? 1 : -1;
     for (size_t i = 0; g && i < rows; i++)
@@ -319,8 +322,7 @@ static int rows_hold(const measured_views *views, double angle, float error) {
         const grid at = { .values = values[v],
                           .rows = rows,
                           .columns = columns,
-                          .column_factor = 1,
-                          .line = memory + views->count * size };
+                          .coefficients = memory + views->count * size };
         holds = rows_thin(&at, 2, (float)TOLERANCE * error * largest(&at));
     }
     lmp_heap_release(&series->heap, g);

@@ -6,8 +6,9 @@
 #include <stddef.h>
 
 /* In place, `count` values become the coefficients of the interpolating cubic B-spline, the series
- * mirrored at both ends (Unser 1999). Consecutive values are `stride` apart. */
-void lmp_spline_coefficients(float *values, size_t count, size_t stride);
+ * mirrored at both ends (Unser 1999): of `width` series side by side, value k of series j at
+ * values[k * width + j]. */
+void lmp_spline_coefficients(float *values, size_t count, size_t width);
 
 /* The weights of four neighbours, the point `x` past the second. */
 static inline void lmp_spline_weights(float x, float w[4]) {
