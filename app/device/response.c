@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 4096, RESPONSE_BYTES_MAX = 1 << 28 };
+enum { PATH_SIZE = 4096 };
 
 const char *const device_window_names[] = {
     [LMP_WINDOW_NONE] = "none",
@@ -48,23 +48,16 @@ static bool cache_path(file_hash hash, const char *what, int bands, lmp_window w
     return file_cache_path(name, path, PATH_SIZE);
 }
 
-/* The bytes of a cached file, or NULL: a cache that cannot be read is no cache. */
-static void *read_cached(const char *path, size_t *size) {
-    cli_error ignored;
-    void *data;
-    return file_read(path, RESPONSE_BYTES_MAX, &data, size, &ignored) ? data : NULL;
-}
-
 /* --- lobes --------------------------------------------------------------------------------------
  */
 
 static lmp_response *read_lobes(const char *path, const lmp_response_desc *desc) {
     size_t size;
-    void *data = read_cached(path, &size);
+    const void *data = file_cache_map(path, &size);
     lmp_response *response = NULL;
-    if (!data || lmp_response_read(NULL, data, size, &response) != LMP_OK)
-        response = NULL;
-    free(data);
+    if (data)
+        lmp_response_read(NULL, data, size, &response);
+    file_cache_unmap(data, size);
     if (!response)
         return NULL;
     const lmp_response_info info = lmp_response_describe(response);
@@ -107,11 +100,11 @@ bool device_response(int bands, lmp_window window, lmp_response **response, cli_
 
 static lmp_brdf_response *read_measured(const char *path) {
     size_t size;
-    void *data = read_cached(path, &size);
+    const void *data = file_cache_map(path, &size);
     lmp_brdf_response *response = NULL;
-    if (!data || lmp_brdf_response_read(NULL, data, size, &response) != LMP_OK)
-        response = NULL;
-    free(data);
+    if (data)
+        lmp_brdf_response_read(NULL, data, size, &response);
+    file_cache_unmap(data, size);
     return response;
 }
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE /* MAP_POPULATE */
 #include "app/file/file.h"
 
 #include <dirent.h>
@@ -6,6 +7,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -34,6 +36,24 @@ bool file_cache_path(const char *name, char *path, size_t size) {
         return false;
     utimensat(AT_FDCWD, path, NULL, AT_SYMLINK_NOFOLLOW);
     return true;
+}
+
+const void *file_cache_map(const char *path, size_t *size) {
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    struct stat status;
+    void *data = MAP_FAILED;
+    if (fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+        *size = (size_t)status.st_size;
+        data = mmap(NULL, *size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
+    }
+    if (fd >= 0)
+        close(fd);
+    return data == MAP_FAILED ? NULL : data;
+}
+
+void file_cache_unmap(const void *data, size_t size) {
+    if (data)
+        munmap((void *)(uintptr_t)data, size);
 }
 
 /* --- what is in it -------------------------------------------------------------------------------

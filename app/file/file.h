@@ -53,6 +53,11 @@ bool file_cache_directory(char *path, size_t size);
 /* Where the cached file `name` is or would be. One that is there counts as used now. */
 bool file_cache_path(const char *name, char *path, size_t size);
 
+/* A cached file's bytes, not copied: NULL where there is none. Give them back with
+ * file_cache_unmap. Cached files are replaced or removed, never changed, so the bytes stay. */
+const void *file_cache_map(const char *path, size_t *size);
+void file_cache_unmap(const void *data, size_t size);
+
 /* Stores a file under a path of file_cache_path, then removes those unused for longest until the
  * limit holds; without effect where that is impossible. */
 void file_cache_store(const char *path, const void *data, size_t size);

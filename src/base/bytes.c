@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/bytes.h"
 
-uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
-    uint32_t table[8][256];
+/* table[k][b]: byte b, k bytes before the end of a step. */
+enum { STEP = 16 };
+
+static void fill(uint32_t table[STEP][256]) {
     for (uint32_t i = 0; i < 256; i++) {
         uint32_t crc = i;
         for (int bit = 0; bit < 8; bit++)
@@ -10,17 +12,24 @@ uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
         table[0][i] = crc;
     }
     for (uint32_t i = 0; i < 256; i++)
-        for (int k = 1; k < 8; k++)
+        for (int k = 1; k < STEP; k++)
             table[k][i] = table[k - 1][i] >> 8 ^ table[0][table[k - 1][i] & 0xff];
+}
 
+/* Four bytes that `after` more of the step follow. */
+static uint32_t fold(uint32_t table[STEP][256], uint32_t word, int after) {
+    return table[after + 3][word & 0xff] ^ table[after + 2][word >> 8 & 0xff] ^
+           table[after + 1][word >> 16 & 0xff] ^ table[after][word >> 24];
+}
+
+uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
+    uint32_t table[STEP][256];
+    fill(table);
     const unsigned char *p = bytes;
     uint32_t crc = 0xffffffffu;
-    for (; size >= 8; size -= 8) {
-        const uint32_t low = lmp_bytes_load_u32(&p) ^ crc, high = lmp_bytes_load_u32(&p);
-        crc = table[7][low & 0xff] ^ table[6][low >> 8 & 0xff] ^ table[5][low >> 16 & 0xff] ^
-              table[4][low >> 24] ^ table[3][high & 0xff] ^ table[2][high >> 8 & 0xff] ^
-              table[1][high >> 16 & 0xff] ^ table[0][high >> 24];
-    }
+    for (; size >= STEP; size -= STEP, p += STEP)
+        crc = fold(table, lmp_bytes_at_u32(p) ^ crc, 12) ^ fold(table, lmp_bytes_at_u32(p + 4), 8) ^
+              fold(table, lmp_bytes_at_u32(p + 8), 4) ^ fold(table, lmp_bytes_at_u32(p + 12), 0);
     for (; size > 0; size--)
         crc = crc >> 8 ^ table[0][(crc ^ *p++) & 0xff];
     return ~crc;

@@ -79,7 +79,7 @@ static inline void lmp_bytes_load_i16s(const unsigned char *from, size_t count, 
             values[i] = (int16_t)lmp_bytes_at_u16(from + 2 * i);
 }
 
-/* CRC-32C (Castagnoli), eight bytes a step. */
+/* CRC-32C (Castagnoli), sixteen bytes a step. */
 uint32_t lmp_bytes_checksum(const void *bytes, size_t size);
 
 /* Whether a file holds a header of so many bytes that begins with the magic and the version, and

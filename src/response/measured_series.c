@@ -287,8 +287,7 @@ void lmp_measured_series_free(measured_series *series) {
  * the last ones are faint. */
 static int columns_for(const measured_series *series, int orders) {
     int intervals = COLUMNS_MIN;
-    while (intervals < COLUMNS_MAX &&
-           intervals < (orders <= FEW_ORDERS ? 2 * orders : orders * 5 / 4))
+    while (intervals < COLUMNS_MAX && intervals < (orders <= FEW_ORDERS ? 2 * orders : orders))
         intervals *= 2;
     return series->mirrored ? intervals + 1 : 2 * intervals;
 }
