@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE /* madvise */
 #include "app/device/device.h"
 #include "app/file/file.h"
 
@@ -6,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum { PATH_SIZE = 4096 };
 
@@ -98,12 +100,30 @@ bool device_response(int bands, lmp_window window, lmp_response **response, cli_
 /* --- measured materials --------------------------------------------------------------------------
  */
 
+/* Memory in large pages where the system has them: a response's fresh pages cost more than its
+ * bytes. */
+static void *allocate_large(size_t size, void *user) {
+    (void)user;
+    const size_t page = (size_t)1 << 21, whole = (size + page - 1) / page * page;
+    void *memory = size < page ? malloc(size) : aligned_alloc(page, whole);
+    if (memory && size >= page)
+        madvise(memory, whole, MADV_HUGEPAGE);
+    return memory;
+}
+
+static void release_large(void *memory, void *user) {
+    (void)user;
+    free(memory);
+}
+
 static lmp_brdf_response *read_measured(const char *path) {
+    static const lmp_allocator large = { allocate_large, release_large, NULL };
+
     size_t size;
     const void *data = file_cache_map(path, &size);
     lmp_brdf_response *response = NULL;
     if (data)
-        lmp_brdf_response_read(NULL, data, size, &response);
+        lmp_brdf_response_read(&large, data, size, &response);
     file_cache_unmap(data, size);
     return response;
 }

@@ -22,14 +22,69 @@ static uint32_t fold(uint32_t table[STEP][256], uint32_t word, int after) {
            table[after + 1][word >> 16 & 0xff] ^ table[after][word >> 24];
 }
 
+/* The register after one step of 16 bytes. */
+static uint32_t step(uint32_t table[STEP][256], uint32_t crc, const unsigned char *p) {
+    return fold(table, lmp_bytes_at_u32(p) ^ crc, 12) ^ fold(table, lmp_bytes_at_u32(p + 4), 8) ^
+           fold(table, lmp_bytes_at_u32(p + 8), 4) ^ fold(table, lmp_bytes_at_u32(p + 12), 0);
+}
+
+/* --- three runs at once: one waits for its tables while the others read theirs -------------------
+ */
+
+/* A power of two bytes a run. */
+enum { RUN_LOG2 = 13, RUN = 1 << RUN_LOG2 };
+
+/* What n zero bytes make of a register, a linear map over its bits: columns[i] of bit i. */
+typedef struct zeros {
+    uint32_t columns[32];
+} zeros;
+
+static uint32_t zeros_after(const zeros *map, uint32_t crc) {
+    uint32_t sum = 0;
+    for (int i = 0; i < 32; i++)
+        sum ^= crc >> i & 1 ? map->columns[i] : 0;
+    return sum;
+}
+
+/* The map of RUN zero bytes: that of one byte, squared. */
+static zeros zeros_of_run(uint32_t table[STEP][256]) {
+    zeros map;
+    for (int i = 0; i < 32; i++) {
+        const uint32_t bit = (uint32_t)1 << i;
+        map.columns[i] = bit >> 8 ^ table[0][bit & 0xff];
+    }
+    for (int k = 0; k < RUN_LOG2; k++) {
+        const zeros half = map;
+        for (int i = 0; i < 32; i++)
+            map.columns[i] = zeros_after(&half, half.columns[i]);
+    }
+    return map;
+}
+
+/* The register after three runs. */
+static uint32_t three_runs(uint32_t table[STEP][256], const zeros *map, uint32_t crc,
+                           const unsigned char *p) {
+    uint32_t second = 0, third = 0;
+    for (int i = 0; i < RUN; i += STEP) {
+        crc = step(table, crc, p + i);
+        second = step(table, second, p + RUN + i);
+        third = step(table, third, p + 2 * RUN + i);
+    }
+    return zeros_after(map, zeros_after(map, crc) ^ second) ^ third;
+}
+
 uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
     uint32_t table[STEP][256];
     fill(table);
     const unsigned char *p = bytes;
     uint32_t crc = 0xffffffffu;
+    if (size >= 3 * RUN) {
+        const zeros map = zeros_of_run(table);
+        for (; size >= 3 * RUN; size -= 3 * RUN, p += 3 * RUN)
+            crc = three_runs(table, &map, crc, p);
+    }
     for (; size >= STEP; size -= STEP, p += STEP)
-        crc = fold(table, lmp_bytes_at_u32(p) ^ crc, 12) ^ fold(table, lmp_bytes_at_u32(p + 4), 8) ^
-              fold(table, lmp_bytes_at_u32(p + 8), 4) ^ fold(table, lmp_bytes_at_u32(p + 12), 0);
+        crc = step(table, crc, p);
     for (; size > 0; size--)
         crc = crc >> 8 ^ table[0][(crc ^ *p++) & 0xff];
     return ~crc;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/bytes.h"
 #include "tests/oracle/check.h"
 
 #include "src/base/tables.h"
@@ -57,8 +58,30 @@ static void the_tables_agree_with_one_another(void **state) {
     }
 }
 
+/* Against the definition, bit by bit, at sizes where one, many and three runs at once are taken. */
+static void checksums_are_those_of_the_definition(void **state) {
+    (void)state;
+    enum { LONGEST = 120000 };
+    unsigned char *bytes = malloc(LONGEST);
+    assert_non_null(bytes);
+    for (int i = 0; i < LONGEST; i++)
+        bytes[i] = (unsigned char)(check_random() * 256);
+    const size_t sizes[] = { 0, 1, 15, 16, 17, 8192, 24575, 24576, 24577, 49152, 73741, LONGEST };
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        uint32_t crc = 0xffffffffu;
+        for (size_t i = 0; i < sizes[k]; i++) {
+            crc ^= bytes[i];
+            for (int bit = 0; bit < 8; bit++)
+                crc = crc >> 1 ^ (crc & 1 ? 0x82f63b78u : 0);
+        }
+        assert_int_equal(lmp_bytes_checksum(bytes, sizes[k]), ~crc);
+    }
+    free(bytes);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(checksums_are_those_of_the_definition),
         cmocka_unit_test(every_result_has_a_text_of_its_own),
         cmocka_unit_test(the_version_is_that_of_the_header),
         cmocka_unit_test(the_triangular_index_counts_through_the_table),
