@@ -5,6 +5,7 @@
 #include "src/base/tables.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void every_result_has_a_text_of_its_own(void **state) {
