@@ -111,7 +111,6 @@ void gpu_renderer_destroy(gpu_renderer *r) {
             glDeleteProgram(programs[i]);
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
-    glDeleteBuffers(1, &r->tables_buffer);
     gpu_set_responses(r, NULL);
     glDeleteBuffers(1, &r->response_block);
     glDeleteTextures(1, &r->response_pairs);

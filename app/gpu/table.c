@@ -129,8 +129,6 @@ bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int co
         r->tables[t] = tables[t];
         r->table_bands = lmp_brdf_table_describe(tables[t]).bands;
     }
-    glDeleteBuffers(1, &r->tables_buffer);
-    r->tables_buffer = 0;
     gpu_set_responses(r, NULL);
     gpu_forget_geometry(r);
     for (size_t i = 0; i < material_count; i++)
