@@ -2,6 +2,8 @@
 #include "src/brdf/table.h"
 #include "src/brdf/quadrature.h"
 
+#include "src/base/parallel.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -110,11 +112,7 @@ static void run_portions(table_job *job, const lmp_brdf_table_desc *desc, double
     const size_t portion = desc->progress ? 32 : total;
     for (job->first = 0; job->first < total; job->first = job->end) {
         job->end = job->first + portion < total ? job->first + portion : total;
-        if (desc->parallel)
-            desc->parallel(desc->user, job->end - job->first, make_view, job);
-        else
-            for (size_t i = 0; i < job->end - job->first; i++)
-                make_view(i, job);
+        lmp_parallel_run(desc->parallel, desc->user, job->end - job->first, make_view, job);
         if (desc->progress)
             desc->progress(desc->user, from + (to - from) * (double)job->end / (double)total);
     }

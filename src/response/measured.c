@@ -2,6 +2,7 @@
 #include "src/response/measured_make.h"
 
 #include "src/base/heap.h"
+#include "src/base/parallel.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -128,7 +129,8 @@ static lmp_result assemble(const lmp_allocator *allocator, const making *job,
 
 static lmp_result make_slices(const lmp_allocator *allocator, making *job, lmp_brdf_response *plan,
                               lmp_brdf_response **response) {
-    lmp_measured_run(job->desc, (size_t)job->cap_count, slices_task, job);
+    lmp_parallel_run(job->desc->parallel, job->desc->user, (size_t)job->cap_count, slices_task,
+                     job);
     const lmp_result result =
         atomic_load(&job->failed) ? LMP_ERROR_MEMORY : assemble(allocator, job, plan, response);
     for (int i = 0; i < job->cap_count; i++)

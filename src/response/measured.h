@@ -4,11 +4,8 @@
 #ifndef LAMPION_RESPONSE_MEASURED_H
 #define LAMPION_RESPONSE_MEASURED_H
 
-#include <lampion/response.h>
+#include "src/response/eval.h"
 
-#include <math.h>
-
-#define MEASURED_PI 3.14159265358979323846
 /* Views and half angles are chosen among so many steps. */
 #define MEASURED_STEPS_MAX 1024
 #define MEASURED_CAP_STEPS 128
@@ -43,7 +40,7 @@ static inline float lmp_measured_row(float width, float reach, float slope, floa
 
 /* cap_warp's argument: finer steps for small lights. */
 static inline float lmp_measured_cap(float a) {
-    const float quarter = (float)(MEASURED_PI / 2);
+    const float quarter = (float)(LMP_RESPONSE_PI / 2);
     return a / (a + 0.5f) * ((quarter + 0.5f) / quarter);
 }
 
@@ -64,7 +61,7 @@ typedef struct measured_series {
     lmp_rgb ambient[MEASURED_STEPS_MAX + 1];
 } measured_series;
 
-/* error: the response's. run: NULL or a host's threads. */
+/* desc: with its defaults in place. */
 lmp_result lmp_measured_series(const lmp_allocator *allocator, const lmp_brdf_table *table,
                                const lmp_brdf_response_desc *desc, measured_series *series);
 void lmp_measured_series_free(measured_series *series);
@@ -89,9 +86,5 @@ void lmp_measured_views_free(measured_views *views);
  * view i of the set. */
 lmp_result lmp_measured_sum(const measured_views *views, double angle, const double *g, size_t rows,
                             float *const *values);
-
-/* Runs tasks on the host's threads, or here. */
-void lmp_measured_run(const lmp_brdf_response_desc *desc, size_t count,
-                      void (*task)(size_t index, void *data), void *data);
 
 #endif

@@ -23,7 +23,7 @@ void lmp_measured_seek(const lmp_brdf_response_info *info, float cos_theta_o,
     place->cosine = cosine;
     place->sine = sqrtf(1 - cosine * cosine);
     place->share = seek(info->view_warp, info->view_steps, info->view_count,
-                        theta * (float)(2 / MEASURED_PI), &place->view);
+                        theta * (float)(2 / LMP_RESPONSE_PI), &place->view);
 }
 
 /* The whole part of a coordinate that leaves a neighbour before and two after among `count`. */
@@ -61,9 +61,9 @@ static float angle_from_mirror(const lmp_measured_place *place, lmp_vec3 axis, f
     const float g = lmp_response_angle(fminf(across2 / (1 + fabsf(z)), 1));
     const float cosine = across > 0 ? fminf(fabsf(x) / across, 1) : 1;
     const float quarter = lmp_response_angle(1 - cosine);
-    const float half = x < 0 ? (float)MEASURED_PI - quarter : quarter;
-    *azimuth = y < 0 && !place->info->mirrored ? (float)(2 * MEASURED_PI) - half : half;
-    return z < 0 ? (float)MEASURED_PI - g : g;
+    const float half = x < 0 ? (float)LMP_RESPONSE_PI - quarter : quarter;
+    *azimuth = y < 0 && !place->info->mirrored ? (float)(2 * LMP_RESPONSE_PI) - half : half;
+    return z < 0 ? (float)LMP_RESPONSE_PI - g : g;
 }
 
 lmp_rgb lmp_measured_at(const lmp_measured_place *place, lmp_vec3 axis, float one_minus) {
@@ -83,7 +83,7 @@ lmp_rgb lmp_measured_at(const lmp_measured_place *place, lmp_vec3 axis, float on
     add_slice(info, slice, s, azimuth, place->share * (1 - second), rgb);
     add_slice(info, slice + 1, s, azimuth, place->share * second, rgb);
     const float scale =
-        2 / ((2 - one_minus) * (2 * (float)MEASURED_PI * one_minus + info->lobe_angle));
+        2 / ((2 - one_minus) * (2 * (float)LMP_RESPONSE_PI * one_minus + info->lobe_angle));
     return (lmp_rgb) { scale * rgb[0], scale * rgb[1], scale * rgb[2] };
 }
 

@@ -4,7 +4,6 @@
 #ifndef LAMPION_RESPONSE_MEASURED_EVAL_H
 #define LAMPION_RESPONSE_MEASURED_EVAL_H
 
-#include "src/response/eval.h"
 #include "src/response/measured.h"
 
 /* Where a view lies. */

@@ -4,6 +4,7 @@
 #include "src/response/measured_make.h"
 
 #include "src/base/heap.h"
+#include "src/base/parallel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -58,8 +59,8 @@ static void probe_task(size_t index, void *data) {
 
 static lmp_result gather(probes *p, const lmp_brdf_response_desc *desc, size_t tasks) {
     const measured_series *series = p->series;
-    const double first = floor(lmp_measured_row_of(series, -MEASURED_PI / 2) / STEP);
-    const double last = ceil(lmp_measured_row_of(series, MEASURED_PI) / STEP);
+    const double first = floor(lmp_measured_row_of(series, -LMP_RESPONSE_PI / 2) / STEP);
+    const double last = ceil(lmp_measured_row_of(series, LMP_RESPONSE_PI) / STEP);
     p->rows = (size_t)(last - first) + 1;
     p->columns = (size_t)p->views.columns[0];
     p->size = 3 * p->rows * p->columns;
@@ -70,7 +71,7 @@ static lmp_result gather(probes *p, const lmp_brdf_response_desc *desc, size_t t
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < p->rows; i++)
         p->x[i] = lmp_measured_x_of(series, STEP * (first + (double)i));
-    lmp_measured_run(desc, tasks, probe_task, p);
+    lmp_parallel_run(desc->parallel, desc->user, tasks, probe_task, p);
     for (size_t i = 0; i < tasks; i++)
         if (p->failed[i])
             return LMP_ERROR_MEMORY;
@@ -83,7 +84,7 @@ static lmp_result gather(probes *p, const lmp_brdf_response_desc *desc, size_t t
 /* Rows on the sphere proper, g in 0 … pi. */
 static bool row_counts(const probes *p, size_t row, double rim) {
     const double g = p->x[row] + rim;
-    return g >= 0 && g <= MEASURED_PI;
+    return g >= 0 && g <= LMP_RESPONSE_PI;
 }
 
 /* How far the values of step `middle` are from the line between `low` and `high`. */

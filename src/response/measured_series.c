@@ -6,6 +6,8 @@
 #include "src/response/measured.h"
 
 #include "src/base/heap.h"
+#include "src/base/parallel.h"
+#include "src/light/cap.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,16 +23,6 @@
 #define COLUMNS_MIN 4
 #define FEW_ORDERS  16
 #define COLUMNS_MAX 128
-
-void lmp_measured_run(const lmp_brdf_response_desc *desc, size_t count,
-                      void (*task)(size_t index, void *data), void *data) {
-    if (desc->parallel) {
-        desc->parallel(desc->user, count, task, data);
-        return;
-    }
-    for (size_t i = 0; i < count; i++)
-        task(i, data);
-}
 
 /* --- the coefficients ---------------------------------------------------------------------------
  */
@@ -57,7 +49,7 @@ static lmp_result samples_create(const lmp_allocator *heap, int bands, samples *
     if (!made->basis)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < made->count; i++) {
-        const double g = MEASURED_PI * (double)i / (double)(made->count - 1);
+        const double g = LMP_RESPONSE_PI * (double)i / (double)(made->count - 1);
         lmp_sh_eval(bands, (lmp_vec3) { (float)sin(g), 0, (float)cos(g) },
                     made->basis + i * LMP_SH_COUNT(bands));
     }
@@ -80,7 +72,7 @@ static bool turn(const turning *job, int step, int bands, float *turned) {
     const measured_series *series = job->series;
     const lmp_brdf_table_info info = lmp_brdf_table_describe(job->table);
     const size_t count = LMP_SH_COUNT(bands);
-    const double theta = MEASURED_PI / 2 * step / series->steps;
+    const double theta = LMP_RESPONSE_PI / 2 * step / series->steps;
     const lmp_quat to_mirror = { 0, (float)sin(theta / 2), 0, (float)cos(theta / 2) };
     float *memory = lmp_heap_allocate(
         &series->heap, (3 * info.count + count + LMP_SH_ROTATION_COUNT(bands)) * sizeof *memory);
@@ -147,7 +139,7 @@ static void cut_view(size_t index, void *data) {
 
 static bool cut_bands(turning *job) {
     const size_t views = CUT_VIEWS + 1;
-    lmp_measured_run(job->desc, views, cut_view, job);
+    lmp_parallel_run(job->desc->parallel, job->desc->user, views, cut_view, job);
     job->series->bands = 1;
     for (size_t i = 0; i < views; i++) {
         if (job->peaks[i] < 0)
@@ -208,7 +200,7 @@ static void turn_view(size_t index, void *data) {
     if (!turn(job, (int)index, series->bands, turned))
         return;
     for (size_t c = 0; c < 3; c++)
-        ambient[c] = turned[c * count] * (float)sqrt(4 * MEASURED_PI);
+        ambient[c] = turned[c * count] * (float)sqrt(4 * LMP_RESPONSE_PI);
     series->ambient[index] = (lmp_rgb) { ambient[0], ambient[1], ambient[2] };
     series->orders[index] = count_orders(job, turned, &job->peaks[index]);
 }
@@ -216,14 +208,14 @@ static void turn_view(size_t index, void *data) {
 /* The solid angle of a lobe as high as its peak with all that it reflects, of the narrowest. */
 static float lobe_angle(const turning *job) {
     const int bands = job->series->bands;
-    float angle = (float)(2 * MEASURED_PI);
+    float angle = (float)(2 * LMP_RESPONSE_PI);
     for (int i = 0; i < job->series->steps * 3 / 4; i++) {
         const lmp_rgb all = job->series->ambient[i];
         const float most = fmaxf(all.r, fmaxf(all.g, all.b));
         if (most < angle * job->peaks[i])
             angle = most / job->peaks[i];
     }
-    return fmaxf(angle, (float)MEASURED_PI / (float)(bands * bands));
+    return fmaxf(angle, (float)LMP_RESPONSE_PI / (float)(bands * bands));
 }
 
 /* A table bends between its views, and steps where a fit's shadowing begins: parts of the views'
@@ -242,7 +234,7 @@ static lmp_result turn_all(turning *job) {
         &series->heap, 3 * LMP_SH_COUNT(series->bands) * views * sizeof *series->coefficients);
     if (!series->coefficients)
         return LMP_ERROR_MEMORY;
-    lmp_measured_run(job->desc, views, turn_view, job);
+    lmp_parallel_run(job->desc->parallel, job->desc->user, views, turn_view, job);
     for (size_t i = 0; i < views; i++) {
         if (job->peaks[i] < 0)
             return LMP_ERROR_MEMORY;
@@ -251,7 +243,7 @@ static lmp_result turn_all(turning *job) {
     }
     series->width = WIDTH / (float)series->bands;
     series->lobe_angle = lobe_angle(job);
-    series->radius = sqrtf(series->lobe_angle / (float)MEASURED_PI);
+    series->radius = sqrtf(series->lobe_angle / (float)LMP_RESPONSE_PI);
     return LMP_OK;
 }
 
@@ -319,18 +311,13 @@ void lmp_measured_views_free(measured_views *views) {
 /* --- the sum ------------------------------------------------------------------------------------
  */
 
-/* The mean of P_l over the cap, times the solid angles: even in a (fill.c). */
+/* The mean of P_l over the cap, times the solid angles: R_l/R_0 (fill.c). */
 static void cap_means(const measured_series *series, double half_angle, float *means) {
     const double one_minus = 2 * sin(half_angle / 2) * sin(half_angle / 2);
-    const double angle = 2 * MEASURED_PI * one_minus + (double)series->lobe_angle;
-    double r = 1, d = 0;
-    for (int l = 0; l < series->bands; l++) {
-        if (l >= 2) {
-            d = ((l - 2) * d - (2 * l - 1) * one_minus * r) / (l + 1);
-            r += d;
-        }
-        means[l] = (float)(angle * (l == 0 ? 1 : r * (1 - one_minus / 2)));
-    }
+    const double angle = 2 * LMP_RESPONSE_PI * one_minus + (double)series->lobe_angle;
+    lmp_cap_polynomials(series->bands, (float)one_minus, means);
+    for (int l = 0; l < series->bands; l++)
+        means[l] *= (float)(angle * (1 - one_minus / 2));
 }
 
 /* What a thread of the sum works on. A table of all orders is mirrored (cosines alone), or holds
@@ -441,7 +428,7 @@ lmp_result lmp_measured_sum(const measured_views *views, double angle, const dou
     r.sums = r.basis + basis;
     r.turns = r.sums + sums;
     for (int i = 0; i < 2 * COLUMNS_MAX; i++)
-        r.circle[i] = (float)cos(MEASURED_PI * i / COLUMNS_MAX);
+        r.circle[i] = (float)cos(LMP_RESPONSE_PI * i / COLUMNS_MAX);
     for (int m = 0; m < r.orders; m++)
         while (series->orders[views->view[r.first[m]]] <= m)
             r.first[m]++;

@@ -44,7 +44,7 @@ double lmp_measured_rim_of(const measured_series *series, double a) {
 
 double lmp_measured_angle_at(int step) {
     const double share =
-        (double)step / MEASURED_CAP_STEPS * (MEASURED_PI / 2) / (MEASURED_PI / 2 + 0.5);
+        (double)step / MEASURED_CAP_STEPS * (LMP_RESPONSE_PI / 2) / (LMP_RESPONSE_PI / 2 + 0.5);
     return 0.5 * share / (1 - share);
 }
 
@@ -183,7 +183,7 @@ static void store(const grid *g, const row_range *range, measured_column *column
     for (size_t c = 0; c < 3; c++)
         for (size_t i = (c * rows + before) * columns; i < (c * rows + after) * columns; i++)
             peak = larger(peak, fabsf(g->coefficients[i]));
-    const double turn = g->mirrored ? MEASURED_PI : 2 * MEASURED_PI;
+    const double turn = g->mirrored ? LMP_RESPONSE_PI : 2 * LMP_RESPONSE_PI;
     *slice = (lmp_brdf_response_slice) {
         .first = (uint32_t)column->texel_count,
         .rows = (uint32_t)(after - before),
@@ -212,7 +212,7 @@ static row_range range_of(const measured_series *series, const int *caps, int co
     const double least = lmp_measured_rim_of(series, lmp_measured_angle_at(caps[below]));
     const double most = lmp_measured_rim_of(series, lmp_measured_angle_at(caps[above]));
     row_range range = { .low = lmp_measured_row_of(series, -most),
-                        .high = lmp_measured_row_of(series, MEASURED_PI - least) };
+                        .high = lmp_measured_row_of(series, LMP_RESPONSE_PI - least) };
     const int first = (int)floor(range.low / STEP) - THINNING - MARGIN;
     const int last = (int)ceil(range.high / STEP) + 2 * THINNING + MARGIN;
     range.first = first - (THINNING + first % THINNING) % THINNING;
@@ -305,7 +305,7 @@ static int rows_hold(const measured_views *views, double angle, float error) {
     const measured_series *series = views->series;
     const double rim = lmp_measured_rim_of(series, angle);
     const double low = lmp_measured_row_of(series, -rim) / STEP - MARGIN;
-    const double high = lmp_measured_row_of(series, MEASURED_PI - rim) / STEP + MARGIN;
+    const double high = lmp_measured_row_of(series, LMP_RESPONSE_PI - rim) / STEP + MARGIN;
     const size_t rows = 2 * (size_t)(ceil(high) - floor(low)) + 1;
     const size_t columns = (size_t)views->columns[0], size = 3 * rows * columns;
     double *g = lmp_heap_allocate(&series->heap, rows * sizeof *g);

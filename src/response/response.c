@@ -2,6 +2,7 @@
 #include "src/response/response.h"
 
 #include "src/base/heap.h"
+#include "src/base/parallel.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -29,12 +30,7 @@ static void fill_task(size_t index, void *data) {
 static lmp_result fill_all(lmp_response *response, const lmp_response_desc *desc) {
     creation job = { .response = response, .desc = desc };
     const size_t tasks = 2 * (size_t)response->info.cell_count;
-    if (desc->parallel) {
-        desc->parallel(desc->user, tasks, fill_task, &job);
-    } else {
-        for (size_t i = 0; i < tasks; i++)
-            fill_task(i, &job);
-    }
+    lmp_parallel_run(desc->parallel, desc->user, tasks, fill_task, &job);
     return atomic_load(&job.failed) ? LMP_ERROR_MEMORY : LMP_OK;
 }
 
