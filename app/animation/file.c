@@ -110,6 +110,9 @@ static bool read_path(const path_reader *reader, const cJSON *entry, const scene
         return false;
     if (!!keys + !!round + !!fall != 1)
         return fail_path(reader, "needs one of keys, circle and bounce");
+    if (!keys && !cJSON_IsObject(round ? round : fall))
+        return fail_path(reader, round ? "has a circle that is no object"
+                                       : "has a bounce that is no object");
     if (light && (!cJSON_IsNumber(light) || !(light->valuedouble >= 0) ||
                   !(light->valuedouble < (double)world->light_count) ||
                   light->valuedouble != floor(light->valuedouble)))
