@@ -5,6 +5,10 @@ if(CMAKE_C_COMPILER_ID MATCHES Clang)
   # The loops to unroll have a run-time length in the kernels for any number of bands.
   set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize -Wno-pass-failed)
 endif()
+if(LAMPION_FUZZ)
+  # No foreign bytes here, and unrolled kernels take the instrumenting compiler minutes.
+  list(APPEND lampion_kernel_options -O0)
+endif()
 set(kernels ${PROJECT_SOURCE_DIR}/src/kernels)
 set_source_files_properties(${kernels}/scalar.c PROPERTIES COMPILE_OPTIONS "${lampion_kernel_options}")
 
