@@ -2,7 +2,7 @@
 /* lampion bench - what the batch kernels cost (docs/benchmarks.md). */
 #include "app/command/bench.h"
 #include "app/command/command.h"
-#include "app/gpu/gpu.h"
+#include "app/device/materials.h"
 
 #include <lampion/lampion.h>
 
@@ -575,16 +575,16 @@ static int bench_cpu(const bench_options *o) {
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    bench_options o = {
-        .mask = LMP_CPU_ALL, .lights = 30, .size = { 1980, 995 }, .scene = "builtin:atrium"
-    };
+    bench_options o = { .mask = LMP_CPU_ALL };
+    bool size_given;
     const cli_option options[] = {
         { .name = "json", .kind = CLI_FLAG, .target = &o.json, .help = "print JSON" },
         { .name = "full",
           .kind = CLI_FLAG,
           .target = &o.full,
-          .help = "cpu: ten times the runs; gpu: every combination of bands, lights and sizes, in "
-                  "two scenes" },
+          .help =
+              "cpu: ten times the runs; gpu: every combination of the scenes, sizes, lights and "
+              "bands that no option fixes" },
         cli_cpu_mask(&o.mask),
         { .name = "threads",
           .kind = CLI_INT,
@@ -606,25 +606,39 @@ static int run(const cli_command *command, int argc, char **argv) {
           .help = "the rows of so many bands alone; 0: of several",
           .minimum = 0,
           .maximum = LMP_BANDS_MAX },
+        { .name = "device",
+          .kind = CLI_CHOICE,
+          .target = &o.device,
+          .argument = "DEVICE",
+          .help = "gpu: the rows of one device",
+          .choices = bench_devices },
+        { .name = "method",
+          .kind = CLI_CHOICE,
+          .target = &o.method,
+          .argument = "METHOD",
+          .help = "gpu: the rows of one method; paper is the paper's fragment shader",
+          .choices = bench_methods },
         { .name = "scene",
           .kind = CLI_TEXT,
           .target = &o.scene,
           .argument = "SCENE",
-          .help = "gpu: of the rows of the short selection" },
+          .help = "gpu: the rows of one scene; without it builtin:atrium" },
         { .name = "lights",
           .kind = CLI_INT,
           .target = &o.lights,
           .argument = "N",
-          .help = "gpu: lights of the rows over the bands",
-          .minimum = 1,
+          .help = "gpu: the rows of so many lights alone; 0: of several",
+          .minimum = 0,
           .maximum = SCENE_LIGHTS_MAX },
         { .name = "size",
           .kind = CLI_SIZE,
           .target = o.size,
           .argument = "WxH",
-          .help = "gpu: pixels of the rows of the short selection",
+          .help = "gpu: pixels of the rows; without it 1980x995",
           .minimum = 1,
-          .maximum = GPU_SIZE_MAX },
+          .maximum = GPU_SIZE_MAX,
+          .given = &size_given },
+        MATERIALS_OPTION_ROW(o.materials),
         { .name = "gl-device",
           .kind = CLI_TEXT,
           .target = &o.gl_device,
@@ -638,7 +652,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         return status;
     if (count == 1 && strcmp(operands[0], "gpu") == 0) {
         lmp_cpu_mask((unsigned)o.mask);
-        return bench_gpu(&o);
+        return bench_gpu(command, &o);
     }
     if (count != 1)
         return cli_usage(command, "what to measure: cpu or gpu");
@@ -655,6 +669,8 @@ const cli_command command_bench = {
                 "lampion bench cpu --cpu-mask 4 --json > avx2.json\n"
                 "lampion bench cpu --kernel accumulate --bands 6\n"
                 "lampion bench gpu --json > gpu.json\n"
-                "lampion bench gpu --scene builtin:ball --bands 8 --size 3400x900\n",
+                "lampion bench gpu --scene builtin:ball --bands 8 --size 3400x900\n"
+                "lampion bench gpu --full --size 600x816 --method preintegrated\n"
+                "lampion bench gpu --scene builtin:ball --material test_material=sgd:nickel\n",
     .run = run,
 };

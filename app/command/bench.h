@@ -9,12 +9,18 @@ typedef struct bench_options {
     bool json, full;
     int bands;                 /* 0: many */
     int mask, threads, kernel; /* of cpu; kernel 0: all */
-    int lights, size[2];       /* of gpu */
-    const char *scene;         /* of gpu */
-    const char *gl_device;     /* of gpu */
+    /* of gpu */
+    int device, method;  /* of bench_devices and bench_methods */
+    int lights, size[2]; /* 0: many */
+    const char *scene;   /* NULL: many */
+    const char *gl_device;
+    cli_list materials;
 } bench_options;
 
+/* What `lampion bench gpu` times; the first of each is all. */
+extern const char *const bench_devices[], *const bench_methods[];
+
 /* `lampion bench gpu`; returns the exit status. */
-int bench_gpu(const bench_options *options);
+int bench_gpu(const cli_command *command, const bench_options *options);
 
 #endif

@@ -3,7 +3,9 @@
  */
 #include "app/command/bench.h"
 #include "app/device/device.h"
+#include "app/device/materials.h"
 
+#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +13,42 @@
 
 enum { FRAMES = 9, SEED = 7 };
 
-/* A row's frame, and the shader it runs. */
-typedef struct bench_case {
-    const char *scene, *method_name;
+const char *const bench_devices[] = { "all", "gpu", "cpu", NULL };
+const char *const bench_methods[] = { "all",         "paper", "coefficients",
+                                      "tabulated-z", "zonal", "preintegrated",
+                                      NULL };
+
+/* What shades; `materials`: measured ones, too. */
+typedef struct contestant {
+    const char *name;
     device_kind device;
     gpu_method method;
+    int bands_max;
+    bool materials;
+} contestant;
+
+static const contestant contestants[] = {
+    { "paper", DEVICE_GPU, GPU_METHOD_PAPER, 20, false },
+    { "coefficients", DEVICE_GPU, GPU_METHOD_COEFFICIENTS, GPU_COEFFICIENTS_MAX, true },
+    { "tabulated-z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX, false },
+    { "zonal", DEVICE_GPU, GPU_METHOD_ZONAL, GPU_BANDS_MAX, true },
+    { "preintegrated", DEVICE_GPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX, true },
+    { "zonal", DEVICE_CPU, GPU_METHOD_ZONAL, LMP_BANDS_MAX, true },
+    { "preintegrated", DEVICE_CPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX, true },
+};
+enum { CONTESTANTS = sizeof contestants / sizeof *contestants };
+
+/* A row's frame, and what shades it. */
+typedef struct bench_case {
+    const contestant *by;
     int bands, lights, width, height;
 } bench_case;
+
+/* What a row reads besides the scene: its bytes, and what making or loading it took. */
+typedef struct bench_tables {
+    size_t bytes;
+    double ms;
+} bench_tables;
 
 /* A scene open on the device, with as many lights as any row asks for. */
 typedef struct bench_stage {
@@ -28,24 +59,11 @@ typedef struct bench_stage {
     gpu_renderer *renderer;
     lmp_response *responses[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
     double build_ms[LMP_BANDS_MAX + 1];
+    device_materials materials; /* of material_bands */
+    int material_bands;         /* 0: none yet */
+    double bake_ms, respond_ms;
     bool first;
 } bench_stage;
-
-static const struct {
-    const char *name;
-    device_kind device;
-    gpu_method method;
-    int bands_max;
-} contestants[] = {
-    { "paper", DEVICE_GPU, GPU_METHOD_PAPER, 20 },
-    { "coefficients", DEVICE_GPU, GPU_METHOD_COEFFICIENTS, GPU_COEFFICIENTS_MAX },
-    { "tabulated-z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX },
-    { "zonal", DEVICE_GPU, GPU_METHOD_ZONAL, GPU_BANDS_MAX },
-    { "preintegrated", DEVICE_GPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX },
-    { "zonal", DEVICE_CPU, GPU_METHOD_ZONAL, LMP_BANDS_MAX },
-    { "preintegrated", DEVICE_CPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX },
-};
-enum { CONTESTANTS = sizeof contestants / sizeof *contestants };
 
 static double wall_ms(void) {
     struct timespec t;
@@ -56,6 +74,32 @@ static double wall_ms(void) {
 static int by_value(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
+}
+
+/* --- which rows ---------------------------------------------------------------------------------
+ */
+
+/* The first scene and size are those of the short selection. */
+static const char *const all_scenes[] = { "builtin:atrium", "builtin:ball" };
+static const int all_sizes[][2] = { { 1980, 995 }, { 600, 816 }, { 3400, 900 } };
+static const int all_bands[] = { 5, 8, 10, 20, 50, 100, 0 };
+static const int all_lights[] = { 1, 10, 30, 100, 300, 1000, 0 };
+enum { SCENES = 2, SIZES = 3 };
+
+static bool is_method(const bench_options *o, const char *name) {
+    return o->method == 0 || strcmp(bench_methods[o->method], name) == 0;
+}
+
+/* Whether there is a row of it; bands 0: of any number. */
+static bool is_chosen(const bench_options *o, const contestant *c, int bands) {
+    return bands <= c->bands_max && (c->materials || o->materials.count == 0) &&
+           (o->device == 0 || strcmp(bench_devices[o->device], device_names[c->device]) == 0) &&
+           is_method(o, c->name);
+}
+
+/* The paper's 30 lights over the bands, its 8 bands over the lights; whatever is fixed; or all. */
+static bool is_setting(const bench_options *o, int bands, int lights) {
+    return o->full || o->lights || lights == 30 || (!o->bands && bands == 8 && lights <= 300);
 }
 
 /* --- one row ------------------------------------------------------------------------------------
@@ -71,6 +115,51 @@ static bool find_response(bench_stage *stage, int bands, cli_error *error) {
     return true;
 }
 
+/* The materials asked for, with so many bands, in place of the scene's. */
+static bool find_materials(bench_stage *stage, int bands, cli_error *error) {
+    device_materials *all = &stage->materials;
+    const bench_options *o = stage->options;
+    const cli_list *list = &o->materials;
+    if (list->count == 0 || stage->material_bands == bands)
+        return true;
+    device_materials_free(all);
+    stage->material_bands = bands;
+    bool ok = device_materials_open(list, &stage->world, all, error);
+    const double start = wall_ms();
+    ok = ok && device_materials_bake(all, bands, LMP_WINDOW_HANNING, error);
+    const double baked = wall_ms();
+    if (ok && is_method(o, gpu_method_names[GPU_METHOD_PREINTEGRATED]))
+        ok = device_materials_respond(all, error);
+    stage->bake_ms = baked - start;
+    stage->respond_ms = wall_ms() - baked;
+    return ok && device_materials_give(all, &stage->world, stage->renderer, error);
+}
+
+/* A shader that sums a material by its bands takes fewer. */
+static int bands_max(const bench_stage *stage, const contestant *c) {
+    for (int i = 0; i < stage->materials.count && c->device == DEVICE_GPU; i++)
+        if (!stage->materials.responses[i] && c->bands_max > GPU_BANDS_MAX)
+            return GPU_BANDS_MAX;
+    return c->bands_max;
+}
+
+static bench_tables tables_of(const bench_stage *stage, const bench_case *c) {
+    const bool preintegrated = c->by->method == GPU_METHOD_PREINTEGRATED;
+    const device_materials *all = &stage->materials;
+    bench_tables sum = { 0, stage->bake_ms };
+    if (c->by->method == GPU_METHOD_TABULATED)
+        sum.bytes = gpu_zonal_bytes(c->bands);
+    if (preintegrated) {
+        sum.bytes = lmp_response_describe(stage->responses[c->bands]).bytes;
+        sum.ms += stage->build_ms[c->bands] + stage->respond_ms;
+    }
+    for (int i = 0; i < all->count; i++)
+        sum.bytes += preintegrated && all->responses[i]
+                         ? lmp_brdf_response_describe(all->responses[i]).bytes
+                         : lmp_brdf_table_size(all->tables[i]);
+    return sum;
+}
+
 /* Median milliseconds of the shading, and of what compiling its shader took. */
 static bool time_case(bench_stage *stage, const bench_case *c, double *ms, double *compile,
                       cli_error *error) {
@@ -78,14 +167,14 @@ static bool time_case(bench_stage *stage, const bench_case *c, double *ms, doubl
         .width = c->width,
         .height = c->height,
         .camera = scene_default_camera(&stage->world, (float)c->width / (float)c->height),
-        .method = c->method,
+        .method = c->by->method,
         .bands = c->bands,
         .window = LMP_WINDOW_HANNING,
         .lights = stage->world.lights,
         .light_count = (size_t)c->lights,
-        .host = c->device == DEVICE_CPU ? device_shade : NULL,
+        .host = c->by->device == DEVICE_CPU ? device_shade : NULL,
     };
-    if (c->method == GPU_METHOD_PREINTEGRATED) {
+    if (c->by->method == GPU_METHOD_PREINTEGRATED) {
         if (!find_response(stage, c->bands, error))
             return false;
         frame.response = stage->responses[c->bands];
@@ -111,91 +200,133 @@ static bool time_case(bench_stage *stage, const bench_case *c, double *ms, doubl
     return true;
 }
 
+/* --- printing -----------------------------------------------------------------------------------
+ */
+
+/* Four digits. */
+static void add_number(cJSON *row, const char *name, double value) {
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", value);
+    cJSON_AddRawToObject(row, name, text);
+}
+
+static void print_json(const bench_stage *stage, const bench_case *c, double ms, double ns,
+                       double compile, double paper) {
+    const bench_tables tables = tables_of(stage, c);
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddStringToObject(row, "scene", stage->name);
+    cJSON_AddStringToObject(row, "device", device_names[c->by->device]);
+    cJSON_AddStringToObject(row, "method", c->by->name);
+    cJSON_AddNumberToObject(row, "bands", c->bands);
+    cJSON_AddNumberToObject(row, "lights", c->lights);
+    cJSON_AddNumberToObject(row, "width", c->width);
+    cJSON_AddNumberToObject(row, "height", c->height);
+    add_number(row, "ms", ms);
+    add_number(row, "ns_per_pixel_light", ns);
+    if (paper > 0)
+        add_number(row, "vs_paper", paper / ms);
+    else
+        cJSON_AddNullToObject(row, "vs_paper");
+    add_number(row, "compile_ms", compile);
+    cJSON_AddNumberToObject(row, "table_bytes", (double)tables.bytes);
+    add_number(row, "table_ms", tables.ms);
+    char *text = cJSON_PrintUnformatted(row);
+    printf("%s    %s", stage->first ? "" : ",\n", text ? text : "null");
+    cJSON_free(text);
+    cJSON_Delete(row);
+}
+
 static void print_row(bench_stage *stage, const bench_case *c, double ms, double compile,
                       double paper) {
     const double ns = 1e6 * ms / ((double)c->width * c->height * c->lights);
-    const lmp_response *response =
-        c->method == GPU_METHOD_PREINTEGRATED ? stage->responses[c->bands] : NULL;
-    const size_t bytes = response                            ? lmp_response_describe(response).bytes
-                         : c->method == GPU_METHOD_TABULATED ? gpu_zonal_bytes(c->bands)
-                                                             : 0;
-    const double build = response ? stage->build_ms[c->bands] : 0;
     if (stage->options->json) {
-        printf("%s    {\"scene\": \"%s\", \"device\": \"%s\", \"method\": \"%s\", \"bands\": %d, "
-               "\"lights\": %d, \"width\": %d, \"height\": %d, \"ms\": %.4g, "
-               "\"ns_per_pixel_light\": %.4g, ",
-               stage->first ? "" : ",\n", c->scene, device_names[c->device], c->method_name,
-               c->bands, c->lights, c->width, c->height, ms, ns);
-        if (paper > 0)
-            printf("\"vs_paper\": %.4g, ", paper / ms);
-        else
-            printf("\"vs_paper\": null, ");
-        printf("\"compile_ms\": %.4g, \"table_bytes\": %zu, \"table_ms\": %.4g}", compile, bytes,
-               build);
+        print_json(stage, c, ms, ns, compile, paper);
     } else {
-        printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %9.3f", c->scene, device_names[c->device],
-               c->method_name, c->bands, c->lights, c->width, c->height, ms, ns);
+        const bench_tables tables = tables_of(stage, c);
+        char ratio[32] = "-";
         if (paper > 0)
-            printf(" %9.2f", paper / ms);
-        else
-            printf(" %9s", "-");
-        printf(" %9.0f %9zu %8.0f\n", compile, bytes / 1024, build);
+            snprintf(ratio, sizeof ratio, "%.2f", paper / ms);
+        printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %9.3f %9s %9.0f %9zu %8.0f\n",
+               stage->name, device_names[c->by->device], c->by->name, c->bands, c->lights, c->width,
+               c->height, ms, ns, ratio, compile, tables.bytes / 1024, tables.ms);
     }
     stage->first = false;
     fflush(stdout);
 }
 
-/* Every contestant at one number of bands and lights and one size. */
-static bool time_setting(bench_stage *stage, int bands, int lights, const int size[2],
-                         cli_error *error) {
-    double paper = 0;
-    for (int i = 0; i < CONTESTANTS; i++) {
-        if (bands > contestants[i].bands_max)
-            continue;
-        const bench_case c = { stage->name,
-                               contestants[i].name,
-                               contestants[i].device,
-                               contestants[i].method,
-                               bands,
-                               lights,
-                               size[0],
-                               size[1] };
-        double ms, compile;
-        if (!time_case(stage, &c, &ms, &compile, error))
-            return false;
-        paper = i == 0 ? ms : paper;
-        print_row(stage, &c, ms, compile, paper);
+static void print_json_header(const bench_stage *stage) {
+    const bench_options *o = stage->options;
+    cJSON *root = cJSON_CreateObject();
+    cJSON_AddStringToObject(root, "gpu", stage->context.device);
+    cJSON_AddStringToObject(root, "driver", stage->context.driver);
+    cJSON_AddStringToObject(root, "cpu_kernels", lmp_cpu_name());
+    cJSON_AddStringToObject(root, "commit", LAMPION_COMMIT);
+    cJSON_AddItemToObject(
+        root, "materials",
+        cJSON_CreateStringArray((const char *const *)o->materials.items, o->materials.count));
+    char *text = cJSON_PrintUnformatted(root);
+    if (text) /* the rows go on where it would end */
+        printf("%.*s,\n  \"rows\": [\n", (int)strlen(text) - 1, text);
+    cJSON_free(text);
+    cJSON_Delete(root);
+}
+
+static void print_header(const bench_stage *stage) {
+    const bench_options *o = stage->options;
+    if (o->json) {
+        print_json_header(stage);
+        return;
     }
-    return true;
+    printf("%s (%s), CPU kernels: %s; commit %s\n", stage->context.device, stage->context.driver,
+           lmp_cpu_name(), LAMPION_COMMIT);
+    for (int i = 0; i < o->materials.count; i++)
+        printf("%s%s", i ? ", " : "materials: ", o->materials.items[i]);
+    printf("%s"
+           "ms: from G-buffer to radiance, to the CPU and back where it shades, median of %d "
+           "frames (%s); x paper: against the paper's fragment shader in the same run\n",
+           o->materials.count ? "\n" : "", FRAMES,
+           stage->context.software ? "wall clock" : "timer queries");
+    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %9s %9s %9s %9s %8s\n", "scene", "dev", "method",
+           "bands", "lights", "size", "ms", "ns/pair", "x paper", "compile", "table KB",
+           "table ms");
 }
 
 /* --- all rows -----------------------------------------------------------------------------------
  */
 
-static const int all_bands[] = { 5, 8, 10, 20, 50, 100, 0 };
-static const int all_lights[] = { 1, 10, 30, 100, 300, 1000, 0 };
-static const int all_sizes[][2] = { { 600, 816 }, { 1980, 995 }, { 3400, 900 } };
+/* Everything that is chosen, at one number of bands and lights and one size. */
+static bool time_setting(bench_stage *stage, int bands, int lights, const int size[2],
+                         cli_error *error) {
+    double paper = 0;
+    for (int i = 0; i < CONTESTANTS; i++) {
+        const bench_case c = { &contestants[i], bands, lights, size[0], size[1] };
+        double ms, compile;
+        if (!is_chosen(stage->options, c.by, bands))
+            continue;
+        if (!find_materials(stage, bands, error))
+            return false;
+        if (bands > bands_max(stage, c.by))
+            continue;
+        if (!time_case(stage, &c, &ms, &compile, error))
+            return false;
+        paper = c.by->method == GPU_METHOD_PAPER ? ms : paper;
+        print_row(stage, &c, ms, compile, paper);
+    }
+    return true;
+}
 
-/* One setting; or the paper's over the bands, then over the lights; with --full every combination.
- */
 static bool time_all(bench_stage *stage, cli_error *error) {
     const bench_options *o = stage->options;
-    if (o->bands)
-        return time_setting(stage, o->bands, o->lights, o->size, error);
-    if (o->full) {
-        for (int s = 0; s < 3; s++)
-            for (const int *b = all_bands; *b; b++)
-                for (const int *l = all_lights; *l; l++)
-                    if (!time_setting(stage, *b, *l, all_sizes[s], error))
-                        return false;
-        return true;
-    }
-    for (const int *b = all_bands; *b; b++)
-        if (!time_setting(stage, *b, o->lights, o->size, error))
-            return false;
-    for (const int *l = all_lights; *l && *l <= 300; l++)
-        if (*l != o->lights && !time_setting(stage, 8, *l, o->size, error))
-            return false;
+    const int own_bands[] = { o->bands, 0 }, own_lights[] = { o->lights, 0 };
+    const int *const bands = o->bands ? own_bands : all_bands;
+    const int *const lights = o->lights ? own_lights : all_lights;
+    const int sizes = o->full && !o->size[0] ? SIZES : 1;
+    for (int s = 0; s < sizes; s++)
+        for (const int *b = bands; *b; b++)
+            for (const int *l = lights; *l; l++)
+                if (is_setting(o, *b, *l) &&
+                    !time_setting(stage, *b, *l, o->size[0] ? o->size : all_sizes[s], error))
+                    return false;
     return true;
 }
 
@@ -203,48 +334,48 @@ static bool open_stage(bench_stage *stage, cli_error *error) {
     return scene_load(stage->name, &(scene_options) { 0 }, &stage->world, error) &&
            scene_add_random_lights(&stage->world, SCENE_LIGHTS_MAX - (int)stage->world.light_count,
                                    SEED, error) &&
+           device_materials_open(&stage->options->materials, &stage->world, &stage->materials,
+                                 error) &&
            gpu_context_create(stage->options->gl_device, &stage->context, error) &&
            (stage->renderer = gpu_renderer_create(&stage->context, &stage->world, error));
 }
 
 static void close_stage(bench_stage *stage) {
     gpu_renderer_destroy(stage->renderer);
+    device_materials_free(&stage->materials);
     gpu_context_destroy(&stage->context);
     scene_free(&stage->world);
     for (int n = 0; n <= LMP_BANDS_MAX; n++)
         lmp_response_destroy(stage->responses[n]);
 }
 
-static void print_header(const bench_stage *stage) {
-    if (stage->options->json)
-        return;
-    printf("%s (%s), CPU kernels: %s; commit %s\n", stage->context.device, stage->context.driver,
-           lmp_cpu_name(), LAMPION_COMMIT);
-    printf(
-        "ms: from G-buffer to radiance, to the CPU and back where it shades, median of %d frames "
-        "(%s); x paper: against the paper's fragment shader in the same run\n",
-        FRAMES, stage->context.software ? "wall clock" : "timer queries");
-    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %9s %9s %9s %9s %8s\n", "scene", "dev", "method",
-           "bands", "lights", "size", "ms", "ns/pair", "x paper", "compile", "table KB",
-           "table ms");
+/* What the table of options cannot say. */
+static int check_options(const cli_command *command, const bench_options *o) {
+    bool any = false;
+    for (int i = 0; i < CONTESTANTS; i++)
+        any = any || is_chosen(o, &contestants[i], o->bands);
+    if (!any)
+        return cli_usage(command, "nothing runs by --method %s --device %s --bands %d%s",
+                         bench_methods[o->method], bench_devices[o->device], o->bands,
+                         o->materials.count ? " with --material" : "");
+    if (o->materials.count && o->full && !o->scene)
+        return cli_usage(command, "--material is of one scene: name it by --scene");
+    return CLI_OK;
 }
 
-int bench_gpu(const bench_options *o) {
-    static const char *const scenes[] = { "builtin:atrium", "builtin:ball" };
+int bench_gpu(const cli_command *command, const bench_options *o) {
     cli_error error = { "" };
+    const int status = check_options(command, o), scenes = o->full && !o->scene ? SCENES : 1;
+    if (status != CLI_OK)
+        return status;
     bool ok = true, first = true;
-    for (int i = 0; i < (o->full ? 2 : 1) && ok; i++) {
+    for (int i = 0; i < scenes && ok; i++) {
         bench_stage stage = { .options = o,
-                              .name = o->full ? scenes[i] : o->scene,
+                              .name = o->scene ? o->scene : all_scenes[i],
                               .first = first };
         ok = open_stage(&stage, &error);
-        if (ok && i == 0) {
-            if (o->json)
-                printf("{\n  \"gpu\": \"%s\",\n  \"driver\": \"%s\",\n  \"cpu_kernels\": \"%s\",\n"
-                       "  \"commit\": \"%s\",\n  \"rows\": [\n",
-                       stage.context.device, stage.context.driver, lmp_cpu_name(), LAMPION_COMMIT);
+        if (ok && i == 0)
             print_header(&stage);
-        }
         ok = ok && time_all(&stage, &error);
         first = stage.first;
         close_stage(&stage);

@@ -42,7 +42,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, device_
                              reference_material_source **sources, cli_error *error) {
     const reference_cut *cut = &a->settings.cut;
     if (!device_materials_open(&a->materials, world, all, error) ||
-        (cut->bands && !device_materials_bake(all, cut->bands, cut->window, false, error)))
+        (cut->bands && !device_materials_bake(all, cut->bands, cut->window, error)))
         return false;
     if (all->count == 0)
         return true;

@@ -55,33 +55,48 @@ bool device_materials_open(const cli_list *list, const scene *world, device_mate
     return true;
 }
 
-bool device_materials_bake(device_materials *all, int bands, lmp_window window, bool preintegrated,
-                           cli_error *error) {
+bool device_materials_bake(device_materials *all, int bands, lmp_window window, cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = bands,
                                        .views = LMP_BRDF_VIEWS_DEFAULT,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
                                        .window = window };
     for (int i = 0; i < all->count; i++)
-        if (!material_bake(&all->opened[i], &desc, &all->tables[i], error) ||
-            (preintegrated &&
-             !device_brdf_response(&all->opened[i], all->tables[i], &all->responses[i], error)))
+        if (!material_bake(&all->opened[i], &desc, &all->tables[i], error))
             return false;
     return true;
 }
 
+bool device_materials_respond(device_materials *all, cli_error *error) {
+    for (int i = 0; i < all->count; i++)
+        if (!device_brdf_response(&all->opened[i], all->tables[i], &all->responses[i], error))
+            return false;
+    return true;
+}
+
+bool device_materials_give(const device_materials *all, const scene *world, gpu_renderer *renderer,
+                           cli_error *error) {
+    const size_t count = world->material_count;
+    int *none = NULL;
+    if (!all->uses) {
+        none = malloc((count + 1) * sizeof *none);
+        if (!none)
+            return cli_fail(error, NULL, "out of memory");
+        memset(none, 0xff, (count + 1) * sizeof *none);
+    }
+    const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
+                                   all->uses ? all->uses : none, count, error);
+    if (ok)
+        gpu_set_responses(renderer, (const lmp_brdf_response *const *)all->responses);
+    free(none);
+    return ok;
+}
+
 bool device_materials_apply(const cli_list *list, const scene *world, const gpu_frame *frame,
                             gpu_renderer *renderer, device_materials *all, cli_error *error) {
-    if (!device_materials_open(list, world, all, error) ||
-        !device_materials_bake(all, frame->bands, frame->window,
-                               frame->method == GPU_METHOD_PREINTEGRATED, error))
-        return false;
-    if (all->count == 0)
-        return true;
-    if (!gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count, all->uses,
-                        world->material_count, error))
-        return false;
-    gpu_set_responses(renderer, (const lmp_brdf_response *const *)all->responses);
-    return true;
+    return device_materials_open(list, world, all, error) &&
+           device_materials_bake(all, frame->bands, frame->window, error) &&
+           (frame->method != GPU_METHOD_PREINTEGRATED || device_materials_respond(all, error)) &&
+           (all->count == 0 || device_materials_give(all, world, renderer, error));
 }
 
 void device_materials_free(device_materials *all) {

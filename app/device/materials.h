@@ -25,11 +25,18 @@ typedef struct device_materials {
 bool device_materials_open(const cli_list *list, const scene *scene, device_materials *materials,
                            cli_error *error);
 
-/* Makes a table of each; and a response, where it has one, for the method preintegrated. */
+/* Makes a table of each. */
 bool device_materials_bake(device_materials *materials, int bands, lmp_window window,
-                           bool preintegrated, cli_error *error);
+                           cli_error *error);
 
-/* Both, for the frame's method, bands and window, and has the renderer shade by them. */
+/* Then a response, where it has one, for the method preintegrated. */
+bool device_materials_respond(device_materials *materials, cli_error *error);
+
+/* Has the renderer of the scene shade by them; without any by the scene's own again. */
+bool device_materials_give(const device_materials *materials, const scene *scene,
+                           gpu_renderer *renderer, cli_error *error);
+
+/* All that the frame's method, bands and window need, and has the renderer shade by them. */
 bool device_materials_apply(const cli_list *list, const scene *scene, const gpu_frame *frame,
                             gpu_renderer *renderer, device_materials *materials, cli_error *error);
 /* After the renderer. */

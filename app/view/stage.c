@@ -125,26 +125,6 @@ static bool has_materials(const side *own, const view_settings *settings, const 
                                        (size_t)own->count * sizeof *own->names) == 0));
 }
 
-static bool give_tables(const view_stage *s, const device_materials *all, gpu_renderer *renderer,
-                        cli_error *error) {
-    const size_t count = s->world->material_count;
-    int *none = NULL;
-    if (!renderer)
-        return true;
-    if (!all->uses) {
-        none = malloc((count + 1) * sizeof *none);
-        if (!none)
-            return cli_fail(error, NULL, "out of memory");
-        memset(none, 0xff, (count + 1) * sizeof *none);
-    }
-    const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
-                                   all->uses ? all->uses : none, count, error);
-    if (ok)
-        gpu_set_responses(renderer, (const lmp_brdf_response *const *)all->responses);
-    free(none);
-    return ok;
-}
-
 static bool settle_materials(view_stage *s, side *own, const view_settings *settings,
                              const view_look *look, cli_error *error) {
     device_materials fresh = { .count = 0 };
@@ -155,15 +135,17 @@ static bool settle_materials(view_stage *s, side *own, const view_settings *sett
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
-    bool ok =
-        device_materials_open(&list, s->world, &fresh, error) &&
-        device_materials_bake(&fresh, look->bands, look->window, is_preintegrated(look), error);
+    bool ok = device_materials_open(&list, s->world, &fresh, error) &&
+              device_materials_bake(&fresh, look->bands, look->window, error) &&
+              (!is_preintegrated(look) || device_materials_respond(&fresh, error));
     for (int i = 0; i < QUALITIES && ok; i++)
-        ok = give_tables(s, &fresh, own->renderers[i], error);
+        ok =
+            !own->renderers[i] || device_materials_give(&fresh, s->world, own->renderers[i], error);
     if (!ok) { /* as before, for what is drawn next */
         cli_error ignored;
         for (int i = 0; i < QUALITIES; i++)
-            give_tables(s, &own->materials, own->renderers[i], &ignored);
+            if (own->renderers[i])
+                device_materials_give(&own->materials, s->world, own->renderers[i], &ignored);
         device_materials_free(&fresh);
         return false;
     }
@@ -211,7 +193,8 @@ static bool open_side(view_stage *s, side *own, quality fineness, cli_error *err
     if (simplify && !s->draft.vertices && !view_draft_make(s->world, DRAFT_CELLS, &s->draft, error))
         return false;
     *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
-    return *renderer && (own->count == 0 || give_tables(s, &own->materials, *renderer, error));
+    return *renderer &&
+           (own->count == 0 || device_materials_give(&own->materials, s->world, *renderer, error));
 }
 
 /* How to draw a side: how many samples come from what samples counts. */

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion bench gpu: which rows its options choose, and that they are JSON. No time is judged. */
+#include "tests/program/folder.h"
+
+#include <cjson/cJSON.h>
+#include <sys/wait.h>
+
+/* A triangle; its name wants escapes in JSON. */
+#define OWN_SCENE "a\"b.obj"
+#define TINY      "--json --size 16x16 "
+
+/* Runs `lampion bench gpu` with arguments for the shell, $F in them the folder; its status. */
+static int bench(const char *arguments) {
+    char command[1024];
+    snprintf(command, sizeof command, "F='%s'; \"$LAMPION_PROGRAM\" bench gpu %s >$F/out 2>$F/err",
+             folder, arguments);
+    const int status = system(command);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static char *read_output(const char *name) {
+    FILE *file = fopen(in_folder(name), "rb");
+    char *text = calloc(1 << 16, 1);
+    assert_non_null(file);
+    assert_non_null(text);
+    fread(text, 1, (1 << 16) - 1, file);
+    fclose(file);
+    return text;
+}
+
+/* The whole output; its rows have every key. */
+static cJSON *rows_of(const char *arguments) {
+    static const char *const numbers[] = { "bands",      "lights",      "width",
+                                           "height",     "ms",          "ns_per_pixel_light",
+                                           "compile_ms", "table_bytes", "table_ms" };
+    if (bench(arguments) != 0)
+        fail_msg("%s: %s", arguments, read_output("err"));
+    char *text = read_output("out");
+    cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+    if (!root)
+        fail_msg("%s: no JSON: %s", arguments, text);
+    free(text);
+    const cJSON *row;
+    cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
+        for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+            assert_true(cJSON_IsNumber(cJSON_GetObjectItem(row, numbers[i])));
+        assert_true(cJSON_GetObjectItem(row, "ms")->valuedouble > 0);
+        assert_non_null(cJSON_GetObjectItem(row, "vs_paper"));
+    }
+    return root;
+}
+
+static int count_rows(const cJSON *root) {
+    return cJSON_GetArraySize(cJSON_GetObjectItem(root, "rows"));
+}
+
+/* How many values a key has in all rows, none of them twice in a row of rows. */
+static int count_values(const cJSON *root, const char *key) {
+    int count = 0;
+    const cJSON *row, *before = NULL;
+    cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
+        const cJSON *value = cJSON_GetObjectItem(row, key);
+        count += !before || !cJSON_Compare(value, before, true);
+        before = value;
+    }
+    return count;
+}
+
+static const cJSON *row_at(const cJSON *root, int row) {
+    return cJSON_GetArrayItem(cJSON_GetObjectItem(root, "rows"), row);
+}
+
+static double number_at(const cJSON *root, int row, const char *key) {
+    return cJSON_GetObjectItem(row_at(root, row), key)->valuedouble;
+}
+
+static const char *text_at(const cJSON *root, int row, const char *key) {
+    return cJSON_GetObjectItem(row_at(root, row), key)->valuestring;
+}
+
+static void a_setting_has_a_row_of_each_method(void **state) {
+    (void)state;
+    cJSON *root = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2");
+    assert_int_equal(count_rows(root), 7);
+    assert_string_equal(text_at(root, 0, "scene"), in_folder(OWN_SCENE));
+    assert_string_equal(text_at(root, 0, "method"), "paper");
+    assert_true(number_at(root, 0, "vs_paper") == 1);
+    assert_true(number_at(root, 6, "bands") == 3 && number_at(root, 6, "lights") == 2);
+    assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(root, "materials")), 0);
+    cJSON_Delete(root);
+}
+
+/* Paper and tabulated Z do not shade them; the rest holds their tables, too. */
+static void materials_are_in_the_rows(void **state) {
+    (void)state;
+    const char *const chosen = TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2 --device cpu ";
+    char arguments[256];
+    snprintf(arguments, sizeof arguments, "%s--material 'wall=phong:5'", chosen);
+    cJSON *without = rows_of(chosen), *with = rows_of(arguments);
+    assert_int_equal(count_rows(without), 2);
+    assert_int_equal(count_rows(with), 2);
+    for (int i = 0; i < 2; i++)
+        assert_true(number_at(with, i, "table_bytes") > number_at(without, i, "table_bytes"));
+    assert_string_equal(cJSON_GetArrayItem(cJSON_GetObjectItem(with, "materials"), 0)->valuestring,
+                        "wall=phong:5");
+    cJSON_Delete(without);
+    cJSON_Delete(with);
+    with = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2 --device gpu --material "
+                        "'wall=phong:5'");
+    assert_int_equal(count_rows(with), 3);
+    assert_string_equal(text_at(with, 0, "method"), "coefficients");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(row_at(with, 0), "vs_paper")));
+    cJSON_Delete(with);
+}
+
+/* The short selection, and what --full does not find fixed. */
+static void options_fix_what_the_rows_are_of(void **state) {
+    static const struct {
+        const char *options;
+        int rows, scenes, bands, lights;
+    } choices[] = {
+        { "--scene $F/a\\\"b.obj", 10, 1, 6, 7 }, /* 30 lights, but for 8 bands 5 numbers */
+        { "--scene $F/a\\\"b.obj --bands 8", 1, 1, 1, 1 },
+        { "--scene $F/a\\\"b.obj --lights 4", 6, 1, 6, 1 },
+        { "--full --scene $F/a\\\"b.obj", 36, 1, 6, 36 },
+        { "--full --scene $F/a\\\"b.obj --bands 2", 6, 1, 1, 6 },
+        { "--full --scene $F/a\\\"b.obj --lights 4", 6, 1, 6, 1 },
+        { "--full --bands 2 --lights 1", 2, 2, 1, 1 },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        char arguments[256];
+        snprintf(arguments, sizeof arguments, TINY "--device cpu --method zonal %s",
+                 choices[i].options);
+        cJSON *root = rows_of(arguments);
+        if (count_rows(root) != choices[i].rows ||
+            count_values(root, "scene") != choices[i].scenes ||
+            count_values(root, "bands") != choices[i].bands ||
+            count_values(root, "lights") != choices[i].lights)
+            fail_msg("%s: %d rows of %d scenes, %d bands, %d lights", choices[i].options,
+                     count_rows(root), count_values(root, "scene"), count_values(root, "bands"),
+                     count_values(root, "lights"));
+        cJSON_Delete(root);
+    }
+}
+
+static void bad_options_end_before_anything_runs(void **state) {
+    static const struct {
+        int status;
+        const char *options;
+    } refused[] = {
+        { 2, "--method paper --bands 50" },
+        { 2, "--device cpu --method coefficients" },
+        { 2, "--method paper --scene $F/a\\\"b.obj --material wall=phong:5" },
+        { 2, "--full --material wall=phong:5" },
+        { 2, "--method polar" },
+        { 2, "--device tpu" },
+        { 2, "--lights 1025" },
+        { 2, "--size 0x4" },
+        { 1, "--scene $F/none.obj" },
+        { 1, "--scene $F/a\\\"b.obj --material wall" },
+        { 1, "--scene $F/a\\\"b.obj --material ball=phong:5" },
+        { 1, "--scene $F/a\\\"b.obj --material wall=phong:x" },
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        const int status = bench(refused[i].options);
+        char *out = read_output("out"), *err = read_output("err");
+        const char *end = strchr(err, '\n');
+        if (status != refused[i].status || *out || !end || end[1] ||
+            strncmp(err, "lampion", 7) != 0)
+            fail_msg("%s: status %d, \"%s\", \"%s\"", refused[i].options, status, out, err);
+        free(out);
+        free(err);
+    }
+}
+
+static int prepare(void **state) {
+    (void)state;
+    if (!mkdtemp(folder) || !getenv("LAMPION_PROGRAM"))
+        return 1;
+    /* llvmpipe's LLVM leaks and is unloaded before the check, so no suppression can name it */
+    setenv("ASAN_OPTIONS", "detect_leaks=0", true);
+    folder_write_text("a.mtl", "newmtl wall\nKd 0.5 0.5 0.5\n");
+    folder_write_text(OWN_SCENE,
+                      "mtllib a.mtl\nv -1 0 0\nv 1 0 0\nv 0 1 0\nusemtl wall\nf 1 2 3\n");
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_setting_has_a_row_of_each_method),
+        cmocka_unit_test(materials_are_in_the_rows),
+        cmocka_unit_test(options_fix_what_the_rows_are_of),
+        cmocka_unit_test(bad_options_end_before_anything_runs),
+    };
+    return cmocka_run_group_tests(tests, prepare, folder_remove);
+}
