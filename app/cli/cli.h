@@ -90,8 +90,13 @@ void cli_man(const char *summary, const cli_command *const *commands,
 bool cli_fail_word(cli_error *error, const char *subject, const char *word,
                    const char *const *names);
 
-/* The same as cli_usage. */
-int cli_usage_word(const cli_command *command, const char *word, const char *const *names);
+/* Fails with "subject: no such kind: …" likewise; the names are members of an array of structs: the
+ * first, the bytes from one to the next, and how many there are. */
+bool cli_fail_member(cli_error *error, const char *subject, const char *kind, const char *word,
+                     const char *first, size_t stride, size_t count);
+
+/* The same as cli_usage of an operand, which is none of what the command's operands begin with. */
+int cli_usage_operand(const cli_command *command, const char *word);
 
 /* The entry of `names` (NULL-terminated) nearest to `word`, or NULL if none is near. */
 const char *cli_nearest(const char *word, const char *const *names);

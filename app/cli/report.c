@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#define _DEFAULT_SOURCE /* strsep */
 #include "app/cli/cli.h"
 
 #include <stdarg.h>
@@ -52,14 +53,32 @@ bool cli_fail_word(cli_error *error, const char *subject, const char *word,
                     nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
 }
 
+bool cli_fail_member(cli_error *error, const char *subject, const char *kind, const char *word,
+                     const char *first, size_t stride, size_t count) {
+    enum { NAMES = 64 };
+    const char *names[NAMES + 1] = { NULL };
+    char place[512];
+    for (size_t i = 0; i < count && i < NAMES; i++)
+        names[i] = first + i * stride;
+    snprintf(place, sizeof place, "%.400s: no such %s", subject, kind);
+    return count ? cli_fail_word(error, place, word, names)
+                 : cli_fail(error, place, "\"%s\", for there is none", word);
+}
+
 int cli_report(const cli_error *error) {
     cli_progress_end();
     fprintf(stderr, "lampion: %s\n", error->text);
     return CLI_FAILURE;
 }
 
-int cli_usage_word(const cli_command *command, const char *word, const char *const *names) {
+int cli_usage_operand(const cli_command *command, const char *word) {
+    char words[128];
+    const char *names[16] = { NULL };
     cli_error error;
+    snprintf(words, sizeof words, "%.*s", (int)strcspn(command->operands, " "), command->operands);
+    char *rest = words;
+    for (size_t i = 0; i < sizeof names / sizeof *names - 1 && rest; i++)
+        names[i] = strsep(&rest, "|");
     cli_fail_word(&error, NULL, word, names);
     return cli_usage(command, "%s", error.text);
 }

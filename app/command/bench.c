@@ -655,9 +655,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         return bench_gpu(command, &o);
     }
     if (count != 1)
-        return cli_usage(command, "what to measure: cpu or gpu");
+        return cli_usage(command, "what to measure: %s", command->operands);
     if (strcmp(operands[0], "cpu") != 0)
-        return cli_usage_word(command, operands[0], (const char *const[]) { "cpu", "gpu", NULL });
+        return cli_usage_operand(command, operands[0]);
     return bench_cpu(&o);
 }
 

@@ -238,15 +238,17 @@ static const struct {
 
 static int run_action(const cli_command *command, const brdf_options *o, int count,
                       char **operands) {
-    static const char *const names[] = { "info",    "eval",  "bake", "plot",
-                                         "convert", "bands", "list", NULL };
     cli_error error;
-    if (strcmp(operands[0], "list") == 0 && count == 1) {
+    if (strcmp(operands[0], "list") == 0) {
+        if (count != 1)
+            return cli_usage(command, "list takes no MATERIAL, %d given", count - 1);
         for (size_t i = 0; lmp_sgd_name(i); i++)
             printf("sgd:%s\n", lmp_sgd_name(i));
         return CLI_OK;
     }
-    if (strcmp(operands[0], "bands") == 0 && count > 1) {
+    if (strcmp(operands[0], "bands") == 0) {
+        if (count == 1)
+            return cli_usage(command, "bands needs a MATERIAL");
         puts("material,3,5,10,20,40,80,128,bands_for_10_percent,bands_for_1_percent");
         for (int i = 1; i < count; i++)
             if (!study_bands(operands[i], &error))
@@ -268,7 +270,7 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
         }
         return ok ? CLI_OK : cli_report(&error);
     }
-    return cli_usage_word(command, operands[0], names);
+    return cli_usage_operand(command, operands[0]);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {

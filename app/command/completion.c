@@ -160,7 +160,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (count != 1)
-        return cli_usage(command, "needs one shell: bash, zsh or fish");
+        return cli_usage(command, "needs one shell: %s", command->operands);
     for (size_t i = 0; i < sizeof shells / sizeof *shells; i++) {
         if (strcmp(operands[0], shells[i].name) != 0)
             continue;
@@ -171,8 +171,7 @@ static int run(const cli_command *command, int argc, char **argv) {
             shells[i].end();
         return CLI_OK;
     }
-    return cli_usage_word(command, operands[0],
-                          (const char *const[]) { "bash", "zsh", "fish", NULL });
+    return cli_usage_operand(command, operands[0]);
 }
 
 const cli_command command_completion = {

@@ -6,17 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reports that no material has this name, and names those there are. */
-static bool unknown_slot(const scene *world, const char *slot, cli_error *error) {
-    enum { NAMES = 64 };
-    const char *names[NAMES + 1] = { NULL };
-    for (size_t i = 0; i < world->material_count && i < NAMES; i++)
-        names[i] = world->materials[i].name;
-    char subject[512];
-    snprintf(subject, sizeof subject, "%.400s: no such material", world->origin);
-    return cli_fail_word(error, subject, slot, names);
-}
-
 /* Notes that the materials named like the slot are replaced by entry `entry`. */
 static bool use_entry(const scene *world, const char *text, size_t slot_length, int entry,
                       int *uses, cli_error *error) {
@@ -30,7 +19,9 @@ static bool use_entry(const scene *world, const char *text, size_t slot_length, 
             uses[i] = entry;
             found = true;
         }
-    return found || unknown_slot(world, slot, error);
+    return found ||
+           cli_fail_member(error, world->origin, "material", slot, world->materials[0].name,
+                           sizeof *world->materials, world->material_count);
 }
 
 bool device_materials_open(const cli_list *list, const scene *world, device_materials *all,

@@ -69,14 +69,8 @@ static lmp_response *read_lobes(const char *path, const lmp_response_desc *desc)
     return NULL;
 }
 
-static void write_lobes(const char *path, const lmp_response *response) {
-    const size_t size = lmp_response_size(response);
-    void *bytes = malloc(size);
-    if (bytes) {
-        lmp_response_write(response, bytes);
-        file_cache_store(path, bytes, size);
-    }
-    free(bytes);
+static void write_lobes(const void *response, void *bytes) {
+    lmp_response_write(response, bytes);
 }
 
 bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error) {
@@ -93,7 +87,7 @@ bool device_response(int bands, lmp_window window, lmp_response **response, cli_
     if (result != LMP_OK)
         return cli_fail(error, NULL, "the lobes of %d bands: %s", bands, lmp_result_text(result));
     if (cached)
-        write_lobes(path, *response);
+        file_cache_store_object(path, lmp_response_size(*response), write_lobes, *response);
     return true;
 }
 
@@ -128,14 +122,8 @@ static lmp_brdf_response *read_measured(const char *path) {
     return response;
 }
 
-static void write_measured(const char *path, const lmp_brdf_response *response) {
-    const size_t size = lmp_brdf_response_size(response);
-    void *bytes = malloc(size);
-    if (bytes) {
-        lmp_brdf_response_write(response, bytes);
-        file_cache_store(path, bytes, size);
-    }
-    free(bytes);
+static void write_measured(const void *response, void *bytes) {
+    lmp_brdf_response_write(response, bytes);
 }
 
 /* Says why a material is summed by its bands. */
@@ -170,6 +158,6 @@ bool device_brdf_response(const material *from, const lmp_brdf_table *table,
     if (result != LMP_OK)
         return cli_fail(error, from->name, "%s", lmp_result_text(result));
     if (cached)
-        write_measured(path, *response);
+        file_cache_store_object(path, lmp_brdf_response_size(*response), write_measured, *response);
     return true;
 }

@@ -164,3 +164,13 @@ void file_cache_store(const char *path, const void *data, size_t size) {
     else
         file_write_abort(&writer);
 }
+
+void file_cache_store_object(const char *path, size_t size,
+                             void (*write)(const void *object, void *bytes), const void *object) {
+    void *bytes = malloc(size);
+    if (bytes) {
+        write(object, bytes);
+        file_cache_store(path, bytes, size);
+    }
+    free(bytes);
+}

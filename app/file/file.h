@@ -62,6 +62,10 @@ void file_cache_unmap(const void *data, size_t size);
  * limit holds; without effect where that is impossible. */
 void file_cache_store(const char *path, const void *data, size_t size);
 
+/* The same of the `size` bytes that an object is written to. */
+void file_cache_store_object(const char *path, size_t size,
+                             void (*write)(const void *object, void *bytes), const void *object);
+
 typedef struct file_cache_usage {
     size_t files;
     uint64_t bytes, limit;

@@ -291,12 +291,8 @@ static void *bytes_of(const lmp_brdf_table *table, size_t *size) {
     return bytes;
 }
 
-static void write_cached(const char *path, const lmp_brdf_table *table) {
-    size_t size;
-    void *const bytes = bytes_of(table, &size);
-    if (bytes)
-        file_cache_store(path, bytes, size);
-    free(bytes);
+static void write_bytes(const void *table, void *bytes) {
+    lmp_brdf_table_write(table, bytes);
 }
 
 static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_error *error) {
@@ -328,7 +324,7 @@ bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_
     if (result != LMP_OK)
         return cli_fail(error, m->name, "%s", lmp_result_text(result));
     if (cached)
-        write_cached(path, *table);
+        file_cache_store_object(path, lmp_brdf_table_size(*table), write_bytes, *table);
     return true;
 }
 

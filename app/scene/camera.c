@@ -3,7 +3,6 @@
 #include "app/scene/scene.h"
 #include "app/scene/vector.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,13 +15,8 @@ static bool find_camera(const scene *world, const char *wanted, scene_camera *ca
             *camera = world->cameras[i];
             return true;
         }
-    enum { NAMES = 64 };
-    const char *names[NAMES + 1] = { NULL };
-    for (size_t i = 0; i < world->camera_count && i < NAMES; i++)
-        names[i] = world->cameras[i].name;
-    char subject[512];
-    snprintf(subject, sizeof subject, "%.400s: no such camera", world->origin);
-    return cli_fail_word(error, subject, wanted, names);
+    return cli_fail_member(error, world->origin, "camera", wanted, world->cameras[0].name,
+                           sizeof *world->cameras, world->camera_count);
 }
 
 /* A direction of up that the camera does not look along. */

@@ -36,6 +36,17 @@ double check_error(size_t count, const double *expected, const float *actual) {
     return error;
 }
 
+void check_errors_add(check_errors *errors, double error) {
+    if (!(error <= errors->largest) && !isnan(errors->largest))
+        errors->largest = error;
+    errors->squares += error * error;
+    errors->count++;
+}
+
+double check_errors_rms(const check_errors *errors) {
+    return sqrt(errors->squares / (double)errors->count);
+}
+
 /* --- random numbers --------------------------------------------------------------------------- */
 
 /* splitmix64 */

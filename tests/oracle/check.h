@@ -23,6 +23,14 @@ void check_within(double error, double bound, const char *file, int line);
 double check_error(size_t count, const double *expected, const float *actual);
 double check_error_double(size_t count, const double *expected, const double *actual);
 
+/* Errors gathered one by one; a NaN stays the largest. */
+typedef struct check_errors {
+    double largest, squares;
+    long count;
+} check_errors;
+void check_errors_add(check_errors *errors, double error);
+double check_errors_rms(const check_errors *errors);
+
 /* --- random numbers ---------------------------------------------------------------------------
  * One fixed seed, printed at the first use, settable by the environment variable LAMPION_SEED. */
 double check_random(void);                       /* uniform in [0, 1) */

@@ -58,5 +58,7 @@ refuse 1 'name it .binary or .bsdf' convert lambert:1 -o "$WORK/x.txt"
 [ ! -e "$WORK/x.txt" ] || fail "an output was left behind"
 refuse 2 'needs -o FILE' bake lambert:1
 refuse 2 'needs one MATERIAL' info
+refuse 2 'bands needs a MATERIAL' bands
+refuse 2 'list takes no MATERIAL' list x
 refuse 2 'is none of info.*did you mean bake' bkae lambert:1
 refuse 2 'is none of info' paint lambert:1

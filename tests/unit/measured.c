@@ -89,15 +89,10 @@ static float peak_of_views(const lmp_brdf_table *table, float radius) {
     return peak;
 }
 
-typedef struct error_sum {
-    double largest, squares;
-    long count;
-} error_sum;
-
 enum { DIRECTIONS = 40 };
 
 static void compare(const lmp_brdf_table *table, const lmp_brdf_response *response, const probe *p,
-                    error_sum *errors) {
+                    check_errors *errors) {
     const double detail = (double)lmp_brdf_response_describe(response).width;
     lmp_rgb expected[DIRECTIONS], read[DIRECTIONS];
     float peak = 0.05f * peak_of_views(table, p->radius);
@@ -111,13 +106,8 @@ static void compare(const lmp_brdf_table *table, const lmp_brdf_response *respon
         const double off[3] = { (double)(read[i].r - expected[i].r),
                                 (double)(read[i].g - expected[i].g),
                                 (double)(read[i].b - expected[i].b) };
-        for (int c = 0; c < 3; c++) {
-            const double error = fabs(off[c]) / (double)peak;
-            if (!(error <= errors->largest))
-                errors->largest = error;
-            errors->squares += error * error;
-            errors->count++;
-        }
+        for (int c = 0; c < 3; c++)
+            check_errors_add(errors, fabs(off[c]) / (double)peak);
     }
 }
 
@@ -130,12 +120,12 @@ static probe random_probe(double least, double most) {
 static void check_probes(const char *what, const lmp_brdf_table *table, int probes) {
     lmp_brdf_response *response = created(table, 0);
     const lmp_brdf_response_info info = lmp_brdf_response_describe(response);
-    error_sum errors = { 0 };
+    check_errors errors = { 0 };
     for (int i = 0; i < probes; i++) {
         const probe p = random_probe(-4, log10(0.99));
         compare(table, response, &p, &errors);
     }
-    const double rms = sqrt(errors.squares / (double)errors.count);
+    const double rms = check_errors_rms(&errors);
     print_message("%s, %d bands, window %d: %.1f MB, %ld values, error max %.3f %%, rms %.4f %%\n",
                   what, info.bands, (int)info.window, (double)info.bytes / 1e6, errors.count,
                   100 * errors.largest, 100 * rms);
@@ -194,7 +184,7 @@ static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
     (void)state;
     lmp_brdf_table *table = sgd_table("red-fabric", 8, LMP_WINDOW_HANNING);
     lmp_brdf_response *response = created(table, 0);
-    error_sum errors = { 0 };
+    check_errors errors = { 0 };
     for (int i = 0; i < 60; i++) {
         const probe p = i % 2 ? random_probe(0, 2) : random_probe(-1e-4, 1e-4);
         compare(table, response, &p, &errors);

@@ -64,39 +64,29 @@ static float peak(const probe *p) {
     return largest;
 }
 
-typedef struct error_sum {
-    double largest, squares;
-    long count;
-} error_sum;
-
-static void errors_add(error_sum *errors, double error) {
-    if (!(error <= errors->largest))
-        errors->largest = error;
-    errors->squares += error * error;
-    errors->count++;
-}
-
 /* Half of the angles anywhere on the sphere, half where the lobe is. */
-static void compare(const lmp_response *response, const probe *p, int angles, error_sum *errors) {
+static void compare(const lmp_response *response, const probe *p, int angles,
+                    check_errors *errors) {
     const float top = peak(p), near = asinf(fminf(p->light.radius, 1)) +
                                       4 / sqrtf(p->exponent + 1) + 4 / (float)p->bands;
     for (int i = 0; i < angles; i++) {
         const float angle = i % 2 ? acosf((float)check_random_between(-1, 1))
                                   : (float)check_random_between(0, (double)fminf(near, pi));
-        errors_add(errors, (double)(fabsf(read(response, p, angle) - series(p, angle)) / top));
+        check_errors_add(errors,
+                         (double)(fabsf(read(response, p, angle) - series(p, angle)) / top));
     }
 }
 
 static void check_random_probes(int bands, lmp_window window, int probes) {
     lmp_response *response = created(bands, window, 0);
-    error_sum errors = { 0 };
+    check_errors errors = { 0 };
     for (int i = 0; i < probes; i++) {
         const double e = pow(10, check_random_between(0, 4)),
                      r = pow(10, check_random_between(-4, log10(0.99)));
         const probe p = probe_make(bands, window, (float)e, (float)r);
         compare(response, &p, 50, &errors);
     }
-    const double rms = sqrt(errors.squares / (double)errors.count);
+    const double rms = check_errors_rms(&errors);
     print_message("%d bands, window %d: %zu bytes, %ld values, error max %.3f %%, rms %.4f %%\n",
                   bands, (int)window, lmp_response_describe(response).bytes, errors.count,
                   100 * errors.largest, 100 * rms);
@@ -121,7 +111,7 @@ static void lobes_below_exponent_1_are_within_3_percent(void **state) {
     const int bands[] = { 4, 10, 40 };
     for (int b = 0; b < 3; b++) {
         lmp_response *response = created(bands[b], LMP_WINDOW_NONE, 0);
-        error_sum errors = { 0 };
+        check_errors errors = { 0 };
         for (int i = 0; i < 200; i++) {
             const probe p =
                 probe_make(bands[b], LMP_WINDOW_NONE, (float)check_random(), (float)check_random());
@@ -137,7 +127,7 @@ static void a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory(voi
     size_t bytes = SIZE_MAX;
     for (float bound = 0.002f; bound < 0.1f; bound *= 4) {
         lmp_response *response = created(12, LMP_WINDOW_NONE, bound);
-        error_sum errors = { 0 };
+        check_errors errors = { 0 };
         for (int i = 0; i < 300; i++) {
             const probe p =
                 probe_make(12, LMP_WINDOW_NONE, (float)pow(10, check_random_between(0, 4)),
@@ -154,7 +144,7 @@ static void a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory(voi
 static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
     (void)state;
     lmp_response *response = created(16, LMP_WINDOW_NONE, 0);
-    error_sum errors = { 0 };
+    check_errors errors = { 0 };
     for (int i = 0; i < 400; i++) {
         const float radius = i < 200 ? (float)check_random_between(1, 100)
                                      : (float)check_random_between(0.999, 1.001);
@@ -296,17 +286,8 @@ static void bytes_read_back_are_the_same_response(void **state) {
     lmp_response_destroy(copy);
 }
 
-/* CRC-32C bit by bit, to sign bytes that were changed on purpose. */
 static void sign(unsigned char *bytes, size_t size) {
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i + 4 < size; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = crc >> 1 ^ (crc & 1 ? 0x82f63b78u : 0);
-    }
-    crc = ~crc;
-    for (int i = 0; i < 4; i++)
-        bytes[size - 4 + (size_t)i] = (unsigned char)(crc >> 8 * i);
+    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
 }
 
 static void damaged_bytes_are_refused(void **state) {
