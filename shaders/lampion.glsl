@@ -379,6 +379,18 @@ mat3 lmp_view_frame(lmp_surface surface) {
     return transpose(mat3(tangent, cross(normal, tangent), normal));
 }
 
+/* The next q_l(z), monic, from the two before it. */
+#define LMP_MONIC(l, m, z, q, q1, q2)                                                              \
+    q = l == m ? 1.0                                                                               \
+               : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
+    q2 = q1;                                                                                       \
+    q1 = q;
+/* The next real part of (x + iy)^m from the two before it, with around = x² + y². */
+#define LMP_POWER(x, around, c, next)                                                              \
+    t = 2.0 * x * next - around * c;                                                               \
+    c = next;                                                                                      \
+    next = t;
+
 /* The same by the paper's method: the coefficients of all lights are summed, then multiplied with
  * those of the material.
  *
@@ -400,12 +412,6 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
 #undef LMP_ROW
 
     float q, q1, q2, c, d, s, t;
-#define LMP_MONIC(l, m, z, q, q1, q2)                                                              \
-    q = l == m ? 1.0                                                                               \
-               : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
-    q2 = q1;                                                                                       \
-    q1 = q;
-
     /* Two lights at once: each sum is read and written half as often. An odd last light is paired
      * with darkness. */
     for (int i = 0; i < LMP_LIGHT_COUNT; i += 2) {
@@ -430,10 +436,6 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
         sum[LMP_HALF_INDEX(l, m)] +=                                                               \
             color * (q * R[LMP_BAND(l)]) + color2 * (p * R2[LMP_BAND(l)]);                         \
     }
-#define LMP_POWER(x, around, c, next)                                                              \
-    t = 2.0 * x * next - around * c;                                                               \
-    c = next;                                                                                      \
-    next = t;
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
         q1 = q2 = p1 = p2 = 0.0;                                                                   \
@@ -445,7 +447,6 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
     }
         LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
-#undef LMP_POWER
 #undef LMP_ROW
     }
 
@@ -478,11 +479,12 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
 #undef LMP_ROW
-#undef LMP_MONIC
     vec3 reflected =
         material.diffuse / LMP_PI * gathered_diffuse + material.specular * gathered_glossy;
     return max(reflected, vec3(0.0));
 }
+#undef LMP_POWER
+#undef LMP_MONIC
 
 #endif
 #endif
