@@ -74,7 +74,7 @@ LMP_API lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_ma
 LMP_API lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
                                 lmp_vec3 tangent, const lmp_light *lights, size_t count);
 
-/* The same from the table's response, within its error: no sum over bands, no stack to speak of. An
+/* The same from the table's response, within its error: no sum over bands, 100 KB of stack. An
  * isotropic material needs no tangent. */
 LMP_API lmp_rgb lmp_shade_table_preintegrated(const lmp_brdf_response *response,
                                               const lmp_surface *surface, const lmp_light *lights,
@@ -98,7 +98,8 @@ typedef struct lmp_surfaces {
     lmp_vec3_array diffuse, specular;
     lmp_float_array exponent;
     const lmp_brdf_table *const *table; /* of the first surface; NULL: all have lobes */
-    size_t table_stride; /* bytes from one to the next; such surfaces go one by one */
+    size_t table_stride; /* bytes from one to the next; without a response such surfaces go one by
+                            one */
     const lmp_brdf_response *const *response; /* of the first surface's table, or NULL; read by
                                                  lmp_shade_preintegrated_n */
     size_t response_stride;

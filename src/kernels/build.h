@@ -3,8 +3,8 @@
  * CMake its instruction set. */
 #include "src/kernels/gradient.h"
 #include "src/kernels/lobe.h"
+#include "src/kernels/measured.h"
 #include "src/kernels/project.h"
-#include "src/kernels/shade.h"
 #include "src/kernels/vectors.h"
 
 extern const lmp_kernels LMP_KERNELS;
@@ -32,4 +32,5 @@ const lmp_kernels LMP_KERNELS = {
     .lobe = kernel_lobe,
     .shade_zonal = kernel_shade_zonal,
     .shade_response = kernel_shade_response,
+    .shade_measured = kernel_shade_measured,
 };

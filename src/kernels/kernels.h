@@ -56,6 +56,24 @@ typedef struct lmp_kernel_places {
     const float *share, *density, *lobe_angle;
 } lmp_kernel_places;
 
+/* A slice of a measured material's response, and the rest of it: members as in lampion/response.h,
+ * but that LMP_KERNEL_TEXELS_SPARE texels past the last one can be read, too. */
+typedef struct lmp_kernel_slice {
+    uint32_t first, rows, columns;
+    float row_density, row_origin, column_density, unit;
+} lmp_kernel_slice;
+#define LMP_KERNEL_TEXELS_SPARE 2
+
+typedef struct lmp_kernel_measured {
+    int mirrored;
+    float width, radius, reach, slope, lobe_angle;
+    uint32_t view_count, cap_count, view_steps, cap_steps;
+    const float *view_warp, *cap_warp;
+    const lmp_rgb *ambient;
+    const void *slices; /* lmp_kernel_slice */
+    const int16_t *texels;
+} lmp_kernel_measured;
+
 /* Surfaces to shade. */
 typedef struct lmp_kernel_surfaces {
     lmp_kernel_vec3 point, normal, view;
@@ -119,6 +137,11 @@ typedef struct lmp_kernels {
                            const lmp_kernel_places *specular, const lmp_kernel_surfaces *surfaces,
                            const lmp_kernel_light *lights, size_t light_count, size_t count,
                            const lmp_kernel_gathered *gathered);
+    /* Adds what a measured material reflects, in planes of red, green, blue, of the lights and of
+     * `ambient` from everywhere. Exponents are not read. */
+    void (*shade_measured)(const lmp_kernel_measured *material, const lmp_kernel_surfaces *surfaces,
+                           const lmp_kernel_light *lights, size_t light_count, lmp_rgb ambient,
+                           size_t count, float *const rgb[3]);
 } lmp_kernels;
 
 /* Unit of the coefficients of a response; lampion/response.h publishes it. */

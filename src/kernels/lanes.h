@@ -51,12 +51,16 @@
 #if LMP_LANES == 1
 
 typedef float vf;
+typedef int32_t vi;
 
 LMP_INLINE vf vf_sqrt(vf a) {
     return sqrtf(a);
 }
 LMP_INLINE vf vf_max(vf a, vf b) {
     return a > b ? a : b;
+}
+LMP_INLINE vf vf_min(vf a, vf b) {
+    return a < b ? a : b;
 }
 /* a < b ? yes : no */
 LMP_INLINE vf vf_select_less(vf a, vf b, vf yes, vf no) {
@@ -83,6 +87,9 @@ LMP_INLINE vf vf_sqrt(vf a) {
 LMP_INLINE vf vf_max(vf a, vf b) {
     return (vf)_mm512_max_ps((__m512)a, (__m512)b);
 }
+LMP_INLINE vf vf_min(vf a, vf b) {
+    return (vf)_mm512_min_ps((__m512)a, (__m512)b);
+}
 LMP_INLINE int vf_any_less(vf a, vf b) {
     return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ) != 0;
 }
@@ -92,6 +99,9 @@ LMP_INLINE vf vf_sqrt(vf a) {
 }
 LMP_INLINE vf vf_max(vf a, vf b) {
     return (vf)_mm256_max_ps((__m256)a, (__m256)b);
+}
+LMP_INLINE vf vf_min(vf a, vf b) {
+    return (vf)_mm256_min_ps((__m256)a, (__m256)b);
 }
 LMP_INLINE int vf_any_less(vf a, vf b) {
     return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LT_OQ)) != 0;
@@ -103,6 +113,9 @@ LMP_INLINE vf vf_sqrt(vf a) {
 LMP_INLINE vf vf_max(vf a, vf b) {
     return (vf)_mm_max_ps((__m128)a, (__m128)b);
 }
+LMP_INLINE vf vf_min(vf a, vf b) {
+    return (vf)_mm_min_ps((__m128)a, (__m128)b);
+}
 LMP_INLINE int vf_any_less(vf a, vf b) {
     return _mm_movemask_ps(_mm_cmplt_ps((__m128)a, (__m128)b)) != 0;
 }
@@ -112,6 +125,9 @@ LMP_INLINE vf vf_sqrt(vf a) {
 }
 LMP_INLINE vf vf_max(vf a, vf b) {
     return vf_select_less(b, a, a, b);
+}
+LMP_INLINE vf vf_min(vf a, vf b) {
+    return vf_select_less(a, b, a, b);
 }
 LMP_INLINE int vf_any_less(vf a, vf b) {
     return vmaxvq_u32(vcltq_f32((float32x4_t)a, (float32x4_t)b)) != 0;
@@ -124,6 +140,21 @@ LMP_INLINE int vf_any_less(vf a, vf b) {
 LMP_INLINE vf vf_set(float s) {
     const vf zero = { 0 };
     return s - zero;
+}
+/* Towards 0; the number fits. */
+LMP_INLINE vi vi_from(vf x) {
+#if LMP_LANES == 1
+    return (vi)x;
+#else
+    return __builtin_convertvector(x, vi);
+#endif
+}
+LMP_INLINE vf vf_from(vi x) {
+#if LMP_LANES == 1
+    return (vf)x;
+#else
+    return __builtin_convertvector(x, vf);
+#endif
 }
 LMP_INLINE vf vf_load(const float *from) {
     vf v;

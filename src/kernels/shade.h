@@ -26,20 +26,20 @@ typedef struct shade_aim {
     int everywhere;
 } shade_aim;
 
-LMP_INLINE void shade_aim_at(const lmp_kernel_light *light, size_t e, const shade_block *block,
-                             shade_aim *aim) {
+/* Sets all but u and v. Of the cap, x, y, z times per_d are its axis. */
+LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf point[3],
+                               shade_aim *aim) {
     vf x = vf_set(light->x), y = vf_set(light->y), z = vf_set(light->z);
     if (light->w > 0) {
-        x = x - block->point[0];
-        y = y - block->point[1];
-        z = z - block->point[2];
+        x = x - point[0];
+        y = y - point[1];
+        z = z - point[2];
     }
-    const cap_lanes cap = cap_from(x, y, z, vf_set(light->radius), 0);
-    const vf *normal = block->normal, *mirror = block->mirror;
-    vf per_d = cap.per_d, weight = cap.t;
+    cap_lanes cap = cap_from(x, y, z, vf_set(light->radius), 0);
+    vf weight = cap.t;
     if (__builtin_expect(cap.inside, 0)) {
         /* even is -1 inside: the complementary cap is taken away from light all around. */
-        per_d = per_d * cap.even;
+        cap.per_d = cap.per_d * cap.even;
         weight = weight * cap.even;
         aim->ambient = (vf_set(1) - cap.even) * 0.5f;
     }
@@ -50,10 +50,20 @@ LMP_INLINE void shade_aim_at(const lmp_kernel_light *light, size_t e, const shad
             aim->ambient = aim->ambient * scale;
     }
     aim->everywhere = cap.inside;
-    aim->u = (normal[0] * cap.x + normal[1] * cap.y + normal[2] * cap.z) * per_d;
-    aim->v = (mirror[0] * cap.x + mirror[1] * cap.y + mirror[2] * cap.z) * per_d;
     aim->t = cap.t;
     aim->weight = weight;
+    return cap;
+}
+
+LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
+    return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
+}
+
+LMP_INLINE void shade_aim_at(const lmp_kernel_light *light, size_t e, const shade_block *block,
+                             shade_aim *aim) {
+    const cap_lanes cap = shade_cap(light, e, block->point, aim);
+    aim->u = shade_dot(block->normal, &cap) * cap.per_d;
+    aim->v = shade_dot(block->mirror, &cap) * cap.per_d;
 }
 
 /* What both lobes of a block of surfaces have gathered: red, green, blue. */
@@ -321,23 +331,6 @@ LMP_INLINE void spline_weights(vf x, vf w[4]) {
     w[2] = 4 + 3 * (y * y) * (y - 2);
     w[3] = x * x * x;
 }
-
-#if LMP_LANES == 1
-typedef int32_t vi;
-LMP_INLINE vi vi_from(vf x) {
-    return (vi)x;
-}
-LMP_INLINE vf vf_from(vi x) {
-    return (vf)x;
-}
-#else
-LMP_INLINE vi vi_from(vf x) {
-    return __builtin_convertvector(x, vi);
-}
-LMP_INLINE vf vf_from(vi x) {
-    return __builtin_convertvector(x, vf);
-}
-#endif
 
 /* Where the lobes of a block lie. */
 typedef struct response_lanes {

@@ -3,6 +3,7 @@
 
 #include "src/base/heap.h"
 #include "src/base/parallel.h"
+#include "src/kernels/kernels.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -18,10 +19,13 @@ lmp_result lmp_measured_allocate(const lmp_allocator *allocator, const lmp_brdf_
                                  lmp_brdf_response **response) {
     const lmp_allocator heap = lmp_heap_resolve(allocator);
     const lmp_brdf_response_info *info = &plan->info;
+    *response = NULL;
+    if (info->texel_count > MEASURED_TEXELS_MAX)
+        return LMP_ERROR_MEMORY;
     const size_t slices = (size_t)info->view_count * info->cap_count;
     const size_t slice_bytes = slices * sizeof(lmp_brdf_response_slice);
     const size_t ambient_bytes = info->view_count * sizeof(lmp_rgb);
-    const size_t texel_bytes = info->texel_count * 3 * sizeof(int16_t);
+    const size_t texel_bytes = (info->texel_count + LMP_KERNEL_TEXELS_SPARE) * 3 * sizeof(int16_t);
     lmp_brdf_response *made =
         lmp_heap_allocate(&heap, sizeof *made + slice_bytes + ambient_bytes + texel_bytes);
     *response = made;
@@ -37,6 +41,7 @@ lmp_result lmp_measured_allocate(const lmp_allocator *allocator, const lmp_brdf_
     made->info.slices = made->slices;
     made->info.ambient = made->ambient;
     made->info.texels = made->texels;
+    memset(made->texels + 3 * info->texel_count, 0, LMP_KERNEL_TEXELS_SPARE * 3 * sizeof(int16_t));
     made->info.bytes = sizeof *made + slice_bytes + ambient_bytes + texel_bytes;
     return LMP_OK;
 }

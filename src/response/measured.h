@@ -9,6 +9,8 @@
 /* Views and half angles are chosen among so many steps. */
 #define MEASURED_STEPS_MAX 1024
 #define MEASURED_CAP_STEPS 128
+/* Kernels count three numbers a texel in 31 bits. */
+#define MEASURED_TEXELS_MAX ((size_t)INT32_MAX / 3)
 /* Errors are relative to a view's largest value, but at least this part of all views'. */
 #define LMP_MEASURED_FLOOR 0.05
 

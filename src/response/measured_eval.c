@@ -1,10 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* measured_eval.c - one reading of a measured material's response. */
-#include "src/response/measured_eval.h"
-
+/* measured_eval.c - one reading of a measured material's response; the kernels and the shader do
+ * the same (docs/shading.md). */
+#include "src/response/measured.h"
 #include "src/response/spline.h"
 
 #include <assert.h>
+
+/* Where a view lies. */
+typedef struct view_place {
+    const lmp_brdf_response_info *info;
+    float cosine, sine; /* of theta_o */
+    uint32_t view;
+    float share; /* of the view after it */
+} view_place;
 
 /* The slice coordinate at `share` of a warp, as the first of two slices and the second's share. */
 static float seek(const float *warp, uint32_t steps, uint32_t count, float share, uint32_t *first) {
@@ -15,8 +23,7 @@ static float seek(const float *warp, uint32_t steps, uint32_t count, float share
     return slice - (float)*first;
 }
 
-void lmp_measured_seek(const lmp_brdf_response_info *info, float cos_theta_o,
-                       lmp_measured_place *place) {
+static void seek_view(const lmp_brdf_response_info *info, float cos_theta_o, view_place *place) {
     const float cosine = fminf(fmaxf(cos_theta_o, 0), 1);
     const float theta = lmp_response_angle(1 - cosine);
     place->info = info;
@@ -53,7 +60,7 @@ static void add_slice(const lmp_brdf_response_info *info, const lmp_brdf_respons
 }
 
 /* The axis seen from the mirror direction (-sine, 0, cosine): its angle, and the azimuth. */
-static float angle_from_mirror(const lmp_measured_place *place, lmp_vec3 axis, float *azimuth) {
+static float angle_from_mirror(const view_place *place, lmp_vec3 axis, float *azimuth) {
     const float z = axis.z * place->cosine - axis.x * place->sine;
     const float x = axis.x * place->cosine + axis.z * place->sine, y = axis.y;
     const float across2 = x * x + y * y, across = sqrtf(across2);
@@ -66,8 +73,12 @@ static float angle_from_mirror(const lmp_measured_place *place, lmp_vec3 axis, f
     return z < 0 ? (float)LMP_RESPONSE_PI - g : g;
 }
 
-lmp_rgb lmp_measured_at(const lmp_measured_place *place, lmp_vec3 axis, float one_minus) {
-    const lmp_brdf_response_info *info = place->info;
+lmp_rgb lmp_brdf_response_eval(const lmp_brdf_response *response, float cos_theta_o, lmp_vec3 axis,
+                               float one_minus) {
+    assert(one_minus >= 0 && one_minus <= 1);
+    const lmp_brdf_response_info own = lmp_brdf_response_describe(response), *info = &own;
+    view_place own_place, *place = &own_place;
+    seek_view(info, cos_theta_o, place);
     float azimuth, rgb[3] = { 0, 0, 0 };
     uint32_t cap;
     const float g = angle_from_mirror(place, axis, &azimuth);
@@ -87,25 +98,12 @@ lmp_rgb lmp_measured_at(const lmp_measured_place *place, lmp_vec3 axis, float on
     return (lmp_rgb) { scale * rgb[0], scale * rgb[1], scale * rgb[2] };
 }
 
-lmp_rgb lmp_measured_ambient(const lmp_measured_place *place) {
-    const lmp_rgb *a = place->info->ambient + place->view;
-    const float t = place->share;
-    return (lmp_rgb) { a[0].r + t * (a[1].r - a[0].r), a[0].g + t * (a[1].g - a[0].g),
-                       a[0].b + t * (a[1].b - a[0].b) };
-}
-
-lmp_rgb lmp_brdf_response_eval(const lmp_brdf_response *response, float cos_theta_o, lmp_vec3 axis,
-                               float one_minus) {
-    assert(one_minus >= 0 && one_minus <= 1);
-    const lmp_brdf_response_info info = lmp_brdf_response_describe(response);
-    lmp_measured_place place;
-    lmp_measured_seek(&info, cos_theta_o, &place);
-    return lmp_measured_at(&place, axis, one_minus);
-}
-
 lmp_rgb lmp_brdf_response_ambient(const lmp_brdf_response *response, float cos_theta_o) {
     const lmp_brdf_response_info info = lmp_brdf_response_describe(response);
-    lmp_measured_place place;
-    lmp_measured_seek(&info, cos_theta_o, &place);
-    return lmp_measured_ambient(&place);
+    view_place place;
+    seek_view(&info, cos_theta_o, &place);
+    const lmp_rgb *a = info.ambient + place.view;
+    const float t = place.share;
+    return (lmp_rgb) { a[0].r + t * (a[1].r - a[0].r), a[0].g + t * (a[1].g - a[0].g),
+                       a[0].b + t * (a[1].b - a[0].b) };
 }

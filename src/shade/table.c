@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include "src/response/measured_eval.h"
-
 #include <lampion/shade.h>
 
 #include <math.h>
@@ -80,26 +78,4 @@ lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
     lmp_brdf_table_view(table, dot(surface->view, n), phi, rgb);
     return (lmp_rgb) { gather(&info, sum, rgb), gather(&info, sum + plane, rgb + info.count),
                        gather(&info, sum + 2 * plane, rgb + 2 * info.count) };
-}
-
-lmp_rgb lmp_shade_table_preintegrated(const lmp_brdf_response *response, const lmp_surface *surface,
-                                      const lmp_light *lights, size_t count) {
-    const lmp_brdf_response_info info = lmp_brdf_response_describe(response);
-    const lmp_vec3 n = surface->normal;
-    frame view = { .x = across((lmp_vec3) { 0, 0, 0 }, n), .z = n };
-    flatten(surface->view, n, &view.x);
-    view.y = cross(n, view.x);
-    lmp_measured_place place;
-    lmp_measured_seek(&info, dot(surface->view, n), &place);
-    const lmp_rgb ambient = lmp_measured_ambient(&place);
-    lmp_rgb sum = { 0, 0, 0 };
-    for (size_t i = 0; i < count; i++) {
-        lmp_cap cap;
-        lmp_light_cap(&lights[i], surface->position, &cap);
-        const lmp_rgb value = lmp_measured_at(&place, into(&view, cap.axis), cap.one_minus);
-        sum.r += cap.strength.r * value.r + cap.ambient.r * ambient.r;
-        sum.g += cap.strength.g * value.g + cap.ambient.g * ambient.g;
-        sum.b += cap.strength.b * value.b + cap.ambient.b * ambient.b;
-    }
-    return (lmp_rgb) { fmaxf(sum.r, 0), fmaxf(sum.g, 0), fmaxf(sum.b, 0) };
 }

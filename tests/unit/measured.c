@@ -194,51 +194,6 @@ static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-static void many_surfaces_are_shaded_like_one(void **state) {
-    (void)state;
-    lmp_brdf_table *table = sgd_table("green-plastic", 6, LMP_WINDOW_HANNING);
-    lmp_brdf_response *response = created(table, 0.02f);
-    lmp_response *lobes;
-    assert_int_equal(
-        lmp_response_create(NULL, &(lmp_response_desc) { .bands = 6, .error = 0.05f }, &lobes),
-        LMP_OK);
-    lmp_light lights[4] = {
-        { .position = { 0.3f, 1, 2 }, .radius = 0.4f, .radiance = { 3, 2, 1 } },
-        { .kind = LMP_LIGHT_HEMISPHERE, .direction = { 0, 0, 1 }, .radiance = { 1, 1, 1 } },
-        { .kind = LMP_LIGHT_POINT, .position = { -1, 0, 1 }, .intensity = { 1, 2, 3 } },
-        { .position = { 0, 0, 0.1f }, .radius = 2, .radiance = { 0.5f, 0.5f, 0.5f } },
-    };
-    const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { 0.6f, 0, 0.8f } };
-    const lmp_material materials[2] = { { .diffuse = { 0.5f, 0.4f, 0.3f }, .exponent = 3 },
-                                        { .table = table, .response = response } };
-    const lmp_surfaces two = {
-        .position = lmp_vec3_array_same(&surface.position),
-        .normal = lmp_vec3_array_same(&surface.normal),
-        .view = lmp_vec3_array_same(&surface.view),
-        .diffuse = { &materials->diffuse.r, &materials->diffuse.g, &materials->diffuse.b,
-                     sizeof *materials },
-        .specular = { &materials->specular.r, &materials->specular.g, &materials->specular.b,
-                      sizeof *materials },
-        .exponent = { &materials->exponent, sizeof *materials },
-        .table = &materials->table,
-        .table_stride = sizeof *materials,
-        .response = &materials->response,
-        .response_stride = sizeof *materials,
-    };
-    float rgb[6];
-    lmp_shade_preintegrated_n(lobes, &two, 2, lights, 4, 3, rgb);
-    for (size_t i = 0; i < 2; i++) {
-        const lmp_rgb one = lmp_shade_preintegrated(lobes, &materials[i], &surface, lights, 4);
-        const lmp_rgb sum =
-            lmp_shade(&(lmp_shade_settings) { .bands = 6 }, &materials[i], &surface, lights, 4);
-        assert_memory_equal(&one, rgb + 3 * i, sizeof one);
-        CHECK_WITHIN(fabsf(one.r - sum.r), 0.03 * (double)sum.r);
-    }
-    lmp_response_destroy(lobes);
-    lmp_brdf_response_destroy(response);
-    lmp_brdf_table_destroy(table);
-}
-
 static void a_larger_error_takes_less_memory(void **state) {
     (void)state;
     lmp_brdf_table *table = sgd_table("white-fabric", 8, LMP_WINDOW_HANNING);
@@ -248,6 +203,188 @@ static void a_larger_error_takes_less_memory(void **state) {
     lmp_brdf_response_destroy(fine);
     lmp_brdf_response_destroy(coarse);
     lmp_brdf_table_destroy(table);
+}
+
+/* --- many surfaces ------------------------------------------------------------------------------
+ */
+
+enum { SURFACES = 531, MATERIALS = 5, LIGHTS = 43 };
+
+typedef struct crowd {
+    lmp_brdf_table *tables[2];
+    lmp_brdf_response *responses[2];
+    lmp_response *lobes;
+    lmp_material materials[SURFACES];
+    lmp_surface surfaces[SURFACES];
+    lmp_light lights[LIGHTS];
+} crowd;
+
+static lmp_rgb random_color(void) {
+    return (lmp_rgb) { (float)check_random(), (float)check_random(), (float)check_random() };
+}
+
+static lmp_vec3 random_point(double size) {
+    return (lmp_vec3) { (float)check_random_between(-size, size),
+                        (float)check_random_between(-size, size),
+                        (float)check_random_between(-size, size) };
+}
+
+/* Lights of all kinds; some spheres hold some of the surfaces. */
+static void scatter_lights(lmp_light *lights) {
+    for (int i = 0; i < LIGHTS; i++)
+        lights[i] = (lmp_light) { .kind = (lmp_light_kind)(i % 6),
+                                  .position = random_point(3),
+                                  .direction = check_random_direction(),
+                                  .radius = (float)check_random_between(0.001, 0.8),
+                                  .angle = (float)check_random_between(0.01, 2.5),
+                                  .inner = 0.3f,
+                                  .outer = 1.2f,
+                                  .radiance = random_color(),
+                                  .ground = random_color() };
+}
+
+/* Lobes, two responses and a table without one in no order; some views along the normal, from below
+ * and level. */
+static crowd *crowd_create(void) {
+    crowd *c = calloc(1, sizeof *c);
+    assert_non_null(c);
+    c->tables[0] = sgd_table("green-plastic", 6, LMP_WINDOW_HANNING);
+    const lmp_brdf_table_desc round = {
+        .bands = 5, .views = 9, .rings_max = 32, .symmetry = LMP_BRDF_SYMMETRY_NONE
+    };
+    c->tables[1] = table_of(sgd_brdf("white-fabric"), &round);
+    for (int i = 0; i < 2; i++)
+        c->responses[i] = created(c->tables[i], 0.02f);
+    assert_int_equal(
+        lmp_response_create(NULL, &(lmp_response_desc) { .bands = 6, .error = 0.05f }, &c->lobes),
+        LMP_OK);
+    for (int i = 0; i < SURFACES; i++) {
+        const int which = (int)(check_random() * MATERIALS);
+        c->materials[i] = (lmp_material) {
+            .diffuse = random_color(),
+            .specular = random_color(),
+            .exponent = (float)check_random_between(1, 100),
+            .table = which == 0 ? NULL : c->tables[which % 2],
+            .response = which == 0 || which == 4 ? NULL : c->responses[which % 2],
+        };
+        const lmp_vec3 n = check_random_direction(), v = check_random_direction();
+        c->surfaces[i] = (lmp_surface) { random_point(1), n, i % 16 ? v : n };
+        if (i % 32 == 0)
+            c->surfaces[i].normal = c->surfaces[i].view = (lmp_vec3) { 0, 1, 0 };
+    }
+    scatter_lights(c->lights);
+    return c;
+}
+
+static void crowd_free(crowd *c) {
+    for (int i = 0; i < 2; i++) {
+        lmp_brdf_response_destroy(c->responses[i]);
+        lmp_brdf_table_destroy(c->tables[i]);
+    }
+    lmp_response_destroy(c->lobes);
+    free(c);
+}
+
+static void shade_crowd(const crowd *c, size_t count, float *rgb) {
+    const lmp_surface *s = c->surfaces;
+    const lmp_material *m = c->materials;
+    const lmp_surfaces surfaces = {
+        .position = { &s->position.x, &s->position.y, &s->position.z, sizeof *s },
+        .normal = { &s->normal.x, &s->normal.y, &s->normal.z, sizeof *s },
+        .view = { &s->view.x, &s->view.y, &s->view.z, sizeof *s },
+        .diffuse = { &m->diffuse.r, &m->diffuse.g, &m->diffuse.b, sizeof *m },
+        .specular = { &m->specular.r, &m->specular.g, &m->specular.b, sizeof *m },
+        .exponent = { &m->exponent, sizeof *m },
+        .table = &m->table,
+        .table_stride = sizeof *m,
+        .response = &m->response,
+        .response_stride = sizeof *m,
+    };
+    lmp_shade_preintegrated_n(c->lobes, &surfaces, count, c->lights, LIGHTS, 4, rgb);
+}
+
+static double dot3(lmp_vec3 a, lmp_vec3 b) {
+    return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
+}
+
+/* In the frame whose z is the normal, x on the side of the view. */
+static lmp_vec3 into_frame(const lmp_surface *s, lmp_vec3 w) {
+    const lmp_vec3 n = s->normal;
+    const double c = dot3(s->view, n);
+    lmp_vec3 x = { (float)((double)s->view.x - c * (double)n.x),
+                   (float)((double)s->view.y - c * (double)n.y),
+                   (float)((double)s->view.z - c * (double)n.z) };
+    const double length = sqrt(dot3(x, x));
+    const lmp_vec3 y = { n.y * x.z - n.z * x.y, n.z * x.x - n.x * x.z, n.x * x.y - n.y * x.x };
+    return (lmp_vec3) { (float)(dot3(x, w) / length), (float)(dot3(y, w) / length),
+                        (float)dot3(n, w) };
+}
+
+/* Straight from lmp_brdf_response_eval, light by light. */
+static lmp_rgb read_one(const lmp_brdf_response *response, const lmp_surface *s,
+                        const lmp_light *lights) {
+    const float cosine = (float)dot3(s->view, s->normal);
+    const lmp_rgb all = lmp_brdf_response_ambient(response, cosine);
+    double sum[3] = { 0, 0, 0 };
+    for (int i = 0; i < LIGHTS; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], s->position, &cap);
+        const lmp_rgb value =
+            lmp_brdf_response_eval(response, cosine, into_frame(s, cap.axis), cap.one_minus);
+        sum[0] += (double)(cap.strength.r * value.r + cap.ambient.r * all.r);
+        sum[1] += (double)(cap.strength.g * value.g + cap.ambient.g * all.g);
+        sum[2] += (double)(cap.strength.b * value.b + cap.ambient.b * all.b);
+    }
+    return (lmp_rgb) { (float)fmax(sum[0], 0), (float)fmax(sum[1], 0), (float)fmax(sum[2], 0) };
+}
+
+static void many_surfaces_are_shaded_like_one(void **state) {
+    (void)state;
+    static float rgb[4 * SURFACES];
+    crowd *c = crowd_create();
+    double error = 0, largest = 0;
+    shade_crowd(c, SURFACES, rgb);
+    for (int i = 0; i < SURFACES; i++) {
+        const lmp_rgb one =
+            lmp_shade_preintegrated(c->lobes, &c->materials[i], &c->surfaces[i], c->lights, LIGHTS);
+        assert_memory_equal(&one, rgb + 4 * i, sizeof one);
+        if (!c->materials[i].response || i % 16 == 0)
+            continue;
+        const lmp_rgb read = read_one(c->materials[i].response, &c->surfaces[i], c->lights);
+        const double off =
+            fmax(fabs((double)(read.r - one.r)),
+                 fmax(fabs((double)(read.g - one.g)), fabs((double)(read.b - one.b))));
+        if (!(off <= error))
+            error = off;
+        largest = fmax(largest, (double)largest_of(read));
+    }
+    print_message("%d surfaces against readings of one: %.2g of %.2g\n", SURFACES, error, largest);
+    CHECK_WITHIN(error, 1e-4 * largest);
+    crowd_free(c);
+}
+
+static void every_instruction_set_shades_the_same_bits(void **state) {
+    (void)state;
+    static float first[4 * SURFACES], rgb[4 * SURFACES];
+    crowd *c = crowd_create();
+    for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
+        if (lmp_cpu_mask(flag) != flag)
+            continue;
+        for (size_t count = 0; count <= SURFACES; count += count < 36 ? 1 : SURFACES - 36) {
+            for (int i = 0; i < 4 * SURFACES; i++)
+                rgb[i] = -7;
+            shade_crowd(c, count, rgb);
+            if (flag == LMP_CPU_SCALAR && count == 0)
+                shade_crowd(c, SURFACES, first);
+            for (size_t i = 0; i < 4 * SURFACES; i++)
+                if (i / 4 < count && i % 4 < 3)
+                    assert_memory_equal(&rgb[i], &first[i], sizeof *rgb);
+                else
+                    assert_true(rgb[i] > -7.5f && rgb[i] < -6.5f);
+        }
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+    crowd_free(c);
 }
 
 /* --- making ------------------------------------------------------------------------------------
@@ -422,6 +559,7 @@ int main(void) {
         cmocka_unit_test(a_table_of_all_orders_and_few_views_matches_as_well),
         cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
         cmocka_unit_test(many_surfaces_are_shaded_like_one),
+        cmocka_unit_test(every_instruction_set_shades_the_same_bits),
         cmocka_unit_test(a_larger_error_takes_less_memory),
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
         cmocka_unit_test(what_cannot_be_made_is_refused),
