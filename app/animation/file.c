@@ -27,8 +27,10 @@ static bool read_numbers(const cJSON *item, int count, double *numbers) {
 
 static bool only_keys(const path_reader *reader, const cJSON *object, const char *const *known) {
     const char *key = file_json_unknown_key(object, known);
-    return !key || cli_fail(reader->error, reader->file, "paths[%d] has an unknown key \"%.64s\"",
-                            reader->number, key);
+    if (key)
+        return cli_fail(reader->error, reader->file, "paths[%d] has an unknown key \"%.64s\"",
+                        reader->number, key);
+    return !file_json_repeated_key(object) || fail_path(reader, "has a key twice");
 }
 
 static bool read_period(const path_reader *reader, const cJSON *object, path *p) {
@@ -102,6 +104,7 @@ static bool read_path(const path_reader *reader, const cJSON *entry, const scene
                       animation *all) {
     static const char *const known[] = { "light", "keys", "smooth", "circle", "bounce", NULL };
     const cJSON *light = file_json_member(entry, "light"), *keys = file_json_member(entry, "keys"),
+                *smooth = file_json_member(entry, "smooth"),
                 *round = file_json_member(entry, "circle"),
                 *fall = file_json_member(entry, "bounce");
     if (!cJSON_IsObject(entry))
@@ -117,14 +120,16 @@ static bool read_path(const path_reader *reader, const cJSON *entry, const scene
                   !(light->valuedouble < (double)world->light_count) ||
                   light->valuedouble != floor(light->valuedouble)))
         return cli_fail(reader->error, reader->file,
-                        "paths[%d] names no light (there are 0 to %zu)", reader->number,
-                        world->light_count - 1);
+                        "paths[%d] names none of the %zu lights, from 0", reader->number,
+                        world->light_count);
+    if (smooth && !cJSON_IsBool(smooth))
+        return fail_path(reader, "has a smooth that is neither true nor false");
     if (keys && !light)
         return fail_path(reader, "has keys, but no light that follows them");
     const size_t index = light ? (size_t)light->valuedouble : 0;
     if (light && all->paths[index].kind != PATH_REST)
         return fail_path(reader, "is the second path of its light");
-    path own = { .smooth = cJSON_IsTrue(file_json_member(entry, "smooth")) };
+    path own = { .smooth = cJSON_IsTrue(smooth) };
     path *p = light ? &all->paths[index] : &own;
     *p = own;
     if (keys ? !read_keys(reader, keys, &world->lights[index], p)

@@ -60,6 +60,8 @@ static int unknown_option(const cli_command *command, const cli_option *options,
     if (word[1] == '-')
         snprintf(name, sizeof name, "%.*s", length - 2, word + 2);
     const char *const nearest = cli_nearest(name, names);
+    if (nearest && strcmp(nearest, name) == 0) /* --help=FORM */
+        return cli_usage(command, "--%s takes no value", name);
     if (nearest)
         return cli_usage(command, "unknown option %.*s (did you mean --%s?)", length, word,
                          nearest);

@@ -24,7 +24,8 @@ static void write_text(cli_error *error, const char *subject, const char *format
                        va_list arguments) {
     const size_t size = sizeof error->text;
     /* a name may take at most half of the line, so that what is wrong is always said */
-    int length = subject ? snprintf(error->text, size, "%.*s: ", (int)size / 2, subject) : 0;
+    const char *name = subject && !*subject ? "\"\"" : subject;
+    int length = name ? snprintf(error->text, size, "%.*s: ", (int)size / 2, name) : 0;
     length += vsnprintf(error->text + length, size - (size_t)length, format, arguments);
     if (length >= (int)size)
         memcpy(error->text + size - 4, "...", 4);

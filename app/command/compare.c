@@ -166,6 +166,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (is_exr(a.paths[0]) != is_exr(a.paths[1]))
         return cli_usage(command, "one picture is linear (.exr), the other tone-mapped: compare "
                                   "two of a kind");
+    if (a.heat_map && image_format_of(a.heat_map) != IMAGE_PNG)
+        return cli_usage(command, "%s: --heatmap makes a .png", a.heat_map);
     if (!compare(&a, limits, images, &status, &error))
         status = cli_report(&error);
     for (int i = 0; i < 2; i++)

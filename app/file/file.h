@@ -12,6 +12,9 @@
  * NUL past its end; free() it. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error);
 
+/* Opens a regular file for reading; NULL on failure. */
+FILE *file_open(const char *path, cli_error *error);
+
 /* One JSON value and nothing after it; what follows the `size` bytes of text must be a NUL. The
  * file is named in the error. Free with cJSON_Delete; NULL on failure. */
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error);
@@ -25,6 +28,9 @@ bool file_json_numbers(const struct cJSON *item, int count, double minimum, doub
 
 /* The first key of an object that is none of the NULL-terminated ones; NULL if there is none. */
 const char *file_json_unknown_key(const struct cJSON *object, const char *const *known);
+
+/* A key that an object has twice; NULL if there is none. */
+const char *file_json_repeated_key(const struct cJSON *object);
 
 /* The array of { "name": [ … ] }, a file that holds nothing else; NULL on failure. */
 const struct cJSON *file_json_list(const char *path, const struct cJSON *root, const char *name,

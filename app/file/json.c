@@ -62,6 +62,14 @@ const char *file_json_unknown_key(const struct cJSON *object, const char *const 
     return NULL;
 }
 
+const char *file_json_repeated_key(const struct cJSON *object) {
+    for (const cJSON *item = object->child; item; item = item->next)
+        for (const cJSON *other = item->next; other; other = other->next)
+            if (strcmp(item->string, other->string) == 0)
+                return item->string;
+    return NULL;
+}
+
 const struct cJSON *file_json_list(const char *path, const struct cJSON *root, const char *name,
                                    cli_error *error) {
     const cJSON *list = cJSON_IsObject(root) ? file_json_member(root, name) : NULL;

@@ -218,6 +218,10 @@ bool image_read_exr(const char *path, image *picture, cli_error *error) {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = on_error;
     exr_context_t context = NULL;
+    FILE *stream = file_open(path, error);
+    if (!stream)
+        return false;
+    fclose(stream);
     const exr_result_t r = exr_start_read(&context, path, &setup);
     if (r != EXR_ERR_SUCCESS)
         return cli_fail(error, path, "not a readable OpenEXR: %s",

@@ -51,9 +51,9 @@ static bool read_pixels(png_image *png, const char *path, image *picture, cli_er
 }
 
 bool image_read_png(const char *path, image *picture, cli_error *error) {
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = file_open(path, error);
     if (!stream)
-        return cli_fail(error, path, "%s", strerror(errno));
+        return false;
     png_image png = { .version = PNG_IMAGE_VERSION };
     bool ok = png_image_begin_read_from_stdio(&png, stream);
     if (!ok)

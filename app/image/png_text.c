@@ -89,9 +89,9 @@ static bool read_stream(png_structp png, png_infop info, FILE *stream) {
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {
     cli_error complaint = { "out of memory" };
     *text = NULL;
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = file_open(path, error);
     if (!stream)
-        return cli_fail(error, path, "%s", strerror(errno));
+        return false;
     png_structp png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;

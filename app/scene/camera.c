@@ -8,10 +8,10 @@
 
 static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
                         cli_error *error) {
-    char *end = NULL;
-    const unsigned long index = strtoul(wanted, &end, 10);
+    const bool whole = *wanted && !wanted[strspn(wanted, "0123456789")];
+    const unsigned long index = strtoul(wanted, NULL, 10);
     for (size_t i = 0; i < world->camera_count; i++)
-        if (strcmp(world->cameras[i].name, wanted) == 0 || (!*end && index == i)) {
+        if (strcmp(world->cameras[i].name, wanted) == 0 || (whole && index == i)) {
             *camera = world->cameras[i];
             return true;
         }

@@ -40,11 +40,7 @@ static bool check_keys(const lights_reader *reader, const cJSON *entry) {
                         "lights[%d] has an unknown key \"%.64s\" (there are position, radius "
                         "and radiance, power or intensity)",
                         reader->number, key);
-    for (const cJSON *item = entry->child; item; item = item->next)
-        for (const cJSON *other = item->next; other; other = other->next)
-            if (strcmp(item->string, other->string) == 0)
-                return fail_light(reader, "has a key twice");
-    return true;
+    return !file_json_repeated_key(entry) || fail_light(reader, "has a key twice");
 }
 
 static bool read_light(const lights_reader *reader, const cJSON *entry, scene_light *light) {

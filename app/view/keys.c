@@ -8,6 +8,7 @@
 
 #define SIZE_STEP      1.15f
 #define POWER_STEP     1.25f
+#define RADIANCE_MAX   1e30f
 #define HUE_STEP       (1.0f / 12)
 #define NEW_RADIUS     0.012f /* of the scene's diagonal */
 #define NEW_IRRADIANCE 0.4f   /* that a new light gives the scene's bounding sphere */
@@ -96,12 +97,12 @@ static void grow(scene_light *light, float by) {
         return;
     light->radius = radius;
     for (int k = 0; k < 3; k++)
-        light->radiance[k] /= by * by;
+        light->radiance[k] = fminf(light->radiance[k] / (by * by), RADIANCE_MAX);
 }
 
 static void brighten(scene_light *light, float by) {
     for (int k = 0; k < 3; k++)
-        light->radiance[k] = fminf(light->radiance[k] * by, 1e30f);
+        light->radiance[k] = fminf(light->radiance[k] * by, RADIANCE_MAX);
 }
 
 static float brightest(const float color[3]) {

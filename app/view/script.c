@@ -2,10 +2,14 @@
 #include "app/view/script.h"
 #include "app/file/file.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FILE_LIMIT ((size_t)256 << 10)
+#define FILE_LIMIT  ((size_t)256 << 10)
+#define SECONDS_MAX 1e6
+#define PLACE_MAX   1e6
+#define SCROLL_MAX  1e3
 enum { WORDS_MAX = 5 };
 
 typedef struct words {
@@ -32,9 +36,9 @@ static void split_words(char *line, words *w) {
     }
 }
 
-static bool numbers_at(const words *w, int first, int count) {
+static bool numbers_at(const words *w, int first, int count, double most) {
     for (int i = first; i < first + count; i++)
-        if (i >= w->count || !w->is_number[i])
+        if (i >= w->count || !w->is_number[i] || !(fabs(w->numbers[i]) <= most))
             return false;
     return w->count == first + count;
 }
@@ -57,13 +61,13 @@ static bool read_event(const words *w, view_script_line *line) {
         e->kind = what[0] == 'm' ? VIEW_MOVE : VIEW_SIZE;
         e->x = w->numbers[2];
         e->y = w->numbers[3];
-        return numbers_at(w, 2, 2) &&
+        return numbers_at(w, 2, 2, PLACE_MAX) &&
                (e->kind == VIEW_MOVE || (e->x >= 1 && e->y >= 1 && e->x <= 8192 && e->y <= 8192));
     }
     if (strcmp(what, "scroll") == 0) {
         e->kind = VIEW_SCROLL;
         e->y = w->numbers[2];
-        return numbers_at(w, 2, 1);
+        return numbers_at(w, 2, 1, SCROLL_MAX);
     }
     if (w->count < 3 || w->count > 4)
         return false;
@@ -109,9 +113,10 @@ static bool read_lines(const char *path, char *text, view_script *script, cli_er
         if (w.count == 0)
             continue;
         view_script_line *to = &script->lines[script->count];
-        if (w.count < 2 || !w.is_number[0] || !(w.numbers[0] >= before))
+        if (w.count < 2 || !w.is_number[0] || !(w.numbers[0] >= before) ||
+            !(w.numbers[0] <= SECONDS_MAX))
             return cli_fail(error, path,
-                            "line %d is no event: SECONDS, not less than before, then "
+                            "line %d is no event: SECONDS, not less than before, up to 1e6, then "
                             "what happens",
                             number);
         to->seconds = before = w.numbers[0];

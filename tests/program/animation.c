@@ -175,6 +175,9 @@ static void bad_paths_are_refused_in_one_line(void **state) {
         "{\"paths\":[{\"circle\":[[0,0,0],1]}]}",
         "{\"paths\":[{\"bounce\":[0]}]}",
         "{\"paths\":[{\"bounce\":0}]}",
+        "{\"paths\":[{\"circle\":null}]}",
+        "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1,\"period\":2}}]}",
+        "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0],[1,0,0,0]],\"smooth\":[]}]}",
         "{\"paths\":[{\"light\":0}]}",
         "{\"paths\":[{\"light\":99,\"keys\":[[0,0,0,0],[1,0,0,0]]}]}",
         "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0]]}]}",
@@ -198,6 +201,11 @@ static void bad_paths_are_refused_in_one_line(void **state) {
         unlink(file);
         assert_non_null(strstr(error.text, file));
     }
+    scene_clear_lights(&s);
+    const char *file = write_file(".json", "{\"paths\":[{\"light\":0,\"keys\":[]}]}");
+    assert_false(animation_open(file, &s, &path, &error));
+    unlink(file);
+    assert_non_null(strstr(error.text, "none of the 0 lights"));
     assert_false(animation_open("obrit", &s, &path, &error));
     assert_non_null(strstr(error.text, "did you mean orbit"));
     assert_false(animation_open("scene", &s, &path, &error));

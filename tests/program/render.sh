@@ -71,6 +71,15 @@ refused 2 builtin:ball -o "$WORK/x.png" --frames 0
 refused 1 builtin:ball -o "$WORK/none/x.png"
 refused 1 builtin:ball -o "$WORK/x.png" --gl-device 99
 refused 1 builtin:ball -o "$WORK/x.png" --camera none
+refused 1 builtin:ball -o "$WORK/x.png" --camera ''
+refused 1 builtin:ball -o "$WORK/x.png" --camera ' 0'
+refused 1 builtin:ball -o "$WORK/x.png" --camera -18446744073709551616
+refused 1 '' -o "$WORK/x.png"
+grep -q '^lampion: "": ' "$WORK/err" || fail "a name of nothing: $(cat "$WORK/err")"
+mkfifo "$WORK/fifo.png"
+refused 1 --from "$WORK/fifo.png" -o "$WORK/x.png"
+refused 1 --from "$WORK" -o "$WORK/x.png"
+refused 2 builtin:ball -o "$WORK/x.png" --help=x
 refused 1 builtin:ball -o "$WORK/x.png" --eye 1,2,3 --target 1,2,3
 refused 1 "$WORK/none.gltf" -o "$WORK/x.png"
 

@@ -41,6 +41,9 @@ refuses 2 'not a number' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rm
 refuses 2 'did you mean rmse' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rsme=1
 refuses 2 'two of a kind' compare "$WORK/one.exr" "$WORK/one.png"
 refuses 2 'two pictures' compare "$WORK/one.exr"
+refuses 2 'heat.txt' compare "$WORK/one.exr" "$WORK/two.exr" --heatmap "$WORK/heat.txt"
+mkfifo "$WORK/fifo.exr"
+refuses 1 'no.* regular file' compare "$WORK/one.exr" "$WORK/fifo.exr"
 refuses 1 'absent.exr' compare "$WORK/one.exr" "$WORK/absent.exr"
 "$PROGRAM" reference builtin:balls --size 20x20 --spp 1 -o "$WORK/small.exr"
 refuses 1 'different sizes: 48x32 and 20x20' compare "$WORK/one.exr" "$WORK/small.exr"

@@ -252,6 +252,11 @@ static void lights_change_as_the_keys_say(void **unused) {
     const double spread = (double)(light->radiance[0] - light->radiance[2]);
     key("j");
     assert_true((double)(light->radiance[0] - light->radiance[2]) < 0.9 * spread);
+    for (int i = 0; i < 400; i++) {
+        key("[");
+        key("+");
+    }
+    assert_true(light->radius > 0 && isfinite(light->radiance[0]));
     at(320, 240);
     key("n");
     assert_int_equal(state.now.light_count, 2);
@@ -404,12 +409,21 @@ static void scripts_are_read_strictly(void **unused) {
     assert_string_equal(script.lines[7].event.text, "a file.binary");
     assert_int_equal(script.lines[9].kind, VIEW_SCRIPT_SHOT);
     view_script_free(&script);
-    static const char *const bad[] = { "x",          "1",
-                                       "1 move 2",   "1 move 2 3 4",
-                                       "nan key m",  "1 key nothing",
-                                       "1 jump",     "1 press thumb",
-                                       "1 hold z",   "2 key m\n1 key m",
-                                       "1 size 0 5", "-1 key m" };
+    static const char *const bad[] = { "x",
+                                       "1",
+                                       "1 move 2",
+                                       "1 move 2 3 4",
+                                       "nan key m",
+                                       "1 key nothing",
+                                       "1 jump",
+                                       "1 press thumb",
+                                       "1 hold z",
+                                       "2 key m\n1 key m",
+                                       "1 size 0 5",
+                                       "-1 key m",
+                                       "1e300 key m",
+                                       "1 scroll 1e300",
+                                       "1 move 0 -1e300" };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         if (read_script(bad[i], &script))
             fail_msg("taken: %s", bad[i]);
