@@ -123,8 +123,8 @@ LMP_INLINE void measured_aim_at(const lmp_kernel_measured *material, const lmp_k
     /* 1 - |z| without cancellation */
     const vf near = measured_angle(vf_min(across2 / (1 + vf_max(z, -z)), one));
     aim->angle = vf_select_less(z, zero, LMP_KERNEL_PI - near, near);
-    /* On the axis itself any azimuth will do. */
-    const vf cosine = vf_min(vf_max(x, -x) / vf_max(across, vf_set(FLT_MIN)), one);
+    const vf side = vf_min(vf_max(x, -x) / across, one);
+    const vf cosine = vf_select_less(zero, across, side, one);
     const vf quarter = measured_angle(1 - cosine);
     const vf half = vf_select_less(x, zero, LMP_KERNEL_PI - quarter, quarter);
     aim->azimuth =

@@ -2,83 +2,34 @@
 /* Every kernel, on every instruction set this machine has: against the oracle in double precision,
  * and bit for bit against the scalar build and the committed checksums, which hold for every
  * compiler. Memory round each output is guarded. */
-#include "src/kernels/kernels.h"
-#include "tests/oracle/check.h"
-#include "tests/oracle/oracle.h"
-
-#include <lampion/lampion.h>
+#include "tests/kernels/shading.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COUNT = 67, LIGHTS = 7, GUARD = 64 };
-
-/* Elements 0 … SPECIAL-1 are worst cases, the rest random. Coordinates are multiples of 2^-10, so
- * that centre - point is exact and the oracle sees the same geometry. */
-typedef struct inputs {
-    _Alignas(64) float center[3][COUNT + 16], point[3][COUNT + 16], axis[3][COUNT + 16];
-    _Alignas(64) float radius[COUNT + 16], distance[COUNT + 16];
-    _Alignas(64) float rgb[3][COUNT + 16];
-} inputs;
-
-static const float special[][4] = {
-    /* centre - point, radius */
-    { 0, 0, 1, 1 },          /* touching, at the pole */
-    { 3, 4, 0, 5 },          /* touching, on the horizon */
-    { 0, 0, 1, 2 },          /* inside */
-    { 0.25f, 0.5f, -1, 4 },  /* inside */
-    { 0, 0, 0, 1 },          /* at the centre */
-    { 0, 0, 0, 0 },          /* nothing */
-    { 1, 0, 0, 1e-6f },      /* tiny, on an axis */
-    { 0, -1, 0, 1e-6f },     /* tiny */
-    { 0, 0, -1, 0.5f },      /* south pole */
-    { 1024, 1, -3, 0.001f }, /* far */
-    { -1, 0, 0, 0.999f },    /* almost touching */
-    { 0.0009765625f, 0, 1, 0.25f },
-    { 1, 2, 2, 0 }, /* no size */
-};
-enum { SPECIAL = sizeof special / sizeof *special };
-
-/* The same numbers everywhere, for the checksums: bits of a linear congruence. */
-static uint64_t state;
-static float grid(float scale) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (float)((int)(state >> 53) - 1024) * scale;
-}
-
-static void set_seed(uint64_t seed) {
-    state = seed;
-}
-
-static inputs *inputs_create(uint64_t seed) {
-    inputs *in = calloc(1, sizeof *in);
-    assert_non_null(in);
-    set_seed(seed);
-    for (int i = 0; i < COUNT + 16; i++) {
-        float v[3], length = 0;
-        for (int k = 0; k < 3; k++) {
-            in->point[k][i] = grid(1.0f / 1024);
-            v[k] = i < SPECIAL ? special[i][k] : grid(1.0f / 256);
-            in->center[k][i] = in->point[k][i] + v[k];
-            in->axis[k][i] = grid(1.0f / 1024);
-            length += in->axis[k][i] * in->axis[k][i];
-            in->rgb[k][i] = 1 + grid(1.0f / 2048);
-        }
-        for (int k = 0; k < 3; k++)
-            in->axis[k][i] = length > 0 ? in->axis[k][i] / sqrtf(length) : k == 2 ? 1.0f : 0.0f;
-        in->distance[i] = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        const float share = 0.5f + grid(1.0f / 2200);
-        in->radius[i] = i < SPECIAL ? special[i][3] : in->distance[i] * share * share;
-    }
-    return in;
-}
+enum { GUARD = 64 };
 
 /* --- running a kernel ------------------------------------------------------------------------ */
 
-typedef enum kind { EVAL, DOT, ROTATE, ZONAL, PROJECT, ACCUMULATE, GRADIENT, LOBE, KINDS } kind;
-static const char *const kind_names[] = { "eval",    "dot",        "rotate",   "zonal",
-                                          "project", "accumulate", "gradient", "lobe" };
+typedef enum kind {
+    EVAL,
+    DOT,
+    ROTATE,
+    ZONAL,
+    PROJECT,
+    ACCUMULATE,
+    GRADIENT,
+    LOBE,
+    SHADE_ZONAL,
+    SHADE_RESPONSE,
+    SHADE_MEASURED,
+    KINDS
+} kind;
+static const char *const kind_names[] = { "eval",           "dot",           "rotate",
+                                          "zonal",          "project",       "accumulate",
+                                          "gradient",       "lobe",          "shade_zonal",
+                                          "shade_response", "shade_measured" };
 
 static size_t values_of(kind which, int bands) {
     const size_t n = LMP_SH_COUNT(bands);
@@ -92,7 +43,11 @@ static size_t values_of(kind which, int bands) {
     case GRADIENT:
         return 12 * n;
     case LOBE:
+    case SHADE_MEASURED:
         return 3;
+    case SHADE_ZONAL:
+    case SHADE_RESPONSE:
+        return 6;
     default:
         return n;
     }
@@ -147,6 +102,59 @@ static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t coun
     free(a);
 }
 
+/* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
+ * guarded here. */
+enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * GUARD };
+
+static void call_shading(const lmp_kernels *k, kind which, const shading *s, size_t count,
+                         float *const planes[6]) {
+    const inputs *in = s->in;
+    const lmp_kernel_gathered sums = { { planes[0], planes[1], planes[2] },
+                                       { planes[3], planes[4], planes[5] } };
+    const lmp_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
+                                           { in->normal[0], in->normal[1], in->normal[2] },
+                                           { in->view[0], in->view[1], in->view[2] },
+                                           in->exponent };
+    const lmp_kernel_response response = { s->pairs };
+    const lmp_kernel_places broad = { s->broad_first, s->broad_columns, s->broad[0], s->broad[1],
+                                      s->broad[2] };
+    const lmp_kernel_places sharp = { s->first, s->columns, s->share, s->density, s->angle };
+    if (which == SHADE_ZONAL)
+        k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
+                       &sums);
+    else if (which == SHADE_RESPONSE)
+        k->shade_response(&response, &broad, &sharp, &surfaces, s->lights, SHADE_LIGHTS, count,
+                          &sums);
+    else
+        k->shade_measured(&s->measured, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
+                          sums.diffuse);
+}
+
+static void run_shading(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                        const lmp_kernel_out *out) {
+    _Alignas(64) float memory[6][PLANE];
+    float *planes[6];
+    const size_t whole =
+        (count + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
+    const size_t values = values_of(which, bands);
+    shading *s = shading_create(in, bands);
+    for (size_t v = 0; v < 6; v++) {
+        planes[v] = memory[v] + GUARD;
+        for (size_t i = 0; i < PLANE; i++)
+            memory[v][i] = (float)v; /* what the kernel adds to */
+    }
+    call_shading(k, which, s, count, planes);
+    shading_free(s);
+    for (size_t v = 0; v < 6; v++) {
+        for (size_t e = 0; v < values && e < count; e++)
+            out->at[out->planar ? v * out->stride + e : e * out->stride + v] = planes[v][e];
+        for (size_t i = 0; i < PLANE; i++)
+            if ((v >= values || i < GUARD || i >= GUARD + whole) &&
+                (memory[v][i] < (float)v || memory[v][i] > (float)v))
+                out->at[-1] = 0; /* seen as memory that is not the kernel's */
+    }
+}
+
 static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
                 int planar, const lmp_kernel_out *out) {
     const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
@@ -184,6 +192,11 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
+        break;
+    case SHADE_ZONAL:
+    case SHADE_RESPONSE:
+    case SHADE_MEASURED:
+        run_shading(k, which, bands, in, count, out);
         break;
     case KINDS:
         break;
@@ -319,22 +332,10 @@ static void both_layouts_hold_the_same_bits(void **test) {
 /* --- against the oracle ------------------------------------------------------------------------
  */
 
-/* What rounding does to cos a near the surface, where d - r cancels. */
-static double surface_bound(double alpha2) {
-    return fmin(6e-7 / sqrt(fmax(alpha2, 1e-30)), 1e-3);
-}
-
 /* With rounding of float32 in n bands (docs/accuracy.md); alpha2 = cos² a. */
 static double bound_of(int bands, double alpha2) {
     return 1e-6 + 1.5e-7 * bands * bands + surface_bound(alpha2);
 }
-
-static void widen(float *const from[3], int i, double to[3]) {
-    for (int k = 0; k < 3; k++)
-        to[k] = (double)from[k][i];
-}
-
-#define VECTOR(array) ((float *const[3]) { (array)[0], (array)[1], (array)[2] })
 
 static void check_element(int i, int bands, kind which, size_t values, const double *expected,
                           const float *actual, double bound) {
@@ -390,15 +391,6 @@ static void basis_zonal_and_project_match_double_precision(void **test) {
     free(in);
 }
 
-/* A lobe's response from its definition, Σ lambda_l L_lm Y_lm(axis). */
-static double lobe_of(int bands, const float *lambda, const double *sh, const double *axis) {
-    double sum = 0;
-    for (int l = 0; l < bands; l++)
-        for (int m = -l; m <= l; m++)
-            sum += (double)lambda[l] * sh[LMP_SH_INDEX(l, m)] * axis[LMP_SH_INDEX(l, m)];
-    return sum;
-}
-
 /* Of points and lights that the oracle sees. */
 typedef struct sums_expected {
     double *sh, *axis_sh; /* red, green, blue; then by x, by y, by z */
@@ -407,7 +399,7 @@ typedef struct sums_expected {
     bool slopes;   /* they are finite, and no light is near the surface */
 } sums_expected;
 
-static void expect_sums(int bands, inputs *in, int i, const float *lambda, double *one,
+static void expect_sums(int bands, inputs *in, int i, const double *lambda, double *one,
                         sums_expected *e) {
     const size_t n = LMP_SH_COUNT(bands);
     double point[3], axis[3];
@@ -459,12 +451,14 @@ static void sums_gradients_and_lobes_match_double_precision(void **test) {
         float *total = results(&best, ACCUMULATE, bands, in, COUNT, 1);
         float *slopes = results(&best, GRADIENT, bands, in, COUNT, 1);
         float *lobes = results(&best, LOBE, bands, in, COUNT, 1), lambda[LMP_BANDS_MAX];
-        double scale = 0;
+        double scale = 0, wide[LMP_BANDS_MAX];
         make_lambda(bands, lambda);
-        for (int l = 0; l < bands; l++)
-            scale += (double)lambda[l] * (2 * l + 1);
+        for (int l = 0; l < bands; l++) {
+            wide[l] = (double)lambda[l];
+            scale += wide[l] * (2 * l + 1);
+        }
         for (int i = 0; i<COUNT; i += bands> 20 ? 33 : i < LIGHTS ? 1 : 12) {
-            expect_sums(bands, in, i, lambda, one, &e);
+            expect_sums(bands, in, i, wide, one, &e);
             const double bound = bound_of(bands, e.alpha2);
             check_element(i, bands, ACCUMULATE, 3 * n, e.sh, total + (size_t)i * 3 * n, bound);
             for (int c = 0; c < 3; c++)
@@ -514,6 +508,43 @@ static void rotation_and_dot_match_double_precision(void **test) {
         free(rotated);
         free(dots);
         free(matrices);
+    }
+    free(in);
+}
+
+static void shading_matches_double_precision(void **test) {
+    (void)test;
+    static void (*const expect[])(const shading *, int, shaded *) = { expect_zonal, expect_response,
+                                                                      expect_measured };
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(14);
+    for (int which = SHADE_ZONAL; which < KINDS; which++) {
+        check_errors errors = { 0 };
+        double largest = 0, ratio = 0;
+        for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 54) {
+            const size_t values = values_of((kind)which, bands);
+            float *actual = results(&best, (kind)which, bands, in, COUNT, 0);
+            shading *s = shading_create(in, bands);
+            for (int i = 0; i<COUNT; i += bands> 20 ? 11 : 1) {
+                shaded e;
+                expect[which - SHADE_ZONAL](s, i, &e);
+                for (size_t v = 0; v < values; v++) {
+                    const double error =
+                        fabs((double)actual[(size_t)i * values + v] - (double)v - e.values[v]);
+                    if (!(error <= e.bound))
+                        printf("%s, %d bands, element %d\n", kind_names[which], bands, i);
+                    CHECK_WITHIN(error, e.bound);
+                    check_errors_add(&errors, error);
+                    largest = fmax(largest, fabs(e.values[v]));
+                    ratio = fmax(ratio, error / e.bound);
+                }
+            }
+            shading_free(s);
+            free(actual);
+        }
+        printf("%s: error max %.2g, rms %.2g, of values to %.3g, of the bound %.2g\n",
+               kind_names[which], errors.largest, check_errors_rms(&errors), largest, ratio);
     }
     free(in);
 }
@@ -572,6 +603,12 @@ static void spoil(const lmp_kernel_out *out) {
     *at = nextafterf(*at, 1e9f);
 }
 
+static void spoil_gathered(const lmp_kernel_gathered *sums) {
+    float *const *planes = flaw.value < 3 ? sums->diffuse : sums->specular;
+    float *at = planes[flaw.value % 3] + flaw.element;
+    *at = nextafterf(*at, 1e9f);
+}
+
 static void wrong_eval(int bands, const lmp_kernel_vec3 *directions, size_t count,
                        const lmp_kernel_out *out) {
     honest.eval(bands, directions, count, out);
@@ -622,6 +659,38 @@ static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
     out->at[-1] = 0;
 }
 
+static void wrong_shade_zonal(int bands, const float *window, const float *diffuse,
+                              const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                              size_t light_count, size_t count,
+                              const lmp_kernel_gathered *gathered) {
+    honest.shade_zonal(bands, window, diffuse, surfaces, lights, light_count, count, gathered);
+    spoil_gathered(gathered);
+}
+static void wrong_shade_response(const lmp_kernel_response *response,
+                                 const lmp_kernel_places *diffuse,
+                                 const lmp_kernel_places *specular,
+                                 const lmp_kernel_surfaces *surfaces,
+                                 const lmp_kernel_light *lights, size_t light_count, size_t count,
+                                 const lmp_kernel_gathered *gathered) {
+    honest.shade_response(response, diffuse, specular, surfaces, lights, light_count, count,
+                          gathered);
+    spoil_gathered(gathered);
+}
+static void wrong_shade_measured(const lmp_kernel_measured *material,
+                                 const lmp_kernel_surfaces *surfaces,
+                                 const lmp_kernel_light *lights, size_t light_count,
+                                 lmp_rgb ambient, size_t count, float *const rgb[3]) {
+    honest.shade_measured(material, surfaces, lights, light_count, ambient, count, rgb);
+    spoil_gathered(&(lmp_kernel_gathered) { { rgb[0], rgb[1], rgb[2] }, { NULL } });
+}
+static void long_shade_measured(const lmp_kernel_measured *material,
+                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                                size_t light_count, lmp_rgb ambient, size_t count,
+                                float *const rgb[3]) {
+    honest.shade_measured(material, surfaces, lights, light_count, ambient, count, rgb);
+    rgb[2][-1] = 0;
+}
+
 static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .dot = wrong_dot,
                                    .rotate = wrong_rotate,
@@ -629,12 +698,16 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .project = wrong_project,
                                    .accumulate = wrong_accumulate,
                                    .gradient = wrong_gradient,
-                                   .lobe = wrong_lobe };
+                                   .lobe = wrong_lobe,
+                                   .shade_zonal = wrong_shade_zonal,
+                                   .shade_response = wrong_shade_response,
+                                   .shade_measured = wrong_shade_measured };
 
 /* In the first, a middle and the last lane and value; the checksums, too. */
 static void every_wrong_kernel_fails_the_checks(void **test) {
     (void)test;
-    lmp_kernels scalar, longer = { .project = long_project };
+    lmp_kernels scalar;
+    const lmp_kernels longer = { .project = long_project, .shade_measured = long_shade_measured };
     lmp_kernels_init(&honest, LMP_CPU_ALL);
     lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
     inputs *in = inputs_create(1), *same = inputs_create(2020);
@@ -652,6 +725,8 @@ static void every_wrong_kernel_fails_the_checks(void **test) {
                                  golden[which][b]);
     }
     assert_string_equal(difference(&longer, &scalar, PROJECT, 6, in, COUNT, 1), "wrong memory");
+    assert_string_equal(difference(&longer, &scalar, SHADE_MEASURED, 6, in, COUNT, 1),
+                        "wrong memory");
     free(in);
     free(same);
 }
@@ -663,6 +738,7 @@ int main(void) {
         cmocka_unit_test(basis_zonal_and_project_match_double_precision),
         cmocka_unit_test(sums_gradients_and_lobes_match_double_precision),
         cmocka_unit_test(rotation_and_dot_match_double_precision),
+        cmocka_unit_test(shading_matches_double_precision),
         cmocka_unit_test(every_compiler_gives_the_bits_of_the_checksums),
         cmocka_unit_test(every_wrong_kernel_fails_the_checks),
     };
