@@ -7,8 +7,9 @@
 #include <math.h>
 
 static void use(const lmp_response *response) {
-    static const float exponents[] = { 0, 1, 7.5f, 300, 1e6f }, places[] = { 0, 0.1f, 0.5f, 1 };
-    for (int e = 0; e < 5; e++)
+    static const float exponents[] = { 0, 1, 7.5f, 300, 1e6f, 1e12f },
+                       places[] = { 0, 0.1f, 0.5f, 1 };
+    for (int e = 0; e < 6; e++)
         for (int i = 0; i < 16; i++)
             if (!isfinite(lmp_response_eval(response, exponents[e], places[i / 4],
                                             2 * places[i % 4] - 1)))

@@ -15,6 +15,9 @@
 /* Of a coefficient read as -1 … 1. */
 #define LMP_RESPONSE_UNIT 2.0
 
+/* As in lampion/response.h. */
+#define LMP_RESPONSE_EXPONENT_MAX 1048575.0
+
 /* Where the lobe of an exponent lies. */
 struct lmp_place {
     vec2 corner;
@@ -22,8 +25,8 @@ struct lmp_place {
 };
 
 lmp_place lmp_response_seek(float exponent) {
-    float entry =
-        min(float(floatBitsToInt(1.0 + exponent) - floatBitsToInt(1.0)) / 524288.0, 320.0);
+    float e = clamp(exponent, 0.0, LMP_RESPONSE_EXPONENT_MAX);
+    float entry = float(floatBitsToInt(1.0 + e) - floatBitsToInt(1.0)) / 524288.0;
     int i = int(min(entry, 319.0));
     float slice = mix(LMP_RESPONSE_WARP(i), LMP_RESPONSE_WARP(i + 1), entry - float(i));
     int k = int(min(slice, LMP_RESPONSE_SHAPE.y - 1.0));
@@ -31,8 +34,8 @@ lmp_place lmp_response_seek(float exponent) {
     lmp_place place;
     place.corner = cell.zw;
     place.share = slice - float(k);
-    place.density = cell.x * sqrt(exponent + 1.5) + cell.y;
-    place.angle = LMP_PI * (1.0 / (exponent + 1.0) + LMP_RESPONSE_SHAPE.x);
+    place.density = cell.x * sqrt(e + 1.5) + cell.y;
+    place.angle = LMP_PI * (1.0 / (e + 1.0) + LMP_RESPONSE_SHAPE.x);
     return place;
 }
 

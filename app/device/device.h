@@ -24,6 +24,10 @@ int device_bands_max(device_kind device, gpu_method method);
 device_kind device_choose(device_kind wanted, const gpu_context *context, gpu_method method,
                           int bands);
 
+/* Pictures ask more of lobes than the default: beside a highlight of ten times white, half a
+ * percent of it shows. */
+#define DEVICE_LOBES_ERROR 0.002f
+
 /* The response of so many bands from the cache, or computed on all cores with a progress bar and
  * cached. Free with lmp_response_destroy. */
 bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error);

@@ -11,6 +11,9 @@
 
 enum { PATH_SIZE = 4096 };
 
+/* Rises when the same table, bands and window give other numbers than they did. */
+#define CACHE_EPOCH 2
+
 const char *const device_window_names[] = {
     [LMP_WINDOW_NONE] = "none",
     [LMP_WINDOW_HANNING] = "hanning",
@@ -40,13 +43,13 @@ static bool cache_path(file_hash hash, const char *what, int bands, lmp_window w
     char text[33], name[64];
     const struct {
         uint32_t library;
-        int32_t bands, window;
+        int32_t epoch, bands, window;
         float window_size;
-    } key = { lmp_version(), bands, (int32_t)window, window_size };
+    } key = { lmp_version(), CACHE_EPOCH, bands, (int32_t)window, window_size };
     file_hash_add(&hash, what, strlen(what));
     file_hash_add(&hash, &key, sizeof key);
     file_hash_text(&hash, text);
-    snprintf(name, sizeof name, "%s.%.4s", text, what);
+    snprintf(name, sizeof name, "%s.%s", text, what);
     return file_cache_path(name, path, PATH_SIZE);
 }
 
@@ -76,10 +79,15 @@ static void write_lobes(const void *response, void *bytes) {
 bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error) {
     static char what[] = "integrating lobes";
     const lmp_response_desc desc = {
-        .bands = bands, .window = window, .parallel = parallel, .progress = progress, .user = what
+        .bands = bands,
+        .window = window,
+        .error = DEVICE_LOBES_ERROR,
+        .parallel = parallel,
+        .progress = progress,
+        .user = what,
     };
     char path[PATH_SIZE];
-    const bool cached = cache_path((file_hash) { 0 }, "lmpr 1", bands, window, 0, path);
+    const bool cached = cache_path((file_hash) { 0 }, "lmpr", bands, window, 0, path);
     if (cached && (*response = read_lobes(path, &desc)))
         return true;
     const lmp_result result = lmp_response_create(NULL, &desc, response);
@@ -146,7 +154,7 @@ bool device_brdf_response(const material *from, const lmp_brdf_table *table,
         return true;
     }
     const bool cached =
-        cache_path(from->hash, "lmps 1", info.bands, info.window, info.window_size, path);
+        cache_path(from->hash, "lmps", info.bands, info.window, info.window_size, path);
     if (cached && (*response = read_measured(path)))
         return true;
     const lmp_result result = lmp_brdf_response_create(NULL, table, &desc, response);

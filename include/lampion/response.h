@@ -53,7 +53,9 @@ LMP_API void lmp_response_destroy(lmp_response *response);
  *
  * exponent >= 0; one_minus = 1 - cos a, 0 … 1; cosine of the angle between the axes, -1 … 1.
  * Below exponent 1 the error bound does not hold: the lobe has a cusp, smoothed to 3 % of its
- * peak */
+ * peak. Exponents above LMP_RESPONSE_EXPONENT_MAX are read as that: sharper than 128 bands show,
+ * but for 0.4 % of the peak */
+#define LMP_RESPONSE_EXPONENT_MAX 1048575.0f
 LMP_API float lmp_response_eval(const lmp_response *response, float exponent, float one_minus,
                                 float cosine);
 

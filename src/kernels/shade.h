@@ -476,7 +476,8 @@ static void kernel_shade_response(const lmp_kernel_response *response,
         shade_aim_all(surfaces, lights, light_count, e, aims);
         response_lanes_load(response, specular, e, &sharp);
         for (size_t i = 0; i < light_count; i++) {
-            const vf t = aims[i].t, a = vf_sqrt(t) * LMP_ANGLE(1 - t),
+            /* A NaN becomes 0, which reads inside the table. */
+            const vf t = vf_max(aims[i].t, vf_set(0)), a = vf_sqrt(t) * LMP_ANGLE(1 - t),
                      covered = 2 * LMP_KERNEL_PI * t;
             const vf d = response_read(&broad, shade_angle(aims[i].u), a);
             const vf s = response_read(&sharp, shade_angle(aims[i].v), a);

@@ -9,11 +9,11 @@
 
 void lmp_response_seek(const lmp_response_info *info, float exponent, lmp_response_place *place) {
     uint32_t bits, one;
-    const float shifted = 1 + exponent, unit = 1;
+    const float e = fminf(fmaxf(exponent, 0), LMP_RESPONSE_EXPONENT_MAX);
+    const float shifted = 1 + e, unit = 1;
     memcpy(&bits, &shifted, sizeof bits);
     memcpy(&one, &unit, sizeof one);
-    const float entry = fminf((float)(bits - one) / (float)(1 << LMP_RESPONSE_WARP_SHIFT),
-                              (float)(LMP_RESPONSE_WARP_COUNT - 1));
+    const float entry = (float)(bits - one) / (float)(1 << LMP_RESPONSE_WARP_SHIFT);
     const int i = (int)fminf(entry, (float)(LMP_RESPONSE_WARP_COUNT - 2));
     const float slice = info->warp[i] + (entry - (float)i) * (info->warp[i + 1] - info->warp[i]);
     const int k = (int)fminf(slice, (float)info->cell_count - 1);
@@ -22,8 +22,8 @@ void lmp_response_seek(const lmp_response_info *info, float exponent, lmp_respon
         .first = cell->first,
         .columns = cell->columns,
         .share = slice - (float)k,
-        .density = lmp_response_density(cell, exponent),
-        .lobe_angle = lmp_response_lobe_angle(info, exponent),
+        .density = lmp_response_density(cell, e),
+        .lobe_angle = lmp_response_lobe_angle(info, e),
     };
 }
 

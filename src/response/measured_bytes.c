@@ -85,7 +85,9 @@ static bool read_header(const unsigned char *bytes, size_t size, lmp_brdf_respon
                                &info->reach,       &info->slope, &info->lobe_angle };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         *numbers[i] = lmp_bytes_load_f32(&p);
-        if (!positive(*numbers[i]))
+        /* A window's size is only kept, of any table. */
+        if (numbers[i] == &info->window_size ? !(*numbers[i] > 0 && isfinite(*numbers[i]))
+                                             : !positive(*numbers[i]))
             return false;
     }
     info->view_count = lmp_bytes_load_u32(&p);

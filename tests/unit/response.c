@@ -158,11 +158,11 @@ static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
 
 static void the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere(void **state) {
     (void)state;
-    const float exponents[] = { 0, 1e-30f, 0.5f, 1, 3, 20000, 1e6f, 1e30f };
+    const float exponents[] = { 0, 1e-30f, 0.5f, 1, 3, 20000, 1e6f, 1e30f, INFINITY };
     const int bands[] = { 1, 2, 9, 128 };
     for (size_t b = 0; b < 4; b++) {
         lmp_response *response = created(bands[b], LMP_WINDOW_NONE, 0.1f);
-        for (size_t e = 0; e < 8; e++)
+        for (size_t e = 0; e < 9; e++)
             for (int t = 0; t <= 20; t++)
                 for (int c = -20; c <= 20; c++) {
                     const float value =
@@ -171,6 +171,21 @@ static void the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere(void 
                 }
         lmp_response_destroy(response);
     }
+}
+
+static void exponents_past_the_last_are_nearly_the_mirrors(void **state) {
+    (void)state;
+    lmp_response *response = created(128, LMP_WINDOW_NONE, 0);
+    const float exponents[] = { 1e6f, 1e7f, 1e30f };
+    check_errors errors = { 0 };
+    for (int e = 0; e < 3; e++)
+        for (int i = 0; i < 40; i++) {
+            const probe p = probe_make(128, LMP_WINDOW_NONE, exponents[e],
+                                       powf(10, (float)check_random_between(-4, -0.01)));
+            compare(response, &p, 50, &errors);
+        }
+    CHECK_WITHIN(errors.largest, 9e-3);
+    lmp_response_destroy(response);
 }
 
 static void slices_join_without_a_step(void **state) {
@@ -315,7 +330,7 @@ static void damaged_bytes_are_refused(void **state) {
         bytes[at] = (unsigned char)(check_random() * 256);
         sign(bytes, size);
         if (lmp_response_read(NULL, bytes, size, &copy) == LMP_OK)
-            for (float e = 0; e < 1e5f; e = 2 * e + 0.3f)
+            for (float e = 0; e < INFINITY; e = 2 * e + 0.3f)
                 (void)lmp_response_eval(copy, e, 1, -1);
         lmp_response_destroy(copy);
         bytes[at] = was;
@@ -379,6 +394,7 @@ int main(void) {
         cmocka_unit_test(a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory),
         cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
         cmocka_unit_test(the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere),
+        cmocka_unit_test(exponents_past_the_last_are_nearly_the_mirrors),
         cmocka_unit_test(slices_join_without_a_step),
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
         cmocka_unit_test(arguments_outside_their_range_are_refused),

@@ -192,11 +192,46 @@ static void any_count_and_any_stride_writes_only_its_own(void **state) {
         CHECK_WITHIN(fabsf(some[i]), 0);
 }
 
+/* A NaN is shaded to whatever, and the others as ever. */
+static void not_a_number_stays_with_its_surface(void **state) {
+    (void)state;
+    static float whole[COUNT * 3], rgb[COUNT * 3];
+    const lmp_surfaces surfaces = interleaved();
+    for (int bands = 1; bands <= 20; bands++) {
+        const lmp_response_desc desc = { .bands = bands, .error = 0.05f };
+        const lmp_shade_settings settings = { .bands = bands };
+        lmp_response *response;
+        assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+        scatter(true);
+        for (int method = 0; method < 2; method++) {
+            float *const to[2] = { whole, rgb };
+            for (int pass = 0; pass < 2; pass++) {
+                if (method == 0)
+                    lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, to[pass]);
+                else
+                    lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0,
+                                              to[pass]);
+                vertices[3].surface.position.y = NAN;
+                vertices[40].surface.normal.x = NAN;
+                vertices[77].surface.view.z = NAN;
+            }
+            for (int i = 0; i < COUNT; i++)
+                if (i != 3 && i != 40 && i != 77)
+                    assert_memory_equal(&rgb[3 * i], &whole[3 * i], 3 * sizeof *rgb);
+            scatter(true);
+        }
+        lights[5].radius = lights[6].position.x = NAN;
+        lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        lmp_response_destroy(response);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(many_surfaces_are_shaded_as_one_is),
         cmocka_unit_test(many_surfaces_are_read_from_a_response_as_one_is),
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),
+        cmocka_unit_test(not_a_number_stays_with_its_surface),
         cmocka_unit_test(any_count_and_any_stride_writes_only_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
