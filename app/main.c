@@ -79,6 +79,8 @@ static int close_output(int status) {
 
 int main(int argc, char **argv) {
     hold_standard_descriptors();
+    /* the calls that fail say so: a reader that is gone, a file at the limit of its size */
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     return close_output(run(argc, argv));
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/script.h"
 #include "app/file/file.h"
+#include "app/image/image.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +89,7 @@ static bool read_event(const words *w, view_script_line *line) {
     strcpy(line->text, w->text[2]);
     if (strcmp(what, "shot") == 0) {
         line->kind = VIEW_SCRIPT_SHOT;
-        return true;
+        return image_format_of(line->text) == IMAGE_PNG;
     }
     e->kind = what[0] == 'k' ? VIEW_KEY : VIEW_DROP;
     if (strcmp(what, "drop") == 0)

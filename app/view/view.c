@@ -173,10 +173,11 @@ static bool write_shot(viewer *v, const view_settings *settings, const char *pat
     return ok && view_stage_write(v->stage, settings, path, error);
 }
 
-static void take_shot(viewer *v, const char *path) {
+/* Of a script where path is given: then a failure ends the viewer. */
+static bool take_shot(viewer *v, const char *path, cli_error *error) {
+    const bool scripted = path;
     char name[64];
     struct stat status;
-    cli_error error;
     for (int i = 1; !path && i < SHOTS_MAX; i++) {
         snprintf(name, sizeof name, "lampion-%04d.png", i);
         if (stat(name, &status) != 0 && errno == ENOENT)
@@ -184,10 +185,13 @@ static void take_shot(viewer *v, const char *path) {
     }
     if (!path)
         view_say(&v->state, "There are too many screenshots here");
-    else if (write_shot(v, v->drawn, path, &error))
+    else if (write_shot(v, v->drawn, path, error))
         view_say(&v->state, "%s: lampion render --from repeats it", path);
+    else if (scripted)
+        return false;
     else
-        view_say(&v->state, "%s", error.text);
+        view_say(&v->state, "%s", error->text);
+    return true;
 }
 
 static void toggle_recording(viewer *v) {
@@ -203,22 +207,22 @@ static void toggle_recording(viewer *v) {
     }
 }
 
-static void record_frame(viewer *v) {
+/* Without --record a failure only ends the recording. */
+static bool record_frame(viewer *v, cli_error *error) {
     char path[VIEW_PATH_SIZE + 32];
-    cli_error error;
     snprintf(path, sizeof path, "%s/frame_%06d.png", v->record, v->recorded);
-    if (write_shot(v, v->drawn, path, &error)) {
+    if (write_shot(v, v->drawn, path, error)) {
         v->recorded++;
-        return;
+        return true;
     }
     v->state.recording = false;
-    view_say(&v->state, "%s", error.text);
+    view_say(&v->state, "%s", error->text);
+    return !v->options->record;
 }
 
 /* What the program knows of itself, for tests and for the curious. */
-static void write_state(viewer *v) {
+static bool write_state(viewer *v, cli_error *error) {
     const view_state *s = &v->state;
-    cli_error ignored;
     file_writer writer;
     cJSON *root = view_settings_to_json(v->drawn);
     cJSON *ui = cJSON_AddObjectToObject(root, "view");
@@ -243,11 +247,14 @@ static void write_state(viewer *v) {
     cJSON_AddNumberToObject(ui, "transfer_ms", v->figures.times.transfer);
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
-    if (text && file_write_begin(&writer, v->options->state, &ignored)) {
+    bool ok = text || cli_fail(error, v->options->state, "out of memory");
+    ok = ok && file_write_begin(&writer, v->options->state, error);
+    if (ok) {
         fputs(text, writer.stream);
-        file_write_commit(&writer, &ignored);
+        ok = file_write_commit(&writer, error);
     }
     cJSON_free(text);
+    return ok;
 }
 
 /* --- drawings -----------------------------------------------------------------------------------
@@ -527,8 +534,8 @@ static bool draw_frame(viewer *v, bool *worked, cli_error *error) {
     if (!draw(v, worked, error))
         return take_back(v, error);
     const bool moving = *worked && v->changed_at == v->clock && !slow && !first;
-    if (v->state.recording)
-        record_frame(v);
+    if (v->state.recording && !record_frame(v, error))
+        return false;
     const bool redraw = v->state.wishes.redraw;
     v->state.wishes.redraw = false;
     if (!changes_over(v) && !*worked && !redraw)
@@ -588,32 +595,30 @@ static bool grant_wishes(viewer *v, cli_error *error) {
         view_say(&v->state, "%s", error->text);
     if (wishes.record)
         toggle_recording(v);
-    if (wishes.shot)
-        take_shot(v, NULL);
-    return true;
+    return !wishes.shot || take_shot(v, NULL, error);
 }
 
 /* --- the loop -----------------------------------------------------------------------------------
  */
 
 /* Plays what is due; a size goes through the window. */
-static void play_script(viewer *v) {
+static bool play_script(viewer *v, cli_error *error) {
     while (v->script_next < v->script.count) {
         const view_script_line *line = &v->script.lines[v->script_next];
-        if (line->seconds > v->clock)
-            return;
+        const bool early = line->kind == VIEW_SCRIPT_SHOT && v->good->width == 0;
+        if (line->seconds > v->clock || early)
+            return true;
         v->script_next++;
-        if (line->kind == VIEW_SCRIPT_SHOT) {
-            take_shot(v, line->text);
-            return; /* what follows belongs to the next frame */
-        }
+        if (line->kind == VIEW_SCRIPT_SHOT) /* what follows belongs to the next frame */
+            return take_shot(v, line->text, error);
         if (line->event.kind == VIEW_SIZE)
             view_window_resize(v->window, (int)line->event.x, (int)line->event.y);
         else
             view_handle(&v->state, &line->event);
         if (v->state.wishes.shot)
-            return;
+            return true;
     }
+    return true;
 }
 
 static void pass_time(viewer *v, double *before) {
@@ -630,7 +635,8 @@ static bool loop(viewer *v, cli_error *error) {
     while (!v->state.wishes.quit && (v->options->frames == 0 || v->frame < v->options->frames)) {
         view_window_take_events(v->window, busy || steps_time(v) ? 0 : 0.05);
         pass_time(v, &before);
-        play_script(v);
+        if (!play_script(v, error))
+            return false;
         watch(v);
         if (gpu_context_lost())
             v->state.wishes.restart = true;
@@ -647,8 +653,8 @@ static bool loop(viewer *v, cli_error *error) {
         if (!worked && !steps_time(v))
             continue;
         v->frame++;
-        if (v->options->state)
-            write_state(v);
+        if (v->options->state && !write_state(v, error))
+            return false;
     }
     return true;
 }

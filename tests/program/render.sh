@@ -83,6 +83,10 @@ refused 2 builtin:ball -o "$WORK/x.png" --help=x
 refused 1 builtin:ball -o "$WORK/x.png" --eye 1,2,3 --target 1,2,3
 refused 1 "$WORK/none.gltf" -o "$WORK/x.png"
 
+# a file at the limit of its size is an error as any other
+(ulimit -f 1 && refused 1 builtin:ball --size 640x360 --bands 3 -o "$WORK/long.exr") || fail "a long file: $(cat "$WORK/err")"
+[ -z "$(ls "$WORK" | grep long)" ] || fail "a part of a long file is left"
+
 # paths of lights
 "$PROGRAM" render builtin:balls $small --frames 2 --fps 1 --animate bounce -o "$WORK/b_%d.png"
 cmp -s "$WORK/b_1.png" "$WORK/f_001.png" && fail "--animate changes nothing"

@@ -219,6 +219,15 @@ refused view none.obj
 refused view room.obj --script none.txt
 refused view builtin:ball --animate none.json
 refused view --from room.obj
+small="room.obj --lights lights.json --size 80x60 --frames 9"
+printf '0 shot none/x.png\n' >bad.txt
+refused view $small --script bad.txt
+grep -q 'none/x.png' err || fail "not the picture's fault: $(cat err)"
+refused view $small --record room.obj
+refused view $small --state none/state.json
+printf '0 shot first.png\n1 key Ctrl+Q\n' >first.txt
+"$PROGRAM" view $small --script first.txt || fail "a picture of the first frame: $?"
+[ -s first.png ] || fail "no picture of the first frame"
 "$PROGRAM" render room.obj --size 8x8 -o plain.png 2>/dev/null
 refused render --from plain.png -o x.png
 refused render --from one/dropped.png -o x.exr

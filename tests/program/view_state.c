@@ -423,6 +423,7 @@ static void scripts_are_read_strictly(void **unused) {
                                        "-1 key m",
                                        "1e300 key m",
                                        "1 scroll 1e300",
+                                       "1 shot out.jpg",
                                        "1 move 0 -1e300" };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         if (read_script(bad[i], &script))
