@@ -6,6 +6,8 @@
 
 /* exp of anything above is infinite in double. */
 #define EXPONENT_MAX 700.0
+/* Any fit's values stay finite as floats, and so do sums of them. */
+#define VALUE_MAX 1e30
 
 /* P22(tan² theta_h) / (pi cos⁴ theta_h), P22(x) = K exp(-s) s^-p, s = alpha + x/alpha. */
 static double distribution(const lmp_sgd *sgd, int c, double cos_h) {
@@ -35,7 +37,7 @@ static void eval_sgd(const lmp_brdf *brdf, const double a[3], const double b[3],
         const double f = sgd->f0[c] - sgd->f1[c] * cos_d + (1 - sgd->f0[c]) * u5;
         const double g = shadowing(sgd, c, theta_a) * shadowing(sgd, c, theta_b);
         const double lobe = distribution(sgd, c, h[2]) * f * g / (a[2] * b[2]);
-        rgb[c] = fmax(0, (sgd->rho_d[c] + sgd->rho_s[c] * lobe) / BRDF_PI);
+        rgb[c] = fmin(fmax(0, (sgd->rho_d[c] + sgd->rho_s[c] * lobe) / BRDF_PI), VALUE_MAX);
     }
 }
 

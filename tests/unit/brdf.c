@@ -134,6 +134,23 @@ static void sgd_materials_have_their_published_albedo(void **state) {
     }
 }
 
+static void a_fit_of_wild_numbers_is_finite(void **state) {
+    (void)state;
+    lmp_sgd parameters;
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_sgd_find("gold-metallic-paint", &parameters), LMP_OK);
+    parameters.p[0] = 1e38;
+    parameters.rho_s[1] = 1e38;
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_OK);
+    for (int i = 0; i < 1000; i++) {
+        const lmp_rgb value =
+            lmp_brdf_eval(brdf, i ? check_random_direction() : (lmp_vec3) { 0, 0, 1 },
+                          i ? check_random_direction() : (lmp_vec3) { 0, 0, 1 });
+        assert_true(isfinite(value.r) && isfinite(value.g) && isfinite(value.b));
+    }
+    lmp_brdf_destroy(brdf);
+}
+
 static void every_sgd_material_is_finite_everywhere(void **state) {
     (void)state;
     size_t count = 0;
@@ -426,6 +443,7 @@ int main(void) {
         cmocka_unit_test(parameters_out_of_range_are_refused),
         cmocka_unit_test(sgd_materials_have_their_published_albedo),
         cmocka_unit_test(every_sgd_material_is_finite_everywhere),
+        cmocka_unit_test(a_fit_of_wild_numbers_is_finite),
         cmocka_unit_test(merl_round_trips_to_its_cells),
         cmocka_unit_test(rgl_round_trips_to_its_grid),
         cmocka_unit_test(merl_cell_centres_are_exact),
