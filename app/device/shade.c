@@ -71,10 +71,11 @@ bool device_shade(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgb
     bool ok = lights;
     for (size_t i = 0; ok && i < frame->light_count; i++)
         lights[i] = scene_light_as_sphere(&frame->lights[i]);
-#pragma omp parallel if (ok)
+    if (ok)
+#pragma omp parallel reduction(&& : ok)
     {
         gpu_row row;
-        const bool mine = ok && gpu_row_create(frame->width, &row);
+        const bool mine = gpu_row_create(frame->width, &row);
 #pragma omp for schedule(dynamic, 4)
         for (int y = 0; y < frame->height; y++)
             if (mine) {
@@ -83,9 +84,7 @@ bool device_shade(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgb
             }
         if (mine)
             gpu_row_free(&row);
-        else
-#pragma omp atomic write
-            ok = false;
+        ok = mine;
     }
     free(lights);
     return ok || cli_fail(error, NULL, "out of memory");
