@@ -33,8 +33,9 @@ typedef struct lmp_response_desc {
     lmp_window window;
     float window_size; /* as in lmp_sh_window */
     float error;       /* largest error at exponents >= 1, relative to the response's largest value
-                          over g at that e and a; LMP_RESPONSE_ERROR_MIN … 0.1, above 0.05 roughly;
-                          LMP_RESPONSE_ERROR_DEFAULT. Memory grows as 1/error */
+                          over g at that e and a; LMP_RESPONSE_ERROR_MIN … 0.1, above 0.05 the bound
+                          may be exceeded by a tenth; LMP_RESPONSE_ERROR_DEFAULT. Memory grows as
+                          1/error */
     lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
     void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
     void *user;                                /* of both hooks */
@@ -90,7 +91,7 @@ typedef struct lmp_response_info {
 LMP_API lmp_response_info lmp_response_describe(const lmp_response *response);
 
 /* --- as bytes ------------------------------------------------------------------------------------
- * Little-endian, versioned, checksummed; the same bytes on any machine.
+ * Little-endian, versioned, checksummed; the same bytes from the same response on any machine.
  *
  * bytes receives lmp_response_size(response) bytes */
 LMP_API size_t lmp_response_size(const lmp_response *response);
@@ -105,12 +106,15 @@ LMP_API lmp_result lmp_response_read(const lmp_allocator *allocator, const void 
  * How it is stored
  *   slices   of a view and a half angle each; between them the value is linear in the coordinates
  *            view_warp and cap_warp.
- *   grid     of a slice: polar about the mirror direction. Rows follow the angle g to it, measured
- *            from where the cap's rim shows, x = g - a² / (sqrt(a² + radius²) + radius), so that
- * the rim lies on the same row in every slice: s = x (reach / width / sqrt(x² + reach²) + slope),
- * row = s row_density - row_origin. Columns follow the azimuth p round it, from the side of the
- * normal: column = p column_density + 1. Cubic B-splines in both, 4 x 4 coefficients a reading, the
- *            second of them at the whole part of row and column.
+ *   grid     of a slice: polar about the mirror direction, g the angle to it, p the azimuth round
+ *            it from the side of the normal. Rows are counted from where the cap's rim shows, so
+ *            that the rim lies on the same row in every slice:
+ *                x      = g - a² / (sqrt(a² + radius²) + radius)
+ *                s      = x (reach / width / sqrt(x² + reach²) + slope)
+ *                row    = s row_density - row_origin
+ *                column = p column_density + 1
+ *            Cubic B-splines in both, 4 x 4 coefficients a reading, the second of them at the whole
+ *            part of row and column.
  *   value    mean over the cap of BRDF times cosine, times the cap's solid angle plus lobe_angle.
  *            Red, green, blue in 16 bits each. */
 typedef struct lmp_brdf_response lmp_brdf_response;
