@@ -105,9 +105,9 @@ static void widen(const float *const from[3], int i, double to[3]) {
         to[k] = (double)from[k][i];
 }
 
-/* What rounding does to cos a near the surface, where d - r cancels. */
+/* What rounding does to cos a near the surface, where d - r cancels; alpha2 = cos² a. */
 static double surface_bound(double alpha2) {
-    return fmin(6e-7 / sqrt(fmax(alpha2, 1e-30)), 1e-3);
+    return fmin(1.2e-7 / sqrt(fmax(alpha2, 1e-30)), 3e-4);
 }
 
 #endif

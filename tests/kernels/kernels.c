@@ -290,13 +290,18 @@ static bool agrees_everywhere(const lmp_kernels *k, const lmp_kernels *scalar, k
     return same;
 }
 
+/* LAMPION_SEED draws others. */
+static uint64_t drawn_seed(void) {
+    const uint64_t seed = (uint64_t)(check_random() * 1e9);
+    printf("inputs of seed %llu\n", (unsigned long long)seed);
+    return seed;
+}
+
 static void every_instruction_set_gives_the_same_bits(void **test) {
     (void)test;
     lmp_kernels tables[4];
     const unsigned count = available(tables);
-    const uint64_t seed = (uint64_t)(check_random() * 1e9);
-    printf("inputs of seed %llu\n", (unsigned long long)seed);
-    inputs *in = inputs_create(seed);
+    inputs *in = inputs_create(drawn_seed());
     bool same = true;
     for (unsigned i = 0; i < count; i++)
         for (int which = 0; which < KINDS; which++) {
@@ -314,7 +319,7 @@ static void both_layouts_hold_the_same_bits(void **test) {
     (void)test;
     lmp_kernels scalar;
     lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
-    inputs *in = inputs_create(5);
+    inputs *in = inputs_create(drawn_seed());
     for (int which = 0; which < KINDS; which++)
         for (int b = 0; b < 7; b++) {
             float *rows = results(&scalar, (kind)which, few_bands[b], in, COUNT, 0);
@@ -332,14 +337,27 @@ static void both_layouts_hold_the_same_bits(void **test) {
 /* --- against the oracle ------------------------------------------------------------------------
  */
 
-/* With rounding of float32 in n bands (docs/accuracy.md); alpha2 = cos² a. */
-static double bound_of(int bands, double alpha2) {
-    return 1e-6 + 1.5e-7 * bands * bands + surface_bound(alpha2);
+/* Of an element's largest value: two to eight times what was seen with nine seeds. alpha2 = cos² a.
+ */
+static double bound_of(kind which, int bands, double alpha2) {
+    switch (which) {
+    case EVAL:
+        return 1e-6 * bands;
+    case PROJECT:
+        return 3e-6 + 1e-6 * bands + surface_bound(alpha2);
+    case GRADIENT: /* as 1 / cos a */
+        return 1e-6 + 6e-7 * bands + 0.1 * surface_bound(alpha2) / sqrt(fmax(alpha2, 1e-30));
+    case ZONAL:
+        return 2e-6 + surface_bound(alpha2);
+    default:
+        return 1e-6 + surface_bound(alpha2);
+    }
 }
 
 static void check_element(int i, int bands, kind which, size_t values, const double *expected,
-                          const float *actual, double bound) {
+                          const float *actual, double alpha2) {
     const double error = check_error(values, expected, actual);
+    const double bound = bound_of(which, bands, alpha2);
     if (!(error <= bound))
         printf("%s, %d bands, element %d\n", kind_names[which], bands, i);
     CHECK_WITHIN(error, bound);
@@ -349,7 +367,7 @@ static void basis_zonal_and_project_match_double_precision(void **test) {
     (void)test;
     lmp_kernels best;
     lmp_kernels_init(&best, LMP_CPU_ALL);
-    inputs *in = inputs_create(11);
+    inputs *in = inputs_create(drawn_seed());
     double *expected = malloc(128 * 128 * sizeof *expected);
     assert_non_null(expected);
     for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 108) {
@@ -357,7 +375,7 @@ static void basis_zonal_and_project_match_double_precision(void **test) {
         float *zonal = results(&best, ZONAL, bands, in, COUNT, 0);
         float *project = results(&best, PROJECT, bands, in, COUNT, 0);
         const size_t n = LMP_SH_COUNT(bands);
-        for (int i = 0; i<COUNT; i += bands> 20 ? 5 : 1) {
+        for (int i = 0; i<COUNT; i += bands> 20 ? 4 : 1) {
             double center[3], point[3], axis[3], v2 = 0;
             widen(VECTOR(in->center), i, center);
             widen(VECTOR(in->point), i, point);
@@ -365,23 +383,23 @@ static void basis_zonal_and_project_match_double_precision(void **test) {
             for (int k = 0; k < 3; k++)
                 v2 += (center[k] - point[k]) * (center[k] - point[k]);
             const double radius = (double)in->radius[i];
-            const double bound = bound_of(bands, fabs(v2 - radius * radius) /
-                                                     fmax(fmax(v2, radius * radius), 1e-30));
+            const double alpha2 =
+                fabs(v2 - radius * radius) / fmax(fmax(v2, radius * radius), 1e-30);
             oracle_sh_eval(bands, axis, expected);
-            check_element(i, bands, EVAL, n, expected, basis + (size_t)i * n, bound);
+            check_element(i, bands, EVAL, n, expected, basis + (size_t)i * n, alpha2);
             if (radius == 0 && v2 == 0) {
                 for (size_t j = 0; j < n; j++)
                     assert_true(project[(size_t)i * n + j] == 0);
                 continue;
             }
             oracle_sphere(bands, center, radius, point, expected, NULL);
-            check_element(i, bands, PROJECT, n, expected, project + (size_t)i * n, bound);
+            check_element(i, bands, PROJECT, n, expected, project + (size_t)i * n, alpha2);
             /* The zonal coefficients are those along z. */
             oracle_sphere(bands, (double[]) { 0, 0, (double)in->distance[i] }, radius,
                           (double[]) { 0, 0, 0 }, expected, NULL);
             for (int l = 1; l < bands; l++)
                 expected[l] = expected[l * l + l];
-            check_element(i, bands, ZONAL, (size_t)bands, expected, zonal + i * bands, 2e-6);
+            check_element(i, bands, ZONAL, (size_t)bands, expected, zonal + i * bands, alpha2);
         }
         free(basis);
         free(zonal);
@@ -396,38 +414,46 @@ typedef struct sums_expected {
     double *sh, *axis_sh; /* red, green, blue; then by x, by y, by z */
     double response[3];
     double alpha2; /* the least cos² a */
-    bool slopes;   /* they are finite, and no light is near the surface */
+    bool slopes;   /* they are finite, none is held back (LMP_COS_MIN), and so they are here */
 } sums_expected;
 
+/* cos² a of a light from a point; 1 where there is nothing to see. */
+static double seen_alpha2(inputs *in, int light, int i, double center[3], double point[3]) {
+    const double r = (double)in->radius[light];
+    double v2 = 0;
+    widen(VECTOR(in->center), light, center);
+    widen(VECTOR(in->point), i, point);
+    for (int k = 0; k < 3; k++)
+        v2 += (center[k] - point[k]) * (center[k] - point[k]);
+    return r == 0 && v2 == 0 ? 1 : fabs(v2 - r * r) / fmax(v2, r * r);
+}
+
+/* The oracle's derivatives cost 2 bands times its values: past 74 bands they are had of few. */
 static void expect_sums(int bands, inputs *in, int i, const double *lambda, double *one,
                         sums_expected *e) {
     const size_t n = LMP_SH_COUNT(bands);
-    double point[3], axis[3];
-    widen(VECTOR(in->point), i, point);
+    double center[3], point[3], axis[3];
     widen(VECTOR(in->axis), i, axis);
     oracle_sh_eval(bands, axis, e->axis_sh);
     memset(e->sh, 0, 12 * n * sizeof *e->sh);
     memset(e->response, 0, sizeof e->response);
     e->alpha2 = 1;
-    e->slopes = true;
+    for (int light = 0; light < LIGHTS; light++)
+        e->alpha2 = fmin(e->alpha2, seen_alpha2(in, light, i, center, point));
+    e->slopes = e->alpha2 >= (double)(LMP_COS_MIN * LMP_COS_MIN) && (bands <= 74 || i % 8 == 0) &&
+                i != 4; /* the centre of a light */
     for (int light = 0; light < LIGHTS; light++) {
-        double center[3], v2 = 0;
         const double r = (double)in->radius[light];
-        widen(VECTOR(in->center), light, center);
-        for (int k = 0; k < 3; k++)
-            v2 += (center[k] - point[k]) * (center[k] - point[k]);
-        if (r == 0 && v2 == 0)
+        seen_alpha2(in, light, i, center, point);
+        if (r == 0 && memcmp(center, point, sizeof point) == 0)
             continue; /* nothing to see */
-        const double alpha2 = fabs(v2 - r * r) / fmax(v2, r * r);
-        e->alpha2 = fmin(e->alpha2, alpha2);
-        e->slopes = e->slopes && v2 > 0 && alpha2 > 0.05;
-        oracle_sphere(bands, center, r, point, one, v2 > 0 ? one + n : NULL);
+        oracle_sphere(bands, center, r, point, one, e->slopes ? one + n : NULL);
         const double lit = lobe_of(bands, lambda, one, e->axis_sh);
         for (int c = 0; c < 3; c++) {
             const double rgb = (double)in->rgb[c][light];
             e->response[c] += rgb * lit;
-            for (size_t j = 0; j < n; j++)
-                for (size_t set = 0; set < (v2 > 0 ? 4 : 1); set++)
+            for (size_t set = 0; set < (e->slopes ? 4 : 1); set++)
+                for (size_t j = 0; j < n; j++)
                     e->sh[(3 * set + (size_t)c) * n + j] += rgb * one[set * n + j];
         }
     }
@@ -438,7 +464,7 @@ static void sums_gradients_and_lobes_match_double_precision(void **test) {
     (void)test;
     lmp_kernels best;
     lmp_kernels_init(&best, LMP_CPU_ALL);
-    inputs *in = inputs_create(12);
+    inputs *in = inputs_create(drawn_seed());
     sums_expected e = { malloc(12 * 128 * 128 * sizeof *e.sh),
                         malloc(128 * 128 * sizeof *e.axis_sh),
                         { 0 },
@@ -451,22 +477,19 @@ static void sums_gradients_and_lobes_match_double_precision(void **test) {
         float *total = results(&best, ACCUMULATE, bands, in, COUNT, 1);
         float *slopes = results(&best, GRADIENT, bands, in, COUNT, 1);
         float *lobes = results(&best, LOBE, bands, in, COUNT, 1), lambda[LMP_BANDS_MAX];
-        double scale = 0, wide[LMP_BANDS_MAX];
+        double wide[LMP_BANDS_MAX];
         make_lambda(bands, lambda);
-        for (int l = 0; l < bands; l++) {
+        for (int l = 0; l < bands; l++)
             wide[l] = (double)lambda[l];
-            scale += wide[l] * (2 * l + 1);
-        }
-        for (int i = 0; i<COUNT; i += bands> 20 ? 33 : i < LIGHTS ? 1 : 12) {
+        for (int i = 0; i<COUNT; i += bands> 20 || i >= LIGHTS ? 4 : 1) {
             expect_sums(bands, in, i, wide, one, &e);
-            const double bound = bound_of(bands, e.alpha2);
-            check_element(i, bands, ACCUMULATE, 3 * n, e.sh, total + (size_t)i * 3 * n, bound);
+            check_element(i, bands, ACCUMULATE, 3 * n, e.sh, total + (size_t)i * 3 * n, e.alpha2);
             for (int c = 0; c < 3; c++)
                 CHECK_WITHIN(fabs((double)lobes[3 * i + c] - e.response[c]),
-                             (3e-7 + surface_bound(e.alpha2)) * LIGHTS * scale);
+                             4e-6 + LIGHTS * surface_bound(e.alpha2));
             if (e.slopes)
                 check_element(i, bands, GRADIENT, 12 * n, e.sh, slopes + (size_t)i * 12 * n,
-                              20 * bound);
+                              e.alpha2);
         }
         free(total);
         free(slopes);
@@ -482,7 +505,7 @@ static void rotation_and_dot_match_double_precision(void **test) {
     (void)test;
     lmp_kernels best;
     lmp_kernels_init(&best, LMP_CPU_ALL);
-    inputs *in = inputs_create(13);
+    inputs *in = inputs_create(drawn_seed());
     for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : bands == 20 ? 13 : 95) {
         const size_t n = LMP_SH_COUNT(bands);
         float *rotated = results(&best, ROTATE, bands, in, 18, 0);
@@ -518,7 +541,7 @@ static void shading_matches_double_precision(void **test) {
                                                                       expect_measured };
     lmp_kernels best;
     lmp_kernels_init(&best, LMP_CPU_ALL);
-    inputs *in = inputs_create(14);
+    inputs *in = inputs_create(drawn_seed());
     for (int which = SHADE_ZONAL; which < KINDS; which++) {
         check_errors errors = { 0 };
         double largest = 0, ratio = 0;
@@ -575,7 +598,7 @@ static void every_compiler_gives_the_bits_of_the_checksums(void **test) {
     (void)test;
     lmp_kernels tables[4];
     const unsigned count = available(tables);
-    inputs *in = inputs_create(2020);
+    inputs *in = inputs_create(2020); /* the checksums' */
     for (unsigned i = 0; i < count; i++)
         for (int which = 0; which < KINDS; which++)
             for (int b = 0; b < FEW; b++) {

@@ -309,7 +309,7 @@ static void expect_zonal(const shading *s, int i, shaded *to) {
             shaded_add(to, 3 * lobe, s->lights[light].radiance, one.scale,
                        (double[3]) { value, value, value });
         }
-        to->bound += 2e-7 + (1e-9 + 0.01 * surface_bound(one.alpha2)) * size;
+        to->bound += 4e-7 + (1e-9 + 0.05 * surface_bound(one.alpha2)) * size;
     }
 }
 

@@ -70,13 +70,14 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
         for (int k = 1; k <= m; k++)
             now *= -(2 * k - 1) * (long double)sine;
         long double k = first_normalisation(m);
+        const double c = cos(m * phi), s = sin(m * phi);
         for (int l = m; l < bands; l++) {
             const double value = (double)(k * now);
             if (m == 0) {
                 sh[l * l + l] = value;
             } else {
-                sh[l * l + l + m] = sqrt(2) * value * cos(m * phi);
-                sh[l * l + l - m] = sqrt(2) * value * sin(m * phi);
+                sh[l * l + l + m] = sqrt(2) * value * c;
+                sh[l * l + l - m] = sqrt(2) * value * s;
             }
             const long double next = ((2 * l + 1) * z * now - (l + m) * before) / (l + 1 - m);
             before = now;
