@@ -11,7 +11,8 @@
 #include <string.h>
 #include <time.h>
 
-enum { FRAMES = 9, SEED = 7 };
+/* Frames of SLOW milliseconds settle with fewer. */
+enum { FRAMES = 9, FRAMES_SLOW = 3, SLOW = 2000, SEED = 7 };
 
 const char *const bench_devices[] = { "all", "gpu", "cpu", NULL };
 const char *const bench_methods[] = { "all",         "paper", "coefficients",
@@ -47,8 +48,14 @@ typedef struct bench_case {
 /* What a row reads besides the scene: its bytes, and what making or loading it took. */
 typedef struct bench_tables {
     size_t bytes;
-    double ms;
+    double ms, lobes_ms, responses_ms; /* tables of materials, and responses */
 } bench_tables;
+
+typedef struct bench_result {
+    double ms; /* median of the shading of `frames` */
+    int frames;
+    double compile_ms; /* of the shader */
+} bench_result;
 
 /* A scene open on the device, with as many lights as any row asks for. */
 typedef struct bench_stage {
@@ -146,12 +153,13 @@ static int bands_max(const bench_stage *stage, const contestant *c) {
 static bench_tables tables_of(const bench_stage *stage, const bench_case *c) {
     const bool preintegrated = c->by->method == GPU_METHOD_PREINTEGRATED;
     const device_materials *all = &stage->materials;
-    bench_tables sum = { 0, stage->bake_ms };
+    bench_tables sum = { .ms = stage->bake_ms };
     if (c->by->method == GPU_METHOD_TABULATED)
         sum.bytes = gpu_zonal_bytes(c->bands);
     if (preintegrated) {
         sum.bytes = lmp_response_describe(stage->responses[c->bands]).bytes;
-        sum.ms += stage->build_ms[c->bands] + stage->respond_ms;
+        sum.lobes_ms = stage->build_ms[c->bands];
+        sum.responses_ms = stage->respond_ms;
     }
     for (int i = 0; i < all->count; i++)
         sum.bytes += preintegrated && all->responses[i]
@@ -160,8 +168,7 @@ static bench_tables tables_of(const bench_stage *stage, const bench_case *c) {
     return sum;
 }
 
-/* Median milliseconds of the shading, and of what compiling its shader took. */
-static bool time_case(bench_stage *stage, const bench_case *c, double *ms, double *compile,
+static bool time_case(bench_stage *stage, const bench_case *c, bench_result *result,
                       cli_error *error) {
     gpu_frame frame = {
         .width = c->width,
@@ -180,23 +187,22 @@ static bool time_case(bench_stage *stage, const bench_case *c, double *ms, doubl
         frame.response = stage->responses[c->bands];
     }
     double samples[FRAMES];
+    int count = FRAMES;
     gpu_times times;
-    double start = wall_ms();
+    const double start = wall_ms();
     if (!gpu_render(stage->renderer, &frame, &times, error))
         return false;
-    *compile = wall_ms() - start - times.total;
-    for (int i = 0; i < FRAMES; i++) {
+    result->compile_ms = wall_ms() - start - times.total;
+    for (int i = 0; i < count; i++) {
         if (!gpu_render(stage->renderer, &frame, &times, error))
             return false;
         samples[i] = times.shade + times.transfer;
-        if (i == 2 && samples[i] > 2000) { /* slow ones settle with fewer */
-            qsort(samples, 3, sizeof *samples, by_value);
-            *ms = samples[1];
-            return true;
-        }
+        if (i == FRAMES_SLOW - 1 && samples[i] > SLOW)
+            count = FRAMES_SLOW;
     }
-    qsort(samples, FRAMES, sizeof *samples, by_value);
-    *ms = samples[FRAMES / 2];
+    qsort(samples, (size_t)count, sizeof *samples, by_value);
+    result->ms = samples[count / 2];
+    result->frames = count;
     return true;
 }
 
@@ -210,8 +216,8 @@ static void add_number(cJSON *row, const char *name, double value) {
     cJSON_AddRawToObject(row, name, text);
 }
 
-static void print_json(const bench_stage *stage, const bench_case *c, double ms, double ns,
-                       double compile, double paper) {
+static void print_json(const bench_stage *stage, const bench_case *c, const bench_result *result,
+                       double ns, double paper) {
     const bench_tables tables = tables_of(stage, c);
     cJSON *row = cJSON_CreateObject();
     cJSON_AddStringToObject(row, "scene", stage->name);
@@ -221,34 +227,39 @@ static void print_json(const bench_stage *stage, const bench_case *c, double ms,
     cJSON_AddNumberToObject(row, "lights", c->lights);
     cJSON_AddNumberToObject(row, "width", c->width);
     cJSON_AddNumberToObject(row, "height", c->height);
-    add_number(row, "ms", ms);
+    add_number(row, "ms", result->ms);
+    cJSON_AddNumberToObject(row, "frames", result->frames);
     add_number(row, "ns_per_pixel_light", ns);
     if (paper > 0)
-        add_number(row, "vs_paper", paper / ms);
+        add_number(row, "vs_paper", paper / result->ms);
     else
         cJSON_AddNullToObject(row, "vs_paper");
-    add_number(row, "compile_ms", compile);
+    add_number(row, "compile_ms", result->compile_ms);
     cJSON_AddNumberToObject(row, "table_bytes", (double)tables.bytes);
     add_number(row, "table_ms", tables.ms);
+    add_number(row, "lobes_ms", tables.lobes_ms);
+    add_number(row, "response_ms", tables.responses_ms);
     char *text = cJSON_PrintUnformatted(row);
     printf("%s    %s", stage->first ? "" : ",\n", text ? text : "null");
     cJSON_free(text);
     cJSON_Delete(row);
 }
 
-static void print_row(bench_stage *stage, const bench_case *c, double ms, double compile,
+static void print_row(bench_stage *stage, const bench_case *c, const bench_result *result,
                       double paper) {
-    const double ns = 1e6 * ms / ((double)c->width * c->height * c->lights);
+    const double ns = 1e6 * result->ms / ((double)c->width * c->height * c->lights);
     if (stage->options->json) {
-        print_json(stage, c, ms, ns, compile, paper);
+        print_json(stage, c, result, ns, paper);
     } else {
         const bench_tables tables = tables_of(stage, c);
         char ratio[32] = "-";
         if (paper > 0)
-            snprintf(ratio, sizeof ratio, "%.2f", paper / ms);
-        printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %9.3f %9s %9.0f %9zu %8.0f\n",
+            snprintf(ratio, sizeof ratio, "%.2f", paper / result->ms);
+        printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %6d %9.3f %9s %9.0f %9zu %8.0f %8.0f "
+               "%8.0f\n",
                stage->name, device_names[c->by->device], c->by->name, c->bands, c->lights, c->width,
-               c->height, ms, ns, ratio, compile, tables.bytes / 1024, tables.ms);
+               c->height, result->ms, result->frames, ns, ratio, result->compile_ms,
+               tables.bytes / 1024, tables.ms, tables.lobes_ms, tables.responses_ms);
     }
     stage->first = false;
     fflush(stdout);
@@ -282,13 +293,14 @@ static void print_header(const bench_stage *stage) {
     for (int i = 0; i < o->materials.count; i++)
         printf("%s%s", i ? ", " : "materials: ", o->materials.items[i]);
     printf("%s"
-           "ms: from G-buffer to radiance, to the CPU and back where it shades, median of %d "
-           "frames (%s); x paper: against the paper's fragment shader in the same run\n",
-           o->materials.count ? "\n" : "", FRAMES,
+           "ms: from G-buffer to radiance, to the CPU and back where it shades, median of the "
+           "frames (%s); x paper: against the paper's fragment shader in the same run; ms at the "
+           "end: making or reading the materials' tables, the lobes, the materials' responses\n",
+           o->materials.count ? "\n" : "",
            stage->context.software ? "wall clock" : "timer queries");
-    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %9s %9s %9s %9s %8s\n", "scene", "dev", "method",
-           "bands", "lights", "size", "ms", "ns/pair", "x paper", "compile", "table KB",
-           "table ms");
+    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene", "dev",
+           "method", "bands", "lights", "size", "ms", "frames", "ns/pair", "x paper", "compile",
+           "table KB", "table", "lobes", "response");
 }
 
 /* --- all rows -----------------------------------------------------------------------------------
@@ -300,17 +312,17 @@ static bool time_setting(bench_stage *stage, int bands, int lights, const int si
     double paper = 0;
     for (int i = 0; i < CONTESTANTS; i++) {
         const bench_case c = { &contestants[i], bands, lights, size[0], size[1] };
-        double ms, compile;
+        bench_result result;
         if (!is_chosen(stage->options, c.by, bands))
             continue;
         if (!find_materials(stage, bands, error))
             return false;
         if (bands > bands_max(stage, c.by))
             continue;
-        if (!time_case(stage, &c, &ms, &compile, error))
+        if (!time_case(stage, &c, &result, error))
             return false;
-        paper = c.by->method == GPU_METHOD_PAPER ? ms : paper;
-        print_row(stage, &c, ms, compile, paper);
+        paper = c.by->method == GPU_METHOD_PAPER ? result.ms : paper;
+        print_row(stage, &c, &result, paper);
     }
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion bench gpu: which rows its options choose, and that they are JSON. No time is judged. */
+/* lampion bench: which rows its options choose, and that they are JSON. No time is judged. */
 #include "tests/program/folder.h"
 
 #include <cjson/cJSON.h>
@@ -9,14 +9,19 @@
 #define OWN_SCENE "a\"b.obj"
 #define TINY      "--json --size 16x16 "
 
-/* Runs `lampion bench gpu` with arguments for the shell, $F in them the folder; its status. */
-static int bench(const char *arguments) {
+/* Runs `lampion bench` of cpu or gpu with arguments for the shell, $F in them the folder; its
+ * status. */
+static int bench_of(const char *what, const char *arguments) {
     char command[1024];
-    snprintf(command, sizeof command, "F='%s'; \"$LAMPION_PROGRAM\" bench gpu %s >$F/out 2>$F/err",
-             folder, arguments);
+    snprintf(command, sizeof command, "F='%s'; \"$LAMPION_PROGRAM\" bench %s %s >$F/out 2>$F/err",
+             folder, what, arguments);
     const int status = system(command);
     assert_true(WIFEXITED(status));
     return WEXITSTATUS(status);
+}
+
+static int bench(const char *arguments) {
+    return bench_of("gpu", arguments);
 }
 
 static char *read_output(const char *name) {
@@ -31,9 +36,10 @@ static char *read_output(const char *name) {
 
 /* The whole output; its rows have every key. */
 static cJSON *rows_of(const char *arguments) {
-    static const char *const numbers[] = { "bands",      "lights",      "width",
-                                           "height",     "ms",          "ns_per_pixel_light",
-                                           "compile_ms", "table_bytes", "table_ms" };
+    static const char *const numbers[] = {
+        "bands",      "lights",      "width",    "height",   "ms",          "ns_per_pixel_light",
+        "compile_ms", "table_bytes", "table_ms", "lobes_ms", "response_ms",
+    };
     if (bench(arguments) != 0)
         fail_msg("%s: %s", arguments, read_output("err"));
     char *text = read_output("out");
@@ -46,6 +52,8 @@ static cJSON *rows_of(const char *arguments) {
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
             assert_true(cJSON_IsNumber(cJSON_GetObjectItem(row, numbers[i])));
         assert_true(cJSON_GetObjectItem(row, "ms")->valuedouble > 0);
+        const int frames = cJSON_GetObjectItem(row, "frames")->valueint;
+        assert_true(frames == 9 || frames == 3);
         assert_non_null(cJSON_GetObjectItem(row, "vs_paper"));
     }
     return root;
@@ -100,8 +108,12 @@ static void materials_are_in_the_rows(void **state) {
     cJSON *without = rows_of(chosen), *with = rows_of(arguments);
     assert_int_equal(count_rows(without), 2);
     assert_int_equal(count_rows(with), 2);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         assert_true(number_at(with, i, "table_bytes") > number_at(without, i, "table_bytes"));
+        assert_true(number_at(with, i, "table_ms") > 0 && number_at(without, i, "table_ms") <= 0);
+        assert_int_equal(number_at(with, i, "lobes_ms") > 0, i);
+        assert_int_equal(number_at(with, i, "response_ms") > 0, i);
+    }
     assert_string_equal(cJSON_GetArrayItem(cJSON_GetObjectItem(with, "materials"), 0)->valuestring,
                         "wall=phong:5");
     cJSON_Delete(without);
@@ -142,6 +154,28 @@ static void options_fix_what_the_rows_are_of(void **state) {
                      count_rows(root), count_values(root, "scene"), count_values(root, "bands"),
                      count_values(root, "lights"));
         cJSON_Delete(root);
+    }
+}
+
+/* Against what was not measured there is no ratio. */
+static void kernels_without_scalar_rows_have_no_ratio_to_them(void **state) {
+    (void)state;
+    for (int scalar = 0; scalar < 2; scalar++) {
+        char arguments[128];
+        snprintf(arguments, sizeof arguments,
+                 "--json --kernel zonal --bands 3 --threads 1 --cpu-mask %d", scalar ? 1 : 14);
+        assert_int_equal(bench_of("cpu", arguments), 0);
+        char *text = read_output("out");
+        cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+        assert_non_null(root);
+        const cJSON *row;
+        cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
+            const cJSON *ratio = cJSON_GetObjectItem(row, "vs_scalar");
+            assert_true(scalar ? cJSON_IsNumber(ratio) : cJSON_IsNull(ratio));
+        }
+        assert_true(!scalar || count_rows(root) == 2);
+        cJSON_Delete(root);
+        free(text);
     }
 }
 
@@ -193,6 +227,7 @@ int main(void) {
         cmocka_unit_test(a_setting_has_a_row_of_each_method),
         cmocka_unit_test(materials_are_in_the_rows),
         cmocka_unit_test(options_fix_what_the_rows_are_of),
+        cmocka_unit_test(kernels_without_scalar_rows_have_no_ratio_to_them),
         cmocka_unit_test(bad_options_end_before_anything_runs),
     };
     return cmocka_run_group_tests(tests, prepare, folder_remove);
