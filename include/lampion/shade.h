@@ -24,8 +24,8 @@ typedef struct lmp_material {
     lmp_rgb specular;                  /* reflectance of the Phong lobe */
     float exponent;                    /* of the Phong lobe, finite, >= 0 */
     const lmp_brdf_table *table;       /* instead of the lobes, or NULL; see lmp_shade_table */
-    const lmp_brdf_response *response; /* made from that table, for lmp_shade_preintegrated, or
-                                          NULL; without a table it is not used */
+    const lmp_brdf_response *response; /* the same, for lmp_shade_preintegrated: a material that no
+                                          other function shades needs no table; or NULL */
 } lmp_material;
 
 /* glTF's metallic-roughness as two lobes: diffuse = base (1 - metallic), specular = Schlick's F0 =
@@ -88,9 +88,9 @@ LMP_API lmp_rgb lmp_shade_table_preintegrated(const lmp_brdf_response *response,
 
 /* lmp_shade from a response of the same bands and window, within the response's error: its cost
  * does not depend on the bands. It is lmp_shade_preintegrated_n of one surface. A material with a
- * table is read from its own response; without one it is summed by bands.
+ * response of its own is read from that, one with a table alone is summed by bands.
  *
- * response may be NULL if the material has a table */
+ * response may be NULL if the material has a table or its own */
 LMP_API lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_material *material,
                                         const lmp_surface *surface, const lmp_light *lights,
                                         size_t count);
@@ -112,17 +112,19 @@ LMP_API lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_
  * reflectances are red, green, blue.
  *
  * Pointers are read at `table_stride` and `response_stride` bytes from one surface to the next; 0
- * means the same for all. A surface whose table is NULL has lobes; of others reflectances and
- * exponent are not read; the tangent of an anisotropic one is zero (lmp_shade_table) */
+ * means the same for all. A surface with neither table nor response has lobes; of others
+ * reflectances and exponent are not read; the tangent of an anisotropic one is zero
+ * (lmp_shade_table) */
 typedef struct lmp_surfaces {
     lmp_vec3_array position, normal, view;
     lmp_vec3_array diffuse, specular;
     lmp_float_array exponent;           /* finite, >= 0 */
     const lmp_brdf_table *const *table; /* of the first surface; NULL: all have lobes */
     size_t table_stride;
-    const lmp_brdf_response *const *response; /* made from the first surface's table, or NULL; read
-                                                 by lmp_shade_preintegrated_n alone. Surfaces with
-                                                 a table but no response go one by one */
+    const lmp_brdf_response *const *response; /* of the first surface, or NULL; read by
+                                                 lmp_shade_preintegrated_n alone, which then reads
+                                                 no table. Surfaces with a table but no response go
+                                                 one by one */
     size_t response_stride;
 } lmp_surfaces;
 

@@ -49,9 +49,8 @@ static size_t take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_
     for (size_t i = 0; i < count; i++) {
         const lmp_brdf_table *table = pointer_at(surfaces->table, surfaces->table_stride, left[i]);
         const lmp_brdf_response *response =
-            preintegrated && table
-                ? pointer_at(surfaces->response, surfaces->response_stride, left[i])
-                : NULL;
+            preintegrated ? pointer_at(surfaces->response, surfaces->response_stride, left[i])
+                          : NULL;
         if (i == 0) {
             chunk->table = table;
             chunk->response = response;
@@ -385,7 +384,7 @@ lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_material
         .exponent = { &material->exponent, 0 },
     };
     float rgb[3];
-    if (material->table && material->response)
+    if (material->response)
         return lmp_shade_table_preintegrated(material->response, surface, lights, count);
     if (material->table)
         return lmp_shade_table(material->table, surface, (lmp_vec3) { 0, 0, 0 }, lights, count);

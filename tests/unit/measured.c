@@ -264,7 +264,7 @@ static crowd *crowd_create(void) {
             .diffuse = random_color(),
             .specular = random_color(),
             .exponent = (float)check_random_between(1, 100),
-            .table = which == 0 ? NULL : c->tables[which % 2],
+            .table = which == 0 || which == 3 ? NULL : c->tables[which % 2],
             .response = which == 0 || which == 4 ? NULL : c->responses[which % 2],
         };
         const lmp_vec3 n = check_random_direction(), v = check_random_direction();
