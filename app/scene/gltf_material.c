@@ -5,6 +5,7 @@
 #include "app/scene/texture.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +25,7 @@ static bool decode_image(texture_pool *pool, size_t image) {
     const gltf *document = pool->document;
     const cJSON *entry = document->images.items[image];
     const char *uri = gltf_text(entry, "uri"), *name = gltf_text(entry, "name");
+    char number[32];
     scene_texture *texture = &pool->decoded[image];
     bool ok = true;
     const unsigned char *bytes;
@@ -48,6 +50,8 @@ static bool decode_image(texture_pool *pool, size_t image) {
                             "is no valid glTF: image %zu has no data", image);
         ok = gltf_view_bytes(document, (size_t)view, &bytes, &size, &owned, pool->error);
     }
+    snprintf(number, sizeof number, "image %zu", image);
+    name = name[0] ? name : number;
     ok = ok &&
          texture_decode(pool->builder, bytes, size, document->subject, name, texture, pool->error);
     builder_name(texture->name, name);

@@ -315,6 +315,11 @@ static void textures_that_cannot_be_are_refused(void **state) {
     assert_refused("textured.gltf", "t.png");
     folder_write_text("t.png", "no picture");
     assert_refused("textured.gltf", "t.png");
+    folder_write_text("embedded.gltf", HEAD
+                      "\"materials\":[{\"emissiveTexture\":{\"index\":0}}],"
+                      "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":"
+                      "\"data:image/png;base64,bm8gcGljdHVyZQ==\"}]," MESH ACCESSOR VIEW BUFFER);
+    assert_refused("embedded.gltf", "\"image 0\"");
 }
 
 /* --- files outside ------------------------------------------------------------------------------
