@@ -31,6 +31,9 @@ typedef struct bench_batch {
     lmp_vec3_array axes, points;
     lmp_spheres spheres;
     const float *distances, *lambda, *matrices, *vectors;
+    lmp_surfaces surfaces;
+    const lmp_light *lights;
+    const lmp_response *response; /* of the kernels that read one */
     float *out;
 } bench_batch;
 
@@ -45,6 +48,10 @@ typedef struct measurement {
     double vs_scalar; /* 0: scalar was not measured */
 } measurement;
 
+/* What a kernel reads. Its bands do not concern the cost: 10, unless others are asked for. */
+typedef enum bench_table { TABLE_NONE, TABLE_LOBES, TABLE_MEASURED } bench_table;
+enum { TABLE_BANDS = 10 };
+
 /* One light a pair, or LIGHTS of them. */
 typedef struct bench_kernel {
     const char *name;
@@ -52,7 +59,9 @@ typedef struct bench_kernel {
     double (*slots)(int bands);  /* mul, add, div and sqrt a light-point pair */
     void (*run)(const bench_batch *b);
     void (*paper)(const bench_batch *b, size_t element);
-    int lights; /* pairs an element */
+    int lights;  /* pairs an element */
+    bool shades; /* its output has one layout */
+    bench_table table;
 } bench_kernel;
 
 /* --- the batch functions -----------------------------------------------------------------------
@@ -89,6 +98,14 @@ static void run_gradient(const bench_batch *b) {
 static void run_lobe(const bench_batch *b) {
     lmp_lobe_response_n(b->bands, b->lambda, b->axes, &b->spheres, LIGHTS, b->points, b->count,
                         b->layout, b->stride, b->out);
+}
+
+static void run_shade_zonal(const bench_batch *b) {
+    const lmp_shade_settings settings = { .bands = b->bands };
+    lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, LIGHTS, 3, b->out);
+}
+static void run_shade_preintegrated(const bench_batch *b) {
+    lmp_shade_preintegrated_n(b->response, &b->surfaces, b->count, b->lights, LIGHTS, 3, b->out);
 }
 
 /* --- the paper, one by one ---------------------------------------------------------------------
@@ -169,6 +186,21 @@ static void paper_lobe(const bench_batch *b, size_t i) {
         coefficient_sink[c] = lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
 }
 
+/* Both lobes, or the one of a table. */
+static void paper_shade(const bench_batch *b, size_t i) {
+    static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    const size_t n = LMP_SH_COUNT(b->bands);
+    const lmp_vec3_array around[2] = { b->surfaces.normal, b->axes };
+    float rgb[3] = { 0, 0, 0 };
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    for (int k = b->surfaces.table ? 1 : 0; k < 2; k++) {
+        lmp_lobe_project(b->bands, b->lambda, vector_at(&around[k], i), lobe);
+        for (size_t c = 0; c < 3; c++)
+            rgb[c] += lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
+    }
+    memcpy(coefficient_sink, rgb, sizeof rgb);
+}
+
 /* --- operations: what src/kernels asks for, no FMA
  * ------------------------------------------------ */
 
@@ -229,19 +261,49 @@ static double slots_lobe(int n) {
     return 19 + 6 + 2 + (n > 1 ? 3 : 0) + 11 * later(n) + 7;
 }
 
+/* A cap seen from two axes, and three channels of two lobes. */
+enum { SLOTS_CAP = 17, SLOTS_AIM = 12, SLOTS_GATHER = 12 };
+static double slots_shade_zonal(int n) {
+    /* The cap's R_l, the mirror direction's P_l and their sum; every other band the normal's. */
+    const double band = n <= 48 ? 9 + 3.5 : 12 + 4;
+    return SLOTS_CAP + SLOTS_AIM + SLOTS_GATHER + 8 + band * later(n);
+}
+/* Floats alone: the products of 16-bit coefficients with their weights are integers. */
+static double slots_shade_response(int n) {
+    (void)n;
+    /* Three angles; two readings: coordinates, two splines' weights, rounded, four rows. */
+    return SLOTS_CAP + SLOTS_AIM + SLOTS_GATHER + 17 + 2 * 21 + 2 * (4 + 30 + 19 + 9) + 10;
+}
+static double slots_shade_measured(int n) {
+    (void)n;
+    /* Three cosines and three angles; the row's coordinate, the cap's share; four slices: splines'
+     * weights and the sums of 12 numbers; those times the radiance. */
+    return SLOTS_CAP + 18 + 66 + 50 + 5 + 4 * (59 + 24) + 24;
+}
+
 static const bench_kernel kernels[] = {
-    { "project", values_basis, slots_project, run_project, paper_project, 1 },
-    { "accumulate", values_rgb, slots_accumulate, run_accumulate, paper_accumulate, LIGHTS },
-    { "gradient", values_gradient, slots_gradient, run_gradient, paper_gradient, LIGHTS },
-    { "lobe", values_lobe, slots_lobe, run_lobe, paper_lobe, LIGHTS },
-    { "zonal", values_zonal, slots_zonal, run_zonal, paper_zonal, 1 },
-    { "basis", values_basis, slots_basis, run_basis, paper_basis, 1 },
-    { "rotate", values_basis, slots_rotate, run_rotate, paper_rotate, 1 },
-    { "dot", values_basis, slots_dot, run_dot, paper_dot, 1 },
+    { "project", values_basis, slots_project, run_project, paper_project, 1, false, TABLE_NONE },
+    { "accumulate", values_rgb, slots_accumulate, run_accumulate, paper_accumulate, LIGHTS, false,
+      TABLE_NONE },
+    { "gradient", values_gradient, slots_gradient, run_gradient, paper_gradient, LIGHTS, false,
+      TABLE_NONE },
+    { "lobe", values_lobe, slots_lobe, run_lobe, paper_lobe, LIGHTS, false, TABLE_NONE },
+    { "zonal", values_zonal, slots_zonal, run_zonal, paper_zonal, 1, false, TABLE_NONE },
+    { "basis", values_basis, slots_basis, run_basis, paper_basis, 1, false, TABLE_NONE },
+    { "rotate", values_basis, slots_rotate, run_rotate, paper_rotate, 1, false, TABLE_NONE },
+    { "dot", values_basis, slots_dot, run_dot, paper_dot, 1, false, TABLE_NONE },
+    { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, paper_shade, LIGHTS, true,
+      TABLE_NONE },
+    { "shade-response", values_lobe, slots_shade_response, run_shade_preintegrated, paper_shade,
+      LIGHTS, true, TABLE_LOBES },
+    { "shade-measured", values_lobe, slots_shade_measured, run_shade_preintegrated, paper_shade,
+      LIGHTS, true, TABLE_MEASURED },
 };
 enum { KERNELS = sizeof kernels / sizeof *kernels };
-static const char *const kernel_choices[] = { "all",   "project", "accumulate", "gradient", "lobe",
-                                              "zonal", "basis",   "rotate",     "dot",      NULL };
+static const char *const kernel_choices[] = {
+    "all",    "project", "accumulate",  "gradient",       "lobe",           "zonal", "basis",
+    "rotate", "dot",     "shade-zonal", "shade-response", "shade-measured", NULL
+};
 _Static_assert(sizeof kernel_choices / sizeof *kernel_choices == KERNELS + 2, "all, kernels, NULL");
 
 static bool wanted(const bench_options *o, int kernel) {
@@ -381,8 +443,14 @@ static double measure_paper(const bench_kernel *kernel, const bench_batch *b, in
 typedef struct bench_inputs {
     float center[3][ELEMENTS_MAX], point[3][ELEMENTS_MAX], axis[3][ELEMENTS_MAX];
     float radiance[3][ELEMENTS_MAX], radius[ELEMENTS_MAX], distance[ELEMENTS_MAX];
+    float normal[3][ELEMENTS_MAX], exponent[ELEMENTS_MAX];
     float lambda[LMP_BANDS_MAX];
     float *out, *vectors, *matrices;
+    lmp_light lights[LIGHTS];
+    /* What the kernels that read a table read now. */
+    lmp_response *lobes;
+    lmp_brdf_table *table;
+    lmp_brdf_response *measured;
 } bench_inputs;
 
 static float uniform(uint32_t *state) {
@@ -407,6 +475,21 @@ static bool inputs_create(bench_inputs *in) {
         in->radius[i] = 0.05f + 0.5f * uniform(&state);
         in->distance[i] = 1 + 3 * uniform(&state);
     }
+    for (int i = 0; i < ELEMENTS_MAX; i++) {
+        /* Both axes on the lights' side, where a surface sees most of them. */
+        const float x = uniform(&state), y = uniform(&state), z = 0.1f + uniform(&state);
+        const float length = sqrtf(x * x + y * y + z * z);
+        in->normal[0][i] = x / length;
+        in->normal[1][i] = y / length;
+        in->normal[2][i] = z / length;
+        in->exponent[i] = 20;
+    }
+    for (int i = 0; i < LIGHTS; i++)
+        in->lights[i] =
+            (lmp_light) { .position = { in->center[0][i], in->center[1][i], in->center[2][i] },
+                          .radius = in->radius[i],
+                          .radiance = { in->radiance[0][i], in->radiance[1][i],
+                                        in->radiance[2][i] } };
     lmp_lobe_phong(LMP_BANDS_MAX, 20, in->lambda);
     in->out = aligned_alloc(64, values * sizeof(float));
     in->vectors = aligned_alloc(64, values * sizeof(float));
@@ -444,7 +527,50 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
     b.matrices = in->matrices;
     b.vectors = in->vectors;
     b.out = in->out;
+    b.lights = in->lights;
+    b.response = in->lobes;
+    b.surfaces = (lmp_surfaces) { .position = b.points,
+                                  .normal = planes_of(in->normal),
+                                  .view = b.axes,
+                                  .diffuse = planes_of(in->radiance),
+                                  .specular = planes_of(in->radiance),
+                                  .exponent = { in->exponent, sizeof(float) } };
+    if (kernel->table == TABLE_MEASURED) {
+        b.surfaces.table = (const lmp_brdf_table *const *)&in->table;
+        b.surfaces.response = (const lmp_brdf_response *const *)&in->measured;
+    }
     return b;
+}
+
+/* --- tables ------------------------------------------------------------------------------------
+ */
+
+static void tables_free(bench_inputs *in) {
+    lmp_response_destroy(in->lobes);
+    lmp_brdf_response_destroy(in->measured);
+    lmp_brdf_table_destroy(in->table);
+    in->lobes = NULL;
+    in->measured = NULL;
+    in->table = NULL;
+}
+
+static bool measured_create(int bands, bench_inputs *in) {
+    const lmp_brdf_table_desc desc = { .bands = bands };
+    lmp_sgd sgd;
+    lmp_brdf *brdf;
+    if (lmp_sgd_find("gold-metallic-paint", &sgd) != LMP_OK ||
+        lmp_brdf_create_sgd(NULL, &sgd, &brdf) != LMP_OK)
+        return false;
+    const bool made = lmp_brdf_table_create(NULL, brdf, &desc, &in->table) == LMP_OK &&
+                      lmp_brdf_response_create(NULL, in->table, NULL, &in->measured) == LMP_OK;
+    lmp_brdf_destroy(brdf);
+    return made;
+}
+
+static bool tables_create(bench_table table, int bands, bench_inputs *in) {
+    const lmp_response_desc desc = { .bands = bands };
+    return table == TABLE_NONE || (lmp_response_create(NULL, &desc, &in->lobes) == LMP_OK &&
+                                   (table == TABLE_LOBES || measured_create(bands, in)));
 }
 
 /* --- results -----------------------------------------------------------------------------------
@@ -465,36 +591,48 @@ static void print_row(const bench_options *o, bool first, const bench_kernel *ke
                first ? "" : ",\n", kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower,
                m->ns.upper, m->peak_fraction, m->vs_paper, vs_scalar);
     else
-        printf("%-10s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9s\n", kernel->name, bands,
+        printf("%-14s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9s\n", kernel->name, bands,
                m->isa, name, m->ns.median, m->ns.lower, m->ns.upper, m->peak_fraction, m->vs_paper,
                vs_scalar);
     fflush(stdout);
 }
 
-static void measure_kernels(const bench_options *o, bench_inputs *in) {
+/* The rows of one kernel at one number of bands, of one layout. */
+static void measure_rows(const bench_options *o, bench_inputs *in, const bench_kernel *kernel,
+                         int bands, lmp_sh_layout layout, bool *first) {
     const int runs = o->full ? 301 : 31;
+    const bench_batch b = batch_of(in, kernel, bands, layout);
+    const double paper = measure_paper(kernel, &b, o->full ? 31 : 5);
+    double scalar = 0;
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+        if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))
+            continue;
+        lmp_cpu_mask(flag);
+        measurement m = measure(kernel, &b, flag, flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
+        m.isa = lmp_cpu_name();
+        m.vs_paper = paper / m.ns.median;
+        scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
+        m.vs_scalar = scalar / m.ns.median;
+        print_row(o, *first, kernel, bands, layout, &m);
+        *first = false;
+    }
+}
+
+static bool measure_kernels(const bench_options *o, bench_inputs *in) {
     const int *bands = o->bands ? &o->bands : bands_measured;
-    bool first = true;
+    bool first = true, ok = true;
     for (int k = 0; k < KERNELS; k++)
-        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_MEASURED); n++)
-            for (int layout = LMP_SH_PLANES; layout >= LMP_SH_ROWS; layout--) {
-                const bench_batch b = batch_of(in, &kernels[k], bands[n], (lmp_sh_layout)layout);
-                const double paper = measure_paper(&kernels[k], &b, o->full ? 31 : 5);
-                double scalar = 0;
-                for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
-                    if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))
-                        continue;
-                    lmp_cpu_mask(flag);
-                    measurement m = measure(&kernels[k], &b, flag,
-                                            flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
-                    m.isa = lmp_cpu_name();
-                    m.vs_paper = paper / m.ns.median;
-                    scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
-                    m.vs_scalar = scalar / m.ns.median;
-                    print_row(o, first, &kernels[k], bands[n], (lmp_sh_layout)layout, &m);
-                    first = false;
-                }
-            }
+        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_MEASURED); n++) {
+            const bench_kernel *kernel = &kernels[k];
+            if (kernel->table != TABLE_NONE && !o->bands && bands[n] != TABLE_BANDS)
+                continue;
+            ok = ok && tables_create(kernel->table, bands[n], in);
+            for (int layout = kernel->shades ? LMP_SH_ROWS : LMP_SH_PLANES;
+                 ok && layout >= LMP_SH_ROWS; layout--)
+                measure_rows(o, in, kernel, bands[n], (lmp_sh_layout)layout, &first);
+            tables_free(in);
+        }
+    return ok;
 }
 
 /* Points split among threads, each with an output of its own, on the best kernels of the mask. */
@@ -531,7 +669,7 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
                     first ? "" : ",\n", kernels[k].name, lmp_cpu_name(), threads, median,
                     alone / median);
             else
-                printf("%-10s    10  %-7s %2d threads %10.4g ns  x %.2f\n", kernels[k].name,
+                printf("%-14s    10  %-7s %2d threads %10.4g ns  x %.2f\n", kernels[k].name,
                        lmp_cpu_name(), threads, median, alone / median);
             first = false;
         }
@@ -558,7 +696,7 @@ static void print_header(const bench_options *o) {
            "share of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each); "
            "times the speed of the paper's\nEq. 12 and 13 one by one, and of the scalar build\n",
            LIGHTS);
-    printf("%-10s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
+    printf("%-14s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
            "ns", "quartiles", "peak", "x paper", "x scalar");
 }
 
@@ -568,10 +706,10 @@ static int bench_cpu(const bench_options *o) {
     bool done = inputs_create(&in);
     if (done) {
         print_header(o);
-        measure_kernels(o, &in);
+        done = measure_kernels(o, &in);
         if (o->json)
             printf("\n  ],\n  \"threads\": [\n");
-        done = measure_threads(o, &in);
+        done = done && measure_threads(o, &in);
         if (o->json)
             printf("\n  ]\n}\n");
     }
