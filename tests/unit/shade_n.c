@@ -304,8 +304,12 @@ static void not_a_number_stays_with_its_surface(void **state) {
         const lmp_shade_settings settings = { .bands = bands };
         lmp_response *response;
         assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
-        scatter(true);
         for (int method = 0; method < 2; method++) {
+            scatter(true);
+            /* A debug build asserts that a spot's cone is seen from somewhere. */
+            for (int i = 0; i < LIGHTS; i++)
+                if (lights[i].kind == LMP_LIGHT_SPOT)
+                    lights[i].kind = LMP_LIGHT_POINT;
             float *const to[2] = { whole, rgb };
             for (int pass = 0; pass < 2; pass++) {
                 if (method == 0)
@@ -320,9 +324,9 @@ static void not_a_number_stays_with_its_surface(void **state) {
             for (int i = 0; i < COUNT; i++)
                 if (i != 3 && i != 40 && i != 77)
                     assert_memory_equal(&rgb[3 * i], &whole[3 * i], 3 * sizeof *rgb);
-            scatter(true);
         }
-        lights[5].radius = lights[6].position.x = NAN;
+        scatter(true);
+        lights[0].radius = lights[6].position.x = NAN;
         lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
         lmp_response_destroy(response);
     }
