@@ -285,8 +285,9 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL },
         { "bands", 'n', CLI_INT, &o.table.bands, "N", "bands of spherical harmonics", 1,
           LMP_BANDS_MAX, NULL, &o.bands_given },
-        { "views", 0, CLI_INT, &o.table.views, "N", "view angles of the table", 2, 1024, NULL,
-          NULL },
+        { "views", 0, CLI_INT, &o.table.views, "N",
+          "view angles of the table; 5/4 of the bands by default if that is more", 2, 1024, NULL,
+          &o.views_given },
         { "azimuths", 0, CLI_INT, &o.table.azimuths, "N", "view azimuths of an anisotropic table",
           4, 256, NULL, NULL },
         { "window", 0, CLI_CHOICE, &window, "WINDOW", "damps the ringing of few bands", 0, 0,
@@ -305,6 +306,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (o.table.azimuths % 2)
         return cli_usage(command, "--azimuths must be even");
     o.table.window = (lmp_window)window;
+    if (!o.views_given)
+        o.table.views = 0;
     return run_action(command, &o, operand_count, operands);
 }
 

@@ -48,7 +48,6 @@ bool device_materials_open(const cli_list *list, const scene *world, device_mate
 
 bool device_materials_bake(device_materials *all, int bands, lmp_window window, cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = bands,
-                                       .views = LMP_BRDF_VIEWS_DEFAULT,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
                                        .window = window };
     for (int i = 0; i < all->count; i++)

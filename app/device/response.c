@@ -12,7 +12,7 @@
 enum { PATH_SIZE = 4096 };
 
 /* Rises when the same table, bands and window give other numbers than they did. */
-#define CACHE_EPOCH 2
+#define CACHE_EPOCH 3
 
 const char *const device_window_names[] = {
     [LMP_WINDOW_NONE] = "none",
@@ -160,7 +160,7 @@ bool device_brdf_response(const material *from, const lmp_brdf_table *table,
     const lmp_result result = lmp_brdf_response_create(NULL, table, &desc, response);
     cli_progress_end();
     if (result == LMP_ERROR_MEMORY) {
-        note_without(from, "its response is too large");
+        note_without(from, "its response takes more than 128 MB, or there is no memory to make it");
         return true;
     }
     if (result != LMP_OK)

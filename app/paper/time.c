@@ -17,7 +17,6 @@ static int by_value(const void *a, const void *b) {
 static bool use_material(gpu_renderer *renderer, const scene *world, const gpu_frame *frame,
                          const char *assignment, lmp_brdf_table **table, cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = frame->bands,
-                                       .views = LMP_BRDF_VIEWS_DEFAULT,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
                                        .window = frame->window };
     const size_t length = strcspn(assignment, "=");

@@ -141,9 +141,10 @@ typedef enum lmp_brdf_symmetry {
 
 /* How to make a table; zero-initialise it, zero means the default. */
 typedef struct lmp_brdf_table_desc {
-    int bands;         /* 1 … LMP_BANDS_MAX; LMP_BRDF_BANDS_DEFAULT */
-    int views;         /* angles theta_o, 2 … 1024; LMP_BRDF_VIEWS_DEFAULT */
-    int azimuths;      /* angles phi_o of an anisotropic BRDF, 4 … 256; 32 */
+    int bands;    /* 1 … LMP_BANDS_MAX; LMP_BRDF_BANDS_DEFAULT */
+    int views;    /* angles theta_o, 2 … 1024; LMP_BRDF_VIEWS_DEFAULT, or of an isotropic BRDF
+                     5/4 a band if that is more */
+    int azimuths; /* angles phi_o of an anisotropic BRDF, 4 … 256; 32 */
     lmp_window window; /* as in lmp_sh_window; LMP_WINDOW_NONE */
     float window_size; /* bands */
     lmp_brdf_symmetry symmetry;

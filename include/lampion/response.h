@@ -123,7 +123,7 @@ typedef struct lmp_brdf_response lmp_brdf_response;
 typedef struct lmp_brdf_response_desc {
     float error;      /* as in lmp_response_desc, relative to the largest value, of any channel,
                          over all directions at that view and a, or to a twentieth of all views' */
-    size_t bytes_max; /* more memory than that is LMP_ERROR_MEMORY; LMP_BRDF_RESPONSE_BYTES_MAX */
+    size_t bytes_max; /* a larger response is LMP_ERROR_MEMORY; LMP_BRDF_RESPONSE_BYTES_MAX */
     lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
     void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
     void *user;                                /* of both hooks */
@@ -132,7 +132,11 @@ typedef struct lmp_brdf_response_desc {
 
 /* allocator and desc may be NULL; *response is NULL on failure. The table is not kept.
  * LMP_ERROR_ARGUMENT: a member outside its range, or an anisotropic table: its azimuth of the view
- * would be a fifth number. Immutable: share it freely. */
+ * would be a fifth number. LMP_ERROR_MEMORY: the allocator returned NULL, or the response is larger
+ * than bytes_max. Immutable: share it freely.
+ *
+ * Making one takes several times its memory: at 100 bands about 210 MB (steel, 59 MB made) to 290
+ * (red fabric, 47), and about 12 more a thread. */
 LMP_API lmp_result lmp_brdf_response_create(const lmp_allocator *allocator,
                                             const lmp_brdf_table *table,
                                             const lmp_brdf_response_desc *desc,

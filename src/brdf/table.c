@@ -201,10 +201,18 @@ static bool within(int value, int minimum, int maximum) {
     return value >= minimum && value <= maximum;
 }
 
+/* Five views to the wavelength of the last band, 2 pi / bands, at least: with fewer the cubic
+ * between two views shows a sharp lobe twice. (An anisotropic table would take a gigabyte.) */
+static int default_views(const lmp_brdf *brdf, int bands) {
+    const int sharp = (5 * bands + 3) / 4;
+    return sharp > LMP_BRDF_VIEWS_DEFAULT && !brdf->info.anisotropic ? sharp
+                                                                     : LMP_BRDF_VIEWS_DEFAULT;
+}
+
 /* The desc with its defaults in place; false if a value is out of range. */
 static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
     desc->bands = desc->bands ? desc->bands : LMP_BRDF_BANDS_DEFAULT;
-    desc->views = desc->views ? desc->views : LMP_BRDF_VIEWS_DEFAULT;
+    desc->views = desc->views ? desc->views : default_views(brdf, desc->bands);
     desc->azimuths = desc->azimuths ? desc->azimuths : LMP_BRDF_AZIMUTHS_DEFAULT;
     desc->azimuths = brdf->info.anisotropic ? desc->azimuths : 1;
     desc->tolerance = desc->tolerance != 0 ? desc->tolerance : TOLERANCE_DEFAULT;

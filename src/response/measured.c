@@ -111,7 +111,10 @@ static lmp_result assemble(const lmp_allocator *allocator, const making *job,
     plan->info.cap_count = (uint32_t)job->cap_count;
     plan->info.view_steps = (uint32_t)job->series->steps;
     plan->info.cap_steps = MEASURED_CAP_STEPS;
-    fill_warp(job->view_nodes, job->view_count, plan->view_warp);
+    int view_steps[MEASURED_STEPS_MAX + 1];
+    for (int i = 0; i < job->view_count; i++)
+        view_steps[i] = job->series->step[job->view_nodes[i]];
+    fill_warp(view_steps, job->view_count, plan->view_warp);
     fill_warp(job->caps, job->cap_count, plan->cap_warp);
     const lmp_result result = lmp_measured_allocate(allocator, plan, response);
     if (result != LMP_OK)

@@ -49,12 +49,15 @@ static inline float lmp_measured_cap(float a) {
 /* --- the series ----------------------------------------------------------------------------------
  */
 
-/* A table's coefficients at steps + 1 views, each in its lobe's frame: z the mirror direction, x in
- * the plane of incidence on the side of the normal. Cut where the rest is negligible. */
+/* A table's coefficients at some views, each in its lobe's frame: z the mirror direction, x in the
+ * plane of incidence on the side of the normal. Cut where the rest is negligible. */
 typedef struct measured_series {
     lmp_allocator heap;
-    int bands; /* that matter */
-    int steps; /* views are theta_o = i pi/2 / steps, among them all of the table's */
+    int bands;      /* that matter */
+    int steps;      /* of the quarter turn */
+    int view_count; /* the table's own among them, up to 512 */
+    int step[MEASURED_STEPS_MAX +
+             1]; /* of a view, theta_o = step pi/2 / steps; rising, 0 … steps */
     bool mirrored;
     float width, radius, lobe_angle;
     float reach, slope;                 /* of the rows, by lmp_measured_rows */
@@ -67,6 +70,9 @@ typedef struct measured_series {
 lmp_result lmp_measured_series(const lmp_allocator *allocator, const lmp_brdf_table *table,
                                const lmp_brdf_response_desc *desc, measured_series *series);
 void lmp_measured_series_free(measured_series *series);
+
+/* The last of the views that is not past part / parts of the quarter turn. */
+int lmp_measured_view_at(const measured_series *series, int part, int parts);
 
 /* Some of the views, in rising order, side by side. */
 typedef struct measured_views {

@@ -15,13 +15,14 @@
 #define TOLERANCE 0.3 /* of the error */
 #define INTERVALS 16  /* at least */
 
-/* Values at every step and probe: of steps of the view at some half angles, or the other way. */
+/* Values at every place and probe: of a series' views at some half angles, or the other way. */
 typedef struct probes {
     const measured_series *series;
-    int steps;
-    size_t rows, columns, size; /* of a step's values at one probe: 3 rows columns */
-    double *x;                  /* of the rows, from the rim */
-    float *values;              /* [step][probe][channel][row][column] */
+    int last;                         /* place */
+    int step[MEASURED_STEPS_MAX + 1]; /* of a place */
+    size_t rows, columns, size;       /* of a place's values at one probe: 3 rows columns */
+    double *x;                        /* of the rows, from the rim */
+    float *values;                    /* [place][probe][channel][row][column] */
     double rim[MEASURED_STEPS_MAX + 1][PROBES]; /* of the caps */
     double task_angle[MEASURED_STEPS_MAX + 1];
     measured_views views;
@@ -33,11 +34,11 @@ typedef struct probes {
 /* --- gathering ---------------------------------------------------------------------------------
  */
 
-static float *values_at(const probes *p, size_t step, size_t probe) {
-    return p->values + (step * PROBES + probe) * p->size;
+static float *values_at(const probes *p, size_t place, size_t probe) {
+    return p->values + (place * PROBES + probe) * p->size;
 }
 
-/* One half angle: of a step with all probes, or of a probe with all steps. */
+/* One half angle: of a place with all probes, or of a probe with all places. */
 static void probe_task(size_t index, void *data) {
     probes *p = data;
     float *values[MEASURED_STEPS_MAX + 1];
@@ -49,9 +50,9 @@ static void probe_task(size_t index, void *data) {
     for (size_t i = 0; i < p->rows; i++)
         g[i] = p->x[i] + rim;
     for (size_t v = 0; v < p->views.count; v++) {
-        const size_t step = p->by_cap ? index : v, probe = p->by_cap ? v : index;
-        values[v] = values_at(p, step, probe);
-        p->rim[step][probe] = rim;
+        const size_t place = p->by_cap ? index : v, probe = p->by_cap ? v : index;
+        values[v] = values_at(p, place, probe);
+        p->rim[place][probe] = rim;
     }
     p->failed[index] = lmp_measured_sum(&p->views, angle, g, p->rows, values) != LMP_OK;
     lmp_heap_release(&p->series->heap, g);
@@ -66,7 +67,7 @@ static lmp_result gather(probes *p, const lmp_brdf_response_desc *desc, size_t t
     p->size = 3 * p->rows * p->columns;
     p->x = lmp_heap_allocate(&series->heap, p->rows * sizeof *p->x);
     p->values = lmp_heap_allocate(&series->heap,
-                                  ((size_t)p->steps + 1) * PROBES * p->size * sizeof *p->values);
+                                  ((size_t)p->last + 1) * PROBES * p->size * sizeof *p->values);
     if (!p->x || !p->values)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < p->rows; i++)
@@ -87,11 +88,11 @@ static bool row_counts(const probes *p, size_t row, double rim) {
     return g >= 0 && g <= LMP_RESPONSE_PI;
 }
 
-/* How far the values of step `middle` are from the line between `low` and `high`. */
+/* How far the values of place `middle` are from the line between `low` and `high`. */
 static float error_at(const probes *p, int low, int high, int middle, size_t probe) {
     const float *a = values_at(p, (size_t)low, probe), *b = values_at(p, (size_t)high, probe);
     const float *v = values_at(p, (size_t)middle, probe);
-    const float t = (float)(middle - low) / (float)(high - low);
+    const float t = (float)(p->step[middle] - p->step[low]) / (float)(p->step[high] - p->step[low]);
     float error = 0;
     for (size_t row = 0; row < 3 * p->rows; row++) {
         if (!row_counts(p, row % p->rows, p->rim[middle][probe]))
@@ -105,30 +106,30 @@ static float error_at(const probes *p, int low, int high, int middle, size_t pro
 }
 
 static void find_peaks(probes *p) {
-    for (int step = 0; step <= p->steps; step++)
+    for (int place = 0; place <= p->last; place++)
         for (size_t probe = 0; probe < PROBES; probe++) {
-            const float *v = values_at(p, (size_t)step, probe);
+            const float *v = values_at(p, (size_t)place, probe);
             float peak = 0;
             for (size_t row = 0; row < 3 * p->rows; row++)
                 for (size_t i = row * p->columns; i < (row + 1) * p->columns; i++)
-                    if (row_counts(p, row % p->rows, p->rim[step][probe]))
+                    if (row_counts(p, row % p->rows, p->rim[place][probe]))
                         peak = fmaxf(peak, fabsf(v[i]));
-            p->peaks[step][probe] = peak;
+            p->peaks[place][probe] = peak;
         }
-    /* the floor is of all views: probes of a step that is a half angle, or the other way */
-    for (int step = 0; step <= p->steps; step++)
+    /* the floor is of all views: probes of a place that is a half angle, or the other way */
+    for (int place = 0; place <= p->last; place++)
         for (size_t probe = 0; probe < PROBES; probe++) {
             float all = 0;
             for (size_t k = 0; k < PROBES && p->by_cap; k++)
-                all = fmaxf(all, p->peaks[step][k]);
-            for (int k = 0; k <= p->steps && !p->by_cap; k++)
+                all = fmaxf(all, p->peaks[place][k]);
+            for (int k = 0; k <= p->last && !p->by_cap; k++)
                 all = fmaxf(all, p->peaks[k][probe]);
-            p->peaks[step][probe] = fmaxf(p->peaks[step][probe], (float)LMP_MEASURED_FLOOR * all);
+            p->peaks[place][probe] = fmaxf(p->peaks[place][probe], (float)LMP_MEASURED_FLOOR * all);
         }
 }
 
 static void divide(const probes *p, int low, int high, float tolerance, bool *chosen) {
-    bool close = high - low <= p->steps / INTERVALS;
+    bool close = p->step[high] - p->step[low] <= p->step[p->last] / INTERVALS;
     for (int middle = low + 1; close && middle < high; middle++)
         for (size_t probe = 0; close && probe < PROBES; probe++)
             close = error_at(p, low, high, middle, probe) <= tolerance * p->peaks[middle][probe];
@@ -144,9 +145,9 @@ static int choose(probes *p, float error, int *nodes) {
     bool chosen[MEASURED_STEPS_MAX + 1] = { false };
     int count = 0;
     find_peaks(p);
-    chosen[0] = chosen[p->steps] = true;
-    divide(p, 0, p->steps, (float)TOLERANCE * error, chosen);
-    for (int i = 0; i <= p->steps; i++)
+    chosen[0] = chosen[p->last] = true;
+    divide(p, 0, p->last, (float)TOLERANCE * error, chosen);
+    for (int i = 0; i <= p->last; i++)
         if (chosen[i])
             nodes[count++] = i;
     return count;
@@ -160,14 +161,16 @@ static void release(probes *p) {
     lmp_heap_release(&p->series->heap, p);
 }
 
-static probes *create(const measured_series *series, int steps, bool by_cap) {
+static probes *create(const measured_series *series, int last, bool by_cap) {
     probes *p = lmp_heap_allocate(&series->heap, sizeof *p);
     if (p)
         memset(p, 0, sizeof *p);
     if (p) {
         p->series = series;
-        p->steps = steps;
+        p->last = last;
         p->by_cap = by_cap;
+        for (int i = 0; i <= last; i++)
+            p->step[i] = by_cap ? i : series->step[i];
     }
     return p;
 }
@@ -181,13 +184,17 @@ int lmp_measured_caps(const measured_series *series, const lmp_brdf_response_des
     probes *p = create(series, MEASURED_CAP_STEPS, true);
     if (!p)
         return 0;
-    const int last = series->steps;
-    const int views[PROBES] = { last / 4, last * 3 / 4, last * 9 / 10, last * 39 / 40 };
-    for (int i = 0; i <= p->steps; i++)
+    const int views[PROBES] = {
+        lmp_measured_view_at(series, 1, 4),
+        lmp_measured_view_at(series, 3, 4),
+        lmp_measured_view_at(series, 9, 10),
+        lmp_measured_view_at(series, 39, 40),
+    };
+    for (int i = 0; i <= p->last; i++)
         p->task_angle[i] = lmp_measured_angle_at(i);
     int count = 0;
     if (lmp_measured_views(series, views, PROBES, probe_columns(series), &p->views) == LMP_OK &&
-        gather(p, desc, (size_t)p->steps + 1) == LMP_OK)
+        gather(p, desc, (size_t)p->last + 1) == LMP_OK)
         count = choose(p, desc->error, nodes);
     release(p);
     return count;
@@ -197,15 +204,15 @@ int lmp_measured_view_nodes(const measured_series *series, const lmp_brdf_respon
                             int *nodes) {
     static const int caps[PROBES] = { 0, MEASURED_CAP_STEPS / 8, MEASURED_CAP_STEPS / 3,
                                       MEASURED_CAP_STEPS * 3 / 4 };
-    probes *p = create(series, series->steps, false);
+    probes *p = create(series, series->view_count - 1, false);
     int all[MEASURED_STEPS_MAX + 1], count = 0;
     if (!p)
         return 0;
-    for (int i = 0; i <= series->steps; i++)
+    for (int i = 0; i < series->view_count; i++)
         all[i] = i;
     for (int i = 0; i < PROBES; i++)
         p->task_angle[i] = lmp_measured_angle_at(caps[i]);
-    if (lmp_measured_views(series, all, (size_t)series->steps + 1, probe_columns(series),
+    if (lmp_measured_views(series, all, (size_t)series->view_count, probe_columns(series),
                            &p->views) == LMP_OK &&
         gather(p, desc, PROBES) == LMP_OK)
         count = choose(p, desc->error, nodes);

@@ -14,12 +14,14 @@
 
 #define TAIL_BANDS  0.06 /* of the error: what the bands left out may reach */
 #define TAIL_ORDERS 0.12
-#define CUT_VIEWS   32 /* that decide how many bands matter */
-#define STEPS_BANDS 40 /* up to which views are in MEASURED_STEPS_MAX steps */
-#define STEPS_FEW   256
-#define SAMPLES_MIN 16   /* and two a band */
-#define WIDTH       1.2f /* of the finest detail, times the bands */
-#define ROWS        16   /* rings at a time */
+#define CUT_VIEWS   32     /* that decide how many bands matter */
+#define STEPS_BANDS 40     /* up to which every step of the view is turned */
+#define STEPS_FEW   256    /* about as many as are turned of more bands, and */
+#define STEPS_LAST  0.9375 /* all of this share of the views on */
+#define SAMPLES_MIN 16     /* and two a band */
+#define WIDTH       1.2f   /* of the finest detail, times the bands */
+#define ROWS        16     /* rings at a time */
+#define TERMS       4      /* of a sum at a time */
 #define COLUMNS_MIN 4
 #define FEW_ORDERS  16
 #define COLUMNS_MAX 128
@@ -151,16 +153,16 @@ static bool cut_bands(turning *job) {
     return true;
 }
 
-/* Adds what each order of a channel gives at a sample. */
-static void add_orders(const float *sh, const float *basis, int bands, float *cosines,
-                       float *sines) {
+/* What each order of a channel gives at a sample; no sines where the table is mirrored. */
+static void sum_orders(const float *sh, const float *basis, int bands, bool mirrored,
+                       float *cosines, float *sines) {
     for (int m = 0; m < bands; m++)
         cosines[m] = sines[m] = 0;
     for (int l = 0; l < bands; l++) {
         const float *c = sh + l * l + l, *y = basis + l * l + l;
         for (int m = 0; m <= l; m++)
             cosines[m] += c[m] * y[m];
-        for (int m = 1; m <= l; m++)
+        for (int m = 1; m <= l && !mirrored; m++)
             sines[m] += c[-m] * y[m];
     }
 }
@@ -174,7 +176,8 @@ static int count_orders(const turning *job, const float *turned, float *peak) {
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < job->samples.count; i++) {
             float even = 0, odd = 0;
-            add_orders(turned + c * count, job->samples.basis + i * all, bands, cosines, sines);
+            sum_orders(turned + c * count, job->samples.basis + i * all, bands,
+                       job->series->mirrored, cosines, sines);
             for (int m = 0; m < bands; m++) {
                 *(m % 2 ? &odd : &even) += cosines[m];
                 largest[m] = fmaxf(largest[m], fmaxf(fabsf(cosines[m]), fabsf(sines[m])));
@@ -197,7 +200,7 @@ static void turn_view(size_t index, void *data) {
     const size_t count = LMP_SH_COUNT(series->bands);
     float *turned = series->coefficients + 3 * count * index, ambient[3];
     job->peaks[index] = -1;
-    if (!turn(job, (int)index, series->bands, turned))
+    if (!turn(job, series->step[index], series->bands, turned))
         return;
     for (size_t c = 0; c < 3; c++)
         ambient[c] = turned[c * count] * (float)sqrt(4 * LMP_RESPONSE_PI);
@@ -207,10 +210,11 @@ static void turn_view(size_t index, void *data) {
 
 /* The solid angle of a lobe as high as its peak with all that it reflects, of the narrowest. */
 static float lobe_angle(const turning *job) {
-    const int bands = job->series->bands;
+    const measured_series *series = job->series;
+    const int bands = series->bands;
     float angle = (float)(2 * LMP_RESPONSE_PI);
-    for (int i = 0; i < job->series->steps * 3 / 4; i++) {
-        const lmp_rgb all = job->series->ambient[i];
+    for (int i = 0; series->step[i] < series->steps * 3 / 4; i++) {
+        const lmp_rgb all = series->ambient[i];
         const float most = fmaxf(all.r, fmaxf(all.g, all.b));
         if (most < angle * job->peaks[i])
             angle = most / job->peaks[i];
@@ -218,16 +222,39 @@ static float lobe_angle(const turning *job) {
     return fmaxf(angle, (float)LMP_RESPONSE_PI / (float)(bands * bands));
 }
 
-/* A table bends between its views, and steps where a fit's shadowing begins: parts of the views'
- * step keep every bend. As fine as time allows: turning a view costs bands³. */
-static int count_steps(int views, int bands) {
-    const int halves = 2 * views - 1, most = bands <= STEPS_BANDS ? MEASURED_STEPS_MAX : STEPS_FEW;
-    return halves > most ? most : halves * (most / halves);
+/* A table bends at its views, and falls where a fit's shadowing begins: steps are parts of the
+ * views' step, so that none bends within one. (Tables of more than 512 views have finer steps, and
+ * hardly bend.) */
+static int count_steps(int views) {
+    const int halves = 2 * views - 1;
+    return halves > MEASURED_STEPS_MAX ? MEASURED_STEPS_MAX
+                                       : halves * (MEASURED_STEPS_MAX / halves);
+}
+
+/* The steps that are turned, which costs bands³ each: all of few bands. Of many, every so many,
+ * the table's own views among them, and all of the last, where the light that a fit reflects grows
+ * and falls fastest. */
+static void choose_steps(measured_series *series, int views, int bands) {
+    const int parts = series->steps / (2 * views - 1); /* of half a view's step */
+    int stride = 1;
+    while (bands > STEPS_BANDS && stride < parts &&
+           (series->steps > stride * STEPS_FEW || parts % stride))
+        stride++;
+    for (int step = 0; step <= series->steps; step++)
+        if (step % stride == 0 || step >= (int)(STEPS_LAST * series->steps))
+            series->step[series->view_count++] = step;
+}
+
+int lmp_measured_view_at(const measured_series *series, int part, int parts) {
+    int view = series->view_count - 1;
+    while (series->step[view] > series->steps * part / parts)
+        view--;
+    return view;
 }
 
 static lmp_result turn_all(turning *job) {
     measured_series *series = job->series;
-    const size_t views = (size_t)series->steps + 1;
+    const size_t views = (size_t)series->view_count;
     if (!cut_bands(job))
         return LMP_ERROR_MEMORY;
     series->coefficients = lmp_heap_allocate(
@@ -251,8 +278,9 @@ lmp_result lmp_measured_series(const lmp_allocator *allocator, const lmp_brdf_ta
                                const lmp_brdf_response_desc *desc, measured_series *series) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     *series = (measured_series) { .heap = lmp_heap_resolve(allocator),
-                                  .steps = count_steps(info.views, info.bands),
+                                  .steps = count_steps(info.views),
                                   .mirrored = info.mirrored };
+    choose_steps(series, info.views, info.bands);
     turning *job = lmp_heap_allocate(&series->heap, sizeof *job);
     if (!job)
         return LMP_ERROR_MEMORY;
@@ -339,22 +367,44 @@ static size_t slot_of(const rings *r, int m) {
     return r->views->series->mirrored ? (size_t)m : (size_t)(m > 0 ? 2 * m - 1 : -2 * m);
 }
 
-/* Σ_l of one order, negative for the sines. Band by band, so that its coefficients are fetched once
- * for all rows. */
+/* Adds `terms` rows times their weights, in this order whatever is done at once. */
+static void add_terms(size_t count, const float *weights, const float *const *from, size_t terms,
+                      float *restrict to) {
+    if (terms == TERMS) {
+        const float *a = from[0], *b = from[1], *c = from[2], *d = from[3];
+        for (size_t k = 0; k < count; k++)
+            to[k] = to[k] + weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] +
+                    weights[3] * d[k];
+        return;
+    }
+    for (size_t i = 0; i < terms; i++)
+        for (size_t k = 0; k < count; k++)
+            to[k] += weights[i] * from[i][k];
+}
+
+static size_t terms_of(size_t left) {
+    return left < TERMS ? left : TERMS;
+}
+
+/* Σ_l of one order, negative for the sines. Some bands at a time, so that their coefficients are
+ * fetched once for all rows. */
 static void sum_bands(const rings *r, int m) {
     const size_t width = 3 * r->views->count, bands = (size_t)r->views->series->bands;
     const size_t order = (size_t)abs(m), first = 3 * r->first[order];
-    float *sums = r->sums + slot_of(r, m) * ROWS * width;
+    float *sums = r->sums + slot_of(r, m) * ROWS * width, weights[TERMS];
+    const float *from[TERMS];
     memset(sums, 0, ROWS * width * sizeof *sums);
-    for (size_t l = order; l < bands; l++) {
-        const size_t at = l * l + l;
-        const float *restrict from =
-            r->views->coefficients + (m < 0 ? at - order : at + order) * width;
+    for (size_t l = order; l < bands; l += TERMS) {
+        const size_t terms = terms_of(bands - l);
+        for (size_t i = 0; i < terms; i++) {
+            const size_t at = (l + i) * (l + i + 1);
+            from[i] = r->views->coefficients + (m < 0 ? at - order : at + order) * width + first;
+        }
         for (size_t row = 0; row < r->rows; row++) {
-            float *restrict sum = sums + row * width;
-            const float weight = r->means[l] * r->basis[row * bands * bands + at + order];
-            for (size_t k = first; k < width; k++)
-                sum[k] += weight * from[k];
+            const float *basis = r->basis + row * bands * bands + order;
+            for (size_t i = 0; i < terms; i++)
+                weights[i] = r->means[l + i] * basis[(l + i) * (l + i + 1)];
+            add_terms(width - first, weights, from, terms, sums + row * width + first);
         }
     }
 }
@@ -377,15 +427,19 @@ static void add_orders_of(const rings *r, size_t v, size_t row_first, size_t row
     const size_t columns = (size_t)views->columns[v], width = 3 * views->count;
     const int orders = views->series->orders[views->view[v]];
     const size_t slots = views->series->mirrored ? (size_t)orders : 2 * (size_t)orders - 1;
+    float sums[TERMS];
+    const float *turns[TERMS];
     for (size_t c = 0; c < 3; c++)
         for (size_t row = 0; row < r->rows; row++) {
-            float *restrict to = values + (c * row_count + row_first + row) * columns;
+            float *to = values + (c * row_count + row_first + row) * columns;
             memset(to, 0, columns * sizeof *to);
-            for (size_t slot = 0; slot < slots; slot++) {
-                const float sum = r->sums[(slot * ROWS + row) * width + 3 * v + c];
-                const float *restrict turns = r->turns + slot * 2 * COLUMNS_MAX;
-                for (size_t j = 0; j < columns; j++)
-                    to[j] += sum * turns[j];
+            for (size_t slot = 0; slot < slots; slot += TERMS) {
+                const size_t terms = terms_of(slots - slot);
+                for (size_t i = 0; i < terms; i++) {
+                    sums[i] = r->sums[((slot + i) * ROWS + row) * width + 3 * v + c];
+                    turns[i] = r->turns + (slot + i) * 2 * COLUMNS_MAX;
+                }
+                add_terms(columns, sums, turns, terms, to);
             }
         }
 }

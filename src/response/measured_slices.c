@@ -336,7 +336,11 @@ bool lmp_measured_rows(measured_series *series, float error) {
                                         { 8, 0.1f },  { 16, 0.1f }, { 16, 0.2f }, { 16, 0.4f } };
     static const double angles[] = { 0, 0.05, 0.3, 1.2 };
     enum { CHOICES = sizeof choices / sizeof *choices, ANGLES = sizeof angles / sizeof *angles };
-    const int last = series->steps, at[3] = { last / 4, last * 3 / 4, last * 19 / 20 };
+    const int at[3] = {
+        lmp_measured_view_at(series, 1, 4),
+        lmp_measured_view_at(series, 3, 4),
+        lmp_measured_view_at(series, 19, 20),
+    };
     measured_views views;
     if (lmp_measured_views(series, at, 3, series->mirrored ? 9 : 16, &views) != LMP_OK)
         return false;
