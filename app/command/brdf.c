@@ -286,7 +286,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "bands", 'n', CLI_INT, &o.table.bands, "N", "bands of spherical harmonics", 1,
           LMP_BANDS_MAX, NULL, &o.bands_given },
         { "views", 0, CLI_INT, &o.table.views, "N",
-          "view angles of the table; 5/4 of the bands by default if that is more", 2, 1024, NULL,
+          "view angles of the table; by default 64, or 5/4 a band if that is more", 2, 1024, NULL,
           &o.views_given },
         { "azimuths", 0, CLI_INT, &o.table.azimuths, "N", "view azimuths of an anisotropic table",
           4, 256, NULL, NULL },
