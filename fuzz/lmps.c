@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Responses of measured materials, .lmps. */
 #include "fuzz/checksum.h"
-
-#include <lampion/response.h>
+#include "fuzz/shade.h"
 
 /* Whatever the numbers are, readings stay inside. */
 static void use(const lmp_brdf_response *response) {
@@ -15,6 +14,11 @@ static void use(const lmp_brdf_response *response) {
             (void)lmp_brdf_response_eval(response, places[i / 4], axes[k], places[i % 4]);
     for (int i = 0; i < 4; i++)
         (void)lmp_brdf_response_ambient(response, places[i]);
+    /* The kernel has a reading of its own. */
+    for (int k = 0; k < 5; k++) {
+        const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = axes[k] };
+        (void)lmp_shade_table_preintegrated(response, &surface, fuzz_lights, FUZZ_LIGHTS);
+    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
