@@ -2,6 +2,7 @@
 /* Settings of screenshots: what is taken is in range, and comes back from its own JSON. */
 #include "app/file/file.h"
 #include "app/view/settings.h"
+#include "fuzz/file.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
