@@ -81,13 +81,14 @@ static bool read_header(const unsigned char *bytes, size_t size, lmp_brdf_respon
     info->bands = (int)bands;
     info->window = (lmp_window)window;
     info->mirrored = mirrored != 0;
-    float *const numbers[] = { &info->window_size, &info->error, &info->width,     &info->radius,
-                               &info->reach,       &info->slope, &info->lobe_angle };
+    info->window_size = lmp_bytes_load_f32(&p); /* only kept: of any table */
+    if (!(info->window_size > 0 && isfinite(info->window_size)))
+        return false;
+    float *const numbers[] = { &info->error, &info->width, &info->radius,
+                               &info->reach, &info->slope, &info->lobe_angle };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         *numbers[i] = lmp_bytes_load_f32(&p);
-        /* A window's size is only kept, of any table. */
-        if (numbers[i] == &info->window_size ? !(*numbers[i] > 0 && isfinite(*numbers[i]))
-                                             : !positive(*numbers[i]))
+        if (!positive(*numbers[i]))
             return false;
     }
     info->view_count = lmp_bytes_load_u32(&p);

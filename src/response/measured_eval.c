@@ -76,25 +76,25 @@ static float angle_from_mirror(const view_place *place, lmp_vec3 axis, float *az
 lmp_rgb lmp_brdf_response_eval(const lmp_brdf_response *response, float cos_theta_o, lmp_vec3 axis,
                                float one_minus) {
     assert(one_minus >= 0 && one_minus <= 1);
-    const lmp_brdf_response_info own = lmp_brdf_response_describe(response), *info = &own;
-    view_place own_place, *place = &own_place;
-    seek_view(info, cos_theta_o, place);
+    const lmp_brdf_response_info info = lmp_brdf_response_describe(response);
+    view_place place;
+    seek_view(&info, cos_theta_o, &place);
     float azimuth, rgb[3] = { 0, 0, 0 };
     uint32_t cap;
-    const float g = angle_from_mirror(place, axis, &azimuth);
+    const float g = angle_from_mirror(&place, axis, &azimuth);
     const float a = lmp_response_angle(one_minus);
-    const float s = lmp_measured_row(info->width, info->reach, info->slope,
-                                     g - lmp_measured_rim(info->radius, a));
+    const float s =
+        lmp_measured_row(info.width, info.reach, info.slope, g - lmp_measured_rim(info.radius, a));
     const float second =
-        seek(info->cap_warp, info->cap_steps, info->cap_count, lmp_measured_cap(a), &cap);
-    const lmp_brdf_response_slice *slice = info->slices + place->view * info->cap_count + cap;
-    add_slice(info, slice, s, azimuth, (1 - place->share) * (1 - second), rgb);
-    add_slice(info, slice + 1, s, azimuth, (1 - place->share) * second, rgb);
-    slice += info->cap_count;
-    add_slice(info, slice, s, azimuth, place->share * (1 - second), rgb);
-    add_slice(info, slice + 1, s, azimuth, place->share * second, rgb);
+        seek(info.cap_warp, info.cap_steps, info.cap_count, lmp_measured_cap(a), &cap);
+    const lmp_brdf_response_slice *slice = info.slices + place.view * info.cap_count + cap;
+    add_slice(&info, slice, s, azimuth, (1 - place.share) * (1 - second), rgb);
+    add_slice(&info, slice + 1, s, azimuth, (1 - place.share) * second, rgb);
+    slice += info.cap_count;
+    add_slice(&info, slice, s, azimuth, place.share * (1 - second), rgb);
+    add_slice(&info, slice + 1, s, azimuth, place.share * second, rgb);
     const float scale =
-        2 / ((2 - one_minus) * (2 * (float)LMP_RESPONSE_PI * one_minus + info->lobe_angle));
+        2 / ((2 - one_minus) * (2 * (float)LMP_RESPONSE_PI * one_minus + info.lobe_angle));
     return (lmp_rgb) { scale * rgb[0], scale * rgb[1], scale * rgb[2] };
 }
 

@@ -102,10 +102,6 @@ static void load_chunk(const lmp_surfaces *surfaces, chunk_planes *chunk) {
     }
 }
 
-static float clamped(float sum) {
-    return sum > 0 ? sum : 0;
-}
-
 static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
     const float *diffuse[3] = { chunk->diffuse.x.at, chunk->diffuse.y.at, chunk->diffuse.z.at };
     const float *specular[3] = { chunk->specular.x.at, chunk->specular.y.at, chunk->specular.z.at };
@@ -116,7 +112,7 @@ static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
                                   ? broad
                                   : diffuse[c][i] * (broad + ambient) +
                                         specular[c][i] * (chunk->gathered[3 + c].at[i] + ambient);
-            rgb[chunk->at[i] * stride + c] = clamped(sum);
+            rgb[chunk->at[i] * stride + c] = sum > 0 ? sum : 0;
         }
 }
 
