@@ -17,6 +17,6 @@ if(LAMPION_COVERAGE)
   target_link_options(lampion_flags INTERFACE --coverage)
 endif()
 if(LAMPION_FUZZ)
-  # Instrumented loops are not vectorised, which simd pragmas would have said.
+  # Instrumented loops are not vectorized, which simd pragmas would have said.
   target_compile_options(lampion_flags INTERFACE -fsanitize=fuzzer-no-link -Wno-pass-failed)
 endif()

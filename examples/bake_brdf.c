@@ -24,7 +24,7 @@ static lmp_brdf_table *store_and_load(const lmp_brdf_table *table, const char *p
     const size_t size = lmp_brdf_table_size(table);
     void *const bytes = malloc(size);
     lmp_brdf_table *loaded = NULL;
-    lmp_brdf_fault fault = { .text = "out of memory" };
+    lmp_parse_error fault = { .text = "out of memory" };
     FILE *file = fopen(path, "w+b");
     if (bytes && file) {
         lmp_brdf_table_write(table, bytes);

@@ -73,7 +73,7 @@ static GLuint build_program(const char *lampion, const char *scene) {
     return program;
 }
 
-/* Lanterns on a ring that bobs: centre and radius, then radiance. */
+/* Lanterns on a ring that bobs: center and radius, then radiance. */
 static void place_lights(float seconds, float lights[LIGHTS][2][4]) {
     for (int i = 0; i < LIGHTS; i++) {
         const float angle = 0.5f * seconds + 6.2832f * (float)i / LIGHTS;

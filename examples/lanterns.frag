@@ -49,7 +49,7 @@ void main() {
         float t = hit_sphere(eye, ray, LMP_LIGHT_SPHERE(i));
         if (t < nearest) {
             nearest = t;
-            radiance = 0.06 * LMP_LIGHT_RADIANCE(i); /* dimmed to show its colour */
+            radiance = 0.06 * LMP_LIGHT_RADIANCE(i); /* dimmed to show its color */
         }
     }
     color = vec4(pow(1.0 - exp(-2.5 * radiance), vec3(1.0 / 2.2)), 1.0);

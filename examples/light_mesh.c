@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* light_mesh.c - colours of a mesh's vertices under sphere lights, as an engine bakes them.
+/* light_mesh.c - colors of a mesh's vertices under sphere lights, as an engine bakes them.
  *
  *     cc light_mesh.c $(pkg-config --cflags --libs lampion) -lm -o light_mesh */
 #include <lampion/lampion.h>

@@ -10,11 +10,11 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 typedef lmp_result (*fuzz_brdf_reader)(const lmp_allocator *, const void *, size_t,
-                                       lmp_brdf_fault *, lmp_brdf **);
+                                       lmp_parse_error *, lmp_brdf **);
 
 static inline int fuzz_brdf(fuzz_brdf_reader read, const uint8_t *data, size_t size) {
     lmp_brdf *brdf;
-    lmp_brdf_fault fault;
+    lmp_parse_error fault;
     if (read(NULL, data, size, &fault, &brdf) != LMP_OK)
         return 0;
     static const lmp_vec3 directions[] = { { 0, 0, 1 },

@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-static void use(const lmp_response *response) {
+static void use(const lmp_preintegrated_lobe *response) {
     static const float exponents[] = { 0, 1, 7.5f, 300, 1e6f, 1e12f },
                        places[] = { 0, 0.1f, 0.5f, 1 };
     for (int e = 0; e < 6; e++)
         for (int i = 0; i < 16; i++)
-            if (!isfinite(lmp_response_eval(response, exponents[e], places[i / 4],
-                                            2 * places[i % 4] - 1)))
+            if (!isfinite(lmp_preintegrated_lobe_eval(response, exponents[e], places[i / 4],
+                                                      2 * places[i % 4] - 1)))
                 abort();
     /* The kernel has a reading of its own. */
     for (int e = 0; e < 6; e++) {
@@ -24,17 +24,17 @@ static void use(const lmp_response *response) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    lmp_response *response;
-    lmp_result result = lmp_response_read(NULL, data, size, &response);
+    lmp_preintegrated_lobe *response;
+    lmp_result result = lmp_preintegrated_lobe_read(NULL, data, size, &response);
     if (result == LMP_ERROR_CHECKSUM) {
         unsigned char *sound = fuzz_checksum(data, size);
         if (!sound)
             return 0;
-        result = lmp_response_read(NULL, sound, size, &response);
+        result = lmp_preintegrated_lobe_read(NULL, sound, size, &response);
         free(sound);
     }
     if (result == LMP_OK)
         use(response);
-    lmp_response_destroy(response);
+    lmp_preintegrated_lobe_destroy(response);
     return 0;
 }

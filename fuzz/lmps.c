@@ -4,16 +4,16 @@
 #include "fuzz/shade.h"
 
 /* Whatever the numbers are, readings stay inside. */
-static void use(const lmp_brdf_response *response) {
+static void use(const lmp_preintegrated_brdf *response) {
     static const float places[] = { 0, 0.1f, 0.5f, 1 };
     static const lmp_vec3 axes[] = {
         { 0, 0, 1 }, { 0, 0, -1 }, { -1, 0, 0 }, { 0.6f, -0.8f, 0 }, { -0.6f, 0, 0.8f }
     };
     for (int i = 0; i < 16; i++)
         for (int k = 0; k < 5; k++)
-            (void)lmp_brdf_response_eval(response, places[i / 4], axes[k], places[i % 4]);
+            (void)lmp_preintegrated_brdf_eval(response, places[i / 4], axes[k], places[i % 4]);
     for (int i = 0; i < 4; i++)
-        (void)lmp_brdf_response_ambient(response, places[i]);
+        (void)lmp_preintegrated_brdf_ambient(response, places[i]);
     /* The kernel has a reading of its own. */
     for (int k = 0; k < 5; k++) {
         const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = axes[k] };
@@ -22,17 +22,17 @@ static void use(const lmp_brdf_response *response) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    lmp_brdf_response *response;
-    lmp_result result = lmp_brdf_response_read(NULL, data, size, &response);
+    lmp_preintegrated_brdf *response;
+    lmp_result result = lmp_preintegrated_brdf_read(NULL, data, size, &response);
     if (result == LMP_ERROR_CHECKSUM) {
         unsigned char *sound = fuzz_checksum(data, size);
         if (!sound)
             return 0;
-        result = lmp_brdf_response_read(NULL, sound, size, &response);
+        result = lmp_preintegrated_brdf_read(NULL, sound, size, &response);
         free(sound);
     }
     if (result == LMP_OK)
         use(response);
-    lmp_brdf_response_destroy(response);
+    lmp_preintegrated_brdf_destroy(response);
     return 0;
 }

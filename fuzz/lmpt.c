@@ -14,7 +14,7 @@ static void use(const lmp_brdf_table *table) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     lmp_brdf_table *table;
-    lmp_brdf_fault fault;
+    lmp_parse_error fault;
     lmp_result result = lmp_brdf_table_read(NULL, data, size, &fault, &table);
     if (result == LMP_ERROR_CHECKSUM) {
         unsigned char *sound = fuzz_checksum(data, size);

@@ -12,7 +12,7 @@
  *   LMP_ALPHA_MIN            floor of the squared roughness; default 0.01
  * and, to have the two lmp_shade_… functions,
  *   LMP_LIGHT_COUNT          int: number of lights
- *   LMP_LIGHT_SPHERE(i)      vec4: centre and radius of light i, 0 <= i < LMP_LIGHT_COUNT
+ *   LMP_LIGHT_SPHERE(i)      vec4: center and radius of light i, 0 <= i < LMP_LIGHT_COUNT
  *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
  *
  * A fragment shader that is lit by it, all of it:
@@ -45,15 +45,15 @@
  *   lmp_sh_eval              Y_lm of a direction
  *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe round w: lambda_l Y_lm(w)
  *   lmp_cap_of_sphere, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
- * and in response.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
+ * and in preintegrated_lobe.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
  * All names begin with lmp_ or LMP_. Nothing is kept: no uniforms, buffers or bindings.
  *
  * Conventions: directions are unit and point away from the shaded point; lengths are in any one
- * unit; colours are linear. A coefficient (l, m) has the index l*l + l + m, the basis is real and
+ * unit; colors are linear. A coefficient (l, m) has the index l*l + l + m, the basis is real and
  * orthonormal with the Condon-Shortley sign: Y_1 = 0.4886 (-y, z, -x). No visibility.
  *
  * A light that touches or contains the point is no special case for the caller: the cap it covers
- * grows on from the hemisphere at its surface to the full sphere at its centre, continuously.
+ * grows on from the hemisphere at its surface to the full sphere at its center, continuously.
  *
  * Loops over bands are macros: every array index in them is a literal, so that a compiler keeps
  * coefficients in registers. An index computed at run time costs ten times the arithmetic. */
@@ -100,13 +100,13 @@ struct lmp_material {
 /* What a sphere light is from one point. Its coefficients for radiance 1 are, by paper Eq. 12 and
  * 13 in one,
  *     L_00 = pi base Y_00      L_lm = pi strength R_l Y_lm(axis)   (l >= 1)
- * with R_l = 2 P'_l(a)/(l(l+1)), a = 1 - one_minus. A point inside the light has a < 0; by parity
+ * with R_l = 2 P'_l(a)/(l(l+1)), a = 1 - one_minus_cos. A point inside the light has a < 0; by parity
  * that is the mirrored axis with a negative strength. */
 struct lmp_cap {
     vec3 axis;
     float base;      /* 2 (1 - cos a) */
     float strength;  /* sin²a, exact however small; negative inside */
-    float one_minus; /* 1 - |cos a|, exact however small */
+    float one_minus_cos; /* 1 - |cos a|, exact however small */
 };
 
 /* X(l) for l = 2 … 31; each body starts with the constant test `if (l < LMP_BANDS)`. */
@@ -157,7 +157,7 @@ float lmp_window_weight(int l) {
 #endif
 }
 
-/* The cap of the sphere (centre, radius) seen from `point`. radius >= 0. */
+/* The cap of the sphere (center, radius) seen from `point`. radius >= 0. */
 lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 point) {
     vec3 v = sphere.xyz - point;
     float d = sqrt(dot(v, v));
@@ -169,8 +169,8 @@ lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 point) {
     float side = inside ? -1.0 : 1.0;
     lmp_cap cap;
     cap.axis = v * (side / max(d, 1e-30));
-    cap.one_minus = s * s / (1.0 + a);
-    cap.base = 2.0 * (inside ? 1.0 + a : cap.one_minus);
+    cap.one_minus_cos = s * s / (1.0 + a);
+    cap.base = 2.0 * (inside ? 1.0 + a : cap.one_minus_cos);
     cap.strength = side * s * s;
     return cap;
 }
@@ -224,7 +224,7 @@ void lmp_lobe_phong(float e, out float lambda[LMP_BANDS]) {
 /* The paper's tabulation (§4.2), to compare: LMP_CAP_TABLE(k, c) is a vec4 of sin²a R_l at cos a = c
  * for l = 4k … 4k + 3. Far lights lie in its last step. */
 void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
-    float c = 1.0 - cap.one_minus, side = cap.strength < 0.0 ? -1.0 : 1.0;
+    float c = 1.0 - cap.one_minus_cos, side = cap.strength < 0.0 ? -1.0 : 1.0;
     vec4 four = LMP_CAP_TABLE(0, c);
     R[0] = cap.base;
     if (LMP_BANDS > 1)
@@ -248,7 +248,7 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 #define LMP_STEP(l)                                                                                \
     if (l < LMP_BANDS) {                                                                           \
         difference = float(l - 2) / float(l + 1) * difference -                                    \
-                     float(2 * l - 1) / float(l + 1) * (cap.one_minus * r);                        \
+                     float(2 * l - 1) / float(l + 1) * (cap.one_minus_cos * r);                        \
         r += difference;                                                                           \
         R[LMP_BAND(l)] = r;                                                                        \
     }
@@ -348,7 +348,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
 #define LMP_STEP(l)                                                                                \
     if (l < LMP_BANDS) {                                                                           \
         difference = float((l - 2) * (2 * l - 3)) / float(l * (2 * l - 1)) * difference +          \
-                     cap.one_minus * r;                                                            \
+                     cap.one_minus_cos * r;                                                            \
         r -= float(2 * l - 1) / float(l + 1) * difference;                                         \
         p2 = u * p1 - float((l - 1) * (l - 1)) / float((2 * l - 1) * (2 * l - 3)) * p0;            \
         q2 = v * q1 - float((l - 1) * (l - 1)) / float((2 * l - 1) * (2 * l - 3)) * q0;            \

@@ -14,7 +14,7 @@ layout(location = 3) out vec3 out_emission;
 void main() {
     vec4 sphere = lights[light].sphere;
     vec3 ray = normalize(world_position - eye.xyz), center = sphere.xyz - eye.xyz;
-    /* the ray's nearest point to the centre; its distance by a cross product, exact far away */
+    /* the ray's nearest point to the center; its distance by a cross product, exact far away */
     float along = dot(ray, center);
     vec3 miss = center - ray * along;
     float half_chord2 = sphere.w * sphere.w - dot(miss, miss);

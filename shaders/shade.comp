@@ -8,7 +8,7 @@
 #define LMP_LIGHT_RADIANCE(i) lights[i].radiance.rgb
 #ifdef SHADE_TABULATED
 layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
-/* entries from cos a = 0 to 1, at the centres of texels */
+/* entries from cos a = 0 to 1, at the centers of texels */
 #define LMP_CAP_TABLE(k, c)                                                                        \
     textureLod(zonal_table,                                                                        \
                vec2((c * float(SHARED_ZONAL_ENTRIES - 1) + 0.5) / float(SHARED_ZONAL_ENTRIES),     \
@@ -17,27 +17,27 @@ layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
 #endif
 #include "lampion.glsl"
 
-#ifdef SHADE_RESPONSE
-layout(binding = SHARED_RESPONSE_PAIRS) uniform sampler2D response_pairs;
-layout(std430, binding = SHARED_RESPONSE) readonly buffer response_block {
+#ifdef SHADE_PREINTEGRATED_LOBE
+layout(binding = SHARED_PREINTEGRATED_LOBE_PAIRS) uniform sampler2D response_pairs;
+layout(std430, binding = SHARED_PREINTEGRATED_LOBE) readonly buffer response_block {
     vec4 shape;
-    vec4 cells[SHARED_RESPONSE_CELLS];
-    float warp[SHARED_RESPONSE_WARP];
+    vec4 cells[SHARED_PREINTEGRATED_LOBE_CELLS];
+    float warp[SHARED_PREINTEGRATED_LOBE_WARP];
 };
-#define LMP_RESPONSE_PAIR(p) textureLod(response_pairs, (p) * shape.zw, 0.0).rg
-#define LMP_RESPONSE_CELL(i) cells[i]
-#define LMP_RESPONSE_WARP(i) warp[i]
-#define LMP_RESPONSE_SHAPE   shape
-#include "response.glsl"
+#define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(response_pairs, (p) * shape.zw, 0.0).rg
+#define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
+#define LMP_PREINTEGRATED_LOBE_REMAP(i) warp[i]
+#define LMP_PREINTEGRATED_LOBE_SHAPE   shape
+#include "preintegrated_lobe.glsl"
 #ifdef MEASURED
-layout(binding = SHARED_MEASURED_TEXELS) uniform sampler2D measured_texels;
+layout(binding = SHARED_PREINTEGRATED_BRDF_TEXELS) uniform sampler2D brdf_texels;
 /* first, for every table, the place of its response's numbers, or 0 */
-layout(std430, binding = SHARED_MEASURED) readonly buffer measured_block {
+layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
     float measured[];
 };
-#define LMP_MEASURED_TEXEL(p) textureLod(measured_texels, (p) / vec2(textureSize(measured_texels, 0)), 0.0).rgb
-#define LMP_MEASURED_VALUE(i) measured[i]
-#include "measured.glsl"
+#define LMP_PREINTEGRATED_BRDF_TEXEL(p) textureLod(brdf_texels, (p) / vec2(textureSize(brdf_texels, 0)), 0.0).rgb
+#define LMP_PREINTEGRATED_BRDF_VALUE(i) measured[i]
+#include "preintegrated_brdf.glsl"
 #endif
 #endif
 
@@ -54,7 +54,7 @@ vec3 shade_by_table(lmp_surface surface, int table) {
     if (first == 0)
         return shade_table(surface, table);
 #endif
-    return lmp_shade_measured(surface, first);
+    return lmp_shade_preintegrated_brdf(surface, first);
 #else
     return shade_table(surface, table);
 #endif

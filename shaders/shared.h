@@ -38,7 +38,7 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_HDR                5
 
 /* Fragment outputs, in the order of the G-buffer's attachments (16 bytes a pixel, and depth):
- *   0  RGBA8           root of the base colour, metallic
+ *   0  RGBA8           root of the base color, metallic
  *   1  RG16            octahedral normal; of a light, its index in r
  *   2  RG8             roughness, kind
  *   3  R11F_G11F_B10F  emitted radiance
@@ -48,16 +48,16 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_KIND_LIGHT   2
 #define SHARED_KIND_TABLE   3 /* and up: a surface of table number kind - 3 */
 
-/* Texture unit and storage block of a response (lampion/response.h), and the most cells and the
- * entries of the warp that the block holds: those of 128 bands at the default error fit. */
-#define SHARED_RESPONSE_PAIRS 6
-#define SHARED_RESPONSE       3
-#define SHARED_RESPONSE_CELLS 128
-#define SHARED_RESPONSE_WARP  321
+/* Texture unit and storage block of a response (lampion/preintegrated.h), and the most cells and
+ * the entries of the warp that the block holds: those of 128 bands at the default error fit. */
+#define SHARED_PREINTEGRATED_LOBE_PAIRS 6
+#define SHARED_PREINTEGRATED_LOBE       3
+#define SHARED_PREINTEGRATED_LOBE_CELLS 128
+#define SHARED_PREINTEGRATED_LOBE_WARP  321
 
-/* Texture unit and storage block of measured materials' responses (measured.glsl). */
-#define SHARED_MEASURED_TEXELS 8
-#define SHARED_MEASURED        4
+/* Texture unit and storage block of measured materials' responses (preintegrated_brdf.glsl). */
+#define SHARED_PREINTEGRATED_BRDF_TEXELS 8
+#define SHARED_PREINTEGRATED_BRDF        4
 
 /* Texture unit of the paper's tabulated Z_l, 4 bands a row, and its entries. */
 #define SHARED_ZONAL         7
@@ -83,7 +83,7 @@ struct shared_light {
 #else
 typedef struct shared_light {
 #endif
-    vec4 sphere;   /* centre, radius */
+    vec4 sphere;   /* center, radius */
     vec4 radiance; /* w: 1 = shades, but is not drawn */
 #ifdef LAMPION_SHADER
 };
@@ -101,7 +101,7 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 base_color;
     vec4 emission; /* w: kind */
     vec4 factors;  /* metallic, roughness, normal scale, alpha cutoff */
-    vec4 maps;     /* base colour, metallic-roughness, normal, emission */
+    vec4 maps;     /* base color, metallic-roughness, normal, emission */
     vec4 matrix[4];
     vec4 offset[4];
 }
@@ -128,8 +128,8 @@ typedef struct shared_pixel {
  * texture. */
 typedef struct shared_response {
     vec4 shape; /* width2, number of cells, size of a texel */
-    vec4 cells[SHARED_RESPONSE_CELLS];
-    float warp[SHARED_RESPONSE_WARP];
+    vec4 cells[SHARED_PREINTEGRATED_LOBE_CELLS];
+    float warp[SHARED_PREINTEGRATED_LOBE_WARP];
 } shared_response;
 
 static_assert(offsetof(shared_frame, eye) == 64, "std140");
@@ -144,9 +144,9 @@ static_assert(sizeof(shared_pixel) == 96, "std430");
 #endif
 
 /* The filmic curve: Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab,
- * 2016), scaled so that middle grey stays 0.18. A channel follows the curve by itself, which turns
- * bright colours white as film does, but for a part SHARED_TONE_HUE that keeps its share of the
- * brightest channel: a lamp shows its colour however bright it is. shared_tone_in goes to its
+ * 2016), scaled so that middle gray stays 0.18. A channel follows the curve by itself, which turns
+ * bright colors white as film does, but for a part SHARED_TONE_HUE that keeps its share of the
+ * brightest channel: a lamp shows its color however bright it is. shared_tone_in goes to its
  * working primaries, shared_tone (of a channel and the largest of the three) is the curve,
  * shared_tone_out comes back to linear sRGB (clamp it to 0 … 1). Clamp exposed radiance to 0 …
  * SHARED_TONE_MAX before. row: 0 red, 1 green, 2 blue. */

@@ -53,7 +53,7 @@ static double bounce_period(const animation *all, const scene_light *light) {
     return PERIOD / (count < 1.0 ? 1.0 : count > 64.0 ? 64.0 : count);
 }
 
-/* Round the axis through a circle's centre, counter-clockwise as seen from its tip (Rodrigues). */
+/* Round the axis through a circle's center, counter-clockwise as seen from its tip (Rodrigues). */
 static void circle(const path *p, double seconds, scene_light *light) {
     const double angle = 2.0 * (double)PI * fmod(seconds, p->period) / p->period;
     const double c = cos(angle), s = sin(angle), *a = p->axis;
@@ -70,7 +70,7 @@ static void circle(const path *p, double seconds, scene_light *light) {
     }
 }
 
-/* The speed at a key: that of the way from its neighbour before to the one after. */
+/* The speed at a key: that of the way from its neighbor before to the one after. */
 static double speed_at(const path *p, size_t i, int k) {
     const size_t before = i > 0 ? i - 1 : 0, after = i + 1 < p->key_count ? i + 1 : i;
     return (p->keys[after].offset[k] - p->keys[before].offset[k]) /

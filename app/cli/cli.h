@@ -48,7 +48,7 @@ typedef struct cli_option {
     const char *name; /* "bands" for --bands; NULL ends the table */
     char letter;      /* 'o' for -o, or 0 */
     cli_kind kind;
-    void *target;         /* left alone when the option is absent: initialise it to the default */
+    void *target;         /* left alone when the option is absent: initialize it to the default */
     const char *argument; /* "N" in the help */
     const char *help;
     double minimum, maximum;    /* of numbers; both 0 = no limits */

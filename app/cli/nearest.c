@@ -9,7 +9,7 @@ static size_t smaller(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-/* Edits (insert, delete, replace, swap neighbours) that turn one word into the other. */
+/* Edits (insert, delete, replace, swap neighbors) that turn one word into the other. */
 static size_t edit_distance(const char *a, size_t a_length, const char *b, size_t b_length) {
     size_t rows[3][WORD_MAX + 1];
     size_t *before = rows[0], *above = rows[1], *row = rows[2];

@@ -33,7 +33,7 @@ typedef struct bench_batch {
     const float *distances, *lambda, *matrices, *vectors;
     lmp_surfaces surfaces;
     const lmp_light *lights;
-    const lmp_response *response; /* of the kernels that read one */
+    const lmp_preintegrated_lobe *response; /* of the kernels that read one */
     float *out;
 } bench_batch;
 
@@ -90,8 +90,8 @@ static void run_accumulate(const bench_batch *b) {
 }
 static void run_gradient(const bench_batch *b) {
     const size_t n = LMP_SH_COUNT(b->bands);
-    float *slopes = b->out + 3 * n * (b->layout == LMP_SH_PLANES ? b->stride : b->count);
-    const size_t stride = b->layout == LMP_SH_PLANES ? b->stride : 0;
+    float *slopes = b->out + 3 * n * (b->layout == LMP_SH_PLANAR ? b->stride : b->count);
+    const size_t stride = b->layout == LMP_SH_PLANAR ? b->stride : 0;
     lmp_sphere_accumulate_gradient_n(b->bands, &b->spheres, LIGHTS, b->points, b->count, b->layout,
                                      stride, b->out, stride, slopes);
 }
@@ -448,9 +448,9 @@ typedef struct bench_inputs {
     float *out, *vectors, *matrices;
     lmp_light lights[LIGHTS];
     /* What the kernels that read a table read now. */
-    lmp_response *lobes;
+    lmp_preintegrated_lobe *lobes;
     lmp_brdf_table *table;
-    lmp_brdf_response *measured;
+    lmp_preintegrated_brdf *measured;
 } bench_inputs;
 
 static float uniform(uint32_t *state) {
@@ -516,7 +516,7 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
     b.count = fit >= ELEMENTS_MAX ? ELEMENTS_MAX : fit >= 48 ? fit / 48 * 48 : fit >= 32 ? 32 : 16;
     /* An odd number of cache lines, for planes whose distance is a power of two collide. */
     b.stride =
-        layout == LMP_SH_PLANES ? (b.count / 16 | 1) * 16 + (b.count / 16 % 2 ? 32 : 0) : values;
+        layout == LMP_SH_PLANAR ? (b.count / 16 | 1) * 16 + (b.count / 16 % 2 ? 32 : 0) : values;
     b.axes = planes_of(in->axis);
     b.points = planes_of(in->point);
     b.spheres = (lmp_spheres) { planes_of(in->center),
@@ -537,7 +537,7 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
                                   .exponent = { in->exponent, sizeof(float) } };
     if (kernel->table == TABLE_MEASURED) {
         b.surfaces.table = (const lmp_brdf_table *const *)&in->table;
-        b.surfaces.response = (const lmp_brdf_response *const *)&in->measured;
+        b.surfaces.response = (const lmp_preintegrated_brdf *const *)&in->measured;
     }
     return b;
 }
@@ -546,8 +546,8 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
  */
 
 static void tables_free(bench_inputs *in) {
-    lmp_response_destroy(in->lobes);
-    lmp_brdf_response_destroy(in->measured);
+    lmp_preintegrated_lobe_destroy(in->lobes);
+    lmp_preintegrated_brdf_destroy(in->measured);
     lmp_brdf_table_destroy(in->table);
     in->lobes = NULL;
     in->measured = NULL;
@@ -562,15 +562,16 @@ static bool measured_create(int bands, bench_inputs *in) {
         lmp_brdf_create_sgd(NULL, &sgd, &brdf) != LMP_OK)
         return false;
     const bool made = lmp_brdf_table_create(NULL, brdf, &desc, &in->table) == LMP_OK &&
-                      lmp_brdf_response_create(NULL, in->table, NULL, &in->measured) == LMP_OK;
+                      lmp_preintegrated_brdf_create(NULL, in->table, NULL, &in->measured) == LMP_OK;
     lmp_brdf_destroy(brdf);
     return made;
 }
 
 static bool tables_create(bench_table table, int bands, bench_inputs *in) {
-    const lmp_response_desc desc = { .bands = bands };
-    return table == TABLE_NONE || (lmp_response_create(NULL, &desc, &in->lobes) == LMP_OK &&
-                                   (table == TABLE_LOBES || measured_create(bands, in)));
+    const lmp_preintegrated_lobe_desc desc = { .bands = bands };
+    return table == TABLE_NONE ||
+           (lmp_preintegrated_lobe_create(NULL, &desc, &in->lobes) == LMP_OK &&
+            (table == TABLE_LOBES || measured_create(bands, in)));
 }
 
 /* --- results -----------------------------------------------------------------------------------
@@ -578,7 +579,7 @@ static bool tables_create(bench_table table, int bands, bench_inputs *in) {
 
 static void print_row(const bench_options *o, bool first, const bench_kernel *kernel, int bands,
                       lmp_sh_layout layout, const measurement *m) {
-    const char *name = layout == LMP_SH_PLANES ? "planar" : "rows";
+    const char *name = layout == LMP_SH_PLANAR ? "planar" : "rows";
     char vs_scalar[32] = "-";
     if (m->vs_scalar > 0)
         snprintf(vs_scalar, sizeof vs_scalar, "%.3g", m->vs_scalar);
@@ -627,8 +628,8 @@ static bool measure_kernels(const bench_options *o, bench_inputs *in) {
             if (kernel->table != TABLE_NONE && !o->bands && bands[n] != TABLE_BANDS)
                 continue;
             ok = ok && tables_create(kernel->table, bands[n], in);
-            for (int layout = kernel->shades ? LMP_SH_ROWS : LMP_SH_PLANES;
-                 ok && layout >= LMP_SH_ROWS; layout--)
+            for (int layout = kernel->shades ? LMP_SH_INTERLEAVED : LMP_SH_PLANAR;
+                 ok && layout >= LMP_SH_INTERLEAVED; layout--)
                 measure_rows(o, in, kernel, bands[n], (lmp_sh_layout)layout, &first);
             tables_free(in);
         }
@@ -649,7 +650,7 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
         double alone = 0;
         for (int threads = 1; wanted(o, k) && threads <= most; threads++) {
             static double ns[RUNS_MAX];
-            bench_batch b = batch_of(in, &kernels[k], 10, LMP_SH_PLANES);
+            bench_batch b = batch_of(in, &kernels[k], 10, LMP_SH_PLANAR);
             const int runs = 31, calls = 50 * calls_of(&kernels[k], &b);
             for (int r = 0; r < runs; r++) {
                 const double start = now();

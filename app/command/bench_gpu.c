@@ -64,7 +64,7 @@ typedef struct bench_stage {
     scene world;
     gpu_context context;
     gpu_renderer *renderer;
-    lmp_response *responses[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
+    lmp_preintegrated_lobe *responses[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
     double build_ms[LMP_BANDS_MAX + 1];
     device_materials materials; /* of material_bands */
     int material_bands;         /* 0: none yet */
@@ -116,7 +116,7 @@ static bool find_response(bench_stage *stage, int bands, cli_error *error) {
     if (stage->responses[bands])
         return true;
     const double start = wall_ms();
-    if (!device_response(bands, LMP_WINDOW_HANNING, &stage->responses[bands], error))
+    if (!device_preintegrated_lobe(bands, LMP_WINDOW_HANNING, &stage->responses[bands], error))
         return false;
     stage->build_ms[bands] = wall_ms() - start;
     return true;
@@ -157,13 +157,13 @@ static bench_tables tables_of(const bench_stage *stage, const bench_case *c) {
     if (c->by->method == GPU_METHOD_TABULATED)
         sum.bytes = gpu_zonal_bytes(c->bands);
     if (preintegrated) {
-        sum.bytes = lmp_response_describe(stage->responses[c->bands]).bytes;
+        sum.bytes = lmp_preintegrated_lobe_describe(stage->responses[c->bands]).bytes;
         sum.lobes_ms = stage->build_ms[c->bands];
         sum.responses_ms = stage->respond_ms;
     }
     for (int i = 0; i < all->count; i++)
         sum.bytes += preintegrated && all->responses[i]
-                         ? lmp_brdf_response_describe(all->responses[i]).bytes
+                         ? lmp_preintegrated_brdf_describe(all->responses[i]).bytes
                          : lmp_brdf_table_size(all->tables[i]);
     return sum;
 }
@@ -358,7 +358,7 @@ static void close_stage(bench_stage *stage) {
     gpu_context_destroy(&stage->context);
     scene_free(&stage->world);
     for (int n = 0; n <= LMP_BANDS_MAX; n++)
-        lmp_response_destroy(stage->responses[n]);
+        lmp_preintegrated_lobe_destroy(stage->responses[n]);
 }
 
 /* What the table of options cannot say. */

@@ -10,7 +10,7 @@ static const char *const environment[][2] = {
     { "LAMPION_GL_DEBUG", "If it is fatal, OpenGL checks every call and the first complaint ends "
                           "the program." },
     { "TERM", "Progress is shown on terminals alone, and on none that is dumb. There are no "
-              "colours." },
+              "colors." },
     { NULL, NULL },
 };
 

@@ -45,7 +45,7 @@ static void project_rows(const project_row *rows, size_t count, int bands, float
         const lmp_vec3_array points = { &row->point[0], &row->point[1], &row->point[2],
                                         sizeof *row };
         float *sh = coefficients + first * stride;
-        lmp_sphere_project_n(bands, &spheres, points, some, LMP_SH_ROWS, 0, sh);
+        lmp_sphere_project_n(bands, &spheres, points, some, LMP_SH_INTERLEAVED, 0, sh);
         for (size_t k = 0; k < some * stride; k++)
             sh[k] *= radiance;
     }
@@ -217,7 +217,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     project_options o = { .radiance = 1.0f, .bands = 10 };
     const double length_max = (double)LMP_LENGTH_MAX;
     const cli_option options[] = {
-        { "light", 'l', CLI_VEC3, o.light, "X,Y,Z", "centre of the light", -length_max, length_max,
+        { "light", 'l', CLI_VEC3, o.light, "X,Y,Z", "center of the light", -length_max, length_max,
           NULL, &o.light_given },
         { "radius", 'r', CLI_FLOAT, &o.radius, "R", "its radius, in the same unit", 0, length_max,
           NULL, &o.radius_given },

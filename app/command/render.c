@@ -33,8 +33,8 @@ typedef struct job {
     gpu_renderer *renderer;
     gpu_frame frame;
     device_kind shading;
-    lmp_response *response; /* of the preintegrated method */
-    animation *path;        /* of the lights */
+    lmp_preintegrated_lobe *response; /* of the preintegrated method */
+    animation *path;                  /* of the lights */
     scene_light *moved;
     device_materials materials;
     float exposure;
@@ -240,7 +240,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddStringToObject(stats, "shading", device_names[j->shading]);
     if (j->response)
         cJSON_AddNumberToObject(stats, "response_bytes",
-                                (double)lmp_response_describe(j->response).bytes);
+                                (double)lmp_preintegrated_lobe_describe(j->response).bytes);
     const bool ok = add_timings(j, stats, error);
     char *text = ok ? cJSON_Print(stats) : NULL;
     if (text)
@@ -266,7 +266,7 @@ static bool settle_shading(job *j, cli_error *error) {
     j->frame.host = j->shading == DEVICE_CPU ? device_shade : NULL;
     if (method != GPU_METHOD_PREINTEGRATED && !o->compare)
         return true;
-    const bool ok = device_response(o->bands, (lmp_window)o->window, &j->response, error);
+    const bool ok = device_preintegrated_lobe(o->bands, (lmp_window)o->window, &j->response, error);
     j->frame.response = j->response;
     return ok;
 }
@@ -304,7 +304,7 @@ static void close_job(job *j) {
     device_materials_free(&j->materials);
     gpu_context_destroy(&j->context);
     scene_free(&j->world);
-    lmp_response_destroy(j->response);
+    lmp_preintegrated_lobe_destroy(j->response);
     free(j->moved);
     animation_close(j->path);
 }

@@ -78,7 +78,7 @@ void compare_to_display(image *picture) {
     }
 }
 
-/* The colours at 0, 1/4, 1/2, 3/4 and 1: lightness grows evenly, so it reads in grey too. */
+/* The colors at 0, 1/4, 1/2, 3/4 and 1: lightness grows evenly, so it reads in gray too. */
 #define STOPS 5
 static const double heat[STOPS][3] = {
     { 0, 0, 0 }, { 87, 16, 110 }, { 188, 55, 84 }, { 249, 142, 9 }, { 255, 255, 220 }

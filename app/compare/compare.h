@@ -33,7 +33,7 @@ bool compare_images(const image *picture, const image *reference, double peak,
 /* Encodes linear values by sRGB's transfer function, in place, held to 0 … 1. */
 void compare_to_display(image *picture);
 
-/* Largest channel's absolute difference as colour, from black over purple and orange to white at
+/* Largest channel's absolute difference as color, from black over purple and orange to white at
  * `scale` and above (0: the largest there is); bad values are green. rgb8 receives
  * 3 * width * height bytes. */
 void compare_heat_map(const image *picture, const image *reference, double scale,

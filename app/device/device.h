@@ -29,13 +29,14 @@ device_kind device_choose(device_kind wanted, const gpu_context *context, gpu_me
 #define DEVICE_LOBES_ERROR 0.002f
 
 /* The response of so many bands from the cache, or computed on all cores with a progress bar and
- * cached. Free with lmp_response_destroy. */
-bool device_response(int bands, lmp_window window, lmp_response **response, cli_error *error);
+ * cached. Free with lmp_preintegrated_lobe_destroy. */
+bool device_preintegrated_lobe(int bands, lmp_window window, lmp_preintegrated_lobe **response,
+                               cli_error *error);
 
 /* The same of a material's table: NULL where it has none that fits (an anisotropic one has a
- * dimension more), which it says on stderr. Free with lmp_brdf_response_destroy. */
-bool device_brdf_response(const material *material, const lmp_brdf_table *table,
-                          lmp_brdf_response **response, cli_error *error);
+ * dimension more), which it says on stderr. Free with lmp_preintegrated_brdf_destroy. */
+bool device_preintegrated_brdf(const material *material, const lmp_brdf_table *table,
+                               lmp_preintegrated_brdf **response, cli_error *error);
 
 /* gpu_frame.host: shades the frame by its method, bands, window, lights and response. */
 bool device_shade(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,

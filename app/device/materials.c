@@ -58,7 +58,7 @@ bool device_materials_bake(device_materials *all, int bands, lmp_window window, 
 
 bool device_materials_respond(device_materials *all, cli_error *error) {
     for (int i = 0; i < all->count; i++)
-        if (!device_brdf_response(&all->opened[i], all->tables[i], &all->responses[i], error))
+        if (!device_preintegrated_brdf(&all->opened[i], all->tables[i], &all->responses[i], error))
             return false;
     return true;
 }
@@ -76,7 +76,7 @@ bool device_materials_give(const device_materials *all, const scene *world, gpu_
     const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
                                    all->uses ? all->uses : none, count, error);
     if (ok)
-        gpu_set_responses(renderer, (const lmp_brdf_response *const *)all->responses);
+        gpu_set_responses(renderer, (const lmp_preintegrated_brdf *const *)all->responses);
     free(none);
     return ok;
 }
@@ -91,7 +91,7 @@ bool device_materials_apply(const cli_list *list, const scene *world, const gpu_
 
 void device_materials_free(device_materials *all) {
     for (int i = 0; i < all->count; i++) {
-        lmp_brdf_response_destroy(all->responses[i]);
+        lmp_preintegrated_brdf_destroy(all->responses[i]);
         lmp_brdf_table_destroy(all->tables[i]);
         material_close(&all->opened[i]);
     }

@@ -14,8 +14,8 @@
 
 typedef struct device_materials {
     material opened[GPU_TABLES_MAX];
-    lmp_brdf_table *tables[GPU_TABLES_MAX];       /* NULL before device_materials_bake */
-    lmp_brdf_response *responses[GPU_TABLES_MAX]; /* of tables; NULL unless asked for */
+    lmp_brdf_table *tables[GPU_TABLES_MAX];            /* NULL before device_materials_bake */
+    lmp_preintegrated_brdf *responses[GPU_TABLES_MAX]; /* of tables; NULL unless asked for */
     int count;
     int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
 } device_materials;

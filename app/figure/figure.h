@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* figure.h - drawings for documents, in linear colour on an image: boxes, a few words, lobes. */
+/* figure.h - drawings for documents, in linear color on an image: boxes, a few words, lobes. */
 #ifndef LAMPION_FIGURE_H
 #define LAMPION_FIGURE_H
 
@@ -14,15 +14,15 @@ typedef struct figure_box {
 
 void figure_fill(image *picture, figure_box box, lmp_rgb color);
 
-/* Writes digits, signs, blanks and the letters l and m, `height` pixels high, centred in the box.
+/* Writes digits, signs, blanks and the letters l and m, `height` pixels high, centerd in the box.
  */
 void figure_text(image *picture, figure_box box, int height, lmp_rgb color, const char *text);
 
-/* A function on the sphere as a surface: |radius(direction)| away from the centre. */
+/* A function on the sphere as a surface: |radius(direction)| away from the center. */
 typedef struct figure_lobe {
     float (*radius)(lmp_vec3 direction, const void *user); /* at most 1 in magnitude */
     const void *user;
-    lmp_rgb positive, negative; /* colours by the sign of the radius */
+    lmp_rgb positive, negative; /* colors by the sign of the radius */
 } figure_lobe;
 
 /* Draws the lobe into the box, z up, seen a little from above. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A lobe is drawn as a mesh of small quadrilaterals, each of one colour, into a canvas of
+/* A lobe is drawn as a mesh of small quadrilaterals, each of one color, into a canvas of
  * OVERSAMPLE² samples a pixel with a depth for each. */
 #include "app/figure/figure.h"
 
@@ -26,7 +26,7 @@ typedef struct canvas {
 
 /* A corner of the mesh. */
 typedef struct corner {
-    lmp_vec3 place; /* x to the right, y up, z to the viewer; from the centre */
+    lmp_vec3 place; /* x to the right, y up, z to the viewer; from the center */
     float radius;
 } corner;
 
@@ -49,7 +49,7 @@ static lmp_vec3 to_view(lmp_vec3 p) {
                         sinf(ELEVATION) * p.z - cosf(ELEVATION) * y };
 }
 
-/* A key light from above left with its highlight, a dim sky, and shadow towards the centre, where
+/* A key light from above left with its highlight, a dim sky, and shadow towards the center, where
  * the lobes meet. `normal` need not be unit. */
 static lmp_rgb shade(lmp_vec3 normal, float distance, lmp_rgb color) {
     static const lmp_vec3 key = { -0.41f, 0.62f, 0.67f }, half = { -0.225f, 0.34f, 0.913f };
@@ -112,7 +112,7 @@ static void draw_quad(canvas *c, const corner *above, const corner *below,
         return;
     const lmp_vec3 middle = { 0.25f * (a.x + b.x + d.x + e.x), 0.25f * (a.y + b.y + d.y + e.y),
                               0.25f * (a.z + b.z + d.z + e.z) };
-    if (dot(normal, middle) < 0.0f) /* the surface is a star: outward is away from the centre */
+    if (dot(normal, middle) < 0.0f) /* the surface is a star: outward is away from the center */
         normal = (lmp_vec3) { -normal.x, -normal.y, -normal.z };
     const float sign = above[0].radius + above[1].radius + below[0].radius + below[1].radius;
     const lmp_rgb color =

@@ -86,7 +86,7 @@ bool gpu_row_create(int width, gpu_row *row) {
     if (!memory)
         return false;
     row->table = (const lmp_brdf_table **)(void *)memory;
-    row->response = (const lmp_brdf_response **)(void *)(row->table + count);
+    row->response = (const lmp_preintegrated_brdf **)(void *)(row->table + count);
     memory = (float *)(void *)(row->response + count);
     float **planes[] = { row->position, row->normal,   row->view,
                          row->diffuse,  row->specular, row->emission };
@@ -180,7 +180,7 @@ static float squared(unsigned char stored) {
 static void decode_materials(const gpu_gbuffer *g, int y, gpu_row *row) {
     const size_t first = (size_t)y * (size_t)g->width;
     lmp_material m = { .exponent = 0 };
-    uint32_t held = 0, held_roughness = 256; /* what m is made of: neighbours are often alike */
+    uint32_t held = 0, held_roughness = 256; /* what m is made of: neighbors are often alike */
     for (size_t x = 0; x < (size_t)g->width; x++) {
         const unsigned char *base = g->base_metallic[first + x];
         const unsigned roughness = g->roughness_kind[first + x][0];

@@ -67,9 +67,9 @@ typedef struct gpu_frame {
     const scene_light *lights;
     size_t light_count; /* <= SCENE_LIGHTS_MAX */
     float background[3];
-    int samples;                  /* a pixel, spread over it; 0 means 1, in its middle */
-    const lmp_response *response; /* of GPU_METHOD_PREINTEGRATED, its bands and window */
-    gpu_host_shader host;         /* instead of the compute pass, or NULL */
+    int samples;                            /* a pixel, spread over it; 0 means 1, in its middle */
+    const lmp_preintegrated_lobe *response; /* of GPU_METHOD_PREINTEGRATED, its bands and window */
+    gpu_host_shader host;                   /* instead of the compute pass, or NULL */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
     float samples_exposure; /* the mean suits a picture of this exposure; 0: the plain mean */
 } gpu_frame;
@@ -100,7 +100,7 @@ bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables,
 
 /* After gpu_set_tables: responses[i] of table i, or NULL, for frames of GPU_METHOD_PREINTEGRATED.
  * They must outlive the renderer. */
-void gpu_set_responses(gpu_renderer *renderer, const lmp_brdf_response *const *responses);
+void gpu_set_responses(gpu_renderer *renderer, const lmp_preintegrated_brdf *const *responses);
 
 /* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number
  * of bands and a window. times may be NULL, and then nothing waits for the device. */
@@ -191,8 +191,8 @@ typedef struct gpu_row {
     float *diffuse[3], *specular[3], *exponent;
     float *emission[3];
     const lmp_brdf_table **table;
-    const lmp_brdf_response **response; /* of the table, or NULL */
-    bool tables;                        /* some pixel has one */
+    const lmp_preintegrated_brdf **response; /* of the table, or NULL */
+    bool tables;                             /* some pixel has one */
 } gpu_row;
 bool gpu_row_create(int width, gpu_row *row);
 void gpu_row_free(gpu_row *row);

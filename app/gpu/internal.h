@@ -71,7 +71,8 @@ typedef struct gpu_variant {
  */
 
 /* Uploads a response once, and again when another one takes its place. */
-bool gpu_bind_response(gpu_renderer *renderer, const lmp_response *response, cli_error *error);
+bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated_lobe *response,
+                                 cli_error *error);
 
 /* --- table.c ------------------------------------------------------------------------------------
  */
@@ -86,10 +87,10 @@ bool gpu_bind_tables(gpu_renderer *renderer, gpu_method method, cli_error *error
  */
 
 /* Whether some material has a response. */
-bool gpu_has_measured(const gpu_renderer *renderer);
+bool gpu_has_preintegrated_brdf(const gpu_renderer *renderer);
 
 /* Uploads the materials' responses, once. */
-bool gpu_bind_measured(gpu_renderer *renderer, cli_error *error);
+bool gpu_bind_preintegrated_brdf(gpu_renderer *renderer, cli_error *error);
 
 /* --- zonal.c ------------------------------------------------------------------------------------
  */
@@ -116,7 +117,7 @@ struct gpu_gbuffer {
     shared_frame block;
     const gpu_frame *frame;
     const lmp_brdf_table *const *tables;
-    const lmp_brdf_response *const *responses;
+    const lmp_preintegrated_brdf *const *responses;
 };
 
 /* Allocates at the first frame of a size. */
@@ -136,8 +137,8 @@ struct gpu_renderer {
     GLuint frame_block, lights_block, empty_array;
     GLuint zonal; /* texture of the tabulated Z_l */
     int zonal_bands;
-    GLuint response_pairs, response_block; /* texture, buffer */
-    const lmp_response *response;          /* what they hold */
+    GLuint response_pairs, response_block;  /* texture, buffer */
+    const lmp_preintegrated_lobe *response; /* what they hold */
     int response_bands;
     lmp_window response_window;
     int width, height;                /* of the targets below */
@@ -148,12 +149,12 @@ struct gpu_renderer {
     double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
     const lmp_brdf_table *tables[GPU_TABLES_MAX]; /* not owned */
     int table_count, table_bands;
-    GLuint tables_buffer;                               /* of the tables summed by bands, or 0 */
-    gpu_method tables_method;                           /* that it was made for */
-    const lmp_brdf_response *responses[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
-    GLuint measured_texels, measured_block;             /* texture, buffer; or 0 */
-    float near;                                         /* distance of the near plane */
-    gpu_gbuffer gbuffer;                                /* of host shaders */
+    GLuint tables_buffer;     /* of the tables summed by bands, or 0 */
+    gpu_method tables_method; /* that it was made for */
+    const lmp_preintegrated_brdf *responses[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
+    GLuint brdf_texels, brdf_block;                          /* texture, buffer; or 0 */
+    float near;                                              /* distance of the near plane */
+    gpu_gbuffer gbuffer;                                     /* of host shaders */
 };
 
 /* What a frame of keep_geometry has left is not used any more. */

@@ -15,7 +15,8 @@ static const struct {
 } method_shaders[] = {
     [GPU_METHOD_ZONAL] = { "lmp_shade_zonal", "" },
     [GPU_METHOD_COEFFICIENTS] = { "lmp_shade_coefficients", "" },
-    [GPU_METHOD_PREINTEGRATED] = { "lmp_shade_preintegrated", "#define SHADE_RESPONSE\n" },
+    [GPU_METHOD_PREINTEGRATED] = { "lmp_shade_preintegrated",
+                                   "#define SHADE_PREINTEGRATED_LOBE\n" },
     [GPU_METHOD_PAPER] = { "paper", "" },
     [GPU_METHOD_TABULATED] = { "lmp_shade_coefficients", "#define SHADE_TABULATED\n" },
 };
@@ -264,7 +265,7 @@ static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
 static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
     const bool preintegrated = frame->method == GPU_METHOD_PREINTEGRATED;
     const int tables = gpu_tables_by_bands(r, frame->method);
-    const bool measured = preintegrated && gpu_has_measured(r);
+    const bool measured = preintegrated && gpu_has_preintegrated_brdf(r);
     if (r->table_count && r->table_bands != frame->bands) {
         cli_fail(error, NULL, "the tables of the materials have %d bands, the picture %d",
                  r->table_bands, frame->bands);
@@ -492,7 +493,8 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
     if ((!frame->host && !program) || !create_targets(r, frame->width, frame->height, error))
         return false;
     if (!frame->host && frame->method == GPU_METHOD_PREINTEGRATED &&
-        (!gpu_bind_response(r, frame->response, error) || !gpu_bind_measured(r, error)))
+        (!gpu_bind_preintegrated_lobe(r, frame->response, error) ||
+         !gpu_bind_preintegrated_brdf(r, error)))
         return false;
     if (!frame->host && gpu_tables_by_bands(r, frame->method) &&
         !gpu_bind_tables(r, frame->method, error))

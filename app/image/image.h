@@ -17,7 +17,7 @@ typedef struct image {
 bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
 
-/* The exposure (a factor on radiance) that maps the log-average of what is lit to middle grey:
+/* The exposure (a factor on radiance) that maps the log-average of what is lit to middle gray:
  * the darkest and brightest twentieth, and pixels 8 stops darker than these, do not count: the tail
  * of a sharp lobe is as good as black. 1 for a black picture. */
 float image_auto_exposure(const image *image);
@@ -36,7 +36,7 @@ bool image_write(const image *image, const char *path, float exposure, cli_error
 typedef enum image_format { IMAGE_UNKNOWN, IMAGE_PNG, IMAGE_EXR } image_format;
 image_format image_format_of(const char *path);
 
-/* The same for a drawing, whose colours (0 … 1) are meant to be seen as they are: no exposure and
+/* The same for a drawing, whose colors (0 … 1) are meant to be seen as they are: no exposure and
  * no filmic curve. */
 bool image_write_figure(const image *image, const char *path, cli_error *error);
 
@@ -70,7 +70,7 @@ bool image_write_png8_text(const unsigned char *rgb8, int width, int height, con
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error);
 
 /* Reads a .exr (R, G, B channels; linear) or an 8-bit .png (sRGB,
- * linearised). */
+ * linearized). */
 bool image_read(const char *path, image *image, cli_error *error);
 
 #endif

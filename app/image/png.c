@@ -24,7 +24,7 @@ bool image_write_png8(const unsigned char *rgb8, int width, int height, const ch
     return file_write_commit(&writer, error);
 }
 
-static float linearise(unsigned char byte) {
+static float linearize(unsigned char byte) {
     const float x = (float)byte / 255;
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
@@ -43,7 +43,7 @@ static bool read_pixels(png_image *png, const char *path, image *picture, cli_er
     }
     float linear[256];
     for (int i = 0; i < 256; i++)
-        linear[i] = linearise((unsigned char)i);
+        linear[i] = linearize((unsigned char)i);
     for (size_t i = 0; i < count; i++)
         picture->rgb[i] = linear[rgb8[i]];
     free(rgb8);

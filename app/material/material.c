@@ -44,15 +44,15 @@ static int take_numbers(const char **text, char separator, int count, float *val
     return taken;
 }
 
-/* A colour if there is text left; it stays as it is if there is none. */
-static bool take_colour(const char **text, lmp_rgb *colour) {
+/* A color if there is text left; it stays as it is if there is none. */
+static bool take_color(const char **text, lmp_rgb *color) {
     float v[3];
     if (!**text)
         return true;
     const int count = take_numbers(text, ',', 3, v);
     if (count != 1 && count != 3)
         return false;
-    *colour = count == 1 ? (lmp_rgb) { v[0], v[0], v[0] } : (lmp_rgb) { v[0], v[1], v[2] };
+    *color = count == 1 ? (lmp_rgb) { v[0], v[0], v[0] } : (lmp_rgb) { v[0], v[1], v[2] };
     return true;
 }
 
@@ -66,7 +66,7 @@ static bool finish(const char *name, const char *rest, lmp_result result, cli_er
 
 static bool open_lambert(const char *name, const char *text, material *m, cli_error *error) {
     lmp_rgb albedo;
-    if (!*text || !take_colour(&text, &albedo))
+    if (!*text || !take_color(&text, &albedo))
         return cli_fail(error, name, "is not lambert:COLOR (one number or R,G,B)");
     return finish(name, text, lmp_brdf_create_lambert(NULL, albedo, &m->brdf), error);
 }
@@ -74,7 +74,7 @@ static bool open_lambert(const char *name, const char *text, material *m, cli_er
 static bool open_phong(const char *name, const char *text, material *m, cli_error *error) {
     lmp_rgb reflectance = { 1, 1, 1 };
     float exponent;
-    if (take_numbers(&text, ',', 1, &exponent) != 1 || !take_colour(&text, &reflectance))
+    if (take_numbers(&text, ',', 1, &exponent) != 1 || !take_color(&text, &reflectance))
         return cli_fail(error, name, "is not phong:EXPONENT[:COLOR]");
     return finish(name, text, lmp_brdf_create_phong(NULL, reflectance, exponent, &m->brdf), error);
 }
@@ -82,8 +82,8 @@ static bool open_phong(const char *name, const char *text, material *m, cli_erro
 static bool open_ggx(const char *name, const char *text, material *m, cli_error *error) {
     lmp_ggx ggx = { .f0 = { 0.04f, 0.04f, 0.04f } };
     float alpha[2] = { 0, 0 };
-    if (!take_numbers(&text, 'x', 2, alpha) || !take_colour(&text, &ggx.f0) ||
-        !take_colour(&text, &ggx.diffuse))
+    if (!take_numbers(&text, 'x', 2, alpha) || !take_color(&text, &ggx.f0) ||
+        !take_color(&text, &ggx.diffuse))
         return cli_fail(error, name, "is not ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]");
     ggx.alpha_x = alpha[0];
     ggx.alpha_y = alpha[1];
@@ -185,7 +185,7 @@ static bool open_file(const char *path, material *m, cli_error *error) {
     size_t size = 0;
     if (!file_read(path, FILE_LIMIT, &data, &size, error))
         return false;
-    lmp_brdf_fault fault = { 0 };
+    lmp_parse_error fault = { 0 };
     lmp_result result;
     if (size >= 4 && memcmp(data, "LMPT", 4) == 0)
         result = lmp_brdf_table_read(NULL, data, size, &fault, &m->table);

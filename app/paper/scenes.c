@@ -110,7 +110,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
                                    { "noise alone", x, noise, count } };
     page_text(&p->page,
               "“Noise alone” compares two ground truths of other seeds. The largest error is often "
-              "one pixel on an edge where rasteriser and ray see different surfaces.");
+              "one pixel on an edge where rasterizer and ray see different surfaces.");
     snprintf(file, sizeof file, "%s-curve", f->name);
     return page_plot_write(&p->page,
                            &(page_plot) { .file = file,

@@ -10,7 +10,7 @@ struct reference_candidate {
     double radiance[3];
     double density;    /* of the directions sampled for it, per steradian */
     double cumulative; /* of the probabilities, itself included */
-    double one_minus;
+    double one_minus_cos;
     const scene_light *light;
 };
 
@@ -94,8 +94,8 @@ static void plan_samples(const reference_estimator *estimator, const reference_s
         total += part;
         estimator->candidates[p->count++] = (struct reference_candidate) {
             .axis = cap.axis,
-            .limit = 1 - cap.one_minus,
-            .one_minus = cap.one_minus,
+            .limit = 1 - cap.one_minus_cos,
+            .one_minus_cos = cap.one_minus_cos,
             .radiance = { (double)light->radiance[0], (double)light->radiance[1],
                           (double)light->radiance[2] },
             .density = part / cap.solid_angle,
@@ -139,7 +139,7 @@ static reference_vec draw(const plan *p, const double u[3], int *sampled) {
     }
     *sampled = find_candidate(p, way);
     const struct reference_candidate *c = &p->candidates[*sampled];
-    const double t = u[1] * c->one_minus;
+    const double t = u[1] * c->one_minus_cos;
     return reference_around(c->axis, 1 - t, sqrt(t * (2 - t)), u[2]);
 }
 
@@ -179,7 +179,7 @@ static void take_sample(const reference_estimator *estimator, const plan *p, uin
             reflected[c] += lobe->weight[c] * at;
     }
     if (p->surface->measured)
-        reference_measured_at(p->surface->measured, w, reflected);
+        reference_tabulated_at(p->surface->measured, w, reflected);
     value[0] = value[1] = value[2] = 0;
     if (reflected[0] == 0 && reflected[1] == 0 && reflected[2] == 0)
         return;

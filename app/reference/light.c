@@ -4,16 +4,18 @@
 reference_cap reference_cap_of(const scene_light *light, reference_vec point, bool grow) {
     const reference_vec to = reference_subtract(reference_from_floats(light->center), point);
     const double d = reference_length(to), r = (double)light->radius;
-    reference_cap cap = { .axis = reference_normalize(to), .angle = REFERENCE_PI, .one_minus = 2 };
+    reference_cap cap = { .axis = reference_normalize(to),
+                          .angle = REFERENCE_PI,
+                          .one_minus_cos = 2 };
     if (d >= r && d > 0) {
         const double s = r / d;
         cap.angle = atan2(r, sqrt((d - r) * (d + r)));
-        cap.one_minus = s * s / (1 + sqrt((1 - s) * (1 + s)));
+        cap.one_minus_cos = s * s / (1 + sqrt((1 - s) * (1 + s)));
     } else if (grow) {
         cap.angle = REFERENCE_PI - asin(d / r);
-        cap.one_minus = 1 + sqrt((r - d) * (r + d)) / r;
+        cap.one_minus_cos = 1 + sqrt((r - d) * (r + d)) / r;
     }
-    cap.solid_angle = 2 * REFERENCE_PI * cap.one_minus;
+    cap.solid_angle = 2 * REFERENCE_PI * cap.one_minus_cos;
     return cap;
 }
 

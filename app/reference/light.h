@@ -8,9 +8,9 @@
 
 typedef struct reference_cap {
     reference_vec axis;
-    double angle;       /* half angle a */
-    double one_minus;   /* 1 - cos a */
-    double solid_angle; /* 2 pi (1 - cos a) */
+    double angle;         /* half angle a */
+    double one_minus_cos; /* 1 - cos a */
+    double solid_angle;   /* 2 pi (1 - cos a) */
 } reference_cap;
 
 /* Inside the sphere all directions see it: the cap is the whole sphere. With `grow`, it is the cap

@@ -65,7 +65,7 @@ void reference_surface_set(reference_surface *surface, const reference_cut *cut,
 /* Neither too broad nor too narrow for most materials; the samples are weighted for it. */
 #define GUIDE_EXPONENT 40
 
-void reference_surface_measure(reference_surface *surface, const reference_measured *measured,
+void reference_surface_measure(reference_surface *surface, const reference_tabulated *measured,
                                reference_vec normal, reference_vec view) {
     const reference_material guide = { { 1, 1, 1 }, { 0.5, 0.5, 0.5 }, GUIDE_EXPONENT };
     const reference_cut whole = { .bands = 0 };

@@ -3,19 +3,19 @@
 
 #include <stdlib.h>
 
-bool reference_measured_create(reference_measured *measured,
-                               const reference_material_source *sources, size_t count) {
+bool reference_tabulated_create(reference_tabulated *measured,
+                                const reference_material_source *sources, size_t count) {
     size_t largest = 1;
     for (size_t i = 0; i < count; i++) {
         const lmp_brdf_table *table = sources[i].table;
         const size_t needed = table ? lmp_brdf_table_describe(table).count : 0;
         largest = needed > largest ? needed : largest;
     }
-    *measured = (reference_measured) { .coefficients = malloc(3 * largest * sizeof(float)) };
+    *measured = (reference_tabulated) { .coefficients = malloc(3 * largest * sizeof(float)) };
     return measured->coefficients != NULL;
 }
 
-void reference_measured_free(reference_measured *measured) {
+void reference_tabulated_free(reference_tabulated *measured) {
     free(measured->coefficients);
     measured->coefficients = NULL;
 }
@@ -28,8 +28,8 @@ static reference_vec flatten(reference_vec v, reference_vec normal) {
                                          : reference_around(normal, 0, 1, 0);
 }
 
-void reference_measured_aim(reference_measured *measured, const reference_material_source *source,
-                            reference_vec normal, reference_vec tangent, reference_vec view) {
+void reference_tabulated_aim(reference_tabulated *measured, const reference_material_source *source,
+                             reference_vec normal, reference_vec tangent, reference_vec view) {
     const reference_vec x = flatten(tangent, normal), y = reference_cross(normal, x);
     const double turn = atan2(reference_dot(view, y), reference_dot(view, x));
     measured->source = source;
@@ -46,7 +46,7 @@ void reference_measured_aim(reference_measured *measured, const reference_materi
 }
 
 /* Adds value times the coefficient of (l, m), which a mirrored table holds for m >= 0 alone. */
-static void add_term(const reference_measured *measured, int l, int m, double value,
+static void add_term(const reference_tabulated *measured, int l, int m, double value,
                      double rgb[3]) {
     const bool mirrored = measured->info.mirrored;
     const int index = mirrored ? l * (l + 1) / 2 + m : l * l + l + m;
@@ -57,7 +57,7 @@ static void add_term(const reference_measured *measured, int l, int m, double va
 }
 
 /* Σ c_lm Y_lm, by the paper's Eq. 1 with Legendre functions that carry their own norm. */
-static void series_at(const reference_measured *measured, const double w[3], double rgb[3]) {
+static void series_at(const reference_tabulated *measured, const double w[3], double rgb[3]) {
     const double sine = sqrt(w[0] * w[0] + w[1] * w[1]), phi = atan2(w[1], w[0]);
     double diagonal = sqrt(1 / (4 * REFERENCE_PI));
     for (int m = 0; m < measured->info.bands; m++) {
@@ -78,7 +78,7 @@ static void series_at(const reference_measured *measured, const double w[3], dou
     }
 }
 
-void reference_measured_at(const reference_measured *measured, reference_vec w, double rgb[3]) {
+void reference_tabulated_at(const reference_tabulated *measured, reference_vec w, double rgb[3]) {
     const double wi[3] = { reference_dot(w, measured->x), reference_dot(w, measured->y),
                            reference_dot(w, measured->z) };
     rgb[0] = rgb[1] = rgb[2] = 0;

@@ -15,26 +15,26 @@ typedef struct reference_material_source {
 } reference_material_source;
 
 /* One a thread, aimed anew for each point. */
-typedef struct reference_measured {
+typedef struct reference_tabulated {
     const reference_material_source *source;
     lmp_brdf_table_info info;
     float *coefficients; /* of the table's view */
     reference_vec x, y, z;
     double wo[3]; /* the view in the frame x, y, z */
-} reference_measured;
+} reference_tabulated;
 
 /* For any of `count` sources. False without memory. */
-bool reference_measured_create(reference_measured *measured,
-                               const reference_material_source *sources, size_t count);
-void reference_measured_free(reference_measured *measured);
+bool reference_tabulated_create(reference_tabulated *measured,
+                                const reference_material_source *sources, size_t count);
+void reference_tabulated_free(reference_tabulated *measured);
 
 /* A source with a BRDF or a table. The vectors must be unit; the tangent is the material's x axis
  * once it is square to the normal.
  */
-void reference_measured_aim(reference_measured *measured, const reference_material_source *source,
-                            reference_vec normal, reference_vec tangent, reference_vec view);
+void reference_tabulated_aim(reference_tabulated *measured, const reference_material_source *source,
+                             reference_vec normal, reference_vec tangent, reference_vec view);
 
 /* f_r cos(theta) of light from w, or the value of its series, which may be negative. */
-void reference_measured_at(const reference_measured *measured, reference_vec w, double rgb[3]);
+void reference_tabulated_at(const reference_tabulated *measured, reference_vec w, double rgb[3]);
 
 #endif

@@ -23,7 +23,7 @@ typedef struct reference_settings {
                                                    NULL: none */
 } reference_settings;
 
-/* Radiance through the centre of every pixel, and its standard error. Triangles and the glowing
+/* Radiance through the center of every pixel, and its standard error. Triangles and the glowing
  * spheres are seen; where there is neither, the picture is black. Both pictures are created here;
  * free them. Shows progress. */
 bool reference_render(const scene *scene, const reference_settings *settings, image *radiance,

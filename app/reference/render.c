@@ -71,7 +71,7 @@ static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
 /* What a thread needs of its own. */
 typedef struct worker {
     reference_estimator estimator;
-    reference_measured measured;
+    reference_tabulated measured;
 } worker;
 
 /* Fills the surface and the light it emits itself. */
@@ -94,7 +94,7 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     const reference_material_source *source =
         f->settings->materials ? &f->settings->materials[hit->material] : NULL;
     if (source && (source->brdf || source->table)) {
-        reference_measured_aim(&own->measured, source, normal, hit->tangent, view);
+        reference_tabulated_aim(&own->measured, source, normal, hit->tangent, view);
         reference_surface_measure(surface, &own->measured, normal, view);
     }
 }
@@ -140,8 +140,8 @@ static bool trace_rows(const frame *f, int threads) {
         worker own = { .measured = { .coefficients = NULL } };
         const bool mine =
             reference_estimator_create(&own.estimator, f->scene->lights, f->scene->light_count) &&
-            reference_measured_create(&own.measured, f->settings->materials,
-                                      f->settings->materials ? f->scene->material_count : 0);
+            reference_tabulated_create(&own.measured, f->settings->materials,
+                                       f->settings->materials ? f->scene->material_count : 0);
         if (!mine) {
 #pragma omp atomic write
             ok = false;
@@ -161,7 +161,7 @@ static bool trace_rows(const frame *f, int threads) {
                 cli_progress("tracing", (double)rows / f->settings->height);
         }
         reference_estimator_free(&own.estimator);
-        reference_measured_free(&own.measured);
+        reference_tabulated_free(&own.measured);
     }
     cli_progress_end();
     return ok;

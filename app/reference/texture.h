@@ -5,7 +5,7 @@
 
 #include "app/scene/scene.h"
 
-/* The RGBA value at `uv`, colours linear; white where there is no texture. */
+/* The RGBA value at `uv`, colors linear; white where there is no texture. */
 void reference_texture_at(const scene *scene, const scene_texture_use *use, const double uv[2],
                           double rgba[4]);
 

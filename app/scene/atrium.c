@@ -637,7 +637,7 @@ static void hang_in_court(court_plan *court, int number, int count) {
     add_light(court, center, radius, 230.0f, 0.85f);
 }
 
-/* One in a bay of an aisle, on either storey; neighbours come far apart. */
+/* One in a bay of an aisle, on either storey; neighbors come far apart. */
 static void hang_in_aisle(court_plan *court, int number) {
     uint64_t *random = &court->random;
     const int slot = (int)(67u * (unsigned)number % (4u * (unsigned)court->bays));

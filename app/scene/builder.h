@@ -10,7 +10,7 @@ typedef struct builder_array {
     size_t count, capacity;
 } builder_array;
 
-/* Zero-initialise; the arrays are those of the blob, texels in bytes. */
+/* Zero-initialize; the arrays are those of the blob, texels in bytes. */
 typedef struct scene_builder {
     builder_array arrays[BLOB_SECTIONS];
     bool out_of_memory; /* sticky: the functions below then do nothing */

@@ -18,7 +18,7 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder);
 /* Makes the scene that `name`, the text after "builtin:", asks for. */
 bool builtin_make(const char *name, scene_builder *builder, cli_error *error);
 
-/* A lantern's colour: mostly warm, else one of a few saturated hues; brightest channel 1. */
+/* A lantern's color: mostly warm, else one of a few saturated hues; brightest channel 1. */
 void builtin_light_color(uint64_t *random, float warm_share, float color[3]);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Textures already made: which image, sampler and colour space became which texture. */
+/* Textures already made: which image, sampler and color space became which texture. */
 typedef struct texture_pool {
     const gltf *document;
     scene_builder *builder;

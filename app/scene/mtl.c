@@ -54,7 +54,7 @@ static void read_factors(const struct aiMaterial *from, scene_material *to) {
         to->flags |= SCENE_ALPHA_MASK;
 }
 
-/* Textures made so far, by name and colour space. */
+/* Textures made so far, by name and color space. */
 typedef struct texture_name {
     char path[512];
     uint32_t srgb;

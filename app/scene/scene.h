@@ -55,7 +55,7 @@ typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR
 typedef struct scene_texture {
     char name[SCENE_NAME_SIZE];
     uint32_t width, height;
-    uint32_t srgb; /* 1: colour, to be linearised */
+    uint32_t srgb; /* 1: color, to be linearized */
     uint32_t wrap_u, wrap_v;
     uint64_t first_byte; /* into texels: 4 * width * height bytes */
 } scene_texture;

@@ -111,7 +111,7 @@ void shape_box(scene_shaper *shaper, lmp_vec3 lo, lmp_vec3 hi) {
 /* --- profiles -----------------------------------------------------------------------------------
  */
 
-/* Normals at both ends of the profile's segment i: averaged with the neighbour's where smooth. */
+/* Normals at both ends of the profile's segment i: averaged with the neighbor's where smooth. */
 typedef struct segment_normals {
     shape_point start, end;
 } segment_normals;
@@ -123,10 +123,10 @@ static shape_point segment_normal(const shape_point *profile, int i) {
                          : (shape_point) { 1.0f, 0.0f };
 }
 
-static shape_point blend_normals(shape_point n, shape_point neighbour) {
-    if (n.r * neighbour.r + n.a * neighbour.a < CREASE_COS)
+static shape_point blend_normals(shape_point n, shape_point neighbor) {
+    if (n.r * neighbor.r + n.a * neighbor.a < CREASE_COS)
         return n;
-    const float r = n.r + neighbour.r, a = n.a + neighbour.a, length = sqrtf(r * r + a * a);
+    const float r = n.r + neighbor.r, a = n.a + neighbor.a, length = sqrtf(r * r + a * a);
     return (shape_point) { r / length, a / length };
 }
 

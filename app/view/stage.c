@@ -13,7 +13,7 @@ enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300, RESPONSES = 8 };
 typedef struct made_response {
     int bands;
     lmp_window window;
-    lmp_response *response;
+    lmp_preintegrated_lobe *response;
     unsigned used; /* when, by the stage's clock */
 } made_response;
 
@@ -71,7 +71,7 @@ void view_stage_destroy(view_stage *s) {
     close_side(&s->sides[0]);
     close_side(&s->sides[1]);
     for (int i = 0; i < RESPONSES; i++)
-        lmp_response_destroy(s->responses[i].response);
+        lmp_preintegrated_lobe_destroy(s->responses[i].response);
     gpu_screen_destroy(s->screen);
     view_draft_free(&s->draft);
     free(s);
@@ -93,17 +93,18 @@ static made_response *find_response(view_stage *s, const view_look *look) {
 }
 
 /* Makes it, in place of the one that was used longest ago. */
-static const lmp_response *get_response(view_stage *s, const view_look *look, cli_error *error) {
+static const lmp_preintegrated_lobe *get_response(view_stage *s, const view_look *look,
+                                                  cli_error *error) {
     made_response *made = find_response(s, look);
     if (!made) {
-        lmp_response *response = NULL;
-        if (!device_response(look->bands, look->window, &response, error))
+        lmp_preintegrated_lobe *response = NULL;
+        if (!device_preintegrated_lobe(look->bands, look->window, &response, error))
             return NULL;
         made = &s->responses[0];
         for (int i = 1; i < RESPONSES; i++)
             if (s->responses[i].used < made->used)
                 made = &s->responses[i];
-        lmp_response_destroy(made->response);
+        lmp_preintegrated_lobe_destroy(made->response);
         *made = (made_response) { look->bands, look->window, response, 0 };
     }
     made->used = ++s->clock;

@@ -65,8 +65,8 @@ typedef struct view_state {
     int selected; /* a light, or -1 */
     view_drag drag;
     float grab[3];         /* from the dragged light's shown place to its place at rest */
-    float grab_depth;      /* of the dragged light's centre */
-    double grab_x, grab_y; /* from its centre in the picture to the pointer */
+    float grab_depth;      /* of the dragged light's center */
+    double grab_x, grab_y; /* from its center in the picture to the pointer */
     double x, y;           /* the pointer */
     bool held[6], fast;    /* wasdqe; shift with them */
     bool help, overlay, recording;

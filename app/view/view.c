@@ -353,7 +353,7 @@ static void draw_panel(viewer *v, double scale) {
     put(v, DRAWING_PANEL, (int)(12 * scale), (int)(12 * scale));
 }
 
-/* A line whose box is centred at x, its lower end at y. */
+/* A line whose box is centerd at x, its lower end at y. */
 static void draw_line(viewer *v, int index, const char *text, double scale, int room, double x,
                       double y) {
     label *l = &v->labels[index];

@@ -20,7 +20,7 @@ local function depth_after(depth, line)
 end
 
 -- A file as a list of { comment = text or nil, code = text }, one for each group of lines between
--- blank lines, licence, includes and guards left out. A comment that stands alone has code ''.
+-- blank lines, license, includes and guards left out. A comment that stands alone has code ''.
 function api.groups(text)
     text = text:gsub('#ifdef __cplusplus\n.-#endif\n', ''):gsub('^/%* SPDX.-%*/\n', '')
     local groups, comment, code = {}, {}, {}

@@ -4,7 +4,7 @@
  *
  * Conventions
  *   frame       local: z = normal, x = tangent. wi points to the light, wo to the viewer, both away
- *               from the surface; both are normalised here.
+ *               from the surface; both are normalized here.
  *   value       f_r in sr⁻¹, linear RGB, without the cosine; 0 unless wi.z > 0 and wo.z > 0.
  *   table       coefficients, for each view direction, of f_r(wi, wo) max(cos theta_i, 0) on the
  *               sphere of wi (Kautz, Sloan and Snyder 2002; paper §4.1): a dot product with the
@@ -25,10 +25,10 @@ extern "C" {
 
 /* What is wrong with bytes, for a person: text without a file name, and the offset of the first
  * byte concerned. Every reader fills it on failure; NULL where it is not wanted. */
-typedef struct lmp_brdf_fault {
+typedef struct lmp_parse_error {
     size_t offset;
     char text[200];
-} lmp_brdf_fault;
+} lmp_parse_error;
 
 /* A BRDF of any kind. */
 typedef struct lmp_brdf lmp_brdf;
@@ -110,17 +110,17 @@ LMP_API lmp_result lmp_sgd_find(const char *name, lmp_sgd *sgd);
  * float64 for red, green and blue. Looked up by cell, as its authors do; negative cells (no data)
  * read as 0. Any dimensions that agree with `size`; NaN and infinity are faults. */
 LMP_API lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, size_t size,
-                                      lmp_brdf_fault *fault, lmp_brdf **brdf);
+                                      lmp_parse_error *fault, lmp_brdf **brdf);
 
 /* RGL .bsdf tensor file (Dupuy and Jakob 2018), isotropic or anisotropic (phi_i over a full, half
  * or quarter turn), RGB or spectral. Spectra become linear sRGB by the CIE 1931 observer (the
  * analytic fit of Wyman, Sloan and Shirley 2013) under an equal-energy illuminant, adapted so that
- * a flat spectrum is grey. lmp_brdf_eval divides the file's f_r cos theta_o by its cosine; tables
+ * a flat spectrum is gray. lmp_brdf_eval divides the file's f_r cos theta_o by its cosine; tables
  * take the viewer as the file's first direction. */
 LMP_API lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, size_t size,
-                                     lmp_brdf_fault *fault, lmp_brdf **brdf);
+                                     lmp_parse_error *fault, lmp_brdf **brdf);
 
-/* Writers: any BRDF sampled into a file's form. MERL: the value at each cell's centre, 90 x 90 x
+/* Writers: any BRDF sampled into a file's form. MERL: the value at each cell's center, 90 x 90 x
  * 180 (an anisotropic BRDF loses its anisotropy). RGL: RGB, resolution in docs/formats.md.
  *
  * *data receives *size bytes from the allocator; release them through it (free() if NULL) */
@@ -139,7 +139,7 @@ typedef enum lmp_brdf_symmetry {
     LMP_BRDF_SYMMETRY_NONE
 } lmp_brdf_symmetry;
 
-/* How to make a table; zero-initialise it, zero means the default. */
+/* How to make a table; zero-initialize it, zero means the default. */
 typedef struct lmp_brdf_table_desc {
     int bands;    /* 1 … LMP_BANDS_MAX; LMP_BRDF_BANDS_DEFAULT */
     int views;    /* angles theta_o, 2 … 1024; LMP_BRDF_VIEWS_DEFAULT, or of an isotropic BRDF
@@ -213,7 +213,7 @@ LMP_API lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_br
 LMP_API size_t lmp_brdf_table_size(const lmp_brdf_table *table);
 LMP_API void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes);
 LMP_API lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data,
-                                       size_t size, lmp_brdf_fault *fault, lmp_brdf_table **table);
+                                       size_t size, lmp_parse_error *fault, lmp_brdf_table **table);
 
 #ifdef __cplusplus
 }

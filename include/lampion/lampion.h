@@ -7,7 +7,7 @@
 #include <lampion/brdf.h>
 #include <lampion/light.h>
 #include <lampion/lobe.h>
-#include <lampion/response.h>
+#include <lampion/preintegrated.h>
 #include <lampion/sh.h>
 #include <lampion/shade.h>
 

@@ -2,7 +2,7 @@
 /* lampion/light.h - lights, and their exact projection onto spherical harmonics.
  *
  * Seen from a point, a sphere of radius r at distance d covers a spherical cap of half angle a,
- * sin a = r/d, round the direction w to its centre. Uniform radiance L makes its coefficients
+ * sin a = r/d, round the direction w to its center. Uniform radiance L makes its coefficients
  *
  *     Z_l  = sqrt(pi (2l+1)) / 2 L sin²a R_l(cos a)   where z is w       (paper Eq. 12)
  *     L_lm = pi L sin²a R_l(cos a) Y_lm(w)            in any frame       (paper Eq. 13)
@@ -12,8 +12,8 @@
  * paper Eq. 12 as printed loses them below r/d = 0.01 (docs/accuracy.md).
  *
  * Inside the sphere (d < r) the cap goes on growing, from the hemisphere at the surface to the full
- * sphere at the centre: sin²a = d²/r², cos a = -sqrt(1 - sin²a). That is a convention, not physics;
- * values are continuous everywhere, at the surface and at the centre too.
+ * sphere at the center: sin²a = d²/r², cos a = -sqrt(1 - sin²a). That is a convention, not physics;
+ * values are continuous everywhere, at the surface and at the center too.
  *
  * Coordinates and radii are at most LMP_LENGTH_MAX in magnitude. Lengths below 1e-18 lose digits,
  * for their squares do, and may count as 0. */
@@ -38,7 +38,7 @@ typedef enum lmp_light_kind {
     LMP_LIGHT_HEMISPHERE   /* direction (up), radiance above, ground below: a sky */
 } lmp_light_kind;
 
-/* A light; zero-initialise it and set the members its kind names. Unused members are ignored. */
+/* A light; zero-initialize it and set the members its kind names. Unused members are ignored. */
 typedef struct lmp_light {
     lmp_light_kind kind;
     lmp_vec3 position;
@@ -56,27 +56,27 @@ typedef struct lmp_light {
 
 /* What any light is from one point: a cap of at most a hemisphere, plus light from everywhere,
  *
- *     L_lm = strength R_l(1 - one_minus) Y_lm(axis)  +  2 sqrt(pi) ambient  for l = m = 0
+ *     L_lm = strength R_l(1 - one_minus_cos) Y_lm(axis)  +  2 sqrt(pi) ambient  for l = m = 0
  *
  *   sphere, cap      strength pi L sin²a. Seen as more than a hemisphere (from inside a sphere, or
  *                    angle > pi/2): ambient L less the complementary cap, so strength is negative
  *                    and the axis points away from the light
- *   point            a Dirac (one_minus 0) of strength intensity / d²
+ *   point            a Dirac (one_minus_cos 0) of strength intensity / d²
  *   spot             the same, times saturate((cos - cos outer) / (cos inner - cos outer))² of the
  *                    angle off its axis (as glTF's KHR_lights_punctual; the difference is held to
  *                    1e-3 and up)
  *   directional      a Dirac of strength irradiance
- *   hemisphere       one_minus 1, strength pi (radiance - ground), ambient ground
+ *   hemisphere       one_minus_cos 1, strength pi (radiance - ground), ambient ground
  *
  * A point or spot light closer than LMP_POINT_DISTANCE_MIN counts as that far; at d = 0 the axis is
  * z. */
 #define LMP_POINT_DISTANCE_MIN 1e-6f
 typedef struct lmp_cap {
-    lmp_vec3 axis;    /* unit */
-    float sin2;       /* sin²a, exact however small; 0 for a Dirac */
-    float one_minus;  /* 1 - cos a in 0 … 1, exact however small; 0 for a Dirac */
-    lmp_rgb strength; /* see above */
-    lmp_rgb ambient;  /* radiance from every direction */
+    lmp_vec3 axis;       /* unit */
+    float sin2;          /* sin²a, exact however small; 0 for a Dirac */
+    float one_minus_cos; /* 1 - cos a in 0 … 1, exact however small; 0 for a Dirac */
+    lmp_rgb strength;    /* see above */
+    lmp_rgb ambient;     /* radiance from every direction */
 } lmp_cap;
 
 /* The cap that `light` is from `point`, at any distance. */
@@ -87,7 +87,7 @@ LMP_API void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap)
 /* Zonal coefficients Z_l of a sphere of unit radiance (paper Eq. 12).
  *
  * radius >= 0, distance >= 0; zonal receives `bands` values, in the frame whose z points to the
- * centre (inside as well) */
+ * center (inside as well) */
 LMP_API void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal);
 
 /* Coefficients at `point` of a sphere of unit radiance (paper Eq. 12 and 13 in one).
@@ -99,7 +99,7 @@ LMP_API void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_ve
 /* The same, with the derivatives of every coefficient by the point's position.
  *
  * gradient receives three planes of LMP_SH_COUNT(bands) values: d/dx, d/dy, d/dz. The derivative
- * is infinite on the sphere's surface: its 1/|cos a| is held to 1/LMP_COS_MIN. At the centre the
+ * is infinite on the sphere's surface: its 1/|cos a| is held to 1/LMP_COS_MIN. At the center the
  * direction is taken as z. radius and distance not both 0 */
 #define LMP_COS_MIN 0.02f
 LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
@@ -111,7 +111,7 @@ LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radiu
  * the light (a hemisphere light: up).
  *
  * zonal receives `bands` values for radiance, intensity or irradiance 1 (a hemisphere light: for
- * radiance 1 above and 0 below); multiply by the light's colour */
+ * radiance 1 above and 0 below); multiply by the light's color */
 LMP_API void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *zonal,
                              lmp_vec3 *axis);
 

@@ -50,7 +50,7 @@ LMP_API void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, flo
 
 /* The matrices M^l of f'(w) = f(R^-1 w): c'_l = M^l c_l, so that M^l Y_l(w) = Y_l(R w).
  *
- * rotation need not be exactly unit, it is normalised; it must not be zero
+ * rotation need not be exactly unit, it is normalized; it must not be zero
  * matrices receives LMP_SH_ROTATION_COUNT(bands) values, each matrix row-major */
 LMP_API void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices);
 
@@ -74,7 +74,7 @@ typedef enum lmp_window {
  * weights receives `bands` values */
 LMP_API void lmp_sh_window(lmp_window window, int bands, float size, float *weights);
 
-/* Weights that minimise the squared Laplacian of the function sh (Sloan 2008): the window
+/* Weights that minimize the squared Laplacian of the function sh (Sloan 2008): the window
  * 1 / (1 + mu l^2 (l+1)^2) whose mu leaves the fraction `keep` of the squared Laplacian.
  *
  * keep is in (0, 1]; 1 gives weights of 1; sh holds LMP_SH_COUNT(bands), weights receives bands */
@@ -97,7 +97,7 @@ LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *
 
 /* Coefficients of a latitude-longitude picture. Row 0 touches +y (up), column 0 starts at azimuth
  * -pi round y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
- * angles. A pixel counts as a constant seen at its centre: take pictures of at least 4 * bands
+ * angles. A pixel counts as a constant seen at its center: take pictures of at least 4 * bands
  * rows. The cost is width * height * bands².
  *
  * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, a
@@ -129,13 +129,13 @@ LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, cons
  * threads as you like: no split changes a bit.
  *
  * A result of V values an element is laid out
- *   LMP_SH_ROWS    element after element, as engines store it: value v at out[i * stride + v]
- *   LMP_SH_PLANES  value after value, the faster one: out[v * stride + i]. Where 4 * stride is a
+ *   LMP_SH_INTERLEAVED    element after element, as engines store it: value v at out[i * stride +
+ * v] LMP_SH_PLANAR  value after value, the faster one: out[v * stride + i]. Where 4 * stride is a
  *                  power of two, planes compete for the same places of the cache: pad it.
  * stride is in floats, 0 means tight: V for rows, count for planes. What lies between the elements
  * is left alone. Any alignment will do; planes that all begin at multiples of 64 bytes spare the
  * widest stores a crossing of cache lines. */
-typedef enum lmp_sh_layout { LMP_SH_ROWS = 0, LMP_SH_PLANES } lmp_sh_layout;
+typedef enum lmp_sh_layout { LMP_SH_INTERLEAVED = 0, LMP_SH_PLANAR } lmp_sh_layout;
 
 /* lmp_sh_eval of many directions: LMP_SH_COUNT(bands) values an element. */
 LMP_API void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,

@@ -12,7 +12,7 @@
 #define LAMPION_SHADE_H
 
 #include <lampion/brdf.h>
-#include <lampion/response.h>
+#include <lampion/preintegrated.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,12 +20,12 @@ extern "C" {
 
 /* The paper's two lobes. */
 typedef struct lmp_material {
-    lmp_rgb diffuse;                   /* albedo of the diffuse lobe */
-    lmp_rgb specular;                  /* reflectance of the Phong lobe */
-    float exponent;                    /* of the Phong lobe, finite, >= 0 */
-    const lmp_brdf_table *table;       /* instead of the lobes, or NULL; see lmp_shade_table */
-    const lmp_brdf_response *response; /* the same, for lmp_shade_preintegrated: a material that no
-                                          other function shades needs no table; or NULL */
+    lmp_rgb diffuse;                        /* albedo of the diffuse lobe */
+    lmp_rgb specular;                       /* reflectance of the Phong lobe */
+    float exponent;                         /* of the Phong lobe, finite, >= 0 */
+    const lmp_brdf_table *table;            /* instead of the lobes, or NULL; see lmp_shade_table */
+    const lmp_preintegrated_brdf *response; /* the same, for lmp_shade_preintegrated: a material
+                                          that no other function shades needs no table; or NULL */
 } lmp_material;
 
 /* glTF's metallic-roughness as two lobes: diffuse = base (1 - metallic), specular = Schlick's F0 =
@@ -36,7 +36,7 @@ typedef struct lmp_material {
 LMP_API lmp_material lmp_material_from_metallic_roughness(lmp_rgb base, float metallic,
                                                           float roughness);
 
-/* How to cut the lobes; zero-initialised: 10 bands, no window. */
+/* How to cut the lobes; zero-initialized: 10 bands, no window. */
 typedef struct lmp_shade_settings {
     int bands; /* 1 … LMP_BANDS_MAX, 0 means LMP_SHADE_BANDS_DEFAULT */
     lmp_window window;
@@ -82,7 +82,7 @@ LMP_API lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *
 
 /* The same from the table's response, within its error: no sum over bands, 100 KB of stack. An
  * isotropic material needs no tangent. */
-LMP_API lmp_rgb lmp_shade_table_preintegrated(const lmp_brdf_response *response,
+LMP_API lmp_rgb lmp_shade_table_preintegrated(const lmp_preintegrated_brdf *response,
                                               const lmp_surface *surface, const lmp_light *lights,
                                               size_t count);
 
@@ -91,12 +91,12 @@ LMP_API lmp_rgb lmp_shade_table_preintegrated(const lmp_brdf_response *response,
  * response of its own is read from that, one with a table alone is summed by bands.
  *
  * response may be NULL if the material has a table or its own */
-LMP_API lmp_rgb lmp_shade_preintegrated(const lmp_response *response, const lmp_material *material,
-                                        const lmp_surface *surface, const lmp_light *lights,
-                                        size_t count);
+LMP_API lmp_rgb lmp_shade_preintegrated(const lmp_preintegrated_lobe *response,
+                                        const lmp_material *material, const lmp_surface *surface,
+                                        const lmp_light *lights, size_t count);
 
 /* --- many surfaces -------------------------------------------------------------------------------
- * Vectorised over the surfaces, with the same bits on every instruction set. Split the surfaces
+ * Vectorized over the surfaces, with the same bits on every instruction set. Split the surfaces
  * among your threads.
  *
  * lmp_shade_n differs from lmp_shade by rounding, at n bands up to 3e-6 + 2e-7 n² of a light's
@@ -121,7 +121,7 @@ typedef struct lmp_surfaces {
     lmp_float_array exponent;           /* finite, >= 0 */
     const lmp_brdf_table *const *table; /* of the first surface; NULL: all have lobes */
     size_t table_stride;
-    const lmp_brdf_response *const *response; /* of the first surface, or NULL; read by
+    const lmp_preintegrated_brdf *const *response; /* of the first surface, or NULL; read by
                                                  lmp_shade_preintegrated_n alone, which then reads
                                                  no table. Surfaces with a table but no response go
                                                  one by one */
@@ -135,8 +135,9 @@ typedef struct lmp_surfaces {
 LMP_API void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
                          size_t count, const lmp_light *lights, size_t light_count,
                          size_t rgb_stride, float *rgb);
-LMP_API void lmp_shade_preintegrated_n(const lmp_response *response, const lmp_surfaces *surfaces,
-                                       size_t count, const lmp_light *lights, size_t light_count,
+LMP_API void lmp_shade_preintegrated_n(const lmp_preintegrated_lobe *response,
+                                       const lmp_surfaces *surfaces, size_t count,
+                                       const lmp_light *lights, size_t light_count,
                                        size_t rgb_stride, float *rgb);
 
 #ifdef __cplusplus

@@ -9,8 +9,8 @@ lmp_result lmp_brdf_new(const lmp_allocator *allocator, lmp_brdf_kind kind, size
     const size_t head = (sizeof **brdf + 15) & ~(size_t)15;
     if (extra > SIZE_MAX - head)
         return LMP_ERROR_MEMORY;
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
-    lmp_brdf *made = lmp_heap_allocate(&heap, head + extra);
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    lmp_brdf *made = lmp_allocate(&heap, head + extra);
     if (!made)
         return LMP_ERROR_MEMORY;
     memset(made, 0, head + extra);
@@ -25,7 +25,7 @@ void lmp_brdf_destroy(lmp_brdf *brdf) {
     if (!brdf)
         return;
     const lmp_allocator heap = brdf->allocator;
-    lmp_heap_release(&heap, brdf);
+    lmp_release(&heap, brdf);
 }
 
 lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf) {

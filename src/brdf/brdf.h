@@ -5,8 +5,8 @@
 
 #include <lampion/brdf.h>
 
+#include "src/base/allocator.h"
 #include "src/base/bytes.h"
-#include "src/base/heap.h"
 
 #include <stdarg.h>
 
@@ -73,9 +73,9 @@ static inline void *lmp_brdf_extra(lmp_brdf *brdf) {
 }
 
 /* Fills the fault (may be NULL) and returns `result`. The format knows %s, %d and %zu. */
-lmp_result lmp_brdf_fail(lmp_brdf_fault *fault, lmp_result result, size_t offset,
+lmp_result lmp_brdf_fail(lmp_parse_error *fault, lmp_result result, size_t offset,
                          const char *format, ...) __attribute__((format(printf, 4, 5)));
-lmp_result lmp_brdf_fail_list(lmp_brdf_fault *fault, lmp_result result, size_t offset,
+lmp_result lmp_brdf_fail_list(lmp_parse_error *fault, lmp_result result, size_t offset,
                               const char *format, va_list list)
     __attribute__((format(printf, 4, 0)));
 

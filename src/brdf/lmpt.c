@@ -38,7 +38,7 @@ void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes) {
 
 /* One integer of the header, held to its range. */
 static lmp_result take(const unsigned char *bytes, size_t offset, const char *what,
-                       uint32_t minimum, uint32_t maximum, int *value, lmp_brdf_fault *fault) {
+                       uint32_t minimum, uint32_t maximum, int *value, lmp_parse_error *fault) {
     const uint32_t n = lmp_bytes_at_u32(bytes + offset);
     if (n < minimum || n > maximum)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset, "%s is %zu, not in %zu to %zu", what,
@@ -48,7 +48,7 @@ static lmp_result take(const unsigned char *bytes, size_t offset, const char *wh
 }
 
 static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_table_info *info,
-                              lmp_brdf_fault *fault) {
+                              lmp_parse_error *fault) {
     if (size < HEADER + CHECKSUM || memcmp(bytes, magic, sizeof magic) != 0)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 0, "not a Lampion table (.lmpt)");
     const uint32_t version = lmp_bytes_at_u32(bytes + 8);
@@ -83,7 +83,7 @@ static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_
 }
 
 lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data, size_t size,
-                               lmp_brdf_fault *fault, lmp_brdf_table **table) {
+                               lmp_parse_error *fault, lmp_brdf_table **table) {
     *table = NULL;
     const unsigned char *bytes = data;
     lmp_brdf_table_info info = { 0 };

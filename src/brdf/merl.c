@@ -62,8 +62,8 @@ static void eval_merl_mirrored(const lmp_brdf *brdf, const double a[3], const do
         rgb[c] = ((double)row[3 * k + c] + (double)row[3 * image + c]) / 2;
 }
 
-/* The pair of directions at the centre of a cell; false where one lies below the surface. */
-static bool cell_centre(const int shape[3], int i, int j, int k, double a[3], double b[3]) {
+/* The pair of directions at the center of a cell; false where one lies below the surface. */
+static bool cell_center(const int shape[3], int i, int j, int k, double a[3], double b[3]) {
     const double root = (i + 0.5) / shape[0], theta_h = BRDF_PI / 2 * root * root;
     const double theta_d = BRDF_PI / 2 * (j + 0.5) / shape[1],
                  phi_d = BRDF_PI * (k + 0.5) / shape[2];
@@ -79,7 +79,7 @@ static bool cell_centre(const int shape[3], int i, int j, int k, double a[3], do
 }
 
 static lmp_result check_header(const unsigned char *bytes, size_t size, int shape[3], size_t *cells,
-                               lmp_brdf_fault *fault) {
+                               lmp_parse_error *fault) {
     if (size < HEADER)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, size,
                              "a MERL file begins with 12 bytes of dimensions, this has %zu", size);
@@ -103,7 +103,7 @@ static lmp_result check_header(const unsigned char *bytes, size_t size, int shap
 }
 
 lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, size_t size,
-                              lmp_brdf_fault *fault, lmp_brdf **brdf) {
+                              lmp_parse_error *fault, lmp_brdf **brdf) {
     *brdf = NULL;
     const unsigned char *bytes = data;
     int shape[3];
@@ -142,8 +142,8 @@ lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, 
 lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *allocator, void **data,
                                size_t *size) {
     *size = LMP_MERL_SIZE;
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
-    unsigned char *bytes = *data = lmp_heap_allocate(&heap, *size);
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    unsigned char *bytes = *data = lmp_allocate(&heap, *size);
     if (!bytes)
         return LMP_ERROR_MEMORY;
     const size_t cells = (LMP_MERL_SIZE - HEADER) / 24;
@@ -154,7 +154,7 @@ lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *alloca
         for (int j = 0; j < full_shape[1]; j++)
             for (int k = 0; k < full_shape[2]; k++, n++) {
                 double a[3], b[3], rgb[3] = { -1, -1, -1 };
-                if (cell_centre(full_shape, i, j, k, a, b))
+                if (cell_center(full_shape, i, j, k, a, b))
                     lmp_brdf_eval_double(brdf, a, b, rgb);
                 for (size_t c = 0; c < 3; c++)
                     lmp_bytes_store_f64(bytes + HEADER + 8 * (c * cells + n),

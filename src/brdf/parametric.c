@@ -10,8 +10,8 @@ static bool all_within(const double *values, int count, double minimum, double m
     return true;
 }
 
-/* Copies a colour; false unless it is finite and not negative. */
-static bool take_colour(lmp_rgb rgb, double out[3]) {
+/* Copies a color; false unless it is finite and not negative. */
+static bool take_color(lmp_rgb rgb, double out[3]) {
     out[0] = (double)rgb.r;
     out[1] = (double)rgb.g;
     out[2] = (double)rgb.b;
@@ -32,13 +32,13 @@ static void eval_lambert(const lmp_brdf *brdf, const double a[3], const double b
 lmp_result lmp_brdf_create_lambert(const lmp_allocator *allocator, lmp_rgb albedo,
                                    lmp_brdf **brdf) {
     *brdf = NULL;
-    double colour[3];
-    if (!take_colour(albedo, colour))
+    double color[3];
+    if (!take_color(albedo, color))
         return LMP_ERROR_ARGUMENT;
     const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_LAMBERT, 0, brdf);
     if (result != LMP_OK)
         return result;
-    memcpy((*brdf)->lambert, colour, sizeof colour);
+    memcpy((*brdf)->lambert, color, sizeof color);
     (*brdf)->info.mirrored = true;
     (*brdf)->eval = eval_lambert;
     return LMP_OK;
@@ -59,7 +59,7 @@ lmp_result lmp_brdf_create_phong(const lmp_allocator *allocator, lmp_rgb reflect
                                  float exponent, lmp_brdf **brdf) {
     *brdf = NULL;
     brdf_phong phong = { .exponent = (double)exponent };
-    if (!take_colour(reflectance, phong.reflectance) || !all_within(&phong.exponent, 1, 0, 1e6))
+    if (!take_color(reflectance, phong.reflectance) || !all_within(&phong.exponent, 1, 0, 1e6))
         return LMP_ERROR_ARGUMENT;
     const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_PHONG, 0, brdf);
     if (result != LMP_OK)
@@ -100,7 +100,7 @@ lmp_result lmp_brdf_create_ggx(const lmp_allocator *allocator, const lmp_ggx *gg
     if (ggx->alpha_y == 0)
         own.alpha_y = own.alpha_x;
     if (!all_within(&own.alpha_x, 1, 0.00099, 1) || !all_within(&own.alpha_y, 1, 0.00099, 1) ||
-        !take_colour(ggx->f0, own.f0) || !take_colour(ggx->diffuse, own.diffuse) ||
+        !take_color(ggx->f0, own.f0) || !take_color(ggx->diffuse, own.diffuse) ||
         !all_within(own.f0, 3, 0, 1))
         return LMP_ERROR_ARGUMENT;
     const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_GGX, 0, brdf);

@@ -28,7 +28,7 @@ static void legendre_ring(int bands, double z, double *row) {
 lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int rings,
                                       brdf_quadrature *quadrature) {
     const size_t n = (size_t)bands, k = (size_t)rings, half = brdf_half_count(bands);
-    double *block = lmp_heap_allocate(heap, (6 * k + 4 * k * n + k * half) * sizeof *block);
+    double *block = lmp_allocate(heap, (6 * k + 4 * k * n + k * half) * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     *quadrature = (brdf_quadrature) { .bands = bands,
@@ -63,7 +63,7 @@ lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int 
 }
 
 void lmp_brdf_quadrature_destroy(const lmp_allocator *heap, brdf_quadrature *quadrature) {
-    lmp_heap_release(heap, quadrature->block);
+    lmp_release(heap, quadrature->block);
     quadrature->block = NULL;
 }
 

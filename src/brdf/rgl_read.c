@@ -54,7 +54,7 @@ typedef struct rgl_file {
     const unsigned char *bytes;
     size_t size;
     rgl_field fields[FIELD_COUNT];
-    lmp_brdf_fault *fault;
+    lmp_parse_error *fault;
 } rgl_file;
 
 /* Fills the fault and returns false. */
@@ -245,16 +245,16 @@ static bool check_angles(const rgl_file *file, brdf_rgl *rgl) {
     return true;
 }
 
-/* --- colour ------------------------------------------------------------------------------------
+/* --- color ------------------------------------------------------------------------------------
  */
 
 /* A bell of different widths on both sides. */
-static double bell(double x, double centre, double left, double right) {
-    const double t = (x - centre) / (x < centre ? left : right);
+static double bell(double x, double center, double left, double right) {
+    const double t = (x - center) / (x < center ? left : right);
     return exp(-t * t / 2);
 }
 
-/* CIE 1931 colour matching functions, nm: the multi-lobe fit of Wyman, Sloan and Shirley (2013). */
+/* CIE 1931 color matching functions, nm: the multi-lobe fit of Wyman, Sloan and Shirley (2013). */
 static void observer(double nm, double xyz[3]) {
     xyz[0] = 1.056 * bell(nm, 599.8, 37.9, 31.0) + 0.362 * bell(nm, 442.0, 16.0, 26.7) -
              0.065 * bell(nm, 501.1, 20.4, 26.2);
@@ -263,7 +263,7 @@ static void observer(double nm, double xyz[3]) {
 }
 
 /* CIE XYZ under illuminant E to linear sRGB: Bradford's adaptation from E to D65, then sRGB's
- * primaries; rows sum to 1, so that grey stays grey. */
+ * primaries; rows sum to 1, so that gray stays gray. */
 static const double rgb_from_xyz[3][3] = {
     { 3.1466577, -1.6664638, -0.4801939 },
     { -0.9955216, 1.9557567, 0.0397649 },
@@ -324,14 +324,14 @@ static bool add_spectra(const rgl_file *file, size_t slices, size_t plane, const
 static lmp_result convert_spectra(const rgl_file *file, const lmp_allocator *heap, size_t slices,
                                   size_t plane, float *rgb) {
     const size_t count = file->fields[FIELD_WAVELENGTHS].count;
-    double *weights = lmp_heap_allocate(heap, count * (3 * sizeof(double) + sizeof(float)));
+    double *weights = lmp_allocate(heap, count * (3 * sizeof(double) + sizeof(float)));
     if (!weights)
         return LMP_ERROR_MEMORY;
     float *nm = (float *)(weights + 3 * count);
     const bool good =
         copy_floats(file, FIELD_WAVELENGTHS, 1, nm) && is_ascending(file, FIELD_WAVELENGTHS, nm) &&
         spectral_weights(file, nm, weights) && add_spectra(file, slices, plane, weights, rgb);
-    lmp_heap_release(heap, weights);
+    lmp_release(heap, weights);
     return good ? LMP_OK : LMP_ERROR_FORMAT;
 }
 
@@ -404,14 +404,14 @@ static lmp_result fill(const rgl_file *file, const lmp_allocator *heap, lmp_brdf
 }
 
 lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, size_t size,
-                             lmp_brdf_fault *fault, lmp_brdf **brdf) {
+                             lmp_parse_error *fault, lmp_brdf **brdf) {
     *brdf = NULL;
     rgl_file file = { .bytes = data, .size = size, .fault = fault };
     if (!read_directory(&file) || !check_shapes(&file))
         return size > 13 && memcmp(data, RGL_MAGIC, RGL_MAGIC_SIZE) == 0 && file.bytes[12] != 1
                    ? LMP_ERROR_VERSION
                    : LMP_ERROR_FORMAT;
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
     brdf_rgl shape = { 0 };
     lmp_brdf *made = NULL;
     lmp_result result =

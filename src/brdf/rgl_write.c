@@ -264,7 +264,7 @@ static lmp_result write_file(const writer *w, const float *luminances, const lmp
     *size = directory_size(fields, count);
     for (size_t i = 0; i < count; i++)
         *size += out_bytes(&fields[i]);
-    *data = lmp_heap_allocate(heap, *size);
+    *data = lmp_allocate(heap, *size);
     if (!*data)
         return LMP_ERROR_MEMORY;
     write_fields(fields, count, *data);
@@ -321,11 +321,11 @@ lmp_result lmp_brdf_write_rgl(const lmp_brdf *brdf, const lmp_allocator *allocat
                               size_t *size) {
     *data = NULL;
     *size = 0;
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
     writer w = { .brdf = brdf };
     set_shape(&w);
     const size_t floats = lay_out(&w, NULL);
-    float *block = lmp_heap_allocate(&heap, floats * sizeof *block);
+    float *block = lmp_allocate(&heap, floats * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     lay_out(&w, block);
@@ -343,6 +343,6 @@ lmp_result lmp_brdf_write_rgl(const lmp_brdf *brdf, const lmp_allocator *allocat
         luminances[i] = fmaxf(0, (rgb[0] + rgb[plane] + rgb[2 * plane]) / 3);
     }
     const lmp_result result = write_file(&w, luminances, &heap, data, size);
-    lmp_heap_release(&heap, block);
+    lmp_release(&heap, block);
     return result;
 }

@@ -18,8 +18,8 @@ lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_tab
     const size_t count = info->mirrored ? brdf_half_count(info->bands) : LMP_SH_COUNT(info->bands);
     const size_t head = (sizeof **table + 15) & ~(size_t)15;
     const size_t floats = 3 * count * (size_t)info->views * (size_t)info->azimuths;
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
-    lmp_brdf_table *made = lmp_heap_allocate(&heap, head + floats * sizeof(float));
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    lmp_brdf_table *made = lmp_allocate(&heap, head + floats * sizeof(float));
     if (!made)
         return LMP_ERROR_MEMORY;
     made->allocator = heap;
@@ -35,7 +35,7 @@ void lmp_brdf_table_destroy(lmp_brdf_table *table) {
     if (!table)
         return;
     const lmp_allocator heap = table->allocator;
-    lmp_heap_release(&heap, table);
+    lmp_release(&heap, table);
 }
 
 lmp_brdf_table_info lmp_brdf_table_describe(const lmp_brdf_table *table) {
@@ -86,7 +86,7 @@ static void make_view(size_t task, void *data) {
     if (job->change[index] <= job->tolerance)
         return;
     const size_t half = brdf_half_count(info->bands);
-    double *parts = lmp_heap_allocate(&table->allocator, 6 * half * sizeof *parts);
+    double *parts = lmp_allocate(&table->allocator, 6 * half * sizeof *parts);
     if (!parts) {
         job->failed[index] = true;
         return;
@@ -103,7 +103,7 @@ static void make_view(size_t task, void *data) {
     const float change =
         store_view(info, parts, parts + 3 * half, table->coefficients + index * 3 * info->count);
     job->change[index] = isinf(job->change[index]) ? 1e30f : change;
-    lmp_heap_release(&table->allocator, parts);
+    lmp_release(&table->allocator, parts);
 }
 
 /* Runs the tasks in portions, so that progress comes from this thread alone. */
@@ -252,7 +252,7 @@ lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf 
         return result;
     const size_t total = (size_t)own.views * (size_t)own.azimuths;
     table_job job = { .brdf = brdf, .table = made, .tolerance = own.tolerance };
-    job.change = lmp_heap_allocate(&made->allocator, total * (sizeof(float) + sizeof(bool)));
+    job.change = lmp_allocate(&made->allocator, total * (sizeof(float) + sizeof(bool)));
     if (job.change) {
         job.failed = (bool *)(job.change + total);
         for (size_t i = 0; i < total; i++) {
@@ -260,7 +260,7 @@ lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf 
             job.failed[i] = false;
         }
         result = refine(&job, &own, own.rings_max);
-        lmp_heap_release(&made->allocator, job.change);
+        lmp_release(&made->allocator, job.change);
     } else
         result = LMP_ERROR_MEMORY;
     if (result != LMP_OK) {
@@ -278,13 +278,13 @@ lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf
         return LMP_ERROR_ARGUMENT;
     const double x = (double)wo.x, y = (double)wo.y, z = (double)wo.z;
     const double length = sqrt(x * x + y * y + z * z);
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
     const size_t half = brdf_half_count(bands);
     brdf_quadrature quadrature;
     const lmp_result result = lmp_brdf_quadrature_create(&heap, bands, rings, &quadrature);
     if (result != LMP_OK)
         return result;
-    double *parts = lmp_heap_allocate(&heap, 6 * half * sizeof *parts);
+    double *parts = lmp_allocate(&heap, 6 * half * sizeof *parts);
     if (parts) {
         const brdf_projection projection = {
             .brdf = brdf,
@@ -294,7 +294,7 @@ lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf
         lmp_brdf_project_view(&projection, &quadrature, parts, parts + 3 * half);
         const lmp_brdf_table_info info = { .bands = bands, .count = LMP_SH_COUNT(bands) };
         store_view(&info, parts, parts + 3 * half, rgb);
-        lmp_heap_release(&heap, parts);
+        lmp_release(&heap, parts);
     }
     lmp_brdf_quadrature_destroy(&heap, &quadrature);
     return parts ? LMP_OK : LMP_ERROR_MEMORY;
@@ -303,7 +303,7 @@ lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf
 /* --- reading -----------------------------------------------------------------------------------
  */
 
-/* Four neighbours and their weights (Catmull-Rom), t in 0 … 1 from the second to the third. */
+/* Four neighbors and their weights (Catmull-Rom), t in 0 … 1 from the second to the third. */
 static void cubic_weights(float t, float weights[4]) {
     const float t2 = t * t, t3 = t2 * t;
     weights[0] = (-t3 + 2 * t2 - t) / 2;

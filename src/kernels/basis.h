@@ -10,7 +10,7 @@
 #include "src/base/tables.h"
 #include "src/kernels/layout.h"
 
-/* Up to this many bands the kernels are specialised: straight-line code. */
+/* Up to this many bands the kernels are specialized: straight-line code. */
 #define BASIS_STRAIGHT 10
 
 /* Blocks that run side by side: the recurrence of one waits for itself. */

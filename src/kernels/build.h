@@ -3,7 +3,7 @@
  * CMake its instruction set. */
 #include "src/kernels/gradient.h"
 #include "src/kernels/lobe.h"
-#include "src/kernels/measured.h"
+#include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
 #include "src/kernels/vectors.h"
 
@@ -31,6 +31,6 @@ const lmp_kernels LMP_KERNELS = {
     .gradient = kernel_gradient,
     .lobe = kernel_lobe,
     .shade_zonal = kernel_shade_zonal,
-    .shade_response = kernel_shade_response,
-    .shade_measured = kernel_shade_measured,
+    .shade_preintegrated_lobe = kernel_shade_response,
+    .shade_preintegrated_brdf = kernel_shade_measured,
 };

@@ -16,8 +16,8 @@
 #define LMP_KERNEL_PI 3.14159265f
 
 typedef struct cap_lanes {
-    vf x, y, z;  /* from the point to the centre */
-    vf per_d;    /* 1/d; 0 at the centre */
+    vf x, y, z;  /* from the point to the center */
+    vf per_d;    /* 1/d; 0 at the center */
     vf s2, t;    /* sin²a, 1 - |cos a| */
     vf t_full;   /* 1 - cos a: 2 - t inside */
     vf alpha;    /* |cos a|; only where asked for */
@@ -43,7 +43,7 @@ static __attribute__((noinline)) cap_lanes cap_inside(vf x, vf y, vf z, vf d2, v
     cap_lanes cap;
     cap.x = x;
     cap.y = y;
-    /* At the centre any axis will do; it is multiplied by 0. */
+    /* At the center any axis will do; it is multiplied by 0. */
     cap.z = vf_select_less(zero, d2, z, one);
     cap.per_d = vf_select_less(zero, d2, per_d, zero);
     cap.t = near2 * inverse;
@@ -89,14 +89,14 @@ LMP_INLINE cap_lanes cap_from_distance(vf d, vf r) {
     return cap_at(vf_set(0), vf_set(0), d, d * d, d, r, (d - r) * (d + r), 0);
 }
 
-/* The axis: in place of the vector to the centre. */
+/* The axis: in place of the vector to the center. */
 LMP_INLINE void cap_axis(cap_lanes *cap) {
-    const vf centre_z = cap->z;
+    const vf center_z = cap->z;
     cap->x = cap->x * cap->per_d;
     cap->y = cap->y * cap->per_d;
     cap->z = cap->z * cap->per_d;
     if (__builtin_expect(cap->inside, 0))
-        cap->z = vf_select_less(vf_set(0), cap->per_d, cap->z, centre_z);
+        cap->z = vf_select_less(vf_set(0), cap->per_d, cap->z, center_z);
 }
 
 /* radial[l] = strength s2 R_l(cos a) for 1 <= l < bands, by the differences of R_l (MATH: no

@@ -1,4 +1,4 @@
-# One source, one build an instruction set (src/kernels/build.h). Not auto-vectorised: the kernels
+# One source, one build an instruction set (src/kernels/build.h). Not auto-vectorized: the kernels
 # say what is a vector, and the scalar build is the one to compare with.
 set(lampion_kernel_options -fno-tree-vectorize -fno-tree-slp-vectorize)
 if(CMAKE_C_COMPILER_ID MATCHES Clang)

@@ -45,34 +45,35 @@ typedef struct lmp_kernel_lights {
     size_t count;
 } lmp_kernel_lights;
 
-/* A response (lampion/response.h), and where lobes lie in it (src/response/eval.h): an array a
- * member, readable like planes. */
-typedef struct lmp_kernel_response {
+/* A response (lampion/preintegrated.h), and where lobes lie in it (src/preintegrated/lobe_eval.h):
+ * an array a member, readable like planes. */
+typedef struct lmp_kernel_preintegrated_lobe {
     const int16_t *pairs;
-} lmp_kernel_response;
+} lmp_kernel_preintegrated_lobe;
 
-typedef struct lmp_kernel_places {
+typedef struct lmp_kernel_lobe_positions {
     const uint32_t *first, *columns; /* of the cell, in pairs */
     const float *share, *density, *lobe_angle;
-} lmp_kernel_places;
+} lmp_kernel_lobe_positions;
 
-/* A slice of a measured material's response, and the rest of it: members as in lampion/response.h,
- * but that LMP_KERNEL_TEXELS_SPARE texels past the last one can be read, too. */
+/* A slice of a measured material's response, and the rest of it: members as in
+ * lampion/preintegrated.h, but that LMP_KERNEL_TEXELS_SPARE texels past the last one can be read,
+ * too. */
 typedef struct lmp_kernel_slice {
     uint32_t first, rows, columns;
     float row_density, row_origin, column_density, unit;
 } lmp_kernel_slice;
 #define LMP_KERNEL_TEXELS_SPARE 2
 
-typedef struct lmp_kernel_measured {
+typedef struct lmp_kernel_preintegrated_brdf {
     int mirrored;
     float width, radius, reach, slope, lobe_angle;
     uint32_t view_count, cap_count, view_steps, cap_steps;
-    const float *view_warp, *cap_warp;
+    const float *view_remap, *cap_remap;
     const lmp_rgb *ambient;
     const void *slices; /* lmp_kernel_slice */
     const int16_t *texels;
-} lmp_kernel_measured;
+} lmp_kernel_preintegrated_brdf;
 
 /* Surfaces to shade. */
 typedef struct lmp_kernel_surfaces {
@@ -92,9 +93,9 @@ typedef struct lmp_kernel_light {
 #define LMP_KERNEL_LIGHTS_MAX 32
 
 /* What the lobes gather, in planes of red, green, blue; added to. */
-typedef struct lmp_kernel_gathered {
+typedef struct lmp_kernel_accumulated {
     float *diffuse[3], *specular[3];
-} lmp_kernel_gathered;
+} lmp_kernel_accumulated;
 
 typedef struct lmp_kernels {
     const char *name;
@@ -131,21 +132,24 @@ typedef struct lmp_kernels {
      * diffuse lobe of integral 1, gather from the lights. */
     void (*shade_zonal)(int bands, const float *window, const float *diffuse,
                         const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                        size_t light_count, size_t count, const lmp_kernel_gathered *gathered);
+                        size_t light_count, size_t count, const lmp_kernel_accumulated *gathered);
     /* The same from a response; `diffuse` is one place, LMP_KERNEL_LANES_MAX times. */
-    void (*shade_response)(const lmp_kernel_response *response, const lmp_kernel_places *diffuse,
-                           const lmp_kernel_places *specular, const lmp_kernel_surfaces *surfaces,
-                           const lmp_kernel_light *lights, size_t light_count, size_t count,
-                           const lmp_kernel_gathered *gathered);
+    void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *response,
+                                     const lmp_kernel_lobe_positions *diffuse,
+                                     const lmp_kernel_lobe_positions *specular,
+                                     const lmp_kernel_surfaces *surfaces,
+                                     const lmp_kernel_light *lights, size_t light_count,
+                                     size_t count, const lmp_kernel_accumulated *gathered);
     /* Adds what a measured material reflects, in planes of red, green, blue, of the lights and of
      * `ambient` from everywhere. Exponents are not read. */
-    void (*shade_measured)(const lmp_kernel_measured *material, const lmp_kernel_surfaces *surfaces,
-                           const lmp_kernel_light *lights, size_t light_count, lmp_rgb ambient,
-                           size_t count, float *const rgb[3]);
+    void (*shade_preintegrated_brdf)(const lmp_kernel_preintegrated_brdf *material,
+                                     const lmp_kernel_surfaces *surfaces,
+                                     const lmp_kernel_light *lights, size_t light_count,
+                                     lmp_rgb ambient, size_t count, float *const rgb[3]);
 } lmp_kernels;
 
-/* Unit of the coefficients of a response; lampion/response.h publishes it. */
-#define LMP_KERNEL_RESPONSE_UNIT (2.0f / 32767.0f)
+/* Unit of the coefficients of a response; lampion/preintegrated.h publishes it. */
+#define LMP_KERNEL_LOBE_UNIT (2.0f / 32767.0f)
 
 /* Fills the table with the best build among `cpu_flags` (lmp_cpu_flag, base.h) that this library
  * and machine have; scalar when there is none. Returns the flag of the build taken. */

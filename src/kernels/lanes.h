@@ -17,7 +17,7 @@
 
 #define LMP_INLINE static inline __attribute__((always_inline))
 
-/* Unrolls a loop of constant length whole; the specialised kernels are straight-line code. */
+/* Unrolls a loop of constant length whole; the specialized kernels are straight-line code. */
 #if !defined(__OPTIMIZE__)
 #define LMP_UNROLL
 #define LMP_ROLLED

@@ -86,7 +86,7 @@ LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride)
     }
 }
 #else
-/* A cache line after the other: the store buffer merges neighbours. */
+/* A cache line after the other: the store buffer merges neighbors. */
 #define LAYOUT_GROUP 16
 LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
     vf t[16];

@@ -86,7 +86,8 @@ LMP_INLINE void shade_planes(const lmp_kernel_vec3 *planes, size_t e, vf to[3]) 
     to[2] = vf_load(planes->z + e);
 }
 
-LMP_INLINE void shade_sums_load(const lmp_kernel_gathered *gathered, size_t e, shade_sums *sums) {
+LMP_INLINE void shade_sums_load(const lmp_kernel_accumulated *gathered, size_t e,
+                                shade_sums *sums) {
     for (int c = 0; c < 3; c++) {
         sums->diffuse[c] = vf_load(gathered->diffuse[c] + e);
         sums->specular[c] = vf_load(gathered->specular[c] + e);
@@ -94,7 +95,7 @@ LMP_INLINE void shade_sums_load(const lmp_kernel_gathered *gathered, size_t e, s
 }
 
 LMP_INLINE void shade_sums_store(const shade_sums *sums, size_t e,
-                                 const lmp_kernel_gathered *gathered) {
+                                 const lmp_kernel_accumulated *gathered) {
     for (int c = 0; c < 3; c++) {
         vf_store(gathered->diffuse[c] + e, sums->diffuse[c]);
         vf_store(gathered->specular[c] + e, sums->specular[c]);
@@ -278,14 +279,15 @@ LMP_INLINE void zonal_light(int bands, int monic, const zonal_tables *tables, co
 
 LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
                           const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                          size_t light_count, size_t count, const lmp_kernel_gathered *gathered) {
+                          size_t light_count, size_t count,
+                          const lmp_kernel_accumulated *gathered) {
     shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
     vf weights[LMP_BANDS_MAX]; /* of R_l P_l of the Phong lobe */
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const float *exponent = surfaces->exponent + e;
         shade_sums sums;
         shade_sums_load(gathered, e, &sums);
-        /* Neighbours are often of one material. */
+        /* Neighbors are often of one material. */
         if (e == 0 || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
             zonal_phong(bands, tables, vf_load(exponent), weights);
         shade_aim_all(surfaces, lights, light_count, e, aims);
@@ -300,7 +302,7 @@ LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
 LMP_INLINE void zonal_surfaces(int bands, int constant, const zonal_tables *tables,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                size_t light_count, size_t count,
-                               const lmp_kernel_gathered *gathered) {
+                               const lmp_kernel_accumulated *gathered) {
     if (constant || bands <= ZONAL_MONIC_BANDS)
         zonal_all(bands, 1, tables, surfaces, lights, light_count, count, gathered);
     else
@@ -310,7 +312,7 @@ LMP_INLINE void zonal_surfaces(int bands, int constant, const zonal_tables *tabl
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                size_t light_count, size_t count,
-                               const lmp_kernel_gathered *gathered) {
+                               const lmp_kernel_accumulated *gathered) {
     zonal_tables tables;
     zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
     BASIS_SPECIALISE(bands, zonal_surfaces, &tables, surfaces, lights, light_count, count, gathered)
@@ -323,7 +325,7 @@ static void kernel_shade_zonal(int bands, const float *window, const float *diff
  */
 #define SPLINE_ONE 32767.0f
 
-/* The cubic B-spline's weights of four neighbours, the point x past the second, times 6. */
+/* The cubic B-spline's weights of four neighbors, the point x past the second, times 6. */
 LMP_INLINE void spline_weights(vf x, vf w[4]) {
     const vf y = 1 - x;
     w[0] = y * y * y;
@@ -438,7 +440,7 @@ LMP_INLINE vf response_read(const response_lanes *lobe, vf g, vf a) {
         for (int e = 0; e < LMP_LANES; e++)
             reading.from[e] += lobe->row[e];
     }
-    return sum * (LMP_KERNEL_RESPONSE_UNIT / 6 / SPLINE_ONE);
+    return sum * (LMP_KERNEL_LOBE_UNIT / 6 / SPLINE_ONE);
 }
 
 /* acos(u), u in -1 … 1 but for rounding. */
@@ -448,8 +450,8 @@ LMP_INLINE vf shade_angle(vf u) {
     return vf_select_less(u, zero, LMP_KERNEL_PI - across, across);
 }
 
-LMP_INLINE void response_lanes_load(const lmp_kernel_response *response,
-                                    const lmp_kernel_places *places, size_t e,
+LMP_INLINE void response_lanes_load(const lmp_kernel_preintegrated_lobe *response,
+                                    const lmp_kernel_lobe_positions *places, size_t e,
                                     response_lanes *lanes) {
     for (size_t i = 0; i < LMP_LANES; i++) {
         lanes->cell[i] = response->pairs + 2 * (size_t)places->first[e + i];
@@ -461,12 +463,12 @@ LMP_INLINE void response_lanes_load(const lmp_kernel_response *response,
     lanes->angle = vf_load(places->lobe_angle + e);
 }
 
-static void kernel_shade_response(const lmp_kernel_response *response,
-                                  const lmp_kernel_places *diffuse,
-                                  const lmp_kernel_places *specular,
+static void kernel_shade_response(const lmp_kernel_preintegrated_lobe *response,
+                                  const lmp_kernel_lobe_positions *diffuse,
+                                  const lmp_kernel_lobe_positions *specular,
                                   const lmp_kernel_surfaces *surfaces,
                                   const lmp_kernel_light *lights, size_t light_count, size_t count,
-                                  const lmp_kernel_gathered *gathered) {
+                                  const lmp_kernel_accumulated *gathered) {
     response_lanes broad, sharp;
     shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
     response_lanes_load(response, diffuse, 0, &broad);

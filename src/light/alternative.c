@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The zonal coefficients in the other ways the literature writes them. */
-#include "src/base/heap.h"
+#include "src/base/allocator.h"
 #include "src/light/cap.h"
 
 #include <lampion/light.h>
@@ -59,12 +59,12 @@ lmp_result lmp_zonal_table_create(const lmp_allocator *allocator, int bands, int
     *table = NULL;
     if (bands < 1 || bands > LMP_BANDS_MAX || size < 2)
         return LMP_ERROR_ARGUMENT;
-    const lmp_allocator heap = lmp_heap_resolve(allocator);
-    lmp_zonal_table *created = lmp_heap_allocate(&heap, sizeof *created);
+    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    lmp_zonal_table *created = lmp_allocate(&heap, sizeof *created);
     if (!created)
         return LMP_ERROR_MEMORY;
     *created = (lmp_zonal_table) { .heap = heap, .bands = bands, .size = size };
-    created->values = lmp_heap_allocate(&heap, (size_t)size * (size_t)bands * sizeof(float));
+    created->values = lmp_allocate(&heap, (size_t)size * (size_t)bands * sizeof(float));
     if (!created->values) {
         lmp_zonal_table_destroy(created);
         return LMP_ERROR_MEMORY;
@@ -79,8 +79,8 @@ void lmp_zonal_table_destroy(lmp_zonal_table *table) {
     if (!table)
         return;
     const lmp_allocator heap = table->heap;
-    lmp_heap_release(&heap, table->values);
-    lmp_heap_release(&heap, table);
+    lmp_release(&heap, table->values);
+    lmp_release(&heap, table);
 }
 
 void lmp_zonal_table_eval(const lmp_zonal_table *table, float cos_a, float *zonal) {

@@ -9,34 +9,34 @@
 
 /* A sphere from a point. Outside sin²a = r²/d², inside d²/r². */
 typedef struct lmp_sight {
-    lmp_vec3 axis; /* to the centre; z if d = 0 */
+    lmp_vec3 axis; /* to the center; z if d = 0 */
     float distance;
     bool inside;
-    float sin2, cosine, one_minus; /* sin²a, |cos a|, 1 - |cos a| */
+    float sin2, cosine, one_minus_cos; /* sin²a, |cos a|, 1 - |cos a| */
 } lmp_sight;
 
 void lmp_sight_distance(float radius, float distance, lmp_sight *sight);
 void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *sight);
 
-/* R_l(1 - one_minus), l < bands, one_minus in 0 … 1, by differences: cos a itself, rounded near 1,
- * would cost l² units. */
-static inline void lmp_cap_polynomials(int bands, float one_minus, float *r) {
-    r[0] = 2 / (2 - one_minus);
+/* R_l(1 - one_minus_cos), l < bands, one_minus_cos in 0 … 1, by differences: cos a itself, rounded
+ * near 1, would cost l² units. */
+static inline void lmp_cap_polynomials(int bands, float one_minus_cos, float *r) {
+    r[0] = 2 / (2 - one_minus_cos);
     float difference = 0, now = 1;
     for (int l = 1; l < bands; l++) {
-        difference = lmp_table_cap_d[l] * difference - lmp_table_cap_t[l] * (one_minus * now);
+        difference = lmp_table_cap_d[l] * difference - lmp_table_cap_t[l] * (one_minus_cos * now);
         now += difference;
         r[l] = now;
     }
 }
 
-/* P_l(1 - one_minus) in the same way. */
-static inline void lmp_legendre_polynomials(int bands, float one_minus, float *p) {
+/* P_l(1 - one_minus_cos) in the same way. */
+static inline void lmp_legendre_polynomials(int bands, float one_minus_cos, float *p) {
     float difference = 0, now = 1;
     p[0] = now;
     for (int l = 1; l < bands; l++) {
         difference =
-            lmp_table_legendre_d[l] * difference - lmp_table_legendre_t[l] * (one_minus * now);
+            lmp_table_legendre_d[l] * difference - lmp_table_legendre_t[l] * (one_minus_cos * now);
         now += difference;
         p[l] = now;
     }

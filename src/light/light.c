@@ -20,12 +20,12 @@ static lmp_vec3 opposite(lmp_vec3 v) {
 
 /* --- each kind as a cap ----------------------------------------------------------------------- */
 
-/* A cap of cos a = ±(1 - one_minus); obtuse: all directions less the complementary cap. */
-static void set_cap(lmp_vec3 axis, bool obtuse, float sin2, float one_minus, lmp_rgb radiance,
+/* A cap of cos a = ±(1 - one_minus_cos); obtuse: all directions less the complementary cap. */
+static void set_cap(lmp_vec3 axis, bool obtuse, float sin2, float one_minus_cos, lmp_rgb radiance,
                     lmp_cap *cap) {
     cap->axis = obtuse ? opposite(axis) : axis;
     cap->sin2 = sin2;
-    cap->one_minus = one_minus;
+    cap->one_minus_cos = one_minus_cos;
     cap->strength = scaled(radiance, obtuse ? -pi * sin2 : pi * sin2);
     cap->ambient = obtuse ? radiance : (lmp_rgb) { 0, 0, 0 };
 }
@@ -33,15 +33,16 @@ static void set_cap(lmp_vec3 axis, bool obtuse, float sin2, float one_minus, lmp
 static void set_sphere(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
     lmp_sight sight;
     lmp_sight_sphere(light->position, light->radius, point, &sight);
-    set_cap(sight.axis, sight.inside, sight.sin2, sight.one_minus, light->radiance, cap);
+    set_cap(sight.axis, sight.inside, sight.sin2, sight.one_minus_cos, light->radiance, cap);
 }
 
 static void set_angle(const lmp_light *light, lmp_cap *cap) {
     assert(light->angle >= 0 && light->angle <= pi);
     const bool obtuse = light->angle > pi / 2;
     const float half = sinf((obtuse ? pi - light->angle : light->angle) / 2);
-    const float one_minus = 2 * half * half;
-    set_cap(light->direction, obtuse, one_minus * (2 - one_minus), one_minus, light->radiance, cap);
+    const float one_minus_cos = 2 * half * half;
+    set_cap(light->direction, obtuse, one_minus_cos * (2 - one_minus_cos), one_minus_cos,
+            light->radiance, cap);
 }
 
 /* 1 inside the inner cone, 0 outside the outer one, of the direction from the light. */
@@ -104,7 +105,7 @@ void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *z
     unit.ground = (lmp_rgb) { 0, 0, 0 };
     lmp_light_cap(&unit, point, &cap);
     const bool away = cap.ambient.r > 0;
-    lmp_cap_polynomials(bands, cap.one_minus, zonal);
+    lmp_cap_polynomials(bands, cap.one_minus_cos, zonal);
     for (int l = 0; l < bands; l++)
         zonal[l] *= lmp_table_pole[l] * (away && l % 2 != 0 ? -cap.strength.r : cap.strength.r);
     zonal[0] += cap.ambient.r / lmp_table_pole[0];
@@ -114,7 +115,7 @@ void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *z
 static void add_cap(int bands, const lmp_cap *cap, float *sh) {
     float *red = sh, *green = red + LMP_SH_COUNT(bands), *blue = green + LMP_SH_COUNT(bands);
     float r[LMP_BANDS_MAX], q[LMP_BANDS_MAX];
-    lmp_cap_polynomials(bands, cap->one_minus, r);
+    lmp_cap_polynomials(bands, cap->one_minus_cos, r);
     red[0] += cap->ambient.r / lmp_table_pole[0];
     green[0] += cap->ambient.g / lmp_table_pole[0];
     blue[0] += cap->ambient.b / lmp_table_pole[0];

@@ -19,7 +19,7 @@ void lmp_sight_distance(float radius, float distance, lmp_sight *sight) {
     sight->sin2 = ratio * ratio;
     /* not sqrt(1 - sin²a), which cancels for touching lights */
     sight->cosine = far > 0 ? sqrtf((far - near) / far * ((far + near) / far)) : 1;
-    sight->one_minus = sight->sin2 / (1 + sight->cosine);
+    sight->one_minus_cos = sight->sin2 / (1 + sight->cosine);
 }
 
 void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *sight) {
@@ -33,10 +33,10 @@ void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *
 /* L_lm = factors[l] Y_lm(axis), radiance 1. Inside, cos a < 0: R_l has the parity of l-1, and
  * sin²a R_0 = 2 (1 - cos a). */
 static void sight_factors(int bands, const lmp_sight *sight, float *factors) {
-    lmp_cap_polynomials(bands, sight->one_minus, factors);
+    lmp_cap_polynomials(bands, sight->one_minus_cos, factors);
     for (int l = 0; l < bands; l++)
         factors[l] *= sight->inside && l % 2 == 0 ? -pi * sight->sin2 : pi * sight->sin2;
-    factors[0] = 2 * pi * (sight->inside ? 1 + sight->cosine : sight->one_minus);
+    factors[0] = 2 * pi * (sight->inside ? 1 + sight->cosine : sight->one_minus_cos);
 }
 
 void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal) {
@@ -74,8 +74,8 @@ static void prepare_slopes(int bands, const lmp_sight *sight, float radius, band
         sight->inside ? sight->distance / radius / radius : sight->sin2 / sight->distance;
     const float cosine = sight->cosine > LMP_COS_MIN ? sight->cosine : LMP_COS_MIN;
     slopes->axis = sight->axis;
-    lmp_legendre_polynomials(bands, sight->one_minus, slopes->radial);
-    lmp_cap_polynomials(bands, sight->one_minus, slopes->tangential);
+    lmp_legendre_polynomials(bands, sight->one_minus_cos, slopes->radial);
+    lmp_cap_polynomials(bands, sight->one_minus_cos, slopes->tangential);
     for (int l = 0; l < bands; l++) {
         /* at cos a < 0, P_l has the parity of l and R_l that of l-1 */
         const float p_sign = sight->inside && l % 2 != 0 ? -1.f : 1.f;

@@ -15,11 +15,11 @@ void lmp_lobe_weights(int bands, const float *lambda, float *weights) {
 float lmp_lobe_sum(int bands, const float *weights, const float *r, lmp_vec3 q, lmp_vec3 w) {
     const float sign = q.x * w.x + q.y * w.y + q.z * w.z < 0 ? -1.f : 1.f;
     const float x = q.x - sign * w.x, y = q.y - sign * w.y, z = q.z - sign * w.z;
-    const float one_minus = (x * x + y * y + z * z) / 2;
+    const float one_minus_cos = (x * x + y * y + z * z) / 2;
     float even = weights[0] * r[0], odd = 0, difference = 0, legendre = 1;
     for (int l = 1; l < bands; l++) {
-        difference =
-            lmp_table_legendre_d[l] * difference - lmp_table_legendre_t[l] * (one_minus * legendre);
+        difference = lmp_table_legendre_d[l] * difference -
+                     lmp_table_legendre_t[l] * (one_minus_cos * legendre);
         legendre += difference;
         const float term = weights[l] * r[l] * legendre;
         if (l % 2 != 0)
@@ -45,7 +45,7 @@ lmp_rgb lmp_lobe_response(int bands, const float *lambda, lmp_vec3 axis, const l
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], point, &cap);
-        lmp_cap_polynomials(bands, cap.one_minus, r);
+        lmp_cap_polynomials(bands, cap.one_minus_cos, r);
         lmp_lobe_add(&cap, lmp_lobe_sum(bands, weights, r, axis, cap.axis), lambda[0], &sum);
     }
     return sum;

@@ -81,7 +81,7 @@ lmp_rgb lmp_shade_zonal(const lmp_shade_settings *settings, const lmp_material *
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], surface->position, &cap);
-        lmp_cap_polynomials(bands, cap.one_minus, r);
+        lmp_cap_polynomials(bands, cap.one_minus_cos, r);
         lmp_lobe_add(&cap, lmp_lobe_sum(bands, diffuse, r, lobes.normal, cap.axis),
                      lobes.diffuse[0], &diffuse_sum);
         lmp_lobe_add(&cap, lmp_lobe_sum(bands, specular, r, lobes.mirror, cap.axis),

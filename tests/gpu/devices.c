@@ -64,12 +64,12 @@ static void close_stage(stage *s) {
     scene_free(&s->world);
 }
 
-static lmp_response *response_of(const gpu_frame *frame) {
-    lmp_response *response;
-    const lmp_response_desc desc = { .bands = frame->bands,
-                                     .window = frame->window,
-                                     .error = DEVICE_LOBES_ERROR };
-    assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+static lmp_preintegrated_lobe *response_of(const gpu_frame *frame) {
+    lmp_preintegrated_lobe *response;
+    const lmp_preintegrated_lobe_desc desc = { .bands = frame->bands,
+                                               .window = frame->window,
+                                               .error = DEVICE_LOBES_ERROR };
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
     return response;
 }
 
@@ -79,7 +79,7 @@ static void both_devices_draw_the_same_picture(void **state) {
     for (int i = 0; i < 2; i++) {
         stage s;
         open_stage(&s, scenes[i]);
-        lmp_response *response = response_of(&s.frame);
+        lmp_preintegrated_lobe *response = response_of(&s.frame);
         s.frame.response = response;
         for (int m = 0; m < GPU_METHODS; m++) {
             s.frame.method = (gpu_method)m;
@@ -91,7 +91,7 @@ static void both_devices_draw_the_same_picture(void **state) {
             draw(s.renderer, &s.frame, second);
             assert_int_equal(beyond(1), 0);
         }
-        lmp_response_destroy(response);
+        lmp_preintegrated_lobe_destroy(response);
         close_stage(&s);
     }
 }
@@ -99,7 +99,7 @@ static void both_devices_draw_the_same_picture(void **state) {
 static void check_preintegrated(stage *s) {
     s->frame.method = GPU_METHOD_COEFFICIENTS;
     draw_first(s->renderer, &s->frame);
-    lmp_response *response = response_of(&s->frame);
+    lmp_preintegrated_lobe *response = response_of(&s->frame);
     s->frame.response = response;
     s->frame.method = GPU_METHOD_PREINTEGRATED;
     draw(s->renderer, &s->frame, second);
@@ -107,7 +107,7 @@ static void check_preintegrated(stage *s) {
                   s->frame.bands, (int)s->frame.window, beyond(1), PIXELS);
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);
-    lmp_response_destroy(response);
+    lmp_preintegrated_lobe_destroy(response);
 }
 
 static void preintegrated_pictures_are_those_of_coefficients(void **state) {
@@ -136,7 +136,7 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
     s.frame.bands = 10;
     s.frame.window = LMP_WINDOW_HANNING;
     lmp_brdf_table *tables[2];
-    lmp_brdf_response *responses[2] = { NULL, NULL };
+    lmp_preintegrated_brdf *responses[2] = { NULL, NULL };
     const char *const names[2] = { "gold-metallic-paint", "red-fabric" };
     for (int i = 0; i < 2; i++) {
         lmp_sgd sgd;
@@ -148,7 +148,8 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
         assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
         assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &tables[i]), LMP_OK);
         lmp_brdf_destroy(brdf);
-        assert_int_equal(lmp_brdf_response_create(NULL, tables[i], NULL, &responses[i]), LMP_OK);
+        assert_int_equal(lmp_preintegrated_brdf_create(NULL, tables[i], NULL, &responses[i]),
+                         LMP_OK);
     }
     int uses[8] = { -1, 1, 0 };
     cli_error error = { "" };
@@ -157,22 +158,22 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
            &error);
     s.frame.method = GPU_METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
-    lmp_response *lobes = response_of(&s.frame);
+    lmp_preintegrated_lobe *lobes = response_of(&s.frame);
     s.frame.response = lobes;
     s.frame.method = GPU_METHOD_PREINTEGRATED;
     for (int pass = 0; pass < 3; pass++) {
-        const lmp_brdf_response *given[2] = { responses[0], pass == 2 ? NULL : responses[1] };
+        const lmp_preintegrated_brdf *given[2] = { responses[0], pass == 2 ? NULL : responses[1] };
         gpu_set_responses(s.renderer, given);
         s.frame.host = pass == 1 ? device_shade : NULL;
         draw(s.renderer, &s.frame, second);
         assert_true(beyond(1) <= PIXELS / 1000);
         assert_int_equal(beyond(2), 0);
     }
-    lmp_response_destroy(lobes);
+    lmp_preintegrated_lobe_destroy(lobes);
     close_stage(&s);
     for (int i = 0; i < 2; i++) {
         lmp_brdf_table_destroy(tables[i]);
-        lmp_brdf_response_destroy(responses[i]);
+        lmp_preintegrated_brdf_destroy(responses[i]);
     }
 }
 
@@ -199,7 +200,7 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **stat
     s.frame.bands = 100;
     s.frame.host = device_shade;
     draw_first(s.renderer, &s.frame);
-    lmp_response *response = response_of(&s.frame);
+    lmp_preintegrated_lobe *response = response_of(&s.frame);
     s.frame.response = response;
     s.frame.method = GPU_METHOD_PREINTEGRATED;
     draw(s.renderer, &s.frame, second);
@@ -209,7 +210,7 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **stat
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);
-    lmp_response_destroy(response);
+    lmp_preintegrated_lobe_destroy(response);
     close_stage(&s);
 }
 

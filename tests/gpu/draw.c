@@ -189,7 +189,7 @@ static void materials_are_those_of_the_library(void **state) {
 /* --- glowing spheres ----------------------------------------------------------------------------
  */
 
-/* A pixel's centre on the sphere, off it, or so near the outline (±0) that rounding decides. */
+/* A pixel's center on the sphere, off it, or so near the outline (±0) that rounding decides. */
 static int side_of_outline(const gpu_frame *frame, const scene_light *light, int x, int y) {
     const double step = 2.0 * tan(0.5 * (double)frame->camera.fov) / SIDE;
     const double ray[3] = { (x + 0.5 - SIDE / 2) * step, -(y + 0.5 - SIDE / 2) * step, -1 };

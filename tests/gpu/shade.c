@@ -164,7 +164,7 @@ static void check_with(const char *name, gpu_renderer *renderer, gpu_frame frame
 static void check_buried(scene *world, gpu_renderer *renderer) {
     gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
     gpu_pixel *pixels = render_pixels(renderer, &frame);
-    /* centres exactly on surfaces, spheres that cut them, and one that holds the whole scene;
+    /* centers exactly on surfaces, spheres that cut them, and one that holds the whole scene;
      * hidden, for their own discs would cover the surfaces */
     size_t count = 0;
     for (size_t i = 0; i < PIXELS && count < 8; i += PIXELS / 16)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion.glsl, with response.glsl and measured.glsl and without, is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
+# lampion.glsl, with preintegrated_lobe.glsl and preintegrated_brdf.glsl and without, is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
 # (glslang's judgement), in a compute shader that calls all of it and in the example's fragment shader.
 set -eu
 . tests/house/common.sh
@@ -26,19 +26,19 @@ GLSL
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D pairs;
 layout(std430, binding = 2) readonly buffer response_block { vec4 shape; vec4 cells[64]; float warp[321]; };
-#define LMP_RESPONSE_PAIR(p) textureLod(pairs, p / 2048.0, 0.0).rg
-#define LMP_RESPONSE_CELL(i) cells[i]
-#define LMP_RESPONSE_WARP(i) warp[i]
-#define LMP_RESPONSE_SHAPE   shape
+#define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(pairs, p / 2048.0, 0.0).rg
+#define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
+#define LMP_PREINTEGRATED_LOBE_REMAP(i) warp[i]
+#define LMP_PREINTEGRATED_LOBE_SHAPE   shape
 GLSL
-    cat shaders/response.glsl
+    cat shaders/preintegrated_lobe.glsl
     cat <<'GLSL'
 layout(binding = 3) uniform highp sampler2D texels;
-layout(std430, binding = 4) readonly buffer measured_block { float measured[]; };
-#define LMP_MEASURED_TEXEL(p) textureLod(texels, p / 4096.0, 0.0).rgb
-#define LMP_MEASURED_VALUE(i) measured[i]
+layout(std430, binding = 4) readonly buffer brdf_block { float measured[]; };
+#define LMP_PREINTEGRATED_BRDF_TEXEL(p) textureLod(texels, p / 4096.0, 0.0).rgb
+#define LMP_PREINTEGRATED_BRDF_VALUE(i) measured[i]
 GLSL
-    cat shaders/measured.glsl
+    cat shaders/preintegrated_brdf.glsl
     cat <<'GLSL'
 void main() {
     lmp_surface s;
@@ -49,7 +49,7 @@ void main() {
     lmp_sphere_project(lights[0], s.position, sh);
     values[gl_GlobalInvocationID.x] =
         vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m) + lmp_shade_preintegrated(s, m) +
-                 lmp_shade_measured(s, 0),
+                 lmp_shade_preintegrated_brdf(s, 0),
              sh[0]);
 }
 GLSL

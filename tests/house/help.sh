@@ -51,13 +51,13 @@ hints cpu bench cpuu
 hints fish completion fihs
 hints render man rendr
 
-# progress is for terminals: none in a pipe (above), none on a dumb one; never a colour
+# progress is for terminals: none in a pipe (above), none on a dumb one; never a color
 if command -v script >/dev/null; then
     for terminal in dumb xterm; do
         script -qec "TERM=$terminal '$PROGRAM' reference builtin:ball --size 96x64 --spp 64 -o '$WORK/t.png'" \
             /dev/null >"$WORK/$terminal" </dev/null
         [ -s "$WORK/t.png" ] || fail "no picture on a terminal"
-        ! grep -q "$(printf '\033\\[[0-9;]*m')" "$WORK/$terminal" || fail "colours on $terminal"
+        ! grep -q "$(printf '\033\\[[0-9;]*m')" "$WORK/$terminal" || fail "colors on $terminal"
     done
     [ ! -s "$WORK/dumb" ] || fail "progress on a dumb terminal: $(cat "$WORK/dumb")"
 fi

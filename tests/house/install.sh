@@ -6,7 +6,7 @@ set -eu
 
 code_blocks README.md c >"$WORK/first_light.c"
 grep -q 'int main' "$WORK/first_light.c" || fail "README.md has no C program"
-sed 1d examples/first_light.c | cmp - "$WORK/first_light.c" >/dev/null || # but for the licence
+sed 1d examples/first_light.c | cmp - "$WORK/first_light.c" >/dev/null || # but for the license
     fail "the program in README.md is not examples/first_light.c"
 
 quietly() {

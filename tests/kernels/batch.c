@@ -41,7 +41,8 @@ static void check_same(const float *expected, const float *actual, size_t count)
 static void project_takes_structures_and_gives_rows(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0, out);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_INTERLEAVED, 0,
+                         out);
     for (int i = 0; i < COUNT; i++) {
         float sh[VALUES];
         lmp_sphere_project(BANDS, lights[i].position, lights[i].radius, points[i], sh);
@@ -53,8 +54,9 @@ static void planes_are_rows_transposed(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
     const size_t stride = COUNT + 8;
-    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0, out);
-    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_PLANES, stride,
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_INTERLEAVED, 0,
+                         out);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_PLANAR, stride,
                          other);
     for (size_t i = 0; i < COUNT; i++)
         for (size_t v = 0; v < VALUES; v++)
@@ -64,10 +66,11 @@ static void planes_are_rows_transposed(void **test) {
 static void all_pairs_are_every_sphere_at_every_point(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_project_all(BANDS, &spheres, 7, lmp_vec3_array_of(points), 80, LMP_SH_ROWS, 0, out);
+    lmp_sphere_project_all(BANDS, &spheres, 7, lmp_vec3_array_of(points), 80, LMP_SH_INTERLEAVED, 0,
+                           out);
     for (size_t p = 0; p < 80; p++) {
-        lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_same(&points[p]), 7, LMP_SH_ROWS, 0,
-                             other);
+        lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_same(&points[p]), 7,
+                             LMP_SH_INTERLEAVED, 0, other);
         assert_memory_equal(other, out + p * 7 * VALUES, 7 * VALUES * sizeof(float));
     }
 }
@@ -75,12 +78,12 @@ static void all_pairs_are_every_sphere_at_every_point(void **test) {
 static void a_split_of_the_points_changes_no_bit(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0,
-                            out);
+    lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points), COUNT,
+                            LMP_SH_INTERLEAVED, 0, out);
     for (size_t first = 0, n = 1; first < COUNT; first += n, n = n * 2 + 1) {
         const size_t part = first + n < COUNT ? n : COUNT - first;
         lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points + first), part,
-                                LMP_SH_ROWS, 0, other + first * 3 * VALUES);
+                                LMP_SH_INTERLEAVED, 0, other + first * 3 * VALUES);
     }
     assert_memory_equal(out, other, COUNT * 3 * VALUES * sizeof(float));
 }
@@ -88,14 +91,15 @@ static void a_split_of_the_points_changes_no_bit(void **test) {
 static void accumulate_is_the_sum_of_the_lights(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, 11, lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0,
-                            out);
+    lmp_sphere_accumulate_n(BANDS, &spheres, 11, lmp_vec3_array_of(points), COUNT,
+                            LMP_SH_INTERLEAVED, 0, out);
     for (int i = 0; i < COUNT; i += 17) {
         float sh[3 * VALUES];
         lmp_light_project(lights, 11, points[i], BANDS, sh);
         check_same(sh, out + i * 3 * VALUES, 3 * VALUES);
     }
-    lmp_sphere_accumulate_n(BANDS, &spheres, 0, lmp_vec3_array_of(points), 3, LMP_SH_ROWS, 0, out);
+    lmp_sphere_accumulate_n(BANDS, &spheres, 0, lmp_vec3_array_of(points), 3, LMP_SH_INTERLEAVED, 0,
+                            out);
     for (int i = 0; i < 3 * 3 * VALUES; i++)
         assert_true(out[i] == 0);
 }
@@ -104,7 +108,7 @@ static void gradients_are_those_of_one_light(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights + 3);
     lmp_sphere_accumulate_gradient_n(BANDS, &spheres, 1, lmp_vec3_array_of(points), COUNT,
-                                     LMP_SH_ROWS, 0, out, 0, other);
+                                     LMP_SH_INTERLEAVED, 0, out, 0, other);
     for (int i = 0; i < COUNT; i += 13) {
         float sh[VALUES], gradient[3 * VALUES];
         lmp_sphere_project_gradient(BANDS, lights[3].position, lights[3].radius, points[i], sh,
@@ -122,7 +126,7 @@ static void lobes_respond_as_one_by_one(void **test) {
     lmp_rgb response[COUNT];
     lmp_lobe_phong(BANDS, 7, lambda);
     lmp_lobe_response_n(BANDS, lambda, lmp_vec3_array_of(axes), &spheres, 9,
-                        lmp_vec3_array_of(points), COUNT, LMP_SH_ROWS, 0, &response[0].r);
+                        lmp_vec3_array_of(points), COUNT, LMP_SH_INTERLEAVED, 0, &response[0].r);
     for (int i = 0; i < COUNT; i++) {
         const lmp_rgb one = lmp_lobe_response(BANDS, lambda, axes[i], lights, 9, points[i]);
         CHECK_WITHIN((double)(response[i].b - one.b), 1e-5);
@@ -136,9 +140,9 @@ static void basis_zonal_rotation_and_dot_are_the_scalar_ones(void **test) {
     static float matrices[LMP_SH_ROTATION_COUNT(BANDS)];
     float dots[COUNT], distances[COUNT], sh[VALUES], turned[VALUES];
     lmp_sh_rotation(BANDS, turn, matrices);
-    lmp_sh_eval_n(BANDS, lmp_vec3_array_of(axes), COUNT, LMP_SH_ROWS, 0, out);
-    lmp_sh_rotate_n(BANDS, matrices, out, COUNT, LMP_SH_ROWS, 0, other);
-    lmp_sh_dot_n(BANDS, out, other, COUNT, LMP_SH_ROWS, 0, dots);
+    lmp_sh_eval_n(BANDS, lmp_vec3_array_of(axes), COUNT, LMP_SH_INTERLEAVED, 0, out);
+    lmp_sh_rotate_n(BANDS, matrices, out, COUNT, LMP_SH_INTERLEAVED, 0, other);
+    lmp_sh_dot_n(BANDS, out, other, COUNT, LMP_SH_INTERLEAVED, 0, dots);
     for (int i = 0; i < COUNT; i++) {
         lmp_sh_eval(BANDS, axes[i], sh);
         check_same(sh, out + i * VALUES, VALUES);
@@ -149,7 +153,7 @@ static void basis_zonal_rotation_and_dot_are_the_scalar_ones(void **test) {
     }
     const lmp_float_array radii = { &lights->radius, sizeof *lights };
     lmp_sphere_zonal_n(BANDS, radii, (lmp_float_array) { distances, sizeof(float) }, COUNT,
-                       LMP_SH_ROWS, 0, out);
+                       LMP_SH_INTERLEAVED, 0, out);
     for (int i = 0; i < COUNT; i++) {
         lmp_sphere_zonal(BANDS, lights[i].radius, distances[i], sh);
         check_same(sh, out + i * BANDS, BANDS);

@@ -11,7 +11,7 @@
 enum { COUNT = 67, LIGHTS = 7 };
 
 /* Elements 0 … SPECIAL-1 are worst cases, the rest random. Coordinates are multiples of 2^-10, so
- * that centre - point is exact and the oracle sees the same geometry. */
+ * that center - point is exact and the oracle sees the same geometry. */
 typedef struct inputs {
     _Alignas(64) float center[3][COUNT + 16], point[3][COUNT + 16], axis[3][COUNT + 16];
     _Alignas(64) float radius[COUNT + 16], distance[COUNT + 16];
@@ -20,12 +20,12 @@ typedef struct inputs {
 } inputs;
 
 static const float special[][4] = {
-    /* centre - point, radius */
+    /* center - point, radius */
     { 0, 0, 1, 1 },          /* touching, at the pole */
     { 3, 4, 0, 5 },          /* touching, on the horizon */
     { 0, 0, 1, 2 },          /* inside */
     { 0.25f, 0.5f, -1, 4 },  /* inside */
-    { 0, 0, 0, 1 },          /* at the centre */
+    { 0, 0, 0, 1 },          /* at the center */
     { 0, 0, 0, 0 },          /* nothing */
     { 1, 0, 0, 1e-6f },      /* tiny, on an axis */
     { 0, -1, 0, 1e-6f },     /* tiny */
@@ -56,7 +56,7 @@ static void set_unit(float (*at)[COUNT + 16], int i, float x, float y, float z) 
 }
 
 /* Normals along the axes and views along them, level and from below; then any. Past the first 32,
- * which have all sorts of exponents, neighbours share one. */
+ * which have all sorts of exponents, neighbors share one. */
 static void surfaces_create(inputs *in) {
     static const float worst[][6] = { { 0, 0, 1, 0, 0, 1 },
                                       { 0, 1, 0, 0, 1, 0 },

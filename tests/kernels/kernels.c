@@ -22,14 +22,21 @@ typedef enum kind {
     GRADIENT,
     LOBE,
     SHADE_ZONAL,
-    SHADE_RESPONSE,
-    SHADE_MEASURED,
+    SHADE_PREINTEGRATED_LOBE,
+    SHADE_PREINTEGRATED_BRDF,
     KINDS
 } kind;
-static const char *const kind_names[] = { "eval",           "dot",           "rotate",
-                                          "zonal",          "project",       "accumulate",
-                                          "gradient",       "lobe",          "shade_zonal",
-                                          "shade_response", "shade_measured" };
+static const char *const kind_names[] = { "eval",
+                                          "dot",
+                                          "rotate",
+                                          "zonal",
+                                          "project",
+                                          "accumulate",
+                                          "gradient",
+                                          "lobe",
+                                          "shade_zonal",
+                                          "shade_preintegrated_lobe",
+                                          "shade_preintegrated_brdf" };
 
 static size_t values_of(kind which, int bands) {
     const size_t n = LMP_SH_COUNT(bands);
@@ -43,10 +50,10 @@ static size_t values_of(kind which, int bands) {
     case GRADIENT:
         return 12 * n;
     case LOBE:
-    case SHADE_MEASURED:
+    case SHADE_PREINTEGRATED_BRDF:
         return 3;
     case SHADE_ZONAL:
-    case SHADE_RESPONSE:
+    case SHADE_PREINTEGRATED_LOBE:
         return 6;
     default:
         return n;
@@ -109,25 +116,26 @@ enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * G
 static void call_shading(const lmp_kernels *k, kind which, const shading *s, size_t count,
                          float *const planes[6]) {
     const inputs *in = s->in;
-    const lmp_kernel_gathered sums = { { planes[0], planes[1], planes[2] },
-                                       { planes[3], planes[4], planes[5] } };
+    const lmp_kernel_accumulated sums = { { planes[0], planes[1], planes[2] },
+                                          { planes[3], planes[4], planes[5] } };
     const lmp_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
                                            { in->normal[0], in->normal[1], in->normal[2] },
                                            { in->view[0], in->view[1], in->view[2] },
                                            in->exponent };
-    const lmp_kernel_response response = { s->pairs };
-    const lmp_kernel_places broad = { s->broad_first, s->broad_columns, s->broad[0], s->broad[1],
-                                      s->broad[2] };
-    const lmp_kernel_places sharp = { s->first, s->columns, s->share, s->density, s->angle };
+    const lmp_kernel_preintegrated_lobe response = { s->pairs };
+    const lmp_kernel_lobe_positions broad = { s->broad_first, s->broad_columns, s->broad[0],
+                                              s->broad[1], s->broad[2] };
+    const lmp_kernel_lobe_positions sharp = { s->first, s->columns, s->share, s->density,
+                                              s->angle };
     if (which == SHADE_ZONAL)
         k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
                        &sums);
-    else if (which == SHADE_RESPONSE)
-        k->shade_response(&response, &broad, &sharp, &surfaces, s->lights, SHADE_LIGHTS, count,
-                          &sums);
+    else if (which == SHADE_PREINTEGRATED_LOBE)
+        k->shade_preintegrated_lobe(&response, &broad, &sharp, &surfaces, s->lights, SHADE_LIGHTS,
+                                    count, &sums);
     else
-        k->shade_measured(&s->measured, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
-                          sums.diffuse);
+        k->shade_preintegrated_brdf(&s->measured, &surfaces, s->lights, SHADE_LIGHTS, s->ambient,
+                                    count, sums.diffuse);
 }
 
 static void run_shading(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
@@ -194,8 +202,8 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
         break;
     case SHADE_ZONAL:
-    case SHADE_RESPONSE:
-    case SHADE_MEASURED:
+    case SHADE_PREINTEGRATED_LOBE:
+    case SHADE_PREINTEGRATED_BRDF:
         run_shading(k, which, bands, in, count, out);
         break;
     case KINDS:
@@ -441,7 +449,7 @@ static void expect_sums(int bands, inputs *in, int i, const double *lambda, doub
     for (int light = 0; light < LIGHTS; light++)
         e->alpha2 = fmin(e->alpha2, seen_alpha2(in, light, i, center, point));
     e->slopes = e->alpha2 >= (double)(LMP_COS_MIN * LMP_COS_MIN) && (bands <= 74 || i % 8 == 0) &&
-                i != 4; /* the centre of a light */
+                i != 4; /* the center of a light */
     for (int light = 0; light < LIGHTS; light++) {
         const double r = (double)in->radius[light];
         seen_alpha2(in, light, i, center, point);
@@ -459,7 +467,7 @@ static void expect_sums(int bands, inputs *in, int i, const double *lambda, doub
     }
 }
 
-/* Point i < LIGHTS sees light i in the way of special[i]: touching, from inside, at the centre. */
+/* Point i < LIGHTS sees light i in the way of special[i]: touching, from inside, at the center. */
 static void sums_gradients_and_lobes_match_double_precision(void **test) {
     (void)test;
     lmp_kernels best;
@@ -626,7 +634,7 @@ static void spoil(const lmp_kernel_out *out) {
     *at = nextafterf(*at, 1e9f);
 }
 
-static void spoil_gathered(const lmp_kernel_gathered *sums) {
+static void spoil_gathered(const lmp_kernel_accumulated *sums) {
     float *const *planes = flaw.value < 3 ? sums->diffuse : sums->specular;
     float *at = planes[flaw.value % 3] + flaw.element;
     *at = nextafterf(*at, 1e9f);
@@ -685,32 +693,32 @@ static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
 static void wrong_shade_zonal(int bands, const float *window, const float *diffuse,
                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                               size_t light_count, size_t count,
-                              const lmp_kernel_gathered *gathered) {
+                              const lmp_kernel_accumulated *gathered) {
     honest.shade_zonal(bands, window, diffuse, surfaces, lights, light_count, count, gathered);
     spoil_gathered(gathered);
 }
-static void wrong_shade_response(const lmp_kernel_response *response,
-                                 const lmp_kernel_places *diffuse,
-                                 const lmp_kernel_places *specular,
+static void wrong_shade_response(const lmp_kernel_preintegrated_lobe *response,
+                                 const lmp_kernel_lobe_positions *diffuse,
+                                 const lmp_kernel_lobe_positions *specular,
                                  const lmp_kernel_surfaces *surfaces,
                                  const lmp_kernel_light *lights, size_t light_count, size_t count,
-                                 const lmp_kernel_gathered *gathered) {
-    honest.shade_response(response, diffuse, specular, surfaces, lights, light_count, count,
-                          gathered);
+                                 const lmp_kernel_accumulated *gathered) {
+    honest.shade_preintegrated_lobe(response, diffuse, specular, surfaces, lights, light_count,
+                                    count, gathered);
     spoil_gathered(gathered);
 }
-static void wrong_shade_measured(const lmp_kernel_measured *material,
+static void wrong_shade_measured(const lmp_kernel_preintegrated_brdf *material,
                                  const lmp_kernel_surfaces *surfaces,
                                  const lmp_kernel_light *lights, size_t light_count,
                                  lmp_rgb ambient, size_t count, float *const rgb[3]) {
-    honest.shade_measured(material, surfaces, lights, light_count, ambient, count, rgb);
-    spoil_gathered(&(lmp_kernel_gathered) { { rgb[0], rgb[1], rgb[2] }, { NULL } });
+    honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
+    spoil_gathered(&(lmp_kernel_accumulated) { { rgb[0], rgb[1], rgb[2] }, { NULL } });
 }
-static void long_shade_measured(const lmp_kernel_measured *material,
+static void long_shade_measured(const lmp_kernel_preintegrated_brdf *material,
                                 const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                 size_t light_count, lmp_rgb ambient, size_t count,
                                 float *const rgb[3]) {
-    honest.shade_measured(material, surfaces, lights, light_count, ambient, count, rgb);
+    honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
     rgb[2][-1] = 0;
 }
 
@@ -723,14 +731,15 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .gradient = wrong_gradient,
                                    .lobe = wrong_lobe,
                                    .shade_zonal = wrong_shade_zonal,
-                                   .shade_response = wrong_shade_response,
-                                   .shade_measured = wrong_shade_measured };
+                                   .shade_preintegrated_lobe = wrong_shade_response,
+                                   .shade_preintegrated_brdf = wrong_shade_measured };
 
 /* In the first, a middle and the last lane and value; the checksums, too. */
 static void every_wrong_kernel_fails_the_checks(void **test) {
     (void)test;
     lmp_kernels scalar;
-    const lmp_kernels longer = { .project = long_project, .shade_measured = long_shade_measured };
+    const lmp_kernels longer = { .project = long_project,
+                                 .shade_preintegrated_brdf = long_shade_measured };
     lmp_kernels_init(&honest, LMP_CPU_ALL);
     lmp_kernels_init(&scalar, LMP_CPU_SCALAR);
     inputs *in = inputs_create(1), *same = inputs_create(2020);
@@ -748,7 +757,7 @@ static void every_wrong_kernel_fails_the_checks(void **test) {
                                  golden[which][b]);
     }
     assert_string_equal(difference(&longer, &scalar, PROJECT, 6, in, COUNT, 1), "wrong memory");
-    assert_string_equal(difference(&longer, &scalar, SHADE_MEASURED, 6, in, COUNT, 1),
+    assert_string_equal(difference(&longer, &scalar, SHADE_PREINTEGRATED_BRDF, 6, in, COUNT, 1),
                         "wrong memory");
     free(in);
     free(same);

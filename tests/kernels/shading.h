@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* shading.h - what the kernels of shading are run on, and what they should give, in double
- * precision and written from lampion/shade.h and lampion/response.h. Their tables are made of
+ * precision and written from lampion/shade.h and lampion/preintegrated.h. Their tables are made of
  * numbers that stand for no material: a kernel has to read whatever a table says. */
 #ifndef LAMPION_SHADING_H
 #define LAMPION_SHADING_H
@@ -31,10 +31,10 @@ typedef struct shading {
     _Alignas(64) float broad[3][16];
 
     lmp_kernel_slice slices[VIEWS * CAPS];
-    float view_warp[VIEW_STEPS + 1], cap_warp[CAP_STEPS + 1];
+    float view_remap[VIEW_STEPS + 1], cap_remap[CAP_STEPS + 1];
     lmp_rgb colors[VIEWS];
     int16_t *texels;
-    lmp_kernel_measured measured;
+    lmp_kernel_preintegrated_brdf measured;
 } shading;
 
 /* --- inputs ----------------------------------------------------------------------------------- */
@@ -158,25 +158,25 @@ static void make_measured(shading *s) {
                                                         : (j + steps - 1) % steps];
         }
     }
-    make_warp(s->view_warp, VIEW_STEPS, VIEWS);
-    make_warp(s->cap_warp, CAP_STEPS, CAPS);
+    make_warp(s->view_remap, VIEW_STEPS, VIEWS);
+    make_warp(s->cap_remap, CAP_STEPS, CAPS);
     for (int i = 0; i < VIEWS; i++)
         s->colors[i] = (lmp_rgb) { 0.5f, 0.25f * (float)i, 1 - 0.125f * (float)i };
-    s->measured = (lmp_kernel_measured) { .mirrored = mirrored,
-                                          .width = 0.2f,
-                                          .radius = 0.3f,
-                                          .reach = 0.5f,
-                                          .slope = 1,
-                                          .lobe_angle = 0.75f,
-                                          .view_count = VIEWS,
-                                          .cap_count = CAPS,
-                                          .view_steps = VIEW_STEPS,
-                                          .cap_steps = CAP_STEPS,
-                                          .view_warp = s->view_warp,
-                                          .cap_warp = s->cap_warp,
-                                          .ambient = s->colors,
-                                          .slices = s->slices,
-                                          .texels = s->texels };
+    s->measured = (lmp_kernel_preintegrated_brdf) { .mirrored = mirrored,
+                                                    .width = 0.2f,
+                                                    .radius = 0.3f,
+                                                    .reach = 0.5f,
+                                                    .slope = 1,
+                                                    .lobe_angle = 0.75f,
+                                                    .view_count = VIEWS,
+                                                    .cap_count = CAPS,
+                                                    .view_steps = VIEW_STEPS,
+                                                    .cap_steps = CAP_STEPS,
+                                                    .view_remap = s->view_remap,
+                                                    .cap_remap = s->cap_remap,
+                                                    .ambient = s->colors,
+                                                    .slices = s->slices,
+                                                    .texels = s->texels };
 }
 
 static shading *shading_create(const inputs *in, int bands) {
@@ -392,7 +392,7 @@ static size_t seek_warp(const float *warp, int steps, int count, double share, d
     return first;
 }
 
-/* The whole part of a coordinate that has a neighbour before and two after. */
+/* The whole part of a coordinate that has a neighbor before and two after. */
 static size_t spline_at(double at, uint32_t count, double w[4]) {
     const size_t base = (size_t)fmin(fmax(at, 1), (double)(count - 3));
     spline(fmin(fmax(at - (double)base, 0), 1), w);
@@ -444,7 +444,7 @@ static double mirror_frame(const seen *surface, double frame[3][3]) {
 
 static void read_measured(const shading *s, const seen_light *one, double frame[3][3], size_t view,
                           double later, double mean[3]) {
-    const lmp_kernel_measured *m = &s->measured;
+    const lmp_kernel_preintegrated_brdf *m = &s->measured;
     const double x = dot3(frame[0], one->axis), y = dot3(frame[1], one->axis);
     const double z = dot3(frame[2], one->axis), a = acos(1 - one->t);
     double azimuth = atan2(y, x), larger;
@@ -455,8 +455,8 @@ static void read_measured(const shading *s, const seen_light *one, double frame[
         from_rim * ((double)m->reach / ((double)m->width * hypot(from_rim, (double)m->reach)) +
                     (double)m->slope);
     const double quarter = ORACLE_PI / 2;
-    const size_t cap =
-        seek_warp(s->cap_warp, CAP_STEPS, CAPS, a / (a + 0.5) * (quarter + 0.5) / quarter, &larger);
+    const size_t cap = seek_warp(s->cap_remap, CAP_STEPS, CAPS,
+                                 a / (a + 0.5) * (quarter + 0.5) / quarter, &larger);
     memset(mean, 0, 3 * sizeof *mean);
     for (size_t k = 0; k < 4; k++)
         add_slice(s, (view + k / 2) * CAPS + cap + k % 2, row, azimuth,
@@ -470,7 +470,8 @@ static void expect_measured(const shading *s, int i, shaded *to) {
     double frame[3][3], later;
     see(s, i, &surface);
     const double theta = mirror_frame(&surface, frame);
-    const size_t view = seek_warp(s->view_warp, VIEW_STEPS, VIEWS, theta / (ORACLE_PI / 2), &later);
+    const size_t view =
+        seek_warp(s->view_remap, VIEW_STEPS, VIEWS, theta / (ORACLE_PI / 2), &later);
     const lmp_rgb *color = &s->colors[view];
     const double all[3] = {
         (1 - later) * (double)color[0].r + later * (double)color[1].r,

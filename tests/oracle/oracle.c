@@ -51,7 +51,7 @@ void oracle_legendre(int bands, double t, double *p) {
 }
 
 /* K_m^m of paper Eq. 2. */
-static long double first_normalisation(int m) {
+static long double first_normalization(int m) {
     long double k = sqrtl((2 * m + 1) / (4 * (long double)pi));
     for (int i = 1; i <= 2 * m; i++)
         k /= sqrtl(i);
@@ -69,7 +69,7 @@ void oracle_sh_eval(int bands, const double direction[3], double *sh) {
         long double before = 0, now = 1;
         for (int k = 1; k <= m; k++)
             now *= -(2 * k - 1) * (long double)sine;
-        long double k = first_normalisation(m);
+        long double k = first_normalization(m);
         const double c = cos(m * phi), s = sin(m * phi);
         for (int l = m; l < bands; l++) {
             const double value = (double)(k * now);
@@ -130,19 +130,19 @@ void oracle_project(int bands, oracle_function function, void *user, int nodes, 
 
 /* --- caps and spheres ------------------------------------------------------------------------- */
 
-void oracle_cap_zonal(int bands, double one_minus, double *zonal) {
+void oracle_cap_zonal(int bands, double one_minus_cos, double *zonal) {
     const int nodes = bands / 2 + 1;
     double x[ORACLE_BANDS_MAX], weight[ORACLE_BANDS_MAX], p[ORACLE_BANDS_MAX];
     oracle_gauss_legendre(nodes, x, weight);
     memset(zonal, 0, (size_t)bands * sizeof *zonal);
     for (int i = 0; i < nodes; i++) {
-        legendre(bands, 1 - (long double)one_minus * (1 - (long double)x[i]) / 2, p);
+        legendre(bands, 1 - (long double)one_minus_cos * (1 - (long double)x[i]) / 2, p);
         for (int l = 0; l < bands; l++)
-            zonal[l] += sqrt((2 * l + 1) / (4 * pi)) * pi * one_minus * weight[i] * p[l];
+            zonal[l] += sqrt((2 * l + 1) / (4 * pi)) * pi * one_minus_cos * weight[i] * p[l];
     }
 }
 
-void oracle_cap(int bands, const double axis[3], double one_minus, double *sh) {
+void oracle_cap(int bands, const double axis[3], double one_minus_cos, double *sh) {
     const int nodes = bands / 2 + 1, azimuths = 2 * bands;
     const size_t count = (size_t)bands * (size_t)bands;
     double x[ORACLE_BANDS_MAX], weight[ORACLE_BANDS_MAX], w[3], u[3], v[3];
@@ -152,7 +152,7 @@ void oracle_cap(int bands, const double axis[3], double one_minus, double *sh) {
     frame(w, u, v);
     memset(sh, 0, count * sizeof *sh);
     for (int i = 0; i < nodes; i++) {
-        const double drop = one_minus * (1 - x[i]) / 2, sine = sqrt(drop * (2 - drop));
+        const double drop = one_minus_cos * (1 - x[i]) / 2, sine = sqrt(drop * (2 - drop));
         for (int j = 0; j < azimuths; j++) {
             const double c = cos(2 * pi * j / azimuths), s = sin(2 * pi * j / azimuths);
             double direction[3];
@@ -160,7 +160,7 @@ void oracle_cap(int bands, const double axis[3], double one_minus, double *sh) {
                 direction[k] = sine * (c * u[k] + s * v[k]) + (1 - drop) * w[k];
             oracle_sh_eval(bands, direction, y);
             for (size_t k = 0; k < count; k++)
-                sh[k] += one_minus / 2 * weight[i] * 2 * pi / azimuths * y[k];
+                sh[k] += one_minus_cos / 2 * weight[i] * 2 * pi / azimuths * y[k];
         }
     }
     free(y);

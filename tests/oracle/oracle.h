@@ -2,7 +2,7 @@
 /* oracle.h - the reference the library is held to: double precision, slow, written from the
  * definitions (associated Legendre functions, angles, quadrature), calling nothing of the library.
  *
- * Directions are normalised here, so they may have any length. Arrays are as in lampion/sh.h. */
+ * Directions are normalized here, so they may have any length. Arrays are as in lampion/sh.h. */
 #ifndef LAMPION_ORACLE_H
 #define LAMPION_ORACLE_H
 
@@ -25,12 +25,12 @@ void oracle_gauss_legendre(int count, double *nodes, double *weights);
 typedef double (*oracle_function)(const double w[3], void *user);
 void oracle_project(int bands, oracle_function function, void *user, int nodes, double *sh);
 
-/* Zonal coefficients of a cap of radiance 1, one_minus = 1 - cos a in 0 … 2: the integral of Y_l0
- * over the cap. */
-void oracle_cap_zonal(int bands, double one_minus, double *zonal);
+/* Zonal coefficients of a cap of radiance 1, one_minus_cos = 1 - cos a in 0 … 2: the integral of
+ * Y_l0 over the cap. */
+void oracle_cap_zonal(int bands, double one_minus_cos, double *zonal);
 
 /* Coefficients of a cap round `axis` by quadrature over the cap itself, in two dimensions. */
-void oracle_cap(int bands, const double axis[3], double one_minus, double *sh);
+void oracle_cap(int bands, const double axis[3], double one_minus_cos, double *sh);
 
 /* Coefficients at `point` of a sphere of radiance 1; on and inside it the convention of
  * lampion/light.h. gradient (may be NULL): three planes d/dx d/dy d/dz by the point's position. */

@@ -398,8 +398,8 @@ static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) 
     assert_lights_refused(
         "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,\"radiance\":1}]}",
         "lights[0] needs one");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"colour\":1}]}",
-                          "unknown key \"colour\"");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"color\":1}]}",
+                          "unknown key \"color\"");
     assert_lights_refused(
         "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"radius\":2,\"power\":1}]}", "twice");
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion basis: the figure has its colours where they belong, at any size, or no file at all.
+# lampion basis: the figure has its colors where they belong, at any size, or no file at all.
 set -eu
 . tests/house/common.sh
 

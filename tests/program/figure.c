@@ -22,7 +22,7 @@ static float ball(lmp_vec3 direction, const void *user) {
     return *(const float *)user;
 }
 
-static void positive_is_above_and_negative_below_in_their_colours(void **state) {
+static void positive_is_above_and_negative_below_in_their_colors(void **state) {
     (void)state;
     image picture;
     cli_error error;
@@ -70,7 +70,7 @@ static void what_lies_outside_of_the_picture_is_not_drawn(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(positive_is_above_and_negative_below_in_their_colours),
+        cmocka_unit_test(positive_is_above_and_negative_below_in_their_colors),
         cmocka_unit_test(a_ball_covers_the_area_of_a_disc_without_holes),
         cmocka_unit_test(what_lies_outside_of_the_picture_is_not_drawn),
     };

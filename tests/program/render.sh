@@ -43,7 +43,7 @@ for word in '"triangles"' '"zonal_speedup"' '"coefficients"' '"device"' '"shade"
     grep -q "$word" "$WORK/stats" || fail "--stats without $word"
 done
 
-# samples smooth: more distinct grey levels at edges means other bytes
+# samples smooth: more distinct gray levels at edges means other bytes
 "$PROGRAM" render builtin:balls $small --samples 4 -o "$WORK/smooth.png"
 cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"
 

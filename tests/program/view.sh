@@ -109,7 +109,7 @@ eye=$(value eye)
 xdotool click 4
 until_true "zooming" isnt value eye "$eye"
 
-# lights: another one, larger, of another colour, gone
+# lights: another one, larger, of another color, gone
 xdotool mousemove 160 120 key n
 until_true "adding a light" is value selected 2
 xdotool key bracketright h Delete

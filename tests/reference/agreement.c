@@ -54,7 +54,7 @@ static sight seen_by_ray(const scene *world, const reference_tracer *tracer, ref
     return s;
 }
 
-/* Whether the rasteriser and the ray through the pixel's centre found the same piece of surface:
+/* Whether the rasterizer and the ray through the pixel's center found the same piece of surface:
  * along an edge either may be right. */
 static bool same_sight(const gpu_pixel *pixel, const sight *ray, reference_vec eye) {
     if (pixel->kind != ray->kind || ray->kind != GPU_KIND_SURFACE)
@@ -66,7 +66,7 @@ static bool same_sight(const gpu_pixel *pixel, const sight *ray, reference_vec e
     return reference_length(reference_subtract(position, ray->position)) <= 1e-3 * distance &&
            reference_dot(normal, ray->normal) >= 0.9999;
 }
-/* What the rays through the pixels' centres meet; free() it. */
+/* What the rays through the pixels' centers meet; free() it. */
 static sight *look(const scene *world, const scene_camera *camera) {
     sight *sights = malloc(WIDTH * HEIGHT * sizeof *sights);
     reference_tracer *tracer;

@@ -104,7 +104,7 @@ static void the_inside_of_a_glowing_sphere_is_lit_from_everywhere(void **state) 
     }
 }
 
-/* A sphere whose centre lies on the horizon is seen by half: E = L (a - sin a cos a), by
+/* A sphere whose center lies on the horizon is seen by half: E = L (a - sin a cos a), by
  * integrating y over the half cap. */
 static void the_horizon_cuts_a_light(void **state) {
     (void)state;
@@ -305,13 +305,13 @@ static void cutting_a_lobe_costs_what_the_theory_says(void **state) {
 static reference_result estimate_measured(const reference_material_source *source,
                                           reference_vec view, const scene_light *lights,
                                           size_t count) {
-    reference_measured measured;
+    reference_tabulated measured;
     reference_surface surface = surface_of(&whole, &white, view);
-    assert_true(reference_measured_create(&measured, source, 1));
-    reference_measured_aim(&measured, source, up, (reference_vec) { 1, 0, 0 }, view);
+    assert_true(reference_tabulated_create(&measured, source, 1));
+    reference_tabulated_aim(&measured, source, up, (reference_vec) { 1, 0, 0 }, view);
     reference_surface_measure(&surface, &measured, up, view);
     const reference_result result = estimate(&surface, lights, count, 20000, 11);
-    reference_measured_free(&measured);
+    reference_tabulated_free(&measured);
     return result;
 }
 

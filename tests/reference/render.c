@@ -81,7 +81,7 @@ static void draw_plain(const stage *s, image *radiance) {
     image_free(&standard_error);
 }
 
-/* The floor point seen through the centre of a pixel, from the camera's definition. */
+/* The floor point seen through the center of a pixel, from the camera's definition. */
 static reference_vec floor_point(const stage *s, int x, int y) {
     const double top = tan((double)s->settings.camera.fov / 2);
     const reference_vec eye = reference_from_floats(s->settings.camera.eye);

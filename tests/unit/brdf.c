@@ -173,14 +173,14 @@ static void every_sgd_material_is_finite_everywhere(void **state) {
  */
 
 typedef lmp_result (*writer)(const lmp_brdf *, const lmp_allocator *, void **, size_t *);
-typedef lmp_result (*reader)(const lmp_allocator *, const void *, size_t, lmp_brdf_fault *,
+typedef lmp_result (*reader)(const lmp_allocator *, const void *, size_t, lmp_parse_error *,
                              lmp_brdf **);
 
 static lmp_brdf *through(const lmp_brdf *brdf, writer write, reader read) {
     void *data = NULL;
     size_t size = 0;
     lmp_brdf *copy = NULL;
-    lmp_brdf_fault fault = { 0 };
+    lmp_parse_error fault = { 0 };
     assert_int_equal(write(brdf, NULL, &data, &size), LMP_OK);
     if (read(NULL, data, size, &fault, &copy) != LMP_OK)
         fail_msg("%s", fault.text);
@@ -239,8 +239,8 @@ static void rgl_round_trips_to_its_grid(void **state) {
     round_trips(lmp_brdf_write_rgl, lmp_brdf_read_rgl, bounds);
 }
 
-/* The pair of directions at the centre of a cell of a full file (Matusik et al. 2003), h in x-z. */
-static void merl_centre(int theta_h, int theta_d, int phi_d, double a[3], double b[3]) {
+/* The pair of directions at the center of a cell of a full file (Matusik et al. 2003), h in x-z. */
+static void merl_center(int theta_h, int theta_d, int phi_d, double a[3], double b[3]) {
     const double root = (theta_h + 0.5) / 90, h = ORACLE_PI / 2 * root * root;
     const double d = ORACLE_PI / 2 * (theta_d + 0.5) / 90, phi = ORACLE_PI * (phi_d + 0.5) / 180;
     const double x = sin(d) * cos(phi), y = sin(d) * sin(phi), z = cos(d);
@@ -272,7 +272,7 @@ static void merl_cell_centres_are_exact(void **state) {
         const int i = (int)(90 * check_random()), j = (int)(90 * check_random());
         const int k = (int)(180 * check_random());
         double a[3], b[3], rgb[3];
-        merl_centre(i, j, k, a, b);
+        merl_center(i, j, k, a, b);
         if (a[2] <= 0 || b[2] <= 0)
             continue;
         above++;
@@ -377,7 +377,7 @@ static lmp_result read_small_merl(const lmp_allocator *allocator) {
 
 static void expect_fault(reader read, const void *data, size_t size, const char *text) {
     lmp_brdf *brdf = NULL;
-    lmp_brdf_fault fault = { 0 };
+    lmp_parse_error fault = { 0 };
     assert_int_not_equal(read(NULL, data, size, &fault, &brdf), LMP_OK);
     assert_null(brdf);
     if (!strstr(fault.text, text))

@@ -132,7 +132,7 @@ static unsigned char *bytes_of(const tensor *t, size_t *size) {
 
 static lmp_brdf *read_bytes(const unsigned char *bytes, size_t size) {
     lmp_brdf *brdf = NULL;
-    lmp_brdf_fault fault = { 0 };
+    lmp_parse_error fault = { 0 };
     if (lmp_brdf_read_rgl(NULL, bytes, size, &fault, &brdf) != LMP_OK)
         fail_msg("%s", fault.text);
     return brdf;
@@ -208,7 +208,7 @@ static void unknown_fields_are_skipped(void **state) {
     lmp_brdf_destroy(opened(t));
 }
 
-static void spectral_colour(size_t count, const float *nm, const float *spectrum, double rgb[3]) {
+static void spectral_color(size_t count, const float *nm, const float *spectrum, double rgb[3]) {
     tensor t = flat_spectral(count, nm, spectrum);
     find(&t, "jacobian")->values[0] = 0;
     lmp_brdf *brdf = opened(t);
@@ -226,7 +226,7 @@ static void flat_spectra_are_grey(void **state) {
         spectrum[i] = 0.75f;
     }
     double rgb[3];
-    spectral_colour(40, nm, spectrum, rgb);
+    spectral_color(40, nm, spectrum, rgb);
     for (int c = 0; c < 3; c++)
         CHECK_WITHIN(fabs(rgb[c] - 0.75), 1e-6);
 }
@@ -259,8 +259,8 @@ static void srgb_of(const double xyz[3], double rgb[3]) {
     multiply(primaries, adapted, rgb);
 }
 
-/* A line of the CIE's own table on a grey ground, which keeps negative colours in sight. */
-static void spectral_lines_have_the_colour_of_the_observer(void **state) {
+/* A line of the CIE's own table on a gray ground, which keeps negative colors in sight. */
+static void spectral_lines_have_the_color_of_the_observer(void **state) {
     (void)state;
     static const float nm[3] = { 450, 550, 600 };
     static const double width[3] = { 50, 75, 25 };
@@ -276,7 +276,7 @@ static void spectral_lines_have_the_colour_of_the_observer(void **state) {
         srgb_of(xyz, expected);
         float spectrum[3] = { 1, 1, 1 };
         spectrum[line] += 1;
-        spectral_colour(3, nm, spectrum, rgb);
+        spectral_color(3, nm, spectrum, rgb);
         for (int c = 0; c < 3; c++)
             CHECK_WITHIN(fabs(rgb[c] - 1 - expected[c]), 0.03);
     }
@@ -382,7 +382,7 @@ static void parts_of_a_turn_are_folded(void **state) {
 static void expect_fault(const unsigned char *bytes, size_t size, lmp_result result,
                          const char *text) {
     lmp_brdf *brdf = NULL;
-    lmp_brdf_fault fault = { 0 };
+    lmp_parse_error fault = { 0 };
     const lmp_result got = lmp_brdf_read_rgl(NULL, bytes, size, &fault, &brdf);
     assert_null(brdf);
     if (!strstr(fault.text, text))
@@ -633,7 +633,7 @@ static void every_failing_allocation_is_reported(void **state) {
             check_heap heap = { .refuse = refuse };
             const lmp_allocator allocator = check_allocator(&heap);
             lmp_brdf *brdf = NULL;
-            lmp_brdf_fault fault = { 0 };
+            lmp_parse_error fault = { 0 };
             const lmp_result result = lmp_brdf_read_rgl(&allocator, bytes, size, &fault, &brdf);
             lmp_brdf_destroy(brdf);
             assert_int_equal(heap.live, 0);
@@ -654,7 +654,7 @@ int main(void) {
         cmocka_unit_test(negative_samples_reflect_nothing),
         cmocka_unit_test(unknown_fields_are_skipped),
         cmocka_unit_test(flat_spectra_are_grey),
-        cmocka_unit_test(spectral_lines_have_the_colour_of_the_observer),
+        cmocka_unit_test(spectral_lines_have_the_color_of_the_observer),
         cmocka_unit_test(parts_of_a_turn_are_folded),
         cmocka_unit_test(headers_are_checked),
         cmocka_unit_test(directories_are_checked),

@@ -334,7 +334,7 @@ static void files_of_tables_round_trip(void **state) {
         size_t size = 0;
         unsigned char *bytes = written(brdfs[i], &desc, &size);
         lmp_brdf_table *copy = NULL;
-        lmp_brdf_fault fault = { 0 };
+        lmp_parse_error fault = { 0 };
         assert_int_equal(lmp_brdf_table_read(NULL, bytes, size, &fault, &copy), LMP_OK);
         const lmp_brdf_table_info info = lmp_brdf_table_describe(copy);
         assert_int_equal(info.azimuths, i == 0 ? 1 : 6);
@@ -379,7 +379,7 @@ static void damaged_tables_are_refused_with_their_reason(void **state) {
         const unsigned char before = bytes[damages[i].offset];
         bytes[damages[i].offset] = damages[i].value;
         lmp_brdf_table *table = NULL;
-        lmp_brdf_fault fault = { 0 };
+        lmp_parse_error fault = { 0 };
         assert_int_equal(lmp_brdf_table_read(NULL, bytes, damages[i].size, &fault, &table),
                          damages[i].result);
         assert_null(table);

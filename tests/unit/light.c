@@ -16,7 +16,7 @@ static void wide(lmp_vec3 v, double w[3]) {
     w[0] = (double)v.x, w[1] = (double)v.y, w[2] = (double)v.z;
 }
 
-/* The light's planes against `unit` times each channel of its colour; bound relative. */
+/* The light's planes against `unit` times each channel of its color; bound relative. */
 static void check_planes(const lmp_light *light, lmp_vec3 point, const double *unit,
                          lmp_rgb color) {
     float sh[3 * COUNT];
@@ -29,7 +29,7 @@ static void check_planes(const lmp_light *light, lmp_vec3 point, const double *u
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-5);
 }
 
-/* lmp_light_zonal says the same as lmp_light_project of colour 1. */
+/* lmp_light_zonal says the same as lmp_light_project of color 1. */
 static void check_zonal(const lmp_light *light, lmp_vec3 point) {
     lmp_light white = *light;
     white.radiance = (lmp_rgb) { 1, 1, 1 };

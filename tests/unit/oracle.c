@@ -85,11 +85,11 @@ static void agrees_with_quadrature_over_the_cap(void **state) {
     for (int i = 0; i < 5; i++) {
         const lmp_vec3 axis = check_random_direction();
         const double w[3] = { (double)axis.x, (double)axis.y, (double)axis.z };
-        const double one_minus = 2 * pow(sin(angles[i] / 2), 2);
+        const double one_minus_cos = 2 * pow(sin(angles[i] / 2), 2);
         double zonal[12], y[144], expected[144], sh[144];
-        oracle_cap_zonal(12, one_minus, zonal);
+        oracle_cap_zonal(12, one_minus_cos, zonal);
         oracle_sh_eval(12, w, y);
-        oracle_cap(12, w, one_minus, expected);
+        oracle_cap(12, w, one_minus_cos, expected);
         for (int l = 0; l < 12; l++)
             for (int k = l * l; k < (l + 1) * (l + 1); k++)
                 sh[k] = zonal[l] * sqrt(4 * ORACLE_PI / (2 * l + 1)) * y[k];

@@ -78,7 +78,7 @@ static void calls_the_function_as_often_as_documented(void **state) {
 
 /* --- pictures --------------------------------------------------------------------------------- */
 
-/* The direction of a pixel's centre by the words of the header. */
+/* The direction of a pixel's center by the words of the header. */
 static void pixel_direction(int width, int height, int row, int column, double w[3]) {
     const double polar = ORACLE_PI * (row + 0.5) / height;
     const double azimuth = 2 * ORACLE_PI * (column + 0.5) / width - ORACLE_PI;

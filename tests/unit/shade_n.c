@@ -89,7 +89,7 @@ static lmp_rgb by_bands(const vertex *v, const void *settings) {
     return lmp_shade(settings, &v->material, &v->surface, lights, LIGHTS);
 }
 
-/* Straight from lmp_response_eval, light by light. */
+/* Straight from lmp_preintegrated_lobe_eval, light by light. */
 static lmp_rgb by_response(const vertex *v, const void *response) {
     const lmp_vec3 n = v->surface.normal, e = v->surface.view;
     const float twice = 2 * (n.x * e.x + n.y * e.y + n.z * e.z);
@@ -99,10 +99,10 @@ static lmp_rgb by_response(const vertex *v, const void *response) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], v->surface.position, &cap);
         const lmp_vec3 w = cap.axis;
-        const float diffuse =
-            lmp_response_eval(response, 1, cap.one_minus, n.x * w.x + n.y * w.y + n.z * w.z);
-        const float specular = lmp_response_eval(response, v->material.exponent, cap.one_minus,
-                                                 r.x * w.x + r.y * w.y + r.z * w.z);
+        const float diffuse = lmp_preintegrated_lobe_eval(response, 1, cap.one_minus_cos,
+                                                          n.x * w.x + n.y * w.y + n.z * w.z);
+        const float specular = lmp_preintegrated_lobe_eval(
+            response, v->material.exponent, cap.one_minus_cos, r.x * w.x + r.y * w.y + r.z * w.z);
         const lmp_rgb d = v->material.diffuse, s = v->material.specular;
         sum[0] += (double)(cap.strength.r * (d.r * diffuse + s.r * specular) +
                            cap.ambient.r * (d.r + s.r));
@@ -159,7 +159,7 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
     moved.direction = across(s->normal, s->view);
     const lmp_rgb specular = lmp_shade(settings, &narrow, s, &moved, 1);
     const lmp_rgb d = v->material.diffuse, e = v->material.specular;
-    const double bound = cap.one_minus > 0.95f ? 5e-4 : 3e-6 + 2e-7 * n * n;
+    const double bound = cap.one_minus_cos > 0.95f ? 5e-4 : 3e-6 + 2e-7 * n * n;
     sum[0] += bound * (double)(diffuse.r + specular.r + (d.r + e.r) * cap.ambient.r);
     sum[1] += bound * (double)(diffuse.g + specular.g + (d.g + e.g) * cap.ambient.g);
     sum[2] += bound * (double)(diffuse.b + specular.b + (d.b + e.b) * cap.ambient.b);
@@ -238,10 +238,10 @@ static void many_surfaces_are_read_from_a_response_as_one_is(void **state) {
     const lmp_surfaces surfaces = interleaved();
     const int bands[] = { 1, 2, 8, 50 };
     for (size_t b = 0; b < sizeof bands / sizeof bands[0]; b++) {
-        lmp_response *response;
-        const lmp_response_desc desc = { .bands = bands[b] };
+        lmp_preintegrated_lobe *response;
+        const lmp_preintegrated_lobe_desc desc = { .bands = bands[b] };
         const lmp_shade_settings settings = { .bands = bands[b] };
-        assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
         for (int kinds = 0; kinds < 2; kinds++) {
             scatter(kinds != 0);
             lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
@@ -249,7 +249,7 @@ static void many_surfaces_are_read_from_a_response_as_one_is(void **state) {
             /* Its own largest value may miss the peak of a light, which the error is a part of. */
             CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 2e-2);
         }
-        lmp_response_destroy(response);
+        lmp_preintegrated_lobe_destroy(response);
     }
 }
 
@@ -257,8 +257,8 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
     (void)state;
     static float first[2][COUNT * 3], rgb[2][COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
-    lmp_response *response;
-    assert_int_equal(lmp_response_create(NULL, NULL, &response), LMP_OK);
+    lmp_preintegrated_lobe *response;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &response), LMP_OK);
     scatter(true);
     for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
         if (lmp_cpu_mask(flag) != flag)
@@ -270,7 +270,7 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
         assert_memory_equal(first, rgb, sizeof rgb);
     }
     lmp_cpu_mask(LMP_CPU_ALL);
-    lmp_response_destroy(response);
+    lmp_preintegrated_lobe_destroy(response);
 }
 
 static void any_count_and_any_stride_writes_only_its_own(void **state) {
@@ -300,10 +300,10 @@ static void not_a_number_stays_with_its_surface(void **state) {
     static float whole[COUNT * 3], rgb[COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
     for (int bands = 1; bands <= 20; bands++) {
-        const lmp_response_desc desc = { .bands = bands, .error = 0.05f };
+        const lmp_preintegrated_lobe_desc desc = { .bands = bands, .error = 0.05f };
         const lmp_shade_settings settings = { .bands = bands };
-        lmp_response *response;
-        assert_int_equal(lmp_response_create(NULL, &desc, &response), LMP_OK);
+        lmp_preintegrated_lobe *response;
+        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
         for (int method = 0; method < 2; method++) {
             scatter(true);
             /* A debug build asserts that a spot's cone is seen from somewhere. */
@@ -328,7 +328,7 @@ static void not_a_number_stays_with_its_surface(void **state) {
         scatter(true);
         lights[0].radius = lights[6].position.x = NAN;
         lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
-        lmp_response_destroy(response);
+        lmp_preintegrated_lobe_destroy(response);
     }
 }
 

@@ -134,7 +134,7 @@ static void anisotropic_tables_shade_by_the_tangent(void **state) {
 }
 
 /* Straight down, along the normal, and from below: finite everywhere. */
-static void odd_views_give_finite_colours(void **state) {
+static void odd_views_give_finite_colors(void **state) {
     (void)state;
     lmp_brdf *brdf = NULL;
     assert_int_equal(lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 1, 1 }, 20, &brdf), LMP_OK);
@@ -155,7 +155,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lambert_tables_shade_as_the_diffuse_lobe),
         cmocka_unit_test(anisotropic_tables_shade_by_the_tangent),
-        cmocka_unit_test(odd_views_give_finite_colours),
+        cmocka_unit_test(odd_views_give_finite_colors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -106,7 +106,7 @@ static void is_continuous_across_the_surface(void **state) {
     }
 }
 
-static void is_continuous_across_the_centre(void **state) {
+static void is_continuous_across_the_center(void **state) {
     (void)state;
     float one[100], other[100];
     double expected[100];
@@ -174,7 +174,7 @@ static void derives_as_the_oracle_does_outside_and_inside(void **state) {
     }
 }
 
-static void derives_finitely_on_the_surface_and_at_the_centre(void **state) {
+static void derives_finitely_on_the_surface_and_at_the_center(void **state) {
     (void)state;
     const lmp_vec3 origin = { 0, 0, 0 };
     const float xs[] = { 0, 1e-30f, 0.5f, 0.9999999f, 1, 1.0000001f };
@@ -205,11 +205,11 @@ int main(void) {
         cmocka_unit_test(gives_zonal_coefficients_of_100_bands),
         cmocka_unit_test(projects_as_its_zonal_coefficients_turned),
         cmocka_unit_test(is_continuous_across_the_surface),
-        cmocka_unit_test(is_continuous_across_the_centre),
+        cmocka_unit_test(is_continuous_across_the_center),
         cmocka_unit_test(of_no_size_is_dark_even_where_it_is),
         cmocka_unit_test(stays_finite_however_far_or_small),
         cmocka_unit_test(derives_as_the_oracle_does_outside_and_inside),
-        cmocka_unit_test(derives_finitely_on_the_surface_and_at_the_centre),
+        cmocka_unit_test(derives_finitely_on_the_surface_and_at_the_center),
         cmocka_unit_test(derives_128_bands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* A response for shaders/preintegrated_lobe.glsl: its cells side by side in one texture. */
+#include "app/gpu/internal.h"
+
+#include <string.h>
+
+enum { ATLAS_WIDTH = 2048 };
+
+/* Where a cell's first pair lies. */
+typedef struct corner {
+    GLint x, y;
+} corner;
+
+/* Cells from left to right, on shelves from the top; returns the height. */
+static GLsizei place_cells(const lmp_preintegrated_lobe_info *info, corner *corners) {
+    GLint x = 0, top = 0, bottom = 0;
+    for (uint32_t i = 0; i < info->cell_count; i++) {
+        const GLint columns = (GLint)info->cells[i].columns, rows = (GLint)info->cells[i].rows;
+        if (x + columns > ATLAS_WIDTH) {
+            x = 0;
+            top = bottom;
+        }
+        corners[i] = (corner) { x, top };
+        x += columns;
+        bottom = top + rows > bottom ? top + rows : bottom;
+    }
+    return bottom;
+}
+
+static void upload_cells(const lmp_preintegrated_lobe_info *info, const corner *corners,
+                         GLsizei height, GLuint *texture) {
+    glDeleteTextures(1, texture);
+    glCreateTextures(GL_TEXTURE_2D, 1, texture);
+    glTextureStorage2D(*texture, 1, GL_RG16_SNORM, ATLAS_WIDTH, height);
+    glTextureParameteri(*texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(*texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (uint32_t i = 0; i < info->cell_count; i++)
+        glTextureSubImage2D(*texture, 0, corners[i].x, corners[i].y,
+                            (GLsizei)info->cells[i].columns, (GLsizei)info->cells[i].rows, GL_RG,
+                            GL_SHORT, info->coefficients + 2 * (size_t)info->cells[i].first);
+}
+
+static void upload_block(const lmp_preintegrated_lobe_info *info, const corner *corners,
+                         GLsizei height, GLuint *buffer) {
+    shared_response block = { .shape = { info->width2, (float)info->cell_count, 1.0f / ATLAS_WIDTH,
+                                         1 / (float)height } };
+    for (uint32_t i = 0; i < info->cell_count; i++) {
+        block.cells[i][0] = info->cells[i].scale;
+        block.cells[i][1] = info->cells[i].offset;
+        block.cells[i][2] = (float)corners[i].x;
+        block.cells[i][3] = (float)corners[i].y;
+    }
+    memcpy(block.warp, info->warp, LMP_PREINTEGRATED_LOBE_REMAP_COUNT * sizeof(float));
+    glDeleteBuffers(1, buffer);
+    glCreateBuffers(1, buffer);
+    glNamedBufferStorage(*buffer, sizeof block, &block, 0);
+}
+
+bool gpu_bind_preintegrated_lobe(gpu_renderer *r, const lmp_preintegrated_lobe *response,
+                                 cli_error *error) {
+    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(response);
+    if (r->response != response || r->response_bands != info.bands ||
+        r->response_window != info.window) {
+        corner corners[SHARED_PREINTEGRATED_LOBE_CELLS];
+        if (info.cell_count > SHARED_PREINTEGRATED_LOBE_CELLS)
+            return cli_fail(error, NULL, "a response of %u cells: the shaders take %d",
+                            info.cell_count, SHARED_PREINTEGRATED_LOBE_CELLS);
+        const GLsizei height = place_cells(&info, corners);
+        upload_cells(&info, corners, height, &r->response_pairs);
+        upload_block(&info, corners, height, &r->response_block);
+        r->response = response;
+        r->response_bands = info.bands;
+        r->response_window = info.window;
+    }
+    glBindTextureUnit(SHARED_PREINTEGRATED_LOBE_PAIRS, r->response_pairs);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_LOBE, r->response_block);
+    return true;
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/kernels/batch.h"
+
+#include <lampion/light.h>
+
+#include <assert.h>
+
+typedef struct batch_pairs {
+    lmp_batch_vec3 center, point;
+    lmp_batch_plane radius;
+} batch_pairs;
+
+void lmp_sphere_zonal_n(int bands, lmp_float_array radii, lmp_float_array distances, size_t count,
+                        lmp_sh_layout layout, size_t stride, float *zonal) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernels *kernels = lmp_kernels_get();
+    lmp_batch_plane radius, distance;
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(count, first);
+        const lmp_kernel_out out =
+            lmp_batch_out(zonal, (size_t)bands, count, layout == LMP_SH_PLANAR, stride, first);
+        lmp_batch_floats(radii.at, radii.stride, first, n, &radius);
+        lmp_batch_floats(distances.at, distances.stride, first, n, &distance);
+        kernels->zonal(bands, radius.at, distance.at, n, &out);
+    }
+}
+
+static void batch_project(int bands, const batch_pairs *pairs, size_t count,
+                          const lmp_kernel_out *out) {
+    const lmp_kernel_pairs in = {
+        { pairs->center.x.at, pairs->center.y.at, pairs->center.z.at },
+        { pairs->point.x.at, pairs->point.y.at, pairs->point.z.at },
+        pairs->radius.at,
+    };
+    lmp_kernels_get()->project(bands, &in, count, out);
+}
+
+void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array points,
+                          size_t count, lmp_sh_layout layout, size_t stride, float *sh) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    batch_pairs pairs;
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(count, first);
+        const lmp_kernel_out out =
+            lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
+        lmp_batch_vectors(&spheres->center, first, n, &pairs.center);
+        lmp_batch_vectors(&points, first, n, &pairs.point);
+        lmp_batch_floats(spheres->radius.at, spheres->radius.stride, first, n, &pairs.radius);
+        batch_project(bands, &pairs, n, &out);
+    }
+}
+
+/* Copies sphere `sphere` and point `point` to element i. */
+static void batch_pair(const lmp_spheres *spheres, size_t sphere, const lmp_vec3_array *points,
+                       size_t point, size_t i, batch_pairs *pairs) {
+    const size_t center = sphere * spheres->center.stride, at = point * points->stride;
+    memcpy(&pairs->center.x.at[i], (const char *)spheres->center.x + center, sizeof(float));
+    memcpy(&pairs->center.y.at[i], (const char *)spheres->center.y + center, sizeof(float));
+    memcpy(&pairs->center.z.at[i], (const char *)spheres->center.z + center, sizeof(float));
+    memcpy(&pairs->radius.at[i], (const char *)spheres->radius.at + sphere * spheres->radius.stride,
+           sizeof(float));
+    memcpy(&pairs->point.x.at[i], (const char *)points->x + at, sizeof(float));
+    memcpy(&pairs->point.y.at[i], (const char *)points->y + at, sizeof(float));
+    memcpy(&pairs->point.z.at[i], (const char *)points->z + at, sizeof(float));
+}
+
+void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere_count,
+                            lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
+                            size_t stride, float *sh) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const size_t count = sphere_count * point_count;
+    size_t sphere = 0, point = 0;
+    /* Zero: the lanes past the last pair are read too. */
+    batch_pairs pairs = { 0 };
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(count, first);
+        const lmp_kernel_out out =
+            lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
+        for (size_t i = 0; i < n; i++) {
+            batch_pair(spheres, sphere, &points, point, i, &pairs);
+            if (++sphere == sphere_count) {
+                sphere = 0;
+                point++;
+            }
+        }
+        batch_project(bands, &pairs, n, &out);
+    }
+}
+
+void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
+                             lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
+                             size_t stride, float *sh) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernels *kernels = lmp_kernels_get();
+    const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
+                                       sphere_count };
+    lmp_batch_vec3 planes;
+    for (size_t first = 0; first < point_count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(point_count, first);
+        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, &planes);
+        const lmp_kernel_out out = lmp_batch_out(sh, 3 * LMP_SH_COUNT(bands), point_count,
+                                                 layout == LMP_SH_PLANAR, stride, first);
+        kernels->accumulate(bands, &lights, &vectors, n, &out);
+    }
+}
+
+void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
+                                      lmp_vec3_array points, size_t point_count,
+                                      lmp_sh_layout layout, size_t stride, float *sh,
+                                      size_t gradient_stride, float *gradient) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernels *kernels = lmp_kernels_get();
+    const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
+                                       sphere_count };
+    const int planar = layout == LMP_SH_PLANAR;
+    lmp_batch_vec3 planes;
+    for (size_t first = 0; first < point_count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(point_count, first), values = LMP_SH_COUNT(bands);
+        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, &planes);
+        const lmp_kernel_out out =
+            lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
+        const lmp_kernel_out slopes =
+            lmp_batch_out(gradient, 9 * values, point_count, planar, gradient_stride, first);
+        kernels->gradient(bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
+    }
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/kernels/batch.h"
+
+#include <lampion/lobe.h>
+
+#include <assert.h>
+
+void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array axes,
+                         const lmp_spheres *spheres, size_t sphere_count, lmp_vec3_array points,
+                         size_t point_count, lmp_sh_layout layout, size_t stride, float *response) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernels *kernels = lmp_kernels_get();
+    const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
+                                       sphere_count };
+    lmp_batch_vec3 point_planes, axis_planes;
+    for (size_t first = 0; first < point_count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(point_count, first);
+        const lmp_kernel_vec3 at = lmp_batch_vectors(&points, first, n, &point_planes);
+        const lmp_kernel_vec3 round = lmp_batch_vectors(&axes, first, n, &axis_planes);
+        const lmp_kernel_out out =
+            lmp_batch_out(response, 3, point_count, layout == LMP_SH_PLANAR, stride, first);
+        kernels->lobe(bands, lambda, &round, &lights, &at, n, &out);
+    }
+}

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT */
+/* measured_nodes.c - which views and which half angles of caps a measured material's response
+ * holds: steps between which its values are linear, to a part of the error. */
+#include "src/preintegrated/brdf_make.h"
+
+#include "src/base/allocator.h"
+#include "src/base/parallel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define PROBES    4
+#define COLUMNS   8   /* intervals of half a turn */
+#define STEP      0.7 /* rows, as in brdf_slices.c */
+#define TOLERANCE 0.3 /* of the error */
+#define INTERVALS 16  /* at least */
+
+/* Values at every place and probe: of a series' views at some half angles, or the other way. */
+typedef struct probes {
+    const brdf_series *series;
+    int last;                               /* place */
+    int step[BRDF_STEPS_MAX + 1];           /* of a place */
+    size_t rows, columns, size;             /* of a place's values at one probe: 3 rows columns */
+    double *x;                              /* of the rows, from the rim */
+    float *values;                          /* [place][probe][channel][row][column] */
+    double rim[BRDF_STEPS_MAX + 1][PROBES]; /* of the caps */
+    double task_angle[BRDF_STEPS_MAX + 1];
+    brdf_views views;
+    float peaks[BRDF_STEPS_MAX + 1][PROBES]; /* largest values, at least the floor */
+    bool by_cap;                             /* steps are half angles */
+    bool failed[BRDF_STEPS_MAX + 1];
+} probes;
+
+/* --- gathering ---------------------------------------------------------------------------------
+ */
+
+static float *values_at(const probes *p, size_t place, size_t probe) {
+    return p->values + (place * PROBES + probe) * p->size;
+}
+
+/* One half angle: of a place with all probes, or of a probe with all places. */
+static void probe_task(size_t index, void *data) {
+    probes *p = data;
+    float *values[BRDF_STEPS_MAX + 1];
+    const double angle = p->task_angle[index],
+                 rim = lmp_preintegrated_brdf_rim_of(p->series, angle);
+    double *g = lmp_allocate(&p->series->heap, p->rows * sizeof *g);
+    p->failed[index] = true;
+    if (!g)
+        return;
+    for (size_t i = 0; i < p->rows; i++)
+        g[i] = p->x[i] + rim;
+    for (size_t v = 0; v < p->views.count; v++) {
+        const size_t place = p->by_cap ? index : v, probe = p->by_cap ? v : index;
+        values[v] = values_at(p, place, probe);
+        p->rim[place][probe] = rim;
+    }
+    p->failed[index] = lmp_preintegrated_brdf_sum(&p->views, angle, g, p->rows, values) != LMP_OK;
+    lmp_release(&p->series->heap, g);
+}
+
+static lmp_result gather(probes *p, const lmp_preintegrated_brdf_desc *desc, size_t tasks) {
+    const brdf_series *series = p->series;
+    const double first =
+        floor(lmp_preintegrated_brdf_row_of(series, -LMP_PREINTEGRATED_LOBE_PI / 2) / STEP);
+    const double last =
+        ceil(lmp_preintegrated_brdf_row_of(series, LMP_PREINTEGRATED_LOBE_PI) / STEP);
+    p->rows = (size_t)(last - first) + 1;
+    p->columns = (size_t)p->views.columns[0];
+    p->size = 3 * p->rows * p->columns;
+    p->x = lmp_allocate(&series->heap, p->rows * sizeof *p->x);
+    p->values =
+        lmp_allocate(&series->heap, ((size_t)p->last + 1) * PROBES * p->size * sizeof *p->values);
+    if (!p->x || !p->values)
+        return LMP_ERROR_MEMORY;
+    for (size_t i = 0; i < p->rows; i++)
+        p->x[i] = lmp_preintegrated_brdf_x_of(series, STEP * (first + (double)i));
+    lmp_parallel_run(desc->parallel, desc->user, tasks, probe_task, p);
+    for (size_t i = 0; i < tasks; i++)
+        if (p->failed[i])
+            return LMP_ERROR_MEMORY;
+    return LMP_OK;
+}
+
+/* --- choosing ----------------------------------------------------------------------------------
+ */
+
+/* Rows on the sphere proper, g in 0 … pi. */
+static bool row_counts(const probes *p, size_t row, double rim) {
+    const double g = p->x[row] + rim;
+    return g >= 0 && g <= LMP_PREINTEGRATED_LOBE_PI;
+}
+
+/* How far the values of place `middle` are from the line between `low` and `high`. */
+static float error_at(const probes *p, int low, int high, int middle, size_t probe) {
+    const float *a = values_at(p, (size_t)low, probe), *b = values_at(p, (size_t)high, probe);
+    const float *v = values_at(p, (size_t)middle, probe);
+    const float t = (float)(p->step[middle] - p->step[low]) / (float)(p->step[high] - p->step[low]);
+    float error = 0;
+    for (size_t row = 0; row < 3 * p->rows; row++) {
+        if (!row_counts(p, row % p->rows, p->rim[middle][probe]))
+            continue;
+        for (size_t i = row * p->columns; i < (row + 1) * p->columns; i++) {
+            const float off = fabsf(a[i] + t * (b[i] - a[i]) - v[i]);
+            error = off > error ? off : error;
+        }
+    }
+    return error;
+}
+
+static void find_peaks(probes *p) {
+    for (int place = 0; place <= p->last; place++)
+        for (size_t probe = 0; probe < PROBES; probe++) {
+            const float *v = values_at(p, (size_t)place, probe);
+            float peak = 0;
+            for (size_t row = 0; row < 3 * p->rows; row++)
+                for (size_t i = row * p->columns; i < (row + 1) * p->columns; i++)
+                    if (row_counts(p, row % p->rows, p->rim[place][probe]))
+                        peak = fmaxf(peak, fabsf(v[i]));
+            p->peaks[place][probe] = peak;
+        }
+    /* the floor is of all views: probes of a place that is a half angle, or the other way */
+    for (int place = 0; place <= p->last; place++)
+        for (size_t probe = 0; probe < PROBES; probe++) {
+            float all = 0;
+            for (size_t k = 0; k < PROBES && p->by_cap; k++)
+                all = fmaxf(all, p->peaks[place][k]);
+            for (int k = 0; k <= p->last && !p->by_cap; k++)
+                all = fmaxf(all, p->peaks[k][probe]);
+            p->peaks[place][probe] =
+                fmaxf(p->peaks[place][probe], (float)LMP_PREINTEGRATED_BRDF_FLOOR * all);
+        }
+}
+
+static void divide(const probes *p, int low, int high, float tolerance, bool *chosen) {
+    bool close = p->step[high] - p->step[low] <= p->step[p->last] / INTERVALS;
+    for (int middle = low + 1; close && middle < high; middle++)
+        for (size_t probe = 0; close && probe < PROBES; probe++)
+            close = error_at(p, low, high, middle, probe) <= tolerance * p->peaks[middle][probe];
+    if (close || high - low == 1)
+        return;
+    const int middle = low + (high - low) / 2;
+    chosen[middle] = true;
+    divide(p, low, middle, tolerance, chosen);
+    divide(p, middle, high, tolerance, chosen);
+}
+
+static int choose(probes *p, float error, int *nodes) {
+    bool chosen[BRDF_STEPS_MAX + 1] = { false };
+    int count = 0;
+    find_peaks(p);
+    chosen[0] = chosen[p->last] = true;
+    divide(p, 0, p->last, (float)TOLERANCE * error, chosen);
+    for (int i = 0; i <= p->last; i++)
+        if (chosen[i])
+            nodes[count++] = i;
+    return count;
+}
+
+static void release(probes *p) {
+    lmp_release(&p->series->heap, p->x);
+    lmp_release(&p->series->heap, p->values);
+    if (p->views.coefficients)
+        lmp_preintegrated_brdf_views_free(&p->views);
+    lmp_release(&p->series->heap, p);
+}
+
+static probes *create(const brdf_series *series, int last, bool by_cap) {
+    probes *p = lmp_allocate(&series->heap, sizeof *p);
+    if (p)
+        memset(p, 0, sizeof *p);
+    if (p) {
+        p->series = series;
+        p->last = last;
+        p->by_cap = by_cap;
+        for (int i = 0; i <= last; i++)
+            p->step[i] = by_cap ? i : series->step[i];
+    }
+    return p;
+}
+
+static int probe_columns(const brdf_series *series) {
+    return series->mirrored ? COLUMNS + 1 : 2 * COLUMNS;
+}
+
+int lmp_preintegrated_brdf_caps(const brdf_series *series, const lmp_preintegrated_brdf_desc *desc,
+                                int *nodes) {
+    probes *p = create(series, BRDF_CAP_STEPS, true);
+    if (!p)
+        return 0;
+    const int views[PROBES] = {
+        lmp_preintegrated_brdf_view_at(series, 1, 4),
+        lmp_preintegrated_brdf_view_at(series, 3, 4),
+        lmp_preintegrated_brdf_view_at(series, 9, 10),
+        lmp_preintegrated_brdf_view_at(series, 39, 40),
+    };
+    for (int i = 0; i <= p->last; i++)
+        p->task_angle[i] = lmp_preintegrated_brdf_angle_at(i);
+    int count = 0;
+    if (lmp_preintegrated_brdf_views(series, views, PROBES, probe_columns(series), &p->views) ==
+            LMP_OK &&
+        gather(p, desc, (size_t)p->last + 1) == LMP_OK)
+        count = choose(p, desc->error, nodes);
+    release(p);
+    return count;
+}
+
+int lmp_preintegrated_brdf_view_nodes(const brdf_series *series,
+                                      const lmp_preintegrated_brdf_desc *desc, int *nodes) {
+    static const int caps[PROBES] = { 0, BRDF_CAP_STEPS / 8, BRDF_CAP_STEPS / 3,
+                                      BRDF_CAP_STEPS * 3 / 4 };
+    probes *p = create(series, series->view_count - 1, false);
+    int all[BRDF_STEPS_MAX + 1], count = 0;
+    if (!p)
+        return 0;
+    for (int i = 0; i < series->view_count; i++)
+        all[i] = i;
+    for (int i = 0; i < PROBES; i++)
+        p->task_angle[i] = lmp_preintegrated_brdf_angle_at(caps[i]);
+    if (lmp_preintegrated_brdf_views(series, all, (size_t)series->view_count, probe_columns(series),
+                                     &p->views) == LMP_OK &&
+        gather(p, desc, PROBES) == LMP_OK)
+        count = choose(p, desc->error, nodes);
+    release(p);
+    return count;
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/kernels/batch.h"
+
+#include <lampion/sh.h>
+
+#include <assert.h>
+
+void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
+                   size_t stride, float *sh) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernels *kernels = lmp_kernels_get();
+    lmp_batch_vec3 planes;
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(count, first);
+        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&directions, first, n, &planes);
+        const lmp_kernel_out out =
+            lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
+        kernels->eval(bands, &vectors, n, &out);
+    }
+}
+
+static lmp_kernel_in batch_in(int bands, const float *at, size_t count, lmp_sh_layout layout,
+                              size_t stride) {
+    lmp_kernel_in in = { at, stride, layout == LMP_SH_PLANAR };
+    if (!stride)
+        in.stride = in.planar ? count : LMP_SH_COUNT(bands);
+    return in;
+}
+
+void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count, lmp_sh_layout layout,
+                  size_t stride, float *dots) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernel_in from_a = batch_in(bands, a, count, layout, stride);
+    const lmp_kernel_in from_b = batch_in(bands, b, count, layout, stride);
+    lmp_kernels_get()->dot(LMP_SH_COUNT(bands), &from_a, &from_b, count, dots);
+}
+
+void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, size_t count,
+                     lmp_sh_layout layout, size_t stride, float *rotated) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const lmp_kernel_in in = batch_in(bands, sh, count, layout, stride);
+    const lmp_kernel_out out =
+        lmp_batch_out(rotated, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, 0);
+    lmp_kernels_get()->rotate(bands, matrices, &in, count, &out);
+}

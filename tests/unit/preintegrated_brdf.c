@@ -1,0 +1,617 @@
+/* SPDX-License-Identifier: MIT */
+/* Responses of measured materials against the sums over bands that they stand for. */
+#include "src/base/bytes.h"
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979324;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SHARP_BANDS 48 /* a minute else */
+#else
+#define SHARP_BANDS 100
+#endif
+
+static lmp_brdf *sgd_brdf(const char *name) {
+    lmp_sgd sgd;
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_sgd_find(name, &sgd), LMP_OK);
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
+    return brdf;
+}
+
+static lmp_brdf_table *table_of(lmp_brdf *brdf, const lmp_brdf_table_desc *desc) {
+    lmp_brdf_table *table;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, desc, &table), LMP_OK);
+    lmp_brdf_destroy(brdf);
+    return table;
+}
+
+static lmp_brdf_table *sgd_table(const char *name, int bands, lmp_window window) {
+    const lmp_brdf_table_desc desc = { .bands = bands, .window = window, .rings_max = 128 };
+    return table_of(sgd_brdf(name), &desc);
+}
+
+static lmp_preintegrated_brdf *created(const lmp_brdf_table *table, float error) {
+    lmp_preintegrated_brdf *response;
+    const lmp_preintegrated_brdf_desc desc = { .error = error };
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, &desc, &response), LMP_OK);
+    return response;
+}
+
+/* --- errors ------------------------------------------------------------------------------------
+ */
+
+/* A view, and a sphere of radiance 1 that looks r / 1 large: where a cap of a given size may lie.
+ */
+typedef struct probe {
+    double theta;
+    float radius;
+} probe;
+
+/* A direction at g, p round the mirror direction, of the frame whose z is the normal. */
+static lmp_vec3 around_mirror(const probe *p, double g, double azimuth) {
+    const double x = sin(g) * cos(azimuth), y = sin(g) * sin(azimuth), z = cos(g);
+    const double c = cos(p->theta), s = sin(p->theta);
+    return (lmp_vec3) { (float)(c * x - s * z), (float)y, (float)(s * x + c * z) };
+}
+
+static lmp_vec3 random_direction(const probe *p, int i, double detail) {
+    double g = fabs(asin(fmin((double)p->radius, 1)) + detail * check_random_between(-4, 4));
+    if (i % 3 == 1)
+        g = acos(check_random_between(-1, 1));
+    if (i % 3 == 2)
+        g = check_random_between(0, 0.3);
+    return around_mirror(p, i == 0 ? 0 : fmin(g, pi), check_random_between(0, 2 * pi));
+}
+
+static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_preintegrated_brdf *response,
+                      const probe *p, lmp_vec3 direction) {
+    const lmp_light light = { .position = direction, .radius = p->radius, .radiance = { 1, 1, 1 } };
+    const lmp_surface surface = { .normal = { 0, 0, 1 },
+                                  .view = { (float)sin(p->theta), 0, (float)cos(p->theta) } };
+    const lmp_material material = { .table = table, .response = response };
+    if (!response)
+        return lmp_shade(NULL, &material, &surface, &light, 1);
+    return lmp_shade_preintegrated(NULL, &material, &surface, &light, 1);
+}
+
+static float largest_of(lmp_rgb c) {
+    return fmaxf(c.r, fmaxf(c.g, c.b));
+}
+
+/* The largest value of all views, at the mirror direction. */
+static float peak_of_views(const lmp_brdf_table *table, float radius) {
+    float peak = 0;
+    for (int i = 0; i < 16; i++) {
+        const probe p = { pi / 2 * i / 16, radius };
+        peak = fmaxf(peak, largest_of(shaded(table, NULL, &p, around_mirror(&p, 0, 0))));
+    }
+    return peak;
+}
+
+enum { DIRECTIONS = 40 };
+
+static void compare(const lmp_brdf_table *table, const lmp_preintegrated_brdf *response,
+                    const probe *p, check_errors *errors) {
+    const double detail = (double)lmp_preintegrated_brdf_describe(response).width;
+    lmp_rgb expected[DIRECTIONS], read[DIRECTIONS];
+    float peak = 0.05f * peak_of_views(table, p->radius);
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const lmp_vec3 direction = random_direction(p, i, detail);
+        expected[i] = shaded(table, NULL, p, direction);
+        read[i] = shaded(table, response, p, direction);
+        peak = fmaxf(peak, largest_of(expected[i]));
+    }
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double off[3] = { (double)(read[i].r - expected[i].r),
+                                (double)(read[i].g - expected[i].g),
+                                (double)(read[i].b - expected[i].b) };
+        for (int c = 0; c < 3; c++)
+            check_errors_add(errors, fabs(off[c]) / (double)peak);
+    }
+}
+
+static probe random_probe(double least, double most) {
+    return (probe) { check_random() < 0.8 ? pi / 2 * check_random()
+                                          : pi / 2 * (1 - 0.1 * check_random()),
+                     (float)pow(10, check_random_between(least, most)) };
+}
+
+/* Prints and returns them. */
+static check_errors errors_of(const char *what, const lmp_brdf_table *table, int probes) {
+    lmp_preintegrated_brdf *response = created(table, 0);
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(response);
+    check_errors errors = { 0 };
+    for (int i = 0; i < probes; i++) {
+        const probe p = random_probe(-4, log10(0.99));
+        compare(table, response, &p, &errors);
+    }
+    print_message("%s, %d bands, window %d: %.1f MB, %ld values, error max %.3f %%, rms %.4f %%\n",
+                  what, info.bands, (int)info.window, (double)info.bytes / 1e6, errors.count,
+                  100 * errors.largest, 100 * check_errors_rms(&errors));
+    lmp_preintegrated_brdf_destroy(response);
+    return errors;
+}
+
+static void check_probes(const char *what, const lmp_brdf_table *table, int probes) {
+    const check_errors errors = errors_of(what, table, probes);
+    CHECK_WITHIN(errors.largest, 5e-3);
+    CHECK_WITHIN(check_errors_rms(&errors), 5e-4);
+}
+
+/* LAMPION_MATERIAL_BANDS: other bands than 10, of tables with the rings that they ask for; prints
+ * alone, for docs/shading.md. */
+static void ten_materials_match_their_sums_within_the_error(void **state) {
+    (void)state;
+    const char *const more = getenv("LAMPION_MATERIAL_BANDS");
+    const lmp_brdf_table_desc desc = { .bands = more ? atoi(more) : 10,
+                                       .window = LMP_WINDOW_HANNING,
+                                       .rings_max = more ? 0 : 128 };
+    static const char *const names[] = { "gold-metallic-paint",
+                                         "blue-metallic-paint",
+                                         "nickel",
+                                         "chrome",
+                                         "steel",
+                                         "white-fabric",
+                                         "red-fabric",
+                                         "green-plastic",
+                                         "black-phenolic",
+                                         "pearl-paint" };
+    for (int i = 0; i < 10; i++) {
+        lmp_brdf_table *table = table_of(sgd_brdf(names[i]), &desc);
+        if (more)
+            errors_of(names[i], table, 250);
+        else
+            check_probes(names[i], table, 250);
+        lmp_brdf_table_destroy(table);
+    }
+}
+
+static void more_bands_and_no_window_match_as_well(void **state) {
+    (void)state;
+    lmp_brdf_table *sharp = sgd_table("gold-metallic-paint", 8, LMP_WINDOW_NONE);
+    check_probes("gold-metallic-paint", sharp, 100);
+    lmp_brdf_table_destroy(sharp);
+    lmp_brdf_table *fine = sgd_table("green-plastic", 20, LMP_WINDOW_LANCZOS);
+    check_probes("green-plastic", fine, 60);
+    lmp_brdf_table_destroy(fine);
+    const int few[] = { 1, 2, 3 };
+    for (int i = 0; i < 3; i++) {
+        lmp_brdf_table *table = sgd_table("white-fabric", few[i], LMP_WINDOW_NONE);
+        check_probes("white-fabric", table, 60);
+        lmp_brdf_table_destroy(table);
+    }
+}
+
+/* A lobe that 128 rings resolve, of steel's shadowing, which takes all light away between 80 and 87
+ * degrees of view. */
+static void a_sharp_lobe_that_fades_near_grazing_matches_as_well(void **state) {
+    (void)state;
+    const lmp_brdf_table_desc desc = { .bands = SHARP_BANDS,
+                                       .window = LMP_WINDOW_HANNING,
+                                       .rings_max = 128 };
+    lmp_sgd sgd;
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_sgd_find("steel", &sgd), LMP_OK);
+    for (int c = 0; c < 3; c++) {
+        sgd.alpha[c] = 1e-3;
+        sgd.p[c] = 0;
+        sgd.k_ap[c] = 1e3;
+    }
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
+    lmp_brdf_table *table = table_of(brdf, &desc);
+    check_probes("steel, one width", table, 40);
+    lmp_brdf_table_destroy(table);
+}
+
+static void a_table_of_all_orders_and_few_views_matches_as_well(void **state) {
+    (void)state;
+    const lmp_brdf_table_desc desc = {
+        .bands = 7, .views = 12, .rings_max = 64, .symmetry = LMP_BRDF_SYMMETRY_NONE
+    };
+    lmp_brdf_table *table = table_of(sgd_brdf("nickel"), &desc);
+    assert_false(lmp_brdf_table_describe(table).mirrored);
+    check_probes("nickel, all orders", table, 60);
+    lmp_brdf_table_destroy(table);
+}
+
+static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
+    (void)state;
+    lmp_brdf_table *table = sgd_table("red-fabric", 8, LMP_WINDOW_HANNING);
+    lmp_preintegrated_brdf *response = created(table, 0);
+    check_errors errors = { 0 };
+    for (int i = 0; i < 60; i++) {
+        const probe p = i % 2 ? random_probe(0, 2) : random_probe(-1e-4, 1e-4);
+        compare(table, response, &p, &errors);
+    }
+    CHECK_WITHIN(errors.largest, 5e-3);
+    lmp_preintegrated_brdf_destroy(response);
+    lmp_brdf_table_destroy(table);
+}
+
+static void a_larger_error_takes_less_memory(void **state) {
+    (void)state;
+    lmp_brdf_table *table = sgd_table("white-fabric", 8, LMP_WINDOW_HANNING);
+    lmp_preintegrated_brdf *fine = created(table, 0.002f), *coarse = created(table, 0.05f);
+    assert_true(lmp_preintegrated_brdf_describe(coarse).bytes <
+                lmp_preintegrated_brdf_describe(fine).bytes / 2);
+    lmp_preintegrated_brdf_destroy(fine);
+    lmp_preintegrated_brdf_destroy(coarse);
+    lmp_brdf_table_destroy(table);
+}
+
+/* --- many surfaces ------------------------------------------------------------------------------
+ */
+
+enum { SURFACES = 531, MATERIALS = 5, LIGHTS = 43 };
+
+typedef struct crowd {
+    lmp_brdf_table *tables[2];
+    lmp_preintegrated_brdf *responses[2];
+    lmp_preintegrated_lobe *lobes;
+    lmp_material materials[SURFACES];
+    lmp_surface surfaces[SURFACES];
+    lmp_light lights[LIGHTS];
+} crowd;
+
+static lmp_rgb random_color(void) {
+    return (lmp_rgb) { (float)check_random(), (float)check_random(), (float)check_random() };
+}
+
+static lmp_vec3 random_point(double size) {
+    return (lmp_vec3) { (float)check_random_between(-size, size),
+                        (float)check_random_between(-size, size),
+                        (float)check_random_between(-size, size) };
+}
+
+/* Lights of all kinds; some spheres hold some of the surfaces. */
+static void scatter_lights(lmp_light *lights) {
+    for (int i = 0; i < LIGHTS; i++)
+        lights[i] = (lmp_light) { .kind = (lmp_light_kind)(i % 6),
+                                  .position = random_point(3),
+                                  .direction = check_random_direction(),
+                                  .radius = (float)check_random_between(0.001, 0.8),
+                                  .angle = (float)check_random_between(0.01, 2.5),
+                                  .inner = 0.3f,
+                                  .outer = 1.2f,
+                                  .radiance = random_color(),
+                                  .ground = random_color() };
+}
+
+/* Lobes, two responses and a table without one in no order; some views along the normal, from below
+ * and level. */
+static crowd *crowd_create(void) {
+    crowd *c = calloc(1, sizeof *c);
+    assert_non_null(c);
+    c->tables[0] = sgd_table("green-plastic", 6, LMP_WINDOW_HANNING);
+    const lmp_brdf_table_desc round = {
+        .bands = 5, .views = 9, .rings_max = 32, .symmetry = LMP_BRDF_SYMMETRY_NONE
+    };
+    c->tables[1] = table_of(sgd_brdf("white-fabric"), &round);
+    for (int i = 0; i < 2; i++)
+        c->responses[i] = created(c->tables[i], 0.02f);
+    assert_int_equal(
+        lmp_preintegrated_lobe_create(
+            NULL, &(lmp_preintegrated_lobe_desc) { .bands = 6, .error = 0.05f }, &c->lobes),
+        LMP_OK);
+    for (int i = 0; i < SURFACES; i++) {
+        const int which = (int)(check_random() * MATERIALS);
+        c->materials[i] = (lmp_material) {
+            .diffuse = random_color(),
+            .specular = random_color(),
+            .exponent = (float)check_random_between(1, 100),
+            .table = which == 0 || which == 3 ? NULL : c->tables[which % 2],
+            .response = which == 0 || which == 4 ? NULL : c->responses[which % 2],
+        };
+        const lmp_vec3 n = check_random_direction(), v = check_random_direction();
+        c->surfaces[i] = (lmp_surface) { random_point(1), n, i % 16 ? v : n };
+        if (i % 32 == 0)
+            c->surfaces[i].normal = c->surfaces[i].view = (lmp_vec3) { 0, 1, 0 };
+    }
+    scatter_lights(c->lights);
+    return c;
+}
+
+static void crowd_free(crowd *c) {
+    for (int i = 0; i < 2; i++) {
+        lmp_preintegrated_brdf_destroy(c->responses[i]);
+        lmp_brdf_table_destroy(c->tables[i]);
+    }
+    lmp_preintegrated_lobe_destroy(c->lobes);
+    free(c);
+}
+
+static void shade_crowd(const crowd *c, size_t count, float *rgb) {
+    const lmp_surface *s = c->surfaces;
+    const lmp_material *m = c->materials;
+    const lmp_surfaces surfaces = {
+        .position = { &s->position.x, &s->position.y, &s->position.z, sizeof *s },
+        .normal = { &s->normal.x, &s->normal.y, &s->normal.z, sizeof *s },
+        .view = { &s->view.x, &s->view.y, &s->view.z, sizeof *s },
+        .diffuse = { &m->diffuse.r, &m->diffuse.g, &m->diffuse.b, sizeof *m },
+        .specular = { &m->specular.r, &m->specular.g, &m->specular.b, sizeof *m },
+        .exponent = { &m->exponent, sizeof *m },
+        .table = &m->table,
+        .table_stride = sizeof *m,
+        .response = &m->response,
+        .response_stride = sizeof *m,
+    };
+    lmp_shade_preintegrated_n(c->lobes, &surfaces, count, c->lights, LIGHTS, 4, rgb);
+}
+
+static double dot3(lmp_vec3 a, lmp_vec3 b) {
+    return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
+}
+
+/* In the frame whose z is the normal, x on the side of the view. */
+static lmp_vec3 into_frame(const lmp_surface *s, lmp_vec3 w) {
+    const lmp_vec3 n = s->normal;
+    const double c = dot3(s->view, n);
+    lmp_vec3 x = { (float)((double)s->view.x - c * (double)n.x),
+                   (float)((double)s->view.y - c * (double)n.y),
+                   (float)((double)s->view.z - c * (double)n.z) };
+    const double length = sqrt(dot3(x, x));
+    const lmp_vec3 y = { n.y * x.z - n.z * x.y, n.z * x.x - n.x * x.z, n.x * x.y - n.y * x.x };
+    return (lmp_vec3) { (float)(dot3(x, w) / length), (float)(dot3(y, w) / length),
+                        (float)dot3(n, w) };
+}
+
+/* Straight from lmp_preintegrated_brdf_eval, light by light. */
+static lmp_rgb read_one(const lmp_preintegrated_brdf *response, const lmp_surface *s,
+                        const lmp_light *lights) {
+    const float cosine = (float)dot3(s->view, s->normal);
+    const lmp_rgb all = lmp_preintegrated_brdf_ambient(response, cosine);
+    double sum[3] = { 0, 0, 0 };
+    for (int i = 0; i < LIGHTS; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], s->position, &cap);
+        const lmp_rgb value = lmp_preintegrated_brdf_eval(response, cosine, into_frame(s, cap.axis),
+                                                          cap.one_minus_cos);
+        sum[0] += (double)(cap.strength.r * value.r + cap.ambient.r * all.r);
+        sum[1] += (double)(cap.strength.g * value.g + cap.ambient.g * all.g);
+        sum[2] += (double)(cap.strength.b * value.b + cap.ambient.b * all.b);
+    }
+    return (lmp_rgb) { (float)fmax(sum[0], 0), (float)fmax(sum[1], 0), (float)fmax(sum[2], 0) };
+}
+
+static void many_surfaces_are_shaded_like_one(void **state) {
+    (void)state;
+    static float rgb[4 * SURFACES];
+    crowd *c = crowd_create();
+    double error = 0, largest = 0;
+    shade_crowd(c, SURFACES, rgb);
+    for (int i = 0; i < SURFACES; i++) {
+        const lmp_rgb one =
+            lmp_shade_preintegrated(c->lobes, &c->materials[i], &c->surfaces[i], c->lights, LIGHTS);
+        assert_memory_equal(&one, rgb + 4 * i, sizeof one);
+        if (!c->materials[i].response || i % 16 == 0)
+            continue;
+        const lmp_rgb read = read_one(c->materials[i].response, &c->surfaces[i], c->lights);
+        const double off =
+            fmax(fabs((double)(read.r - one.r)),
+                 fmax(fabs((double)(read.g - one.g)), fabs((double)(read.b - one.b))));
+        if (!(off <= error))
+            error = off;
+        largest = fmax(largest, (double)largest_of(read));
+    }
+    print_message("%d surfaces against readings of one: %.2g of %.2g\n", SURFACES, error, largest);
+    CHECK_WITHIN(error, 1e-4 * largest);
+    crowd_free(c);
+}
+
+static void every_instruction_set_shades_the_same_bits(void **state) {
+    (void)state;
+    static float first[4 * SURFACES], rgb[4 * SURFACES];
+    crowd *c = crowd_create();
+    for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
+        if (lmp_cpu_mask(flag) != flag)
+            continue;
+        for (size_t count = 0; count <= SURFACES; count += count < 36 ? 1 : SURFACES - 36) {
+            for (int i = 0; i < 4 * SURFACES; i++)
+                rgb[i] = -7;
+            shade_crowd(c, count, rgb);
+            if (flag == LMP_CPU_SCALAR && count == 0)
+                shade_crowd(c, SURFACES, first);
+            for (size_t i = 0; i < 4 * SURFACES; i++)
+                if (i / 4 < count && i % 4 < 3)
+                    assert_memory_equal(&rgb[i], &first[i], sizeof *rgb);
+                else
+                    assert_true(rgb[i] > -7.5f && rgb[i] < -6.5f);
+        }
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+    crowd_free(c);
+}
+
+/* --- making ------------------------------------------------------------------------------------
+ */
+
+static lmp_brdf_table *small_table(void) {
+    const lmp_brdf_table_desc desc = { .bands = 2, .views = 3, .rings_max = 32 };
+    return table_of(sgd_brdf("white-fabric"), &desc);
+}
+
+static void backwards(void *user, size_t count, void (*task)(size_t index, void *data),
+                      void *data) {
+    (void)user;
+    for (size_t i = count; i-- > 0;)
+        task(i, data);
+}
+
+static void progressed(void *user, double done) {
+    double *before = user;
+    assert_true(done > *before && done <= 1);
+    *before = done;
+}
+
+static void *written(const lmp_preintegrated_brdf *response, size_t *size) {
+    *size = lmp_preintegrated_brdf_size(response);
+    void *bytes = malloc(*size);
+    assert_non_null(bytes);
+    lmp_preintegrated_brdf_write(response, bytes);
+    return bytes;
+}
+
+static void tasks_in_any_order_give_the_same_bytes(void **state) {
+    (void)state;
+    double done = 0;
+    const lmp_preintegrated_brdf_desc desc = { .parallel = backwards,
+                                               .progress = progressed,
+                                               .user = &done };
+    lmp_brdf_table *table = sgd_table("nickel", 5, LMP_WINDOW_NONE);
+    lmp_preintegrated_brdf *plain = created(table, 0), *other;
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, &desc, &other), LMP_OK);
+    CHECK_WITHIN(fabs(done - 1), 0);
+    size_t size, other_size;
+    void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
+    assert_int_equal(size, other_size);
+    assert_memory_equal(bytes, other_bytes, size);
+    free(bytes);
+    free(other_bytes);
+    lmp_preintegrated_brdf_destroy(plain);
+    lmp_preintegrated_brdf_destroy(other);
+    lmp_brdf_table_destroy(table);
+}
+
+static void what_cannot_be_made_is_refused(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    const float wrong[] = { 1e-5f, 0.5f, NAN, -1 };
+    for (int i = 0; i < 4; i++) {
+        lmp_preintegrated_brdf *response = (lmp_preintegrated_brdf *)1;
+        assert_int_equal(
+            lmp_preintegrated_brdf_create(
+                NULL, table, &(lmp_preintegrated_brdf_desc) { .error = wrong[i] }, &response),
+            LMP_ERROR_ARGUMENT);
+        assert_null(response);
+    }
+    lmp_preintegrated_brdf *response;
+    assert_int_equal(
+        lmp_preintegrated_brdf_create(
+            NULL, table, &(lmp_preintegrated_brdf_desc) { .bytes_max = 1000 }, &response),
+        LMP_ERROR_MEMORY);
+    lmp_brdf_table_destroy(table);
+
+    const lmp_ggx ggx = { 0.6f, 0.3f, { 0.9f, 0.8f, 0.6f }, { 0, 0, 0 } };
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
+    const lmp_brdf_table_desc desc = { .bands = 3, .views = 4, .azimuths = 4, .rings_max = 32 };
+    table = table_of(brdf, &desc);
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, NULL, &response),
+                     LMP_ERROR_ARGUMENT);
+    lmp_brdf_table_destroy(table);
+}
+
+static void a_refused_allocation_leaks_nothing(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    const lmp_preintegrated_brdf_desc desc = { .error = 0.1f };
+    for (int refuse = 0, step = 1;; refuse += step) {
+        check_heap heap = { .refuse = refuse };
+        const lmp_allocator allocator = check_allocator(&heap);
+        lmp_preintegrated_brdf *response;
+        const lmp_result result =
+            lmp_preintegrated_brdf_create(&allocator, table, &desc, &response);
+        lmp_preintegrated_brdf_destroy(response);
+        assert_int_equal(heap.live, 0);
+        if (result == LMP_OK)
+            break;
+        assert_int_equal(result, LMP_ERROR_MEMORY);
+        assert_null(response);
+    }
+    lmp_brdf_table_destroy(table);
+}
+
+/* --- bytes -------------------------------------------------------------------------------------
+ */
+
+static void bytes_read_back_are_the_same_response(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    lmp_preintegrated_brdf *response = created(table, 0), *copy;
+    size_t size, again_size;
+    void *bytes = written(response, &size);
+    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_OK);
+    void *again = written(copy, &again_size);
+    assert_int_equal(size, again_size);
+    assert_memory_equal(bytes, again, size);
+    for (int i = 0; i < 200; i++) {
+        const probe p = random_probe(-3, 0);
+        const lmp_vec3 axis = random_direction(&p, i, 0.1);
+        const lmp_rgb a = lmp_preintegrated_brdf_eval(response, (float)cos(p.theta), axis, 0.1f),
+                      b = lmp_preintegrated_brdf_eval(copy, (float)cos(p.theta), axis, 0.1f);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    free(bytes);
+    free(again);
+    lmp_preintegrated_brdf_destroy(response);
+    lmp_preintegrated_brdf_destroy(copy);
+    lmp_brdf_table_destroy(table);
+}
+
+static void sign(unsigned char *bytes, size_t size) {
+    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
+}
+
+static void damaged_bytes_are_refused(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    lmp_preintegrated_brdf *response = created(table, 0.1f), *copy;
+    size_t size;
+    unsigned char *bytes = written(response, &size);
+    const size_t texels = 6 * lmp_preintegrated_brdf_describe(response).texel_count;
+    lmp_preintegrated_brdf_destroy(response);
+    lmp_brdf_table_destroy(table);
+
+    for (size_t cut = 0; cut < size; cut += 1 + cut / 16)
+        assert_int_not_equal(lmp_preintegrated_brdf_read(NULL, bytes, cut, &copy), LMP_OK);
+    bytes[size / 2] ^= 1;
+    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_ERROR_CHECKSUM);
+    bytes[size / 2] ^= 1;
+    bytes[8] = 99;
+    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_ERROR_VERSION);
+    assert_null(copy);
+    bytes[8] = 1;
+    /* Any change before the texels is refused, or gives a response that stays in bounds. */
+    for (int i = 0; i < 2000; i++) {
+        const size_t at = 12 + (size_t)(check_random() * (double)(size - texels - 16));
+        const unsigned char was = bytes[at];
+        bytes[at] = (unsigned char)(check_random() * 256);
+        sign(bytes, size);
+        if (lmp_preintegrated_brdf_read(NULL, bytes, size, &copy) == LMP_OK)
+            for (int k = 0; k < 20; k++) {
+                const probe p = random_probe(-3, 0);
+                (void)lmp_preintegrated_brdf_eval(
+                    copy, (float)cos(p.theta), random_direction(&p, k, 0.5), (float)check_random());
+                (void)lmp_preintegrated_brdf_ambient(copy, (float)cos(p.theta));
+            }
+        lmp_preintegrated_brdf_destroy(copy);
+        bytes[at] = was;
+    }
+    free(bytes);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ten_materials_match_their_sums_within_the_error),
+        cmocka_unit_test(more_bands_and_no_window_match_as_well),
+        cmocka_unit_test(a_sharp_lobe_that_fades_near_grazing_matches_as_well),
+        cmocka_unit_test(a_table_of_all_orders_and_few_views_matches_as_well),
+        cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
+        cmocka_unit_test(many_surfaces_are_shaded_like_one),
+        cmocka_unit_test(every_instruction_set_shades_the_same_bits),
+        cmocka_unit_test(a_larger_error_takes_less_memory),
+        cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
+        cmocka_unit_test(what_cannot_be_made_is_refused),
+        cmocka_unit_test(a_refused_allocation_leaks_nothing),
+        cmocka_unit_test(bytes_read_back_are_the_same_response),
+        cmocka_unit_test(damaged_bytes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
