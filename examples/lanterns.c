@@ -88,7 +88,7 @@ static void place_lights(float seconds, float lights[LIGHTS][2][4]) {
     }
 }
 
-static void write_picture(const char *path, int width, int height) {
+static void write_image(const char *path, int width, int height) {
     unsigned char *const rgb = malloc(3 * (size_t)width * (size_t)height);
     FILE *const file = fopen(path, "wb");
     if (!rgb || !file)
@@ -134,7 +134,7 @@ int main(int argc, char **argv) {
         glUniform4fv(lights_at, 2 * LIGHTS, &lights[0][0][0]);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         if (frame + 1 == frames) {
-            write_picture(argv[4], width, height);
+            write_image(argv[4], width, height);
             break;
         }
         glfwSwapBuffers(window);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a window shows of one or two pictures. Their rows run from the top; flip = 1 for a window. */
+/* What a window shows of one or two images. Their rows run from the top; flip = 1 for a window. */
 layout(binding = 0) uniform sampler2D first;
 layout(binding = 1) uniform sampler2D second;
 layout(location = 0) uniform vec2 size;

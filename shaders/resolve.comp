@@ -9,7 +9,7 @@ layout(binding = 1, rgba32f) uniform restrict image2D sums;
 layout(location = 0) uniform float exposure;
 layout(location = 1) uniform int first;
 layout(location = 2) uniform int keep; /* more samples follow */
-layout(location = 3) uniform int show; /* the mean so far into the picture */
+layout(location = 3) uniform int show; /* the mean so far into the image */
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);

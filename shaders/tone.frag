@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Radiance to display: exposure, the filmic curve, the sRGB transfer. The picture's rows run from
+/* Radiance to display: exposure, the filmic curve, the sRGB transfer. The image's rows run from
  * the top; flip = 1 for a window, whose rows run from the bottom. */
 #include "shared.h"
 

@@ -71,34 +71,34 @@ static figure_box cell_of(const layout *y, int l, int m) {
                           y->cell };
 }
 
-static void draw_names(image *picture, const layout *y) {
+static void draw_names(image *pixels, const layout *y) {
     char text[16];
     for (int l = 0; l < y->bands; l++) {
         figure_box box = cell_of(y, l, -y->bands + 1);
         box.x -= y->cell / 2 + y->cell / 16;
         box.width = y->cell / 2;
         snprintf(text, sizeof text, "l=%d", l);
-        figure_text(picture, box, y->text_height, ink, text);
+        figure_text(pixels, box, y->text_height, ink, text);
     }
     for (int m = 1 - y->bands; m < y->bands; m++) {
         figure_box box = cell_of(y, y->bands, m);
         box.height = y->cell / 2;
         snprintf(text, sizeof text, m > 0 ? "m=+%d" : "m=%d", m);
-        figure_text(picture, box, y->text_height, ink, text);
+        figure_text(pixels, box, y->text_height, ink, text);
     }
 }
 
-static bool draw_basis(image *picture, int bands, cli_error *error) {
-    const int size[2] = { picture->width, picture->height };
+static bool draw_basis(image *pixels, int bands, cli_error *error) {
+    const int size[2] = { pixels->width, pixels->height };
     const layout y = lay_out(bands, size);
     if (y.cell < 4)
-        return cli_fail(error, NULL, "%d bands need a larger picture than %dx%d", bands, size[0],
+        return cli_fail(error, NULL, "%d bands need a larger image than %dx%d", bands, size[0],
                         size[1]);
-    figure_fill(picture, (figure_box) { 0, 0, size[0], size[1] }, paper);
+    figure_fill(pixels, (figure_box) { 0, 0, size[0], size[1] }, paper);
     figure_box column = cell_of(&y, 0, 0);
     column.height = y.cell * bands + y.cell / 2;
-    figure_fill(picture, column, zonal_column);
-    draw_names(picture, &y);
+    figure_fill(pixels, column, zonal_column);
+    draw_names(pixels, &y);
 
     bool ok = true;
     int drawn = 0;
@@ -108,7 +108,7 @@ static bool draw_basis(image *picture, int bands, cli_error *error) {
         const basis_lobe basis = { l, m, 1.0f / basis_peak(l, m) };
         const figure_lobe lobe = { basis_value, &basis, red, green };
         cli_error lobe_error;
-        ok = figure_draw_lobe(picture, cell_of(&y, l, m), &lobe, &lobe_error) && ok;
+        ok = figure_draw_lobe(pixels, cell_of(&y, l, m), &lobe, &lobe_error) && ok;
         int done;
 #pragma omp atomic capture
         done = ++drawn;
@@ -122,7 +122,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int bands = 5, size[2] = { 1600, 960 };
     const char *output = NULL;
     const cli_option options[] = {
-        { "output", 'o', CLI_TEXT, &output, "FILE", "picture to write, .png or .exr", 0, 0, NULL,
+        { "output", 'o', CLI_TEXT, &output, "FILE", "image to write, .png or .exr", 0, 0, NULL,
           NULL },
         { "bands", 'n', CLI_INT, &bands, "N", "bands, a row each", 1, BANDS_MAX, NULL, NULL },
         { "size", 's', CLI_SIZE, size, "WxH", "pixels", SIDE_MIN, SIDE_MAX, NULL, NULL },
@@ -134,12 +134,12 @@ static int run(const cli_command *command, int argc, char **argv) {
         return status;
     if (!output)
         return cli_usage(command, "needs --output FILE");
-    image picture = { 0 };
+    image pixels = { 0 };
     cli_error error;
     const bool ok =
-        image_check_path(output, &error) && image_create(&picture, size[0], size[1], &error) &&
-        draw_basis(&picture, bands, &error) && image_write_figure(&picture, output, &error);
-    image_free(&picture);
+        image_check_path(output, &error) && image_create(&pixels, size[0], size[1], &error) &&
+        draw_basis(&pixels, bands, &error) && image_write_figure(&pixels, output, &error);
+    image_free(&pixels);
     return ok ? CLI_OK : cli_report(&error);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion brdf - what is in a material, its values, its table, its picture, its other formats. */
+/* lampion brdf - what is in a material, its values, its table, its image, its other formats. */
 #include "app/command/brdf.h"
 #include "app/csv/csv.h"
 #include "app/device/device.h"
@@ -281,8 +281,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int window = LMP_WINDOW_HANNING;
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &o.output, "FILE",
-          "the table (.lmpt), picture (.png), or BRDF (.binary, .bsdf) to write", 0, 0, NULL,
-          NULL },
+          "the table (.lmpt), image (.png), or BRDF (.binary, .bsdf) to write", 0, 0, NULL, NULL },
         { "bands", 'n', CLI_INT, &o.table.bands, "N", "bands of spherical harmonics", 1,
           LMP_BANDS_MAX, NULL, &o.bands_given },
         { "views", 0, CLI_INT, &o.table.views, "N",

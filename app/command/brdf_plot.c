@@ -15,32 +15,32 @@ static const lmp_rgb line_gray = { 0.75f, 0.75f, 0.78f };
 
 /* A panel: columns = numbers of bands, the first (0) the measurement. */
 typedef struct panels {
-    image *picture;
+    image *pixels;
     int columns, bands[COLUMNS_MAX];
     lmp_brdf_table *tables[COLUMNS_MAX];
     const material *material;
 } panels;
 
 /* A soft dot of a pixel's size. */
-static void dot(image *picture, double x, double y, lmp_rgb color) {
+static void dot(image *pixels, double x, double y, lmp_rgb color) {
     const int left = (int)floor(x - 0.5), top = (int)floor(y - 0.5);
     for (int j = top; j < top + 2; j++)
         for (int i = left; i < left + 2; i++) {
-            if (i < 0 || j < 0 || i >= picture->width || j >= picture->height)
+            if (i < 0 || j < 0 || i >= pixels->width || j >= pixels->height)
                 continue;
             const float cover = (float)((1 - fabs(x - 0.5 - i)) * (1 - fabs(y - 0.5 - j)));
-            float *p = picture->rgb + 3 * ((size_t)j * (size_t)picture->width + (size_t)i);
+            float *p = pixels->rgb + 3 * ((size_t)j * (size_t)pixels->width + (size_t)i);
             const float parts[3] = { color.r, color.g, color.b };
             for (int c = 0; c < 3; c++)
                 p[c] = fminf(p[c], p[c] + cover * (parts[c] - p[c]));
         }
 }
 
-static void line(image *picture, const double a[2], const double b[2], lmp_rgb color) {
+static void line(image *pixels, const double a[2], const double b[2], lmp_rgb color) {
     const int steps = 2 + (int)(2 * hypot(b[0] - a[0], b[1] - a[1]));
     for (int i = 0; i < steps; i++) {
         const double t = (double)i / (steps - 1);
-        dot(picture, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), color);
+        dot(pixels, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), color);
     }
 }
 
@@ -88,8 +88,8 @@ static void draw_panel(const panels *p, int column, int row, figure_box box) {
     const double reach = fmin(box.width * 0.46, box.height * 0.66);
     const double left[2] = { x - reach, y }, right[2] = { x + reach, y };
     const double eye[2] = { x - reach * sin(theta), y - reach * cos(theta) }, foot[2] = { x, y };
-    line(p->picture, left, right, line_gray);
-    line(p->picture, foot, eye, line_gray);
+    line(p->pixels, left, right, line_gray);
+    line(p->pixels, foot, eye, line_gray);
     static float rgb[3 * LMP_BANDS_MAX * LMP_BANDS_MAX];
     if (column > 0)
         lmp_brdf_table_view(p->tables[column], (float)cos(theta), 0, rgb);
@@ -104,7 +104,7 @@ static void draw_panel(const panels *p, int column, int row, figure_box box) {
             const double r = reach * sqrt(fmin(fabs((double)v[c]) * scale, 1.5));
             const double here[2] = { x + r * sin(angle), y - r * cos(angle) };
             if (i > 0)
-                line(p->picture, before[c], here, colors[c]);
+                line(p->pixels, before[c], here, colors[c]);
             before[c][0] = here[0];
             before[c][1] = here[1];
         }
@@ -112,14 +112,14 @@ static void draw_panel(const panels *p, int column, int row, figure_box box) {
 }
 
 static void draw_all(const panels *p) {
-    const int width = p->picture->width / p->columns, head = p->picture->height / 16;
-    const int height = (p->picture->height - head) / ROWS;
-    figure_fill(p->picture, (figure_box) { 0, 0, p->picture->width, p->picture->height }, paper);
+    const int width = p->pixels->width / p->columns, head = p->pixels->height / 16;
+    const int height = (p->pixels->height - head) / ROWS;
+    figure_fill(p->pixels, (figure_box) { 0, 0, p->pixels->width, p->pixels->height }, paper);
     for (int column = 0; column < p->columns; column++) {
         char text[16];
         snprintf(text, sizeof text, "l=0-%d", p->bands[column] - 1);
         if (column > 0)
-            figure_text(p->picture, (figure_box) { column * width, 0, width, head }, head / 3, ink,
+            figure_text(p->pixels, (figure_box) { column * width, 0, width, head }, head / 3, ink,
                         text);
         for (int row = 0; row < ROWS; row++)
             draw_panel(p, column, row,
@@ -131,10 +131,10 @@ bool brdf_plot(const brdf_options *o, const material *m, cli_error *error) {
     static const int usual[COLUMNS_MAX] = { 0, 5, 10, 20, 60 };
     if (!m->brdf)
         return cli_fail(error, m->name, "is a table: plot the BRDF it was made from");
-    image picture = { 0 };
-    panels p = { .picture = &picture, .columns = o->bands_given ? 2 : COLUMNS_MAX, .material = m };
+    image pixels = { 0 };
+    panels p = { .pixels = &pixels, .columns = o->bands_given ? 2 : COLUMNS_MAX, .material = m };
     bool ok =
-        image_check_path(o->output, error) && image_create(&picture, o->size[0], o->size[1], error);
+        image_check_path(o->output, error) && image_create(&pixels, o->size[0], o->size[1], error);
     for (int i = 1; i < p.columns && ok; i++) {
         lmp_brdf_table_desc desc = o->table;
         desc.bands = p.bands[i] = o->bands_given ? o->table.bands : usual[i];
@@ -142,10 +142,10 @@ bool brdf_plot(const brdf_options *o, const material *m, cli_error *error) {
     }
     if (ok) {
         draw_all(&p);
-        ok = image_write_figure(&picture, o->output, error);
+        ok = image_write_figure(&pixels, o->output, error);
     }
     for (int i = 1; i < p.columns; i++)
         lmp_brdf_table_destroy(p.tables[i]);
-    image_free(&picture);
+    image_free(&pixels);
     return ok;
 }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 typedef struct compare_arguments {
-    const char *paths[2]; /* picture, reference */
+    const char *paths[2]; /* image, reference */
     const char *heat_map;
     float heat_scale;
     cli_list limits; /* METRIC=VALUE */
@@ -62,12 +62,12 @@ static void print_json_number(double value) {
         printf(isnan(value) ? "null" : "\"infinite\"");
 }
 
-static void print(const compare_arguments *arguments, const image *picture,
+static void print(const compare_arguments *arguments, const image *pixels,
                   const compare_result *result) {
     const char *space = is_exr(arguments->paths[1]) ? "linear" : "display";
     if (arguments->json) {
-        printf("{ \"width\": %d, \"height\": %d, \"space\": \"%s\"", picture->width,
-               picture->height, space);
+        printf("{ \"width\": %d, \"height\": %d, \"space\": \"%s\"", pixels->width, pixels->height,
+               space);
         for (int m = 0; m < COMPARE_COUNT; m++) {
             printf(", \"%s\": ", compare_metrics[m]);
             print_json_number(result->values[m]);
@@ -76,7 +76,7 @@ static void print(const compare_arguments *arguments, const image *picture,
                result->bad_values);
         return;
     }
-    printf("%dx%d pixels, %s values\n", picture->width, picture->height, space);
+    printf("%dx%d pixels, %s values\n", pixels->width, pixels->height, space);
     for (int m = 0; m < COMPARE_COUNT; m++) {
         printf("%-7s %.6g", compare_metrics[m], result->values[m]);
         if (m == COMPARE_MAX)
@@ -138,7 +138,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_TEXT,
           .target = &a.heat_map,
           .argument = "FILE.png",
-          .help = "write the absolute difference as a picture, black to white" },
+          .help = "write the absolute difference as an image, black to white" },
         { .name = "heatmap-scale",
           .kind = CLI_FLOAT,
           .target = &a.heat_scale,
@@ -157,14 +157,14 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (count != 2)
-        return cli_usage(command, "expected two pictures, PICTURE and REFERENCE");
+        return cli_usage(command, "expected two images, PICTURE and REFERENCE");
     for (int i = 0; i < a.limits.count; i++)
         if (!parse_limit(command, a.limits.items[i], &limits[i]))
             return CLI_USAGE;
     for (int i = 0; i < 2; i++)
         a.paths[i] = operands[i];
     if (is_exr(a.paths[0]) != is_exr(a.paths[1]))
-        return cli_usage(command, "one picture is linear (.exr), the other tone-mapped: compare "
+        return cli_usage(command, "one image is linear (.exr), the other tone-mapped: compare "
                                   "two of a kind");
     if (a.heat_map && image_format_of(a.heat_map) != IMAGE_PNG)
         return cli_usage(command, "%s: --heatmap makes a .png", a.heat_map);
@@ -178,7 +178,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_compare = {
     .name = "compare",
     .operands = "PICTURE REFERENCE",
-    .summary = "say how far a picture is from a reference",
+    .summary = "say how far an image is from a reference",
     .examples = "lampion compare atrium.exr truth.exr\n"
                 "lampion compare a.png b.png --heatmap difference.png --fail-above max=0.01\n",
     .run = run,

@@ -27,7 +27,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &settings.directory, "DIR",
           "the folder to write index.html into", 0, 0, NULL, NULL },
-        { "full", 0, CLI_FLAG, &settings.full, NULL, "pictures as large as the paper's", 0, 0, NULL,
+        { "full", 0, CLI_FLAG, &settings.full, NULL, "images as large as the paper's", 0, 0, NULL,
           NULL },
         { "san-miguel", 0, CLI_TEXT, &settings.san_miguel, "FILE", "the scene of figure 1", 0, 0,
           NULL, NULL },

@@ -21,15 +21,15 @@ typedef struct reference_arguments {
     int bands, window;
     float error, exposure, stops;
     bool exposure_given;
-    /* One point instead of a picture. */
+    /* One point instead of an image. */
     bool point_given;
     float point[3], normal[3], view[3], diffuse[3], specular[3], exponent;
     cli_list point_lights;
 } reference_arguments;
 
-/* A linear picture carries its standard error as a second layer. */
-static bool write_picture(const reference_arguments *a, const image *radiance,
-                          const image *standard_error, cli_error *error) {
+/* A linear image carries its standard error as a second layer. */
+static bool write_image(const reference_arguments *a, const image *radiance,
+                        const image *standard_error, cli_error *error) {
     const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
     if (image_format_of(a->output) == IMAGE_EXR)
         return image_write_exr_layers(a->output, layers, 2, error);
@@ -73,7 +73,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
                     scene_place_camera(&world, &a->camera, a->size, &settings->camera, error) &&
                     choose_materials(a, &world, &all, &sources, error) &&
                     reference_render(&world, settings, &radiance, &standard_error, error) &&
-                    write_picture(a, &radiance, &standard_error, error);
+                    write_image(a, &radiance, &standard_error, error);
     image_free(&radiance);
     image_free(&standard_error);
     free(sources);
@@ -149,7 +149,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                               .diffuse = { 1, 1, 1 } };
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &a.output, "FILE",
-          "the picture: .exr (linear, the standard error as layer \"stderr\") or .png", 0, 0, NULL,
+          "the image: .exr (linear, the standard error as layer \"stderr\") or .png", 0, 0, NULL,
           NULL },
         { "size", 's', CLI_SIZE, a.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         SCENE_CAMERA_OPTION_ROWS(a.camera),
@@ -160,7 +160,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "stop a pixel when its standard error is below E times its value; 0 means never", 0, 1,
           NULL, NULL },
         { "noise-seed", 0, CLI_SEED, &a.settings.seed, "SEED",
-          "seed of the noise: the same seed gives the same picture", 0, 0, NULL, NULL },
+          "seed of the noise: the same seed gives the same image", 0, 0, NULL, NULL },
         { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
           "let surfaces hide lights (render does not)", 0, 0, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N",
@@ -176,7 +176,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "0 means all processors; the result is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),
         { "point", 0, CLI_VEC3, a.point, "X,Y,Z",
-          "no picture: print the radiance that one point reflects, by quadrature", 0, 0, NULL,
+          "no image: print the radiance that one point reflects, by quadrature", 0, 0, NULL,
           &a.point_given },
         { "normal", 0, CLI_VEC3, a.normal, "X,Y,Z", "the point's normal", 0, 0, NULL, NULL },
         { "view", 0, CLI_VEC3, a.view, "X,Y,Z", "direction from the point to the viewer", 0, 0,

@@ -70,15 +70,15 @@ static void name_frame(const render_options *o, int index, char path[PATH_SIZE])
     snprintf(path, PATH_SIZE, "%.*s%s%0*d%s", before, o->output, separator, digits, index, rest);
 }
 
-/* --- one picture --------------------------------------------------------------------------------
+/* --- one image --------------------------------------------------------------------------------
  */
 
 static bool write_exr(const job *j, const char *path, cli_error *error) {
-    image picture;
-    if (!gpu_read_image(j->renderer, &picture, error))
+    image pixels;
+    if (!gpu_read_image(j->renderer, &pixels, error))
         return false;
-    const bool ok = image_write(&picture, path, j->exposure, error);
-    image_free(&picture);
+    const bool ok = image_write(&pixels, path, j->exposure, error);
+    image_free(&pixels);
     return ok;
 }
 
@@ -107,14 +107,14 @@ static bool settle_exposure(job *j, cli_error *error) {
     float factor = o->exposure;
     if (!o->exposure_given) {
         move_lights(j, 0);
-        image picture;
+        image pixels;
         gpu_frame frame = j->frame;
         frame.samples = 1;
         if (!gpu_render(j->renderer, &frame, NULL, error) ||
-            !gpu_read_image(j->renderer, &picture, error))
+            !gpu_read_image(j->renderer, &pixels, error))
             return false;
-        factor = image_auto_exposure(&picture);
-        image_free(&picture);
+        factor = image_auto_exposure(&pixels);
+        image_free(&pixels);
     }
     j->exposure = factor * image_exposure_of_stops(o->stops);
     if (image_format_of(o->output) == IMAGE_PNG)
@@ -322,9 +322,9 @@ static int check_options(const cli_command *command, const render_options *o, in
     if (o->shard_given && !o->frames_given)
         return cli_usage(command, "--shard splits --frames, which is not there");
     if (image_format_of(o->output) == IMAGE_UNKNOWN)
-        return cli_usage(command, "%s: unknown kind of picture (name it .png or .exr)", o->output);
+        return cli_usage(command, "%s: unknown kind of image (name it .png or .exr)", o->output);
     if (strlen(o->output) > PATH_SIZE - 16)
-        return cli_usage(command, "the name of the picture is too long");
+        return cli_usage(command, "the name of the image is too long");
     if ((long)o->size[0] * o->size[1] > IMAGE_PIXELS_MAX)
         return cli_usage(command, "--size %dx%d: more than %d pixels", o->size[0], o->size[1],
                          IMAGE_PIXELS_MAX);
@@ -375,7 +375,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                          .fps = 24 };
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &o.output, "FILE",
-          "the picture: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },
+          "the image: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },
         { "size", 's', CLI_SIZE, o.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         { "bands", 'n', CLI_INT, &o.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
           NULL, NULL },
@@ -401,7 +401,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
           NULL, NULL },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
-          "numbered pictures (%04d in FILE) while the lights move: the first N, or A to B", 0,
+          "numbered images (%04d in FILE) while the lights move: the first N, or A to B", 0,
           FRAME_MAX, NULL, &o.frames_given },
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,
@@ -437,7 +437,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_render = {
     .name = "render",
     .operands = "SCENE",
-    .summary = "draw a scene lit by sphere lights to a picture",
+    .summary = "draw a scene lit by sphere lights to an image",
     .examples =
         "lampion render builtin:atrium --random-lights 30 --seed 7 --bands 8 -o atrium.png\n"
         "lampion render scene.gltf --eye 0,2,5 --target 0,1,0 --size 1920x1080 -o scene.exr\n"

@@ -16,22 +16,23 @@ bool compare_grows_with_likeness(compare_metric metric) {
     return metric == COMPARE_PSNR || metric == COMPARE_SSIM;
 }
 
-static size_t value_count(const image *picture) {
-    return 3 * (size_t)picture->width * (size_t)picture->height;
+static size_t value_count(const image *candidate) {
+    return 3 * (size_t)candidate->width * (size_t)candidate->height;
 }
 
-static void place(compare_result *result, const image *picture, size_t value) {
-    result->max_x = (int)(value / 3 % (size_t)picture->width);
-    result->max_y = (int)(value / 3 / (size_t)picture->width);
+static void place(compare_result *result, const image *candidate, size_t value) {
+    result->max_x = (int)(value / 3 % (size_t)candidate->width);
+    result->max_y = (int)(value / 3 / (size_t)candidate->width);
 }
 
 /* Returns whether all values are finite; if not, sets the metrics to NaN. */
-static bool count_bad_values(const image *picture, const image *reference, compare_result *result) {
-    for (size_t i = 0; i < value_count(picture); i++) {
+static bool count_bad_values(const image *candidate, const image *reference,
+                             compare_result *result) {
+    for (size_t i = 0; i < value_count(candidate); i++) {
         const size_t bad =
-            (isfinite(picture->rgb[i]) ? 0U : 1U) + (isfinite(reference->rgb[i]) ? 0U : 1U);
+            (isfinite(candidate->rgb[i]) ? 0U : 1U) + (isfinite(reference->rgb[i]) ? 0U : 1U);
         if (bad && !result->bad_values)
-            place(result, picture, i);
+            place(result, candidate, i);
         result->bad_values += bad;
     }
     for (int m = 0; m < COMPARE_COUNT && result->bad_values; m++)
@@ -39,24 +40,24 @@ static bool count_bad_values(const image *picture, const image *reference, compa
     return result->bad_values == 0;
 }
 
-bool compare_images(const image *picture, const image *reference, double peak,
+bool compare_images(const image *candidate, const image *reference, double peak,
                     compare_result *result, cli_error *error) {
-    const size_t count = value_count(picture);
+    const size_t count = value_count(candidate);
     double squares = 0, relative = 0, largest = -1, full = peak;
     *result = (compare_result) { .bad_values = 0 };
-    if (picture->width != reference->width || picture->height != reference->height)
-        return cli_fail(error, NULL, "the pictures have different sizes: %dx%d and %dx%d",
-                        picture->width, picture->height, reference->width, reference->height);
-    if (!count_bad_values(picture, reference, result))
+    if (candidate->width != reference->width || candidate->height != reference->height)
+        return cli_fail(error, NULL, "the images have different sizes: %dx%d and %dx%d",
+                        candidate->width, candidate->height, reference->width, reference->height);
+    if (!count_bad_values(candidate, reference, result))
         return true;
     for (size_t i = 0; i < count; i++) {
         const double truth = (double)reference->rgb[i];
-        const double difference = fabs((double)picture->rgb[i] - truth);
+        const double difference = fabs((double)candidate->rgb[i] - truth);
         squares += difference * difference;
         relative += difference * difference / (truth * truth + RELATIVE_FLOOR);
         if (difference > largest) {
             largest = difference;
-            place(result, picture, i);
+            place(result, candidate, i);
         }
         if (peak <= 0)
             full = fmax(full, truth);
@@ -66,15 +67,16 @@ bool compare_images(const image *picture, const image *reference, double peak,
     result->values[COMPARE_RELMSE] = relative / (double)count;
     result->values[COMPARE_PSNR] = rmse > 0 ? 20 * log10(full / rmse) : (double)INFINITY;
     result->values[COMPARE_MAX] = largest;
-    return compare_ssim(picture, reference, full, &result->values[COMPARE_SSIM]) ||
+    return compare_ssim(candidate, reference, full, &result->values[COMPARE_SSIM]) ||
            cli_fail(error, NULL, "out of memory");
 }
 
-void compare_to_display(image *picture) {
-    for (size_t i = 0; i < value_count(picture); i++) {
-        const double v = fmin(fmax((double)picture->rgb[i], 0), 1);
-        if (isfinite(picture->rgb[i]))
-            picture->rgb[i] = (float)(v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055);
+void compare_to_display(image *candidate) {
+    for (size_t i = 0; i < value_count(candidate); i++) {
+        const double v = fmin(fmax((double)candidate->rgb[i], 0), 1);
+        if (isfinite(candidate->rgb[i]))
+            candidate->rgb[i] =
+                (float)(v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055);
     }
 }
 
@@ -93,10 +95,10 @@ static void heat_color(double value, unsigned char rgb[3]) {
                                        (at - stop) * (heat[stop + 1][c] - heat[stop][c]));
 }
 
-static double pixel_difference(const image *picture, const image *reference, size_t pixel) {
+static double pixel_difference(const image *candidate, const image *reference, size_t pixel) {
     double largest = 0;
     for (size_t i = 3 * pixel; i < 3 * pixel + 3; i++) {
-        const double difference = fabs((double)picture->rgb[i] - (double)reference->rgb[i]);
+        const double difference = fabs((double)candidate->rgb[i] - (double)reference->rgb[i]);
         if (!isfinite(difference))
             return (double)NAN;
         largest = fmax(largest, difference);
@@ -104,14 +106,14 @@ static double pixel_difference(const image *picture, const image *reference, siz
     return largest;
 }
 
-void compare_heat_map(const image *picture, const image *reference, double scale,
+void compare_heat_map(const image *candidate, const image *reference, double scale,
                       unsigned char *rgb8) {
-    const size_t pixels = value_count(picture) / 3;
+    const size_t pixels = value_count(candidate) / 3;
     double full = scale;
     for (size_t p = 0; p < pixels && scale <= 0; p++)
-        full = fmax(full, pixel_difference(picture, reference, p));
+        full = fmax(full, pixel_difference(candidate, reference, p));
     for (size_t p = 0; p < pixels; p++) {
-        const double difference = pixel_difference(picture, reference, p);
+        const double difference = pixel_difference(candidate, reference, p);
         if (isfinite(difference))
             heat_color(full > 0 ? difference / full : 0, rgb8 + 3 * p);
         else

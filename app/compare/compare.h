@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* compare.h - how far a picture is from a reference. */
+/* compare.h - how far an image is from a reference. */
 #ifndef LAMPION_COMPARE_H
 #define LAMPION_COMPARE_H
 
@@ -9,34 +9,34 @@
 typedef enum compare_metric {
     COMPARE_RMSE,   /* root of the mean squared difference of all channels */
     COMPARE_RELMSE, /* mean of difference² / (reference² + 0.01) */
-    COMPARE_PSNR,   /* 20 log10(peak / RMSE), dB; infinite for equal pictures */
+    COMPARE_PSNR,   /* 20 log10(peak / RMSE), dB; infinite for equal images */
     COMPARE_MAX,    /* largest absolute difference of a channel */
     COMPARE_SSIM,   /* mean structural similarity of luminance (Wang et al. 2004); 1 = equal */
     COMPARE_COUNT
 } compare_metric;
 extern const char *const compare_metrics[COMPARE_COUNT + 1]; /* names, NULL-terminated */
 
-/* Whether a larger value of the metric is a closer picture. */
+/* Whether a larger value of the metric is a closer image. */
 bool compare_grows_with_likeness(compare_metric metric);
 
 typedef struct compare_result {
-    double values[COMPARE_COUNT]; /* all NaN if a picture holds a value that is no finite number */
+    double values[COMPARE_COUNT]; /* all NaN if an image holds a value that is no finite number */
     int max_x, max_y;             /* where the largest difference is; of a bad value: where it is */
-    size_t bad_values;            /* NaN and infinite ones, in both pictures */
+    size_t bad_values;            /* NaN and infinite ones, in both images */
 } compare_result;
 
-/* The pictures must have equal sizes. `peak` is what PSNR and SSIM count as full scale; 0 means the
+/* The images must have equal sizes. `peak` is what PSNR and SSIM count as full scale; 0 means the
  * reference's largest value. */
-bool compare_images(const image *picture, const image *reference, double peak,
+bool compare_images(const image *candidate, const image *reference, double peak,
                     compare_result *result, cli_error *error);
 
 /* Encodes linear values by sRGB's transfer function, in place, held to 0 … 1. */
-void compare_to_display(image *picture);
+void compare_to_display(image *candidate);
 
 /* Largest channel's absolute difference as color, from black over purple and orange to white at
  * `scale` and above (0: the largest there is); bad values are green. rgb8 receives
  * 3 * width * height bytes. */
-void compare_heat_map(const image *picture, const image *reference, double scale,
+void compare_heat_map(const image *candidate, const image *reference, double scale,
                       unsigned char *rgb8);
 
 #endif

@@ -10,10 +10,10 @@
 /* The windowed means SSIM is made of. */
 enum { X, Y, XX, YY, XY, MEANS };
 
-static void luminance_products(const image *picture, const image *reference, double *planes) {
-    const size_t pixels = (size_t)picture->width * (size_t)picture->height;
+static void luminance_products(const image *candidate, const image *reference, double *planes) {
+    const size_t pixels = (size_t)candidate->width * (size_t)candidate->height;
     for (size_t p = 0; p < pixels; p++) {
-        const float *a = picture->rgb + 3 * p, *b = reference->rgb + 3 * p;
+        const float *a = candidate->rgb + 3 * p, *b = reference->rgb + 3 * p;
         const double x = 0.2126 * (double)a[0] + 0.7152 * (double)a[1] + 0.0722 * (double)a[2];
         const double y = 0.2126 * (double)b[0] + 0.7152 * (double)b[1] + 0.0722 * (double)b[2];
         planes[X * pixels + p] = x;
@@ -47,15 +47,16 @@ static void blur(double *plane, double *scratch, int width, int height) {
         blur_line(scratch + x, plane + x, height, (size_t)width);
 }
 
-bool compare_ssim(const image *picture, const image *reference, double peak, double *ssim) {
-    const size_t pixels = (size_t)picture->width * (size_t)picture->height;
+bool compare_ssim(const image *candidate, const image *reference, double peak, double *ssim) {
+    const size_t pixels = (size_t)candidate->width * (size_t)candidate->height;
     const double c1 = (0.01 * peak) * (0.01 * peak), c2 = (0.03 * peak) * (0.03 * peak);
     double *planes = malloc((MEANS + 1) * pixels * sizeof *planes), sum = 0;
     if (!planes)
         return false;
-    luminance_products(picture, reference, planes);
+    luminance_products(candidate, reference, planes);
     for (int m = 0; m < MEANS; m++)
-        blur(planes + (size_t)m * pixels, planes + MEANS * pixels, picture->width, picture->height);
+        blur(planes + (size_t)m * pixels, planes + MEANS * pixels, candidate->width,
+             candidate->height);
     for (size_t p = 0; p < pixels; p++) {
         const double x = planes[X * pixels + p], y = planes[Y * pixels + p];
         const double xx = planes[XX * pixels + p] - x * x, yy = planes[YY * pixels + p] - y * y;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* ssim.h - structural similarity of two pictures' luminance. */
+/* ssim.h - structural similarity of two images' luminance. */
 #ifndef LAMPION_COMPARE_SSIM_H
 #define LAMPION_COMPARE_SSIM_H
 
 #include "app/image/image.h"
 
 /* Wang et al. 2004 with their constants: Gaussian windows of 11 pixels and sigma 1.5, cut at the
- * picture's edges, K = 0.01 and 0.03. False without memory. */
-bool compare_ssim(const image *picture, const image *reference, double peak, double *ssim);
+ * image's edges, K = 0.01 and 0.03. False without memory. */
+bool compare_ssim(const image *candidate, const image *reference, double peak, double *ssim);
 
 #endif

@@ -24,7 +24,7 @@ int device_bands_max(device_kind device, gpu_method method);
 device_kind device_choose(device_kind wanted, const gpu_context *context, gpu_method method,
                           int bands);
 
-/* Pictures ask more of lobes than the default: beside a highlight of ten times white, half a
+/* Images ask more of lobes than the default: beside a highlight of ten times white, half a
  * percent of it shows. */
 #define DEVICE_LOBES_ERROR 0.002f
 

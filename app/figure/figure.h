@@ -7,16 +7,16 @@
 
 #include <lampion/base.h>
 
-/* A rectangle of pixels; what lies outside of the picture is not drawn. */
+/* A rectangle of pixels; what lies outside of the image is not drawn. */
 typedef struct figure_box {
     int x, y, width, height;
 } figure_box;
 
-void figure_fill(image *picture, figure_box box, lmp_rgb color);
+void figure_fill(image *pixels, figure_box box, lmp_rgb color);
 
 /* Writes digits, signs, blanks and the letters l and m, `height` pixels high, centerd in the box.
  */
-void figure_text(image *picture, figure_box box, int height, lmp_rgb color, const char *text);
+void figure_text(image *pixels, figure_box box, int height, lmp_rgb color, const char *text);
 
 /* A function on the sphere as a surface: |radius(direction)| away from the center. */
 typedef struct figure_lobe {
@@ -26,6 +26,6 @@ typedef struct figure_lobe {
 } figure_lobe;
 
 /* Draws the lobe into the box, z up, seen a little from above. */
-bool figure_draw_lobe(image *picture, figure_box box, const figure_lobe *lobe, cli_error *error);
+bool figure_draw_lobe(image *pixels, figure_box box, const figure_lobe *lobe, cli_error *error);
 
 #endif

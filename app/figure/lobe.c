@@ -136,14 +136,13 @@ static void fill_row(const figure_lobe *lobe, int row, int rows, corner *corners
 }
 
 /* Lets the samples of each pixel fall over what is already there. */
-static void resolve(const canvas *c, image *picture, figure_box box) {
+static void resolve(const canvas *c, image *pixels, figure_box box) {
     for (int y = 0; y < box.height; y++)
         for (int x = 0; x < box.width; x++) {
             const int px = box.x + x, py = box.y + y;
-            if (px < 0 || py < 0 || px >= picture->width || py >= picture->height)
+            if (px < 0 || py < 0 || px >= pixels->width || py >= pixels->height)
                 continue;
-            float *const rgb =
-                picture->rgb + 3 * ((size_t)py * (size_t)picture->width + (size_t)px);
+            float *const rgb = pixels->rgb + 3 * ((size_t)py * (size_t)pixels->width + (size_t)px);
             float sum[3] = { 0.0f, 0.0f, 0.0f };
             for (int j = 0; j < OVERSAMPLE; j++)
                 for (int i = 0; i < OVERSAMPLE; i++) {
@@ -159,7 +158,7 @@ static void resolve(const canvas *c, image *picture, figure_box box) {
         }
 }
 
-bool figure_draw_lobe(image *picture, figure_box box, const figure_lobe *lobe, cli_error *error) {
+bool figure_draw_lobe(image *pixels, figure_box box, const figure_lobe *lobe, cli_error *error) {
     const int side = box.width < box.height ? box.width : box.height;
     const int rows = 2 * side > 16 ? 2 * side : 16; /* quads of two or three samples */
     canvas c = { .width = box.width * OVERSAMPLE,
@@ -183,7 +182,7 @@ bool figure_draw_lobe(image *picture, figure_box box, const figure_lobe *lobe, c
         for (size_t j = 0; j + 1 < corners; j++)
             draw_quad(&c, above + j, below + j, lobe);
     }
-    resolve(&c, picture, box);
+    resolve(&c, pixels, box);
     free(strip);
     free(c.samples);
     return true;

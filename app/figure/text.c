@@ -38,7 +38,7 @@ static const unsigned char *rows_of(char character) {
     return blank;
 }
 
-void figure_text(image *picture, figure_box box, int height, lmp_rgb color, const char *text) {
+void figure_text(image *pixels, figure_box box, int height, lmp_rgb color, const char *text) {
     const int dot = height / GLYPH_HEIGHT > 1 ? height / GLYPH_HEIGHT : 1;
     const int width = ((int)strlen(text) * (GLYPH_WIDTH + 1) - 1) * dot;
     int left = box.x + (box.width - width) / 2;
@@ -48,7 +48,7 @@ void figure_text(image *picture, figure_box box, int height, lmp_rgb color, cons
         for (int y = 0; y < GLYPH_HEIGHT; y++)
             for (int x = 0; x < GLYPH_WIDTH; x++)
                 if (rows[y] >> (GLYPH_WIDTH - 1 - x) & 1)
-                    figure_fill(picture, (figure_box) { left + x * dot, top + y * dot, dot, dot },
+                    figure_fill(pixels, (figure_box) { left + x * dot, top + y * dot, dot, dot },
                                 color);
     }
 }

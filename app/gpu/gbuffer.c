@@ -22,7 +22,7 @@ static bool allocate(gpu_gbuffer *g, int width, int height, cli_error *error) {
     if (!g->depth || !g->base_metallic || !g->normal || !g->roughness_kind || !g->emission ||
         !g->rgba) {
         gpu_gbuffer_free(g);
-        return cli_fail(error, NULL, "out of memory for a picture of %d x %d", width, height);
+        return cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
     }
     g->width = width;
     g->height = height;
@@ -63,7 +63,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
         if (count * planes[i].size > INT32_MAX)
-            return cli_fail(error, NULL, "a picture of %d x %d is too large to read back", r->width,
+            return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
                             r->height);
         glGetTextureImage(planes[i].texture, 0, planes[i].format, planes[i].type,
                           (GLsizei)(count * planes[i].size), planes[i].to);

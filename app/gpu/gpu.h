@@ -3,7 +3,7 @@
  * every pixel through spherical harmonics.
  *
  * The context knows the device; the renderer knows a scene and lives in whatever context is
- * current, be it gpu_context's own or a window's. Pictures have row 0 at the top. */
+ * current, be it gpu_context's own or a window's. Images have row 0 at the top. */
 #ifndef LAMPION_GPU_H
 #define LAMPION_GPU_H
 
@@ -71,7 +71,7 @@ typedef struct gpu_frame {
     const lmp_preintegrated_lobe *response; /* of GPU_METHOD_PREINTEGRATED, its bands and window */
     gpu_host_shader host;                   /* instead of the compute pass, or NULL */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
-    float samples_exposure; /* the mean suits a picture of this exposure; 0: the plain mean */
+    float samples_exposure; /* the mean suits an image of this exposure; 0: the plain mean */
 } gpu_frame;
 
 int gpu_bands_max(gpu_method method);
@@ -121,16 +121,16 @@ bool gpu_read_rgb8(gpu_renderer *renderer, float exposure, unsigned char *rgb8, 
 /* The HDR target, linear; *image is created. */
 bool gpu_read_image(gpu_renderer *renderer, image *image, cli_error *error);
 
-/* --- a window's picture -------------------------------------------------------------------------
+/* --- a window's image -------------------------------------------------------------------------
  */
 
-/* One picture, two side by side with a divider between them, or how they differ; drawings over it.
+/* One image, two side by side with a divider between them, or how they differ; drawings over it.
  */
 typedef struct gpu_screen gpu_screen;
 gpu_screen *gpu_screen_create(cli_error *error);
 void gpu_screen_destroy(gpu_screen *screen);
 
-/* Copies the renderer's picture, tone-mapped, as the screen's `side`, 0 or 1. */
+/* Copies the renderer's image, tone-mapped, as the screen's `side`, 0 or 1. */
 void gpu_screen_take(gpu_screen *screen, gpu_renderer *renderer, int side, float exposure);
 
 typedef enum gpu_split {

@@ -61,7 +61,7 @@ bool gpu_read_pixels(gpu_renderer *r, gpu_pixel **pixels, cli_error *error) {
     rows = rows < SHARED_GROUP ? SHARED_GROUP : rows;
     *pixels = malloc((size_t)r->width * (size_t)r->height * sizeof **pixels);
     if (!*pixels)
-        return cli_fail(error, NULL, "out of memory for a picture of %d x %d", r->width, r->height);
+        return cli_fail(error, NULL, "out of memory for an image of %d x %d", r->width, r->height);
     GLuint buffer = 0;
     glCreateBuffers(1, &buffer);
     glNamedBufferStorage(buffer,

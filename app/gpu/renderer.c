@@ -143,7 +143,7 @@ static bool create_targets(gpu_renderer *r, int width, int height, cli_error *er
     if (r->width == width && r->height == height)
         return true;
     if (width < 1 || height < 1 || width > r->context.size_max || height > r->context.size_max)
-        return cli_fail(error, NULL, "a picture of %d x %d is beyond %s, which takes %d a side",
+        return cli_fail(error, NULL, "an image of %d x %d is beyond %s, which takes %d a side",
                         width, height, r->context.device, r->context.size_max);
     delete_targets(r);
     glCreateFramebuffers(1, &r->framebuffer);
@@ -161,8 +161,8 @@ static bool create_targets(gpu_renderer *r, int width, int height, cli_error *er
     const GLenum status = glCheckNamedFramebufferStatus(r->framebuffer, GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE || glGetError() == GL_OUT_OF_MEMORY) {
         delete_targets(r);
-        return cli_fail(error, NULL, "%s cannot hold a picture of %d x %d", r->context.device,
-                        width, height);
+        return cli_fail(error, NULL, "%s cannot hold an image of %d x %d", r->context.device, width,
+                        height);
     }
     r->width = width;
     r->height = height;
@@ -206,7 +206,7 @@ static void place_sample(int index, int count, float offset[2]) {
     }
 }
 
-/* Rows of the clip matrix: x right, y down (row 0 of a picture is its top), depth = near /
+/* Rows of the clip matrix: x right, y down (row 0 of an image is its top), depth = near /
  * distance, w = distance. */
 static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float offset[2],
                        shared_frame *block, cli_error *error) {
@@ -267,7 +267,7 @@ static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *e
     const int tables = gpu_tables_by_bands(r, frame->method);
     const bool measured = preintegrated && gpu_has_preintegrated_brdf(r);
     if (r->table_count && r->table_bands != frame->bands) {
-        cli_fail(error, NULL, "the tables of the materials have %d bands, the picture %d",
+        cli_fail(error, NULL, "the tables of the materials have %d bands, the image %d",
                  r->table_bands, frame->bands);
         return 0;
     }
@@ -525,7 +525,7 @@ bool gpu_refine(gpu_renderer *r, const gpu_frame *frame, int index, gpu_times *t
     return render_samples(r, frame, index, index, true, times, error);
 }
 
-/* --- the picture --------------------------------------------------------------------------------
+/* --- the image --------------------------------------------------------------------------------
  */
 
 void gpu_present(gpu_renderer *r, unsigned framebuffer, float exposure, bool rows_from_top) {
@@ -552,23 +552,23 @@ bool gpu_read_rgb8(gpu_renderer *r, float exposure, unsigned char *rgb8, gpu_tim
     }
     const size_t size = 3 * (size_t)r->width * (size_t)r->height;
     if (size > INT32_MAX)
-        return cli_fail(error, NULL, "a picture of %d x %d is too large to read back", r->width,
+        return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
                         r->height);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(r->ldr, 0, GL_RGB, GL_UNSIGNED_BYTE, (GLsizei)size, rgb8);
     return true;
 }
 
-bool gpu_read_image(gpu_renderer *r, image *picture, cli_error *error) {
-    if (!image_create(picture, r->width, r->height, error))
+bool gpu_read_image(gpu_renderer *r, image *pixels, cli_error *error) {
+    if (!image_create(pixels, r->width, r->height, error))
         return false;
     const size_t size = 3 * sizeof(float) * (size_t)r->width * (size_t)r->height;
     if (size > INT32_MAX) {
-        image_free(picture);
-        return cli_fail(error, NULL, "a picture of %d x %d is too large to read back", r->width,
+        image_free(pixels);
+        return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
                         r->height);
     }
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(r->hdr, 0, GL_RGB, GL_FLOAT, (GLsizei)size, picture->rgb);
+    glGetTextureImage(r->hdr, 0, GL_RGB, GL_FLOAT, (GLsizei)size, pixels->rgb);
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What a window shows: pictures of renderers, and drawings over them. */
+/* What a window shows: images of renderers, and drawings over them. */
 #include "app/gpu/internal.h"
 
 #include <stdint.h>
@@ -112,8 +112,8 @@ bool gpu_screen_read(gpu_screen *s, const gpu_layout *layout, unsigned char *rgb
                      cli_error *error) {
     const size_t size = 3 * (size_t)layout->width * (size_t)layout->height;
     if (size > INT32_MAX)
-        return cli_fail(error, NULL, "a picture of %d x %d is too large to read back",
-                        layout->width, layout->height);
+        return cli_fail(error, NULL, "an image of %d x %d is too large to read back", layout->width,
+                        layout->height);
     size_side(&s->copy, layout->width, layout->height);
     compose(s, layout, s->copy.framebuffer, false);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -121,8 +121,7 @@ bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int co
         const int first = lmp_brdf_table_describe(tables[0]).bands,
                   bands = lmp_brdf_table_describe(tables[t]).bands;
         if (bands != first)
-            return cli_fail(error, NULL, "tables of %d and of %d bands in one picture", first,
-                            bands);
+            return cli_fail(error, NULL, "tables of %d and of %d bands in one image", first, bands);
     }
     r->table_count = count;
     for (int t = 0; t < count; t++) {

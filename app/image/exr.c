@@ -56,15 +56,15 @@ static void aim_encoder(exr_encode_pipeline_t *encoder, const image_layer *layer
     char name[256];
     for (int c = 0; c < encoder->channel_count; c++)
         for (int i = 0; i < 3 * count; i++) {
-            const image *picture = layers[i / 3].image;
+            const image *pixels = layers[i / 3].image;
             channel_name(&layers[i / 3], i % 3, name, sizeof name);
             if (strcmp(name, encoder->channels[c].channel_name) != 0)
                 continue;
             const float *from =
-                picture->rgb + 3 * (size_t)row * (size_t)picture->width + (size_t)(i % 3);
+                pixels->rgb + 3 * (size_t)row * (size_t)pixels->width + (size_t)(i % 3);
             encoder->channels[c].encode_from_ptr = (const uint8_t *)from;
             encoder->channels[c].user_pixel_stride = 3 * sizeof(float);
-            encoder->channels[c].user_line_stride = picture->width * 3 * (int32_t)sizeof(float);
+            encoder->channels[c].user_line_stride = pixels->width * 3 * (int32_t)sizeof(float);
             encoder->channels[c].user_bytes_per_element = sizeof(float);
             encoder->channels[c].user_data_type = EXR_PIXEL_FLOAT;
         }
@@ -121,8 +121,8 @@ bool image_write_exr_layers(const char *path, const image_layer *layers, int cou
 /* --- reading ------------------------------------------------------------------------------------
  */
 
-/* Aims the R, G and B of a chunk at the picture; other channels are skipped. */
-static exr_result_t aim_decoder(exr_decode_pipeline_t *decoder, image *picture, int64_t column,
+/* Aims the R, G and B of a chunk at the image; other channels are skipped. */
+static exr_result_t aim_decoder(exr_decode_pipeline_t *decoder, image *pixels, int64_t column,
                                 int64_t row) {
     static const char *const names[3] = { "R", "G", "B" };
     int found = 0;
@@ -133,13 +133,13 @@ static exr_result_t aim_decoder(exr_decode_pipeline_t *decoder, image *picture, 
             if (strcmp(channel->channel_name, names[i]) != 0)
                 continue;
             if (channel->x_samples != 1 || channel->y_samples != 1 ||
-                channel->data_type == EXR_PIXEL_UINT || channel->width + column > picture->width ||
-                channel->height + row > picture->height || column < 0 || row < 0)
+                channel->data_type == EXR_PIXEL_UINT || channel->width + column > pixels->width ||
+                channel->height + row > pixels->height || column < 0 || row < 0)
                 return EXR_ERR_FEATURE_NOT_IMPLEMENTED;
-            float *to = picture->rgb + 3 * (row * picture->width + column) + i;
+            float *to = pixels->rgb + 3 * (row * pixels->width + column) + i;
             channel->decode_to_ptr = (uint8_t *)to;
             channel->user_pixel_stride = 3 * sizeof(float);
-            channel->user_line_stride = picture->width * 3 * (int32_t)sizeof(float);
+            channel->user_line_stride = pixels->width * 3 * (int32_t)sizeof(float);
             channel->user_bytes_per_element = sizeof(float);
             channel->user_data_type = EXR_PIXEL_FLOAT;
             found++;
@@ -149,11 +149,11 @@ static exr_result_t aim_decoder(exr_decode_pipeline_t *decoder, image *picture, 
 }
 
 static exr_result_t decode(exr_const_context_t context, const exr_chunk_info_t *chunk,
-                           image *picture, int64_t column, int64_t row) {
+                           image *pixels, int64_t column, int64_t row) {
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t r = exr_decoding_initialize(context, 0, chunk, &decoder);
     if (r == EXR_ERR_SUCCESS)
-        r = aim_decoder(&decoder, picture, column, row);
+        r = aim_decoder(&decoder, pixels, column, row);
     if (r == EXR_ERR_SUCCESS)
         r = exr_decoding_choose_default_routines(context, 0, &decoder);
     if (r == EXR_ERR_SUCCESS)
@@ -162,34 +162,34 @@ static exr_result_t decode(exr_const_context_t context, const exr_chunk_info_t *
     return r;
 }
 
-static exr_result_t read_scanlines(exr_const_context_t context, int top, image *picture) {
+static exr_result_t read_scanlines(exr_const_context_t context, int top, image *pixels) {
     exr_chunk_info_t chunk;
     int32_t step = 1;
     exr_result_t r = exr_get_scanlines_per_chunk(context, 0, &step);
-    for (int row = 0; row < picture->height && r == EXR_ERR_SUCCESS; row += step) {
+    for (int row = 0; row < pixels->height && r == EXR_ERR_SUCCESS; row += step) {
         r = exr_read_scanline_chunk_info(context, 0, top + row, &chunk);
         if (r == EXR_ERR_SUCCESS)
-            r = decode(context, &chunk, picture, 0, row);
+            r = decode(context, &chunk, pixels, 0, row);
     }
     return r;
 }
 
-static exr_result_t read_tiles(exr_const_context_t context, image *picture) {
+static exr_result_t read_tiles(exr_const_context_t context, image *pixels) {
     exr_chunk_info_t chunk;
     int32_t width = 0, height = 0;
     exr_result_t r = exr_get_tile_sizes(context, 0, 0, 0, &width, &height);
     if (r == EXR_ERR_SUCCESS && (width < 1 || height < 1))
         r = EXR_ERR_INVALID_ATTR;
-    for (int y = 0; r == EXR_ERR_SUCCESS && y * (int64_t)height < picture->height; y++)
-        for (int x = 0; r == EXR_ERR_SUCCESS && x * (int64_t)width < picture->width; x++) {
+    for (int y = 0; r == EXR_ERR_SUCCESS && y * (int64_t)height < pixels->height; y++)
+        for (int x = 0; r == EXR_ERR_SUCCESS && x * (int64_t)width < pixels->width; x++) {
             r = exr_read_tile_chunk_info(context, 0, x, y, 0, 0, &chunk);
             if (r == EXR_ERR_SUCCESS)
-                r = decode(context, &chunk, picture, x * (int64_t)width, y * (int64_t)height);
+                r = decode(context, &chunk, pixels, x * (int64_t)width, y * (int64_t)height);
         }
     return r;
 }
 
-static bool read_part(exr_const_context_t context, const char *path, image *picture,
+static bool read_part(exr_const_context_t context, const char *path, image *pixels,
                       cli_error *error) {
     exr_attr_box2i_t window;
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
@@ -200,21 +200,21 @@ static bool read_part(exr_const_context_t context, const char *path, image *pict
         return cli_fail(error, path, "not a readable OpenEXR: %s",
                         exr_get_default_error_message(r));
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
-        return cli_fail(error, path, "deep OpenEXR pictures are not supported");
+        return cli_fail(error, path, "deep OpenEXR images are not supported");
     if (!image_create_read(path, (long long)window.max.x - window.min.x + 1,
-                           (long long)window.max.y - window.min.y + 1, picture, error))
+                           (long long)window.max.y - window.min.y + 1, pixels, error))
         return false;
-    r = storage == EXR_STORAGE_TILED ? read_tiles(context, picture)
-                                     : read_scanlines(context, window.min.y, picture);
+    r = storage == EXR_STORAGE_TILED ? read_tiles(context, pixels)
+                                     : read_scanlines(context, window.min.y, pixels);
     if (r == EXR_ERR_SUCCESS)
         return true;
-    image_free(picture);
+    image_free(pixels);
     if (r == EXR_ERR_MISSING_REQ_ATTR || r == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
         return cli_fail(error, path, "needs channels R, G and B of half or float");
     return cli_fail(error, path, "damaged OpenEXR: %s", exr_get_default_error_message(r));
 }
 
-bool image_read_exr(const char *path, image *picture, cli_error *error) {
+bool image_read_exr(const char *path, image *pixels, cli_error *error) {
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = on_error;
     exr_context_t context = NULL;
@@ -226,7 +226,7 @@ bool image_read_exr(const char *path, image *picture, cli_error *error) {
     if (r != EXR_ERR_SUCCESS)
         return cli_fail(error, path, "not a readable OpenEXR: %s",
                         exr_get_default_error_message(r));
-    const bool ok = read_part(context, path, picture, error);
+    const bool ok = read_part(context, path, pixels, error);
     exr_finish(&context);
     return ok;
 }

@@ -10,23 +10,23 @@
 #include <string.h>
 #include <strings.h>
 
-bool image_create(image *picture, int width, int height, cli_error *error) {
-    memset(picture, 0, sizeof *picture);
+bool image_create(image *pixels, int width, int height, cli_error *error) {
+    memset(pixels, 0, sizeof *pixels);
     if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX ||
         (long long)width * height > IMAGE_PIXELS_MAX)
-        return cli_fail(error, NULL, "a picture of %d x %d (1 to %d a side, %d pixels)", width,
+        return cli_fail(error, NULL, "an image of %d x %d (1 to %d a side, %d pixels)", width,
                         height, IMAGE_SIZE_MAX, IMAGE_PIXELS_MAX);
-    picture->rgb = calloc((size_t)width * (size_t)height, 3 * sizeof *picture->rgb);
-    if (!picture->rgb)
-        return cli_fail(error, NULL, "out of memory for a picture of %d x %d", width, height);
-    picture->width = width;
-    picture->height = height;
+    pixels->rgb = calloc((size_t)width * (size_t)height, 3 * sizeof *pixels->rgb);
+    if (!pixels->rgb)
+        return cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
+    pixels->width = width;
+    pixels->height = height;
     return true;
 }
 
-void image_free(image *picture) {
-    free(picture->rgb);
-    memset(picture, 0, sizeof *picture);
+void image_free(image *pixels) {
+    free(pixels->rgb);
+    memset(pixels, 0, sizeof *pixels);
 }
 
 /* --- exposure -----------------------------------------------------------------------------------
@@ -35,11 +35,11 @@ void image_free(image *picture) {
 /* Luminance in eighths of a stop, from 2^-40 to 2^40. */
 enum { BINS_A_STOP = 8, STOPS = 40, BINS = 2 * STOPS * BINS_A_STOP };
 
-static size_t fill_histogram(const image *picture, size_t histogram[BINS]) {
-    const size_t count = (size_t)picture->width * (size_t)picture->height;
+static size_t fill_histogram(const image *pixels, size_t histogram[BINS]) {
+    const size_t count = (size_t)pixels->width * (size_t)pixels->height;
     size_t lit = 0;
     for (size_t i = 0; i < count; i++) {
-        const float *rgb = picture->rgb + 3 * i;
+        const float *rgb = pixels->rgb + 3 * i;
         const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
         if (!(luminance > 0) || !isfinite(luminance))
             continue;
@@ -59,11 +59,11 @@ static int find_bin(const size_t histogram[BINS], double wanted) {
     return bin;
 }
 
-float image_auto_exposure(const image *picture) {
+float image_auto_exposure(const image *pixels) {
     static const double middle_grey = 0.18, trimmed = 0.05;
     enum { RANGE = 8 }; /* stops */
     size_t histogram[BINS] = { 0 };
-    const size_t lit = fill_histogram(picture, histogram);
+    const size_t lit = fill_histogram(pixels, histogram);
     const double low = trimmed * (double)lit, high = (double)lit - low;
     const int first = find_bin(histogram, high) - RANGE * BINS_A_STOP;
     double below = 0, weight = 0, sum = 0;
@@ -99,13 +99,13 @@ static float limit(float x) {
     return x > 0 ? fminf(x, SHARED_TONE_MAX) : 0;
 }
 
-void image_tone_map(const image *picture, float exposure, unsigned char *rgb8) {
-    const size_t count = (size_t)picture->width * (size_t)picture->height;
+void image_tone_map(const image *pixels, float exposure, unsigned char *rgb8) {
+    const size_t count = (size_t)pixels->width * (size_t)pixels->height;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < count; i++) {
         float x[3], y[3];
         for (int c = 0; c < 3; c++)
-            x[c] = limit(picture->rgb[3 * i + (size_t)c] * exposure);
+            x[c] = limit(pixels->rgb[3 * i + (size_t)c] * exposure);
         for (int c = 0; c < 3; c++)
             y[c] = shared_tone_in(c, x[0], x[1], x[2]);
         const float peak = fmaxf(y[0], fmaxf(y[1], y[2]));
@@ -116,10 +116,10 @@ void image_tone_map(const image *picture, float exposure, unsigned char *rgb8) {
     }
 }
 
-static void encode(const image *picture, unsigned char *rgb8) {
-    const size_t count = 3 * (size_t)picture->width * (size_t)picture->height;
+static void encode(const image *pixels, unsigned char *rgb8) {
+    const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
     for (size_t i = 0; i < count; i++)
-        rgb8[i] = to_byte(picture->rgb[i]);
+        rgb8[i] = to_byte(pixels->rgb[i]);
 }
 
 /* --- files --------------------------------------------------------------------------------------
@@ -135,7 +135,7 @@ image_format image_format_of(const char *path) {
 }
 
 static bool unknown_format(const char *path, cli_error *error) {
-    return cli_fail(error, path, "unknown kind of picture (name it .png or .exr)");
+    return cli_fail(error, path, "unknown kind of image (name it .png or .exr)");
 }
 
 bool image_check_path(const char *path, cli_error *error) {
@@ -149,51 +149,51 @@ bool image_check_path(const char *path, cli_error *error) {
 }
 
 /* exposure 0: no filmic curve. */
-static bool write_by_extension(const image *picture, const char *path, float exposure,
+static bool write_by_extension(const image *pixels, const char *path, float exposure,
                                cli_error *error) {
     const image_format format = image_format_of(path);
     if (format == IMAGE_EXR)
-        return image_write_exr_layers(path, &(image_layer) { NULL, picture }, 1, error);
+        return image_write_exr_layers(path, &(image_layer) { NULL, pixels }, 1, error);
     if (format != IMAGE_PNG)
         return unknown_format(path, error);
-    unsigned char *rgb8 = malloc(3 * (size_t)picture->width * (size_t)picture->height);
+    unsigned char *rgb8 = malloc(3 * (size_t)pixels->width * (size_t)pixels->height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");
     if (exposure > 0)
-        image_tone_map(picture, exposure, rgb8);
+        image_tone_map(pixels, exposure, rgb8);
     else
-        encode(picture, rgb8);
-    const bool ok = image_write_png8(rgb8, picture->width, picture->height, path, error);
+        encode(pixels, rgb8);
+    const bool ok = image_write_png8(rgb8, pixels->width, pixels->height, path, error);
     free(rgb8);
     return ok;
 }
 
-bool image_write(const image *picture, const char *path, float exposure, cli_error *error) {
-    return write_by_extension(picture, path, exposure, error);
+bool image_write(const image *pixels, const char *path, float exposure, cli_error *error) {
+    return write_by_extension(pixels, path, exposure, error);
 }
 
-bool image_write_figure(const image *picture, const char *path, cli_error *error) {
-    return write_by_extension(picture, path, 0, error);
+bool image_write_figure(const image *pixels, const char *path, cli_error *error) {
+    return write_by_extension(pixels, path, 0, error);
 }
 
-bool image_read(const char *path, image *picture, cli_error *error) {
-    memset(picture, 0, sizeof *picture);
+bool image_read(const char *path, image *pixels, cli_error *error) {
+    memset(pixels, 0, sizeof *pixels);
     switch (image_format_of(path)) {
     case IMAGE_PNG:
-        return image_read_png(path, picture, error);
+        return image_read_png(path, pixels, error);
     case IMAGE_EXR:
-        return image_read_exr(path, picture, error);
+        return image_read_exr(path, pixels, error);
     case IMAGE_UNKNOWN:
         break;
     }
     return unknown_format(path, error);
 }
 
-bool image_create_read(const char *path, long long width, long long height, image *picture,
+bool image_create_read(const char *path, long long width, long long height, image *pixels,
                        cli_error *error) {
     if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX ||
         width * height > IMAGE_PIXELS_MAX)
-        return cli_fail(error, path, "a picture of %lld x %lld is too large (%d a side, %d pixels)",
+        return cli_fail(error, path, "an image of %lld x %lld is too large (%d a side, %d pixels)",
                         width, height, IMAGE_SIZE_MAX, IMAGE_PIXELS_MAX);
-    return image_create(picture, (int)width, (int)height, error);
+    return image_create(pixels, (int)width, (int)height, error);
 }

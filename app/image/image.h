@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* image.h - pictures: linear RGB in float, written as OpenEXR or tone-mapped to PNG. */
+/* image.h - images: linear RGB in float, written as OpenEXR or tone-mapped to PNG. */
 #ifndef LAMPION_IMAGE_H
 #define LAMPION_IMAGE_H
 
@@ -12,14 +12,14 @@ typedef struct image {
 } image;
 
 #define IMAGE_SIZE_MAX   16384     /* pixels a side */
-#define IMAGE_PIXELS_MAX (1 << 26) /* of a picture */
+#define IMAGE_PIXELS_MAX (1 << 26) /* of an image */
 
 bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
 
 /* The exposure (a factor on radiance) that maps the log-average of what is lit to middle gray:
  * the darkest and brightest twentieth, and pixels 8 stops darker than these, do not count: the tail
- * of a sharp lobe is as good as black. 1 for a black picture. */
+ * of a sharp lobe is as good as black. 1 for a black image. */
 float image_auto_exposure(const image *image);
 
 /* The factor that an exposure of `stops` EV means: 2^stops. */
@@ -44,9 +44,9 @@ bool image_write_figure(const image *image, const char *path, cli_error *error);
  * long work. */
 bool image_check_path(const char *path, cli_error *error);
 
-/* A named picture of an OpenEXR file: channels NAME.R, NAME.G, NAME.B, or R, G, B without name. */
+/* A named image of an OpenEXR file: channels NAME.R, NAME.G, NAME.B, or R, G, B without name. */
 typedef struct image_layer {
-    const char *name; /* NULL or "": the main picture */
+    const char *name; /* NULL or "": the main image */
     const image *image;
 } image_layer;
 

@@ -8,7 +8,7 @@
 bool image_read_png(const char *path, image *image, cli_error *error);
 bool image_read_exr(const char *path, image *image, cli_error *error);
 
-/* image_create for a picture whose size a file claims. */
+/* image_create for an image whose size a file claims. */
 bool image_create_read(const char *path, long long width, long long height, image *image,
                        cli_error *error);
 

@@ -29,28 +29,28 @@ static float linearize(unsigned char byte) {
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
 
-static bool read_pixels(png_image *png, const char *path, image *picture, cli_error *error) {
+static bool read_pixels(png_image *png, const char *path, image *pixels, cli_error *error) {
     png->format = PNG_FORMAT_RGB;
-    if (!image_create_read(path, png->width, png->height, picture, error))
+    if (!image_create_read(path, png->width, png->height, pixels, error))
         return false;
-    const size_t count = 3 * (size_t)picture->width * (size_t)picture->height;
+    const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
     unsigned char *rgb8 = malloc(count);
     static const png_color black = { 0, 0, 0 };
     if (!rgb8 || !png_image_finish_read(png, &black, rgb8, 0, NULL)) {
         free(rgb8);
-        image_free(picture);
+        image_free(pixels);
         return cli_fail(error, path, "%s", rgb8 ? png->message : "out of memory");
     }
     float linear[256];
     for (int i = 0; i < 256; i++)
         linear[i] = linearize((unsigned char)i);
     for (size_t i = 0; i < count; i++)
-        picture->rgb[i] = linear[rgb8[i]];
+        pixels->rgb[i] = linear[rgb8[i]];
     free(rgb8);
     return true;
 }
 
-bool image_read_png(const char *path, image *picture, cli_error *error) {
+bool image_read_png(const char *path, image *pixels, cli_error *error) {
     FILE *stream = file_open(path, error);
     if (!stream)
         return false;
@@ -58,7 +58,7 @@ bool image_read_png(const char *path, image *picture, cli_error *error) {
     bool ok = png_image_begin_read_from_stdio(&png, stream);
     if (!ok)
         cli_fail(error, path, "not a readable PNG: %s", png.message);
-    ok = ok && read_pixels(&png, path, picture, error);
+    ok = ok && read_pixels(&png, path, pixels, error);
     png_image_free(&png);
     fclose(stream);
     return ok;

@@ -35,8 +35,8 @@ static double gram_error(int bands) {
 bool paper_step_basis(paper *p, cli_error *error) {
     if (!paper_run(p, true, error, "basis --bands 5 --size 1200x760 -o figure2.png"))
         return false;
-    page_picture(&p->page, "figure2.png",
-                 "The first five bands; red is positive, green negative, the zonal column shaded.");
+    page_image(&p->page, "figure2.png",
+               "The first five bands; red is positive, green negative, the zonal column shaded.");
     page_text(&p->page,
               "They are orthonormal: the largest deviation of ∫ Y<sub>i</sub> Y<sub>j</sub> from 1 "
               "or 0, over 5 bands by quadrature of the float32 functions, is %.1e.",

@@ -103,9 +103,9 @@ static bool write_errors(paper *p, cli_error *error) {
 bool paper_step_cap(paper *p, cli_error *error) {
     if (!draw_geometry("figure4.svg", error))
         return false;
-    page_picture(&p->page, "figure4.svg",
-                 "A sphere of radius r at distance d covers a cap Q of half angle a of the unit "
-                 "sphere round the shaded point x.");
+    page_image(&p->page, "figure4.svg",
+               "A sphere of radius r at distance d covers a cap Q of half angle a of the unit "
+               "sphere round the shaded point x.");
     return write_errors(p, error);
 }
 

@@ -56,14 +56,14 @@ static float peak(const series *s) {
     return largest;
 }
 
-static bool draw(image *picture, cli_error *error) {
-    figure_fill(picture, (figure_box) { 0, 0, KINDS * CELL, CELL }, (lmp_rgb) { 1, 1, 1 });
+static bool draw(image *pixels, cli_error *error) {
+    figure_fill(pixels, (figure_box) { 0, 0, KINDS * CELL, CELL }, (lmp_rgb) { 1, 1, 1 });
     for (int i = 0; i < KINDS; i++) {
         series s = { .scale = 1 };
         lmp_light_project(&lights[i].light, 1, (lmp_vec3) { 0, 0, 0 }, BANDS, s.sh);
         s.scale = 1 / (1.02f * peak(&s));
         const figure_lobe lobe = { value, &s, { 0.72f, 0.045f, 0.035f }, { 0.05f, 0.4f, 0.075f } };
-        if (!figure_draw_lobe(picture, (figure_box) { i * CELL, 0, CELL, CELL }, &lobe, error))
+        if (!figure_draw_lobe(pixels, (figure_box) { i * CELL, 0, CELL, CELL }, &lobe, error))
             return false;
     }
     return true;
@@ -83,17 +83,17 @@ static double dirac_error(const lmp_light *light, float strength) {
 }
 
 bool paper_step_lights(paper *p, cli_error *error) {
-    image picture;
-    if (!image_create(&picture, KINDS * CELL, CELL, error))
+    image pixels;
+    if (!image_create(&pixels, KINDS * CELL, CELL, error))
         return false;
-    const bool ok = draw(&picture, error) && image_write_figure(&picture, "figure3.png", error);
-    image_free(&picture);
+    const bool ok = draw(&pixels, error) && image_write_figure(&pixels, "figure3.png", error);
+    image_free(&pixels);
     if (!ok)
         return false;
-    page_picture(&p->page, "figure3.png",
-                 "Incoming radiance of a point, a spot, a directional, a sphere and a hemisphere "
-                 "light, rebuilt from 6 bands; each scaled to its peak. The first three are the "
-                 "paper's: a Dirac each, so their shape is the same.");
+    page_image(&p->page, "figure3.png",
+               "Incoming radiance of a point, a spot, a directional, a sphere and a hemisphere "
+               "light, rebuilt from 6 bands; each scaled to its peak. The first three are the "
+               "paper's: a Dirac each, so their shape is the same.");
     page_text(&p->page,
               "Diracs project to the basis itself, scaled: the coefficients of the point, spot and "
               "directional light equal strength × Y<sub>lm</sub> within %.1e, %.1e and %.1e.",

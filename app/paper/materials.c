@@ -20,10 +20,10 @@ static const int *size_of(const paper *p) {
     return p->options->full ? full : reduced;
 }
 
-static bool report_error(page_table *table, int number, const char *bands, const char *picture,
+static bool report_error(page_table *table, int number, const char *bands, const char *pixels,
                          const char *truth, cli_error *error) {
     compare_result result;
-    if (!paper_compare(picture, truth, &result, error))
+    if (!paper_compare(pixels, truth, &result, error))
         return false;
     page_table_row(table, "%s|%s|%s|%s|%.2e|%.2e|%.4f", materials[number].letter,
                    materials[number].paper, materials[number].ours, bands,
@@ -32,7 +32,7 @@ static bool report_error(page_table *table, int number, const char *bands, const
     return true;
 }
 
-/* One material: the pictures at each number of bands, the ground truth, and their difference. */
+/* One material: the images at each number of bands, the ground truth, and their difference. */
 static bool make_material(paper *p, int number, page_table *table, cli_error *error) {
     const char *letter = materials[number].letter, *name = materials[number].ours;
     char common[256], truth[64], again[64];
@@ -45,12 +45,12 @@ static bool make_material(paper *p, int number, page_table *table, cli_error *er
                    again))
         return false;
     for (int c = 0; c < CUTS; c++) {
-        char picture[64], bands[16];
-        snprintf(picture, sizeof picture, "figure6-%s-%d.exr", letter, cuts[c]);
+        char pixels[64], bands[16];
+        snprintf(pixels, sizeof pixels, "figure6-%s-%d.exr", letter, cuts[c]);
         snprintf(bands, sizeof bands, "%d", cuts[c]);
         if (!paper_run(p, false, error, "render %s --bands %d --window hanning -o %s", common,
-                       cuts[c], picture) ||
-            !report_error(table, number, bands, picture, truth, error))
+                       cuts[c], pixels) ||
+            !report_error(table, number, bands, pixels, truth, error))
             return false;
     }
     return report_error(table, number, "noise alone", again, truth, error);
@@ -97,26 +97,26 @@ static bool time_materials(paper *p, cli_error *error) {
     return ok;
 }
 
-/* The pictures side by side: ground truth, 10 bands, 20 bands; one exposure for all three. */
+/* The images side by side: ground truth, 10 bands, 20 bands; one exposure for all three. */
 static bool show_material(paper *p, int number, cli_error *error) {
     const char *letter = materials[number].letter;
     const char *const kinds[] = { "truth", "10", "20" };
     float exposure = 0;
     for (int k = 0; k < 3; k++) {
         char from[64], to[64], caption[160];
-        image picture;
+        image pixels;
         snprintf(from, sizeof from, "figure6-%s-%s.exr", letter, kinds[k]);
         snprintf(to, sizeof to, "figure6-%s-%s.png", letter, kinds[k]);
-        if (!image_read(from, &picture, error))
+        if (!image_read(from, &pixels, error))
             return false;
-        exposure = k == 0 ? image_auto_exposure(&picture) : exposure;
-        const bool ok = image_write(&picture, to, exposure, error);
-        image_free(&picture);
+        exposure = k == 0 ? image_auto_exposure(&pixels) : exposure;
+        const bool ok = image_write(&pixels, to, exposure, error);
+        image_free(&pixels);
         if (!ok)
             return false;
         snprintf(caption, sizeof caption, "(%s) %s, %s%s", letter, materials[number].ours,
                  k ? kinds[k] : "ground truth", k ? " bands" : "");
-        page_picture(&p->page, to, caption);
+        page_image(&p->page, to, caption);
     }
     return true;
 }

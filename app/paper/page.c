@@ -82,7 +82,7 @@ void page_row_end(paper_page *page) {
     fputs("</div>\n", page->html);
 }
 
-void page_picture(paper_page *page, const char *file, const char *caption) {
+void page_image(paper_page *page, const char *file, const char *caption) {
     fprintf(page->html,
             "<figure><a href=\"%s\"><img src=\"%s\" alt=\"%s\"></a><figcaption>%s</figcaption>"
             "</figure>\n",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* page.h - one HTML page with its pictures, plots (SVG) and tables (CSV too), all in one folder. */
+/* page.h - one HTML page with its images, plots (SVG) and tables (CSV too), all in one folder. */
 #ifndef LAMPION_PAPER_PAGE_H
 #define LAMPION_PAPER_PAGE_H
 
@@ -20,10 +20,10 @@ void page_text(paper_page *page, const char *format, ...) __attribute__((format(
 /* The command that made what follows. */
 void page_command(paper_page *page, const char *command);
 void page_failure(paper_page *page, const char *text);
-/* Pictures between these stand side by side where there is room. */
+/* Images between these stand side by side where there is room. */
 void page_row_begin(paper_page *page);
 void page_row_end(paper_page *page);
-void page_picture(paper_page *page, const char *file, const char *caption);
+void page_image(paper_page *page, const char *file, const char *caption);
 
 /* A table, written to FILE.csv too. Cells are separated by '|'. */
 typedef struct page_table {

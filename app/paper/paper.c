@@ -64,10 +64,10 @@ bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...) {
     return true;
 }
 
-bool paper_compare(const char *picture, const char *truth, compare_result *result,
+bool paper_compare(const char *pixels, const char *truth, compare_result *result,
                    cli_error *error) {
     image a = { .rgb = NULL }, b = { .rgb = NULL };
-    const bool ok = image_read(picture, &a, error) && image_read(truth, &b, error) &&
+    const bool ok = image_read(pixels, &a, error) && image_read(truth, &b, error) &&
                     compare_images(&a, &b, 0, result, error);
     image_free(&a);
     image_free(&b);
@@ -106,7 +106,7 @@ static void introduce(paper *p) {
               "Machine: %s, %ld processors. The paper's: Intel Xeon 2.10 GHz, RTX 2080. %s",
               processor, sysconf(_SC_NPROCESSORS_ONLN),
               p->options->full ? "Sizes are the paper's (<code>--full</code>)."
-                               : "Pictures are smaller than the paper's, to end within minutes; "
+                               : "Images are smaller than the paper's, to end within minutes; "
                                  "<code>--full</code> makes them as large.");
 }
 

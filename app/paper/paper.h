@@ -57,9 +57,8 @@ bool paper_step_preintegrated(paper *p, cli_error *error);
 bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Compares two files of pictures. */
-bool paper_compare(const char *picture, const char *truth, compare_result *result,
-                   cli_error *error);
+/* Compares two files of images. */
+bool paper_compare(const char *pixels, const char *truth, compare_result *result, cli_error *error);
 
 /* Milliseconds of a frame's shading pass and of all of it: medians. */
 typedef struct paper_times {

@@ -163,6 +163,6 @@ bool page_plot_write(paper_page *page, const page_plot *plot, cli_error *error) 
         return false;
     snprintf(path, sizeof path, "%s.svg", plot->file);
     snprintf(caption, sizeof caption, "%s (points: %s.csv)", plot->title, plot->file);
-    page_picture(page, path, caption);
+    page_image(page, path, caption);
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The paper's pictures: made by `render`, timed, and judged by `reference`. */
+/* The paper's images: made by `render`, timed, and judged by `reference`. */
 #include "app/paper/paper.h"
 
 enum { BANDS_MAX = 8 };
@@ -69,14 +69,14 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
     double x[BANDS_MAX], rough[BANDS_MAX];
     page_table table;
     compare_result result;
-    char file[64], picture[64];
+    char file[64], pixels[64];
     int count = 0;
     if (!paper_run(p, false, error,
                    "reference %s %s --size %dx%d --spp %d --noise-seed 2 -o %s-again.exr", f->scene,
                    f->lights, f->width, f->height, f->samples, f->name))
         return false;
     snprintf(file, sizeof file, "%s-errors", f->name);
-    snprintf(picture, sizeof picture, "%s-truth.exr", f->name);
+    snprintf(pixels, sizeof pixels, "%s-truth.exr", f->name);
     if (!page_table_begin(&p->page, &table, file, "bands|relative MSE|SSIM|largest error at pixel",
                           error))
         return false;
@@ -86,7 +86,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
         if (!paper_run(p, false, error,
                        "render %s %s --size %dx%d --bands %d --window hanning -o %s", f->scene,
                        f->lights, f->width, f->height, f->bands[count], ours) ||
-            !paper_compare(ours, picture, &result, error))
+            !paper_compare(ours, pixels, &result, error))
             return false;
         x[count] = f->bands[count];
         rough[count] = result.values[COMPARE_RELMSE];
@@ -96,7 +96,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
     }
     char again[64];
     snprintf(again, sizeof again, "%s-again.exr", f->name);
-    if (!paper_compare(again, picture, &result, error))
+    if (!paper_compare(again, pixels, &result, error))
         return false;
     page_table_row(&table, "noise alone|%.3e|%.5f|%.3g at %d×%d", result.values[COMPARE_RELMSE],
                    result.values[COMPARE_SSIM], result.values[COMPARE_MAX], result.max_x,
@@ -123,7 +123,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
                            error);
 }
 
-/* Traces the ground truth; *exposure is its own, for all pictures of the figure. */
+/* Traces the ground truth; *exposure is its own, for all images of the figure. */
 static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *error) {
     char file[64], caption[160];
     image truth;
@@ -140,7 +140,7 @@ static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *e
     snprintf(caption, sizeof caption, "Ground truth: whole lobes, no harmonics, %d samples a pixel",
              f->samples);
     if (ok)
-        page_picture(&p->page, file, caption);
+        page_image(&p->page, file, caption);
     return ok;
 }
 
@@ -158,7 +158,7 @@ static bool make_figure(paper *p, const figure *f, cli_error *error) {
                 "render %s %s --size %dx%d --bands %d --window hanning --exposure %.6g -o %s",
                 f->scene, f->lights, f->width, f->height, f->shown[i], (double)exposure, file))
             return false;
-        page_picture(&p->page, file, caption);
+        page_image(&p->page, file, caption);
     }
     return time_figure(p, f, error) && judge(p, f, error);
 }

@@ -24,7 +24,7 @@ typedef struct reference_settings {
 } reference_settings;
 
 /* Radiance through the center of every pixel, and its standard error. Triangles and the glowing
- * spheres are seen; where there is neither, the picture is black. Both pictures are created here;
+ * spheres are seen; where there is neither, the image is black. Both images are created here;
  * free them. Shows progress. */
 bool reference_render(const scene *scene, const reference_settings *settings, image *radiance,
                       image *standard_error, cli_error *error);

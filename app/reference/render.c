@@ -11,7 +11,7 @@ typedef struct frame {
     const scene *scene;
     const reference_settings *settings;
     const reference_tracer *tracer;
-    reference_vec eye, forward, right, up; /* right and up reach to the picture's edges */
+    reference_vec eye, forward, right, up; /* right and up reach to the image's edges */
     image *radiance, *standard_error;
 } frame;
 
@@ -99,8 +99,8 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     }
 }
 
-static void store(image *picture, size_t pixel, int channel, double value) {
-    picture->rgb[3 * pixel + (size_t)channel] = (float)value;
+static void store(image *pixels, size_t pixel, int channel, double value) {
+    pixels->rgb[3 * pixel + (size_t)channel] = (float)value;
 }
 
 static void trace_pixel(const frame *f, worker *own, int x, int y) {

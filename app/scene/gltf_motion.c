@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_motion.c - node animation, of which only the places of lights are kept: sampled at even
- * steps, fine enough for pictures. */
+ * steps, fine enough for images. */
 #include "app/scene/gltf.h"
 
 #include <math.h>

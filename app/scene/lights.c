@@ -94,7 +94,7 @@ static const studio_light studio_lights[] = {
     { 0.61f, 2.30f, -1.06f, 0.25f, 2.2f, { 0.90f, 0.96f, 1.0f } }, /* rim */
 };
 
-/* Out of the picture of an automatic camera, and hidden from any other. */
+/* Out of the image of an automatic camera, and hidden from any other. */
 static void add_studio_lights(scene *s) {
     const scene_camera camera = scene_default_camera(s, 1.0f);
     const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);

@@ -250,7 +250,7 @@ static bool make_tangents(flattening *f, cli_error *error) {
         const lmp_vec3 flat = vec_sub(raw, vec_scale(n, vec_dot(n, raw)));
         const bool usable = vec_length(flat) > 1e-4f * vec_length(raw);
         const lmp_vec3 tangent = usable ? vec_normalize(flat, vec_across(n)) : vec_across(n);
-        /* The bitangent points along rising v of a picture with v up, as glTF defines it. */
+        /* The bitangent points along rising v of an image with v up, as glTF defines it. */
         if (!given)
             vertex->tangent[3] = vec_dot(vec_cross(n, tangent), across[i]) > 0.0f ? -1.0f : 1.0f;
         vec_store(tangent, vertex->tangent);

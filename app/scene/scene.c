@@ -13,7 +13,7 @@
 
 #define BUILTIN_PREFIX "builtin:"
 #define DEFAULT_FOV    0.7854f /* 45° */
-#define FRAMING_SHARE  0.9f    /* of the picture that an automatic camera fills at most */
+#define FRAMING_SHARE  0.9f    /* of the image that an automatic camera fills at most */
 
 static bool load_builtin(const char *name, scene *s, cli_error *error) {
     scene_builder builder = { 0 };
@@ -58,7 +58,7 @@ void scene_free(scene *s) {
     memset(s, 0, sizeof *s);
 }
 
-/* From how far away in the direction `from` every triangle fits into the picture. */
+/* From how far away in the direction `from` every triangle fits into the image. */
 static float framing_distance(const scene *s, lmp_vec3 center, lmp_vec3 from, float aspect) {
     const lmp_vec3 right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), from), from);
     const lmp_vec3 up = vec_cross(from, right);

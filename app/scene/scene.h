@@ -64,7 +64,7 @@ typedef struct scene_camera {
     char name[SCENE_NAME_SIZE];
     float eye[3], target[3], up[3];
     float fov;    /* vertical field of view, radians */
-    float aspect; /* the picture it was framed for, width / height; 0: any */
+    float aspect; /* the image it was framed for, width / height; 0: any */
 } scene_camera;
 
 /* A glowing sphere. */
@@ -166,7 +166,7 @@ typedef struct scene_lights_options {
  * studio lights (key, fill and rim, hidden, sized by its bounds), with a note on stderr. */
 bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_error *error);
 
-/* The scene's first camera, or one that frames its bounds. In a picture narrower than the camera's
+/* The scene's first camera, or one that frames its bounds. In an image narrower than the camera's
  * aspect the field of view is widened, so that nothing is cut off at the sides. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
 
@@ -206,7 +206,7 @@ typedef struct scene_camera_options {
         .given = &(variable).fov_given                                                             \
     }
 
-/* Finds the camera for a picture of `size` pixels, upright and not inside its own target. */
+/* Finds the camera for an image of `size` pixels, upright and not inside its own target. */
 bool scene_place_camera(const scene *scene, const scene_camera_options *options, const int size[2],
                         scene_camera *camera, cli_error *error);
 

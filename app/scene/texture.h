@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* texture.h - decoding of pictures into a builder's texels. */
+/* texture.h - decoding of images into a builder's texels. */
 #ifndef LAMPION_SCENE_TEXTURE_H
 #define LAMPION_SCENE_TEXTURE_H
 

@@ -11,7 +11,7 @@ void view_orbit(scene_camera *camera, float right, float up);
 /* Turns the view round the eye. */
 void view_look_round(scene_camera *camera, float right, float up);
 
-/* Moves eye and target by parts of the picture's height at the target. */
+/* Moves eye and target by parts of the image's height at the target. */
 void view_pan(scene_camera *camera, float right, float up);
 
 /* Brings the eye nearer to the target by a factor < 1; below `nearest`, the target moves on. */
@@ -20,7 +20,7 @@ void view_dolly(scene_camera *camera, float factor, float nearest);
 /* Moves eye and target by lengths. */
 void view_fly(scene_camera *camera, float right, float up, float forward);
 
-/* Steps back, in the direction it looks from, until a sphere fits the picture. */
+/* Steps back, in the direction it looks from, until a sphere fits the image. */
 void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspect);
 
 /* The ray through a pixel's place: x to the right and y down from the upper left corner. */
@@ -29,7 +29,7 @@ typedef struct view_ray {
 } view_ray;
 view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y);
 
-/* Where a point is in the picture; false behind the eye. *scale receives pixels a length there. */
+/* Where a point is in the image; false behind the eye. *scale receives pixels a length there. */
 bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
                   double *y, double *scale);
 

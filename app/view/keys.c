@@ -353,7 +353,7 @@ const view_key view_keys[] = {
     { "G", NULL, NULL, change_window, -1 },
     { ",", ",  .", "darker, brighter by 1/3 stop", change_exposure, -1 },
     { ".", NULL, NULL, change_exposure, 1 },
-    { "0", "0", "exposure to suit the picture", expose, 0 },
+    { "0", "0", "exposure to suit the image", expose, 0 },
     { "t", "T", "material of the object pointed at", change_material, 1 },
     { "T", NULL, NULL, change_material, -1 },
     { NULL, "drop a file", "its material: .binary .bsdf .lmpt", NULL, 0 },

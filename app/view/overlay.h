@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* overlay.h - drawings over the picture: figures, help, messages, marks. Text by Pango, so that any
+/* overlay.h - drawings over the image: figures, help, messages, marks. Text by Pango, so that any
  * script of any language is legible. */
 #ifndef LAMPION_VIEW_OVERLAY_H
 #define LAMPION_VIEW_OVERLAY_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* settings.h - everything that decides a picture of the viewer, and the same as JSON: in the text
+/* settings.h - everything that decides an image of the viewer, and the same as JSON: in the text
  * chunk of a screenshot, and for `lampion render --from` (docs/viewer.md). */
 #ifndef LAMPION_VIEW_SETTINGS_H
 #define LAMPION_VIEW_SETTINGS_H
@@ -24,7 +24,7 @@ typedef struct view_settings {
     float exposure; /* a factor on radiance */
     float background[3];
     scene_camera camera;
-    view_look looks[2]; /* the second one of a split picture */
+    view_look looks[2]; /* the second one of a split image */
     gpu_split split;
     float divider; /* a part of the width */
     int material_count;
@@ -52,7 +52,7 @@ struct cJSON *view_settings_to_json(const view_settings *settings);
 bool view_settings_from_json(const struct cJSON *root, const char *subject, view_settings *settings,
                              cli_error *error);
 
-/* A picture with its settings in a text chunk, and the settings of such a picture. */
+/* An image with its settings in a text chunk, and the settings of such an image. */
 bool view_write_shot(const view_settings *settings, const unsigned char *rgb8, const char *path,
                      cli_error *error);
 bool view_read_shot(const char *path, view_settings *settings, cli_error *error);

@@ -274,7 +274,7 @@ bool view_stage_expose(view_stage *s, const view_settings *settings, float *expo
                        cli_error *error) {
     gpu_frame frame;
     device_kind device;
-    image picture;
+    image pixels;
     side *own = &s->sides[0];
     if (!open_side(s, own, FINE, error) ||
         !settle_materials(s, own, settings, &settings->looks[0], error) ||
@@ -282,10 +282,10 @@ bool view_stage_expose(view_stage *s, const view_settings *settings, float *expo
         return false;
     frame.samples = 1;
     if (!gpu_render(own->renderers[FINE], &frame, NULL, error) ||
-        !gpu_read_image(own->renderers[FINE], &picture, error))
+        !gpu_read_image(own->renderers[FINE], &pixels, error))
         return false;
-    *exposure = image_auto_exposure(&picture);
-    image_free(&picture);
+    *exposure = image_auto_exposure(&pixels);
+    image_free(&pixels);
     return true;
 }
 

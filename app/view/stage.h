@@ -11,7 +11,7 @@ typedef struct view_stage view_stage;
 view_stage *view_stage_create(const gpu_context *context, const scene *world, cli_error *error);
 void view_stage_destroy(view_stage *stage);
 
-/* Milliseconds of the passes of the picture drawn last, both sides together. */
+/* Milliseconds of the passes of the image drawn last, both sides together. */
 typedef struct view_figures {
     gpu_times times;
     int width, height;

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define RADIANS_A_HEIGHT 3.0   /* of turning, when the pointer crosses the picture */
+#define RADIANS_A_HEIGHT 3.0   /* of turning, when the pointer crosses the image */
 #define ZOOM_STEP        0.88f /* of the distance, a step of the wheel */
 #define PICK_PIXELS      4.0f  /* a light may be missed by so much */
 #define DIVIDER_PIXELS   8.0

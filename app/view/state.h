@@ -19,7 +19,7 @@ typedef enum view_event_kind {
     VIEW_HOLD,    /* one of the letters wasdqe, by its place on a US keyboard */
     VIEW_FREE,    /* the same, let go; 0: all of them */
     VIEW_DROP,    /* a file, onto where the pointer is */
-    VIEW_SIZE     /* the picture has x times y pixels; none: it cannot be seen */
+    VIEW_SIZE     /* the image has x times y pixels; none: it cannot be seen */
 } view_event_kind;
 
 typedef enum view_button { VIEW_LEFT, VIEW_MIDDLE, VIEW_RIGHT } view_button;
@@ -66,7 +66,7 @@ typedef struct view_state {
     view_drag drag;
     float grab[3];         /* from the dragged light's shown place to its place at rest */
     float grab_depth;      /* of the dragged light's center */
-    double grab_x, grab_y; /* from its center in the picture to the pointer */
+    double grab_x, grab_y; /* from its center in the image to the pointer */
     double x, y;           /* the pointer */
     bool held[6], fast;    /* wasdqe; shift with them */
     bool help, overlay, recording;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The viewer's loop: events, time, a picture as fine as there is time for, drawings over it. */
+/* The viewer's loop: events, time, an image as fine as there is time for, drawings over it. */
 #include "app/view/view.h"
 #include "app/file/file.h"
 #include "app/scene/vector.h"
@@ -38,7 +38,7 @@ typedef struct label {
     int room;          /* it was made to fit */
 } label;
 
-/* What the drawings over a picture show. */
+/* What the drawings over an image show. */
 typedef struct drawn_over {
     bool help, overlay, playing;
     int selected;
@@ -67,7 +67,7 @@ typedef struct viewer {
     double watched_at, panel_at, clock;
     int frame, recorded;
     char record[VIEW_PATH_SIZE];
-    drawn_over over; /* the picture on the screen */
+    drawn_over over; /* the image on the screen */
     bool waiting;    /* for slow work that the screen has announced */
     label labels[GPU_DRAWINGS_MAX];
 } viewer;
@@ -302,8 +302,8 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     if (v->frame_seconds > 0)
         add_row(rows, &count, "Moving", "%.0f ms a frame, %.1f a second", 1e3 * v->frame_seconds,
                 1 / v->frame_seconds);
-    add_row(rows, &count, "Picture", "%d × %d, sample %d of %d", v->figures.width,
-            v->figures.height, v->sample < 0 ? 1 : v->sample + 1, v->sample < 0 ? 1 : d->samples);
+    add_row(rows, &count, "Image", "%d × %d, sample %d of %d", v->figures.width, v->figures.height,
+            v->sample < 0 ? 1 : v->sample + 1, v->sample < 0 ? 1 : d->samples);
     add_row(rows, &count, "Geometry", "%.1f ms", t->gbuffer);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
             v->figures.device == DEVICE_CPU ? "processor" : "graphics card");
@@ -439,7 +439,7 @@ static void show(viewer *v, const char *announcement) {
 /* --- frames -------------------------------------------------------------------------------------
  */
 
-/* A fixed step of time a frame, so that the same script gives the same pictures. */
+/* A fixed step of time a frame, so that the same script gives the same images. */
 static bool steps_time(const viewer *v) {
     return v->script_next < v->script.count || v->state.recording;
 }
@@ -503,7 +503,7 @@ static bool draw(viewer *v, bool *worked, cli_error *error) {
     return true;
 }
 
-/* Whether the drawings over the picture have to change; notes what they show then. */
+/* Whether the drawings over the image have to change; notes what they show then. */
 static bool changes_over(viewer *v) {
     const view_state *s = &v->state;
     drawn_over now;

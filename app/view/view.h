@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* view.h - the viewer (docs/viewer.md), and its pictures without a window. */
+/* view.h - the viewer (docs/viewer.md), and its images without a window. */
 #ifndef LAMPION_VIEW_H
 #define LAMPION_VIEW_H
 
@@ -20,7 +20,7 @@ typedef struct view_options {
 /* Opens the window and returns when it is closed. */
 bool view_run(const view_options *options, cli_error *error);
 
-/* The picture of these settings without a window, to a .png with the settings in it.
+/* The image of these settings without a window, to a .png with the settings in it.
  * device: as gpu_context_create takes it. */
 bool view_render(const view_settings *settings, const char *device, const char *path,
                  cli_error *error);

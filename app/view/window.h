@@ -19,7 +19,7 @@ void view_window_end(void);
 /* Takes what has happened; waits up to `seconds` for something to happen. */
 void view_window_take_events(view_window *window, double seconds);
 
-/* Pixels of the picture; false if there are none: minimized. */
+/* Pixels of the image; false if there are none: minimized. */
 bool view_window_size(const view_window *window, int *width, int *height);
 
 /* Of a pixel of 96 an inch. */

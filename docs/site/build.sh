@@ -81,7 +81,7 @@ make_page() {
         "$source" -o "$out/$page"
 }
 
-# copy_linked: what pages link to and is no page: pictures, sources, examples.
+# copy_linked: what pages link to and is no page: images, sources, examples.
 copy_linked() {
     find "$out" -name '*.html' | while read -r page; do
         folder=$(dirname "${page#"$out"/}")

@@ -41,14 +41,14 @@ local looks = {
     RawBlock = function(block)
         return block.text:match('^<!%-%-') and {} or nil
     end,
-    -- a paragraph of pictures alone: a row that wraps
+    -- a paragraph of images alone: a row that wraps
     Para = function(paragraph)
         for _, inline in ipairs(paragraph.content) do
             if inline.t ~= 'Image' and inline.t ~= 'SoftBreak' and inline.t ~= 'Space' then
                 return nil
             end
         end
-        return pandoc.Div({ pandoc.Plain(paragraph.content) }, pandoc.Attr('', { 'pictures' }))
+        return pandoc.Div({ pandoc.Plain(paragraph.content) }, pandoc.Attr('', { 'images' }))
     end,
 }
 

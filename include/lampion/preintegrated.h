@@ -34,8 +34,8 @@ typedef struct lmp_preintegrated_lobe_desc {
     float window_size; /* as in lmp_sh_window */
     float error;       /* largest error at exponents >= 1, relative to the response's largest value
                           over g at that e and a; LMP_PREINTEGRATED_LOBE_ERROR_MIN … 0.1, above 0.05 the
-                          bound       may be exceeded by a tenth; LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT. Memory
-                          grows as       1/error */
+                          bound       may be exceeded by a tenth; LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT.
+                          Memory       grows as       1/error */
     lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
     void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
     void *user;                                /* of both hooks */

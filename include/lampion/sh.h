@@ -95,9 +95,9 @@ typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
 LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *user, int nodes,
                                      float *sh);
 
-/* Coefficients of a latitude-longitude picture. Row 0 touches +y (up), column 0 starts at azimuth
+/* Coefficients of a latitude-longitude image. Row 0 touches +y (up), column 0 starts at azimuth
  * -pi round y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
- * angles. A pixel counts as a constant seen at its center: take pictures of at least 4 * bands
+ * angles. A pixel counts as a constant seen at its center: take images of at least 4 * bands
  * rows. The cost is width * height * bands².
  *
  * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, a

@@ -55,9 +55,9 @@ void lmp_sh_project_function(int bands, lmp_sh_function function, void *user, in
     }
 }
 
-/* --- a picture of the surroundings ------------------------------------------------------------ */
+/* --- an image of the surroundings ------------------------------------------------------------ */
 
-enum { GROUP = 4 }; /* channels that go through the picture together */
+enum { GROUP = 4 }; /* channels that go through the image together */
 
 typedef struct latlong {
     const float *pixels;
@@ -65,9 +65,9 @@ typedef struct latlong {
     size_t row_stride;
 } latlong;
 
-static const float *pixel_at(const latlong *picture, int row, int column) {
-    const char *start = (const char *)picture->pixels + (size_t)row * picture->row_stride;
-    return (const float *)(const void *)start + (size_t)column * (size_t)picture->channels;
+static const float *pixel_at(const latlong *pixels, int row, int column) {
+    const char *start = (const char *)pixels->pixels + (size_t)row * pixels->row_stride;
+    return (const float *)(const void *)start + (size_t)column * (size_t)pixels->channels;
 }
 
 static lmp_azimuth azimuth_power(lmp_vec3 w, int m) {
@@ -81,23 +81,23 @@ static lmp_azimuth azimuth_power(lmp_vec3 w, int m) {
     return power;
 }
 
-/* The coefficients ±m of channels first … first+count-1, summed over the picture in double. */
-static void project_column(int bands, int m, const latlong *picture, int first, int count,
+/* The coefficients ±m of channels first … first+count-1, summed over the image in double. */
+static void project_column(int bands, int m, const latlong *pixels, int first, int count,
                            float *sh) {
     double cosines[GROUP][LMP_BANDS_MAX] = { { 0 } }, sines[GROUP][LMP_BANDS_MAX] = { { 0 } };
     float q[LMP_BANDS_MAX];
-    for (int row = 0; row < picture->height; row++) {
-        const double top = cos(pi * row / picture->height);
-        const double bottom = cos(pi * (row + 1) / picture->height);
-        const double solid_angle = (top - bottom) * 2 * pi / picture->width;
-        const double polar = pi * (row + 0.5) / picture->height;
+    for (int row = 0; row < pixels->height; row++) {
+        const double top = cos(pi * row / pixels->height);
+        const double bottom = cos(pi * (row + 1) / pixels->height);
+        const double solid_angle = (top - bottom) * 2 * pi / pixels->width;
+        const double polar = pi * (row + 0.5) / pixels->height;
         const double sine = sin(polar), y = cos(polar);
-        for (int column = 0; column < picture->width; column++) {
-            const double azimuth = 2 * pi * (column + 0.5) / picture->width - pi;
+        for (int column = 0; column < pixels->width; column++) {
+            const double azimuth = 2 * pi * (column + 0.5) / pixels->width - pi;
             const lmp_vec3 w = { (float)(sine * sin(azimuth)), (float)y,
                                  (float)(-sine * cos(azimuth)) };
             const lmp_azimuth a = azimuth_power(w, m);
-            const float *pixel = pixel_at(picture, row, column) + first;
+            const float *pixel = pixel_at(pixels, row, column) + first;
             lmp_sh_column(bands, m, w.z, q);
             for (int channel = 0; channel < count; channel++) {
                 const double value = (double)pixel[channel] * solid_angle;
@@ -123,9 +123,9 @@ void lmp_sh_project_latlong(int bands, const float *pixels, int width, int heigh
     assert(width >= 1 && height >= 1 && channels >= 1);
     if (row_stride == 0)
         row_stride = (size_t)width * (size_t)channels * sizeof *pixels;
-    const latlong picture = { pixels, width, height, channels, row_stride };
+    const latlong grid = { pixels, width, height, channels, row_stride };
     for (int first = 0; first < channels; first += GROUP)
         for (int m = 0; m < bands; m++)
-            project_column(bands, m, &picture, first,
+            project_column(bands, m, &grid, first,
                            channels - first < GROUP ? channels - first : GROUP, sh);
 }

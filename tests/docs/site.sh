@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The site builds without a warning, needs no network, and has no dead link, anchor or picture.
+# The site builds without a warning, needs no network, and has no dead link, anchor or image.
 set -eu
 . tests/house/common.sh
 
@@ -54,8 +54,8 @@ while read -r page; do
 done <"$WORK/pages" >"$WORK/dead"
 [ ! -s "$WORK/dead" ] || fail "dead links, or things of the network: $(cat "$WORK/dead")"
 
-for picture in docs/images/*; do
-    grep -qF "images/$(basename "$picture")" README.md docs/*.md || fail "no document shows $picture"
+for image in docs/images/*; do
+    grep -qF "images/$(basename "$image")" README.md docs/*.md || fail "no document shows $image"
 done
 
 # and a dead link would be seen

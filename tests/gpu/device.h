@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* device.h - a context whose every complaint is fatal, and small pictures, for the tests. */
+/* device.h - a context whose every complaint is fatal, and small images, for the tests. */
 #ifndef LAMPION_TESTS_GPU_DEVICE_H
 #define LAMPION_TESTS_GPU_DEVICE_H
 
@@ -55,10 +55,10 @@ static inline gpu_frame frame_of(const scene *world, int width, int height) {
 
 static inline image render_image(gpu_renderer *renderer, const gpu_frame *frame) {
     cli_error error = { "" };
-    image picture;
+    image pixels;
     expect(gpu_render(renderer, frame, NULL, &error), &error);
-    expect(gpu_read_image(renderer, &picture, &error), &error);
-    return picture;
+    expect(gpu_read_image(renderer, &pixels, &error), &error);
+    return pixels;
 }
 
 static inline gpu_pixel *render_pixels(gpu_renderer *renderer, const gpu_frame *frame) {

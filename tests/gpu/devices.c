@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The same picture from both shading devices and every method, in 8 bits. */
+/* The same image from both shading devices and every method, in 8 bits. */
 #include "app/device/device.h"
 #include "tests/gpu/device.h"
 
@@ -23,9 +23,9 @@ static void draw(gpu_renderer *renderer, const gpu_frame *frame, unsigned char *
 
 /* Sets the exposure, too, that the program would choose. */
 static void draw_first(gpu_renderer *renderer, const gpu_frame *frame) {
-    image picture = render_image(renderer, frame);
-    exposure = image_auto_exposure(&picture);
-    image_free(&picture);
+    image pixels = render_image(renderer, frame);
+    exposure = image_auto_exposure(&pixels);
+    image_free(&pixels);
     read_pixels(renderer, first);
 }
 
@@ -73,7 +73,7 @@ static lmp_preintegrated_lobe *response_of(const gpu_frame *frame) {
     return response;
 }
 
-static void both_devices_draw_the_same_picture(void **state) {
+static void both_devices_draw_the_same_image(void **state) {
     (void)state;
     const char *const scenes[] = { "builtin:atrium", "builtin:balls" };
     for (int i = 0; i < 2; i++) {
@@ -110,7 +110,7 @@ static void check_preintegrated(stage *s) {
     lmp_preintegrated_lobe_destroy(response);
 }
 
-static void preintegrated_pictures_are_those_of_coefficients(void **state) {
+static void preintegrated_images_are_those_of_coefficients(void **state) {
     (void)state;
     const char *const scenes[] = { "builtin:atrium", "builtin:balls" };
     const int bands[] = { 5, 8, 12, 16, 20 };
@@ -177,7 +177,7 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
     }
 }
 
-static void what_is_timed_for_comparison_draws_the_same_picture(void **state) {
+static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     (void)state;
     stage s;
     open_stage(&s, "builtin:atrium");
@@ -216,10 +216,10 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **stat
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(both_devices_draw_the_same_picture),
-        cmocka_unit_test(preintegrated_pictures_are_those_of_coefficients),
+        cmocka_unit_test(both_devices_draw_the_same_image),
+        cmocka_unit_test(preintegrated_images_are_those_of_coefficients),
         cmocka_unit_test(measured_materials_are_drawn_alike_by_sums_and_by_responses),
-        cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_picture),
+        cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_image),
         cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_responses),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

@@ -251,7 +251,7 @@ static void a_camera_inside_a_light_sees_it_all_round(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
-/* --- pictures -----------------------------------------------------------------------------------
+/* --- images -----------------------------------------------------------------------------------
  */
 
 static void samples_cover_a_pixel_in_part(void **state) {
@@ -263,11 +263,11 @@ static void samples_cover_a_pixel_in_part(void **state) {
     gpu_frame frame = look_at(world, 0, 1);
     frame.camera.eye[0] = frame.camera.target[0] = 0.5f / 16; /* the edges halve pixels */
     frame.samples = 64;
-    image picture = render_image(renderer, &frame);
-    const float *row = picture.rgb + 3 * SIDE * 32;
+    image pixels = render_image(renderer, &frame);
+    const float *row = pixels.rgb + 3 * SIDE * 32;
     assert_true(row[3 * 32] == 1 && row[3 * 60] == 0);
     assert_true(fabsf(row[3 * 47] - 0.5f) <= 0.05f);
-    image_free(&picture);
+    image_free(&pixels);
     gpu_renderer_destroy(renderer);
 }
 
@@ -280,14 +280,14 @@ static void the_device_and_the_cpu_tone_map_alike(void **state) {
     gpu_renderer *renderer = open_renderer(world);
     gpu_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
-    image picture = render_image(renderer, &frame);
+    image pixels = render_image(renderer, &frame);
     for (float exposure = 0.01f; exposure < 1e7f; exposure *= 10) {
         expect(gpu_read_rgb8(renderer, exposure, on_device, NULL, &error), &error);
-        image_tone_map(&picture, exposure, on_cpu);
+        image_tone_map(&pixels, exposure, on_cpu);
         for (size_t i = 0; i < 3 * PIXELS; i++)
             assert_true(abs(on_device[i] - on_cpu[i]) <= 1);
     }
-    image_free(&picture);
+    image_free(&pixels);
     gpu_renderer_destroy(renderer);
 }
 

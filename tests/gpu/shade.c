@@ -11,7 +11,7 @@ enum { WIDTH = 72, HEIGHT = 40, PIXELS = WIDTH * HEIGHT };
  * at that pixel (what rounding is proportional to, for the lobes' series cancel). */
 static const double bound = 5e-6;
 
-/* The same as a part of the largest radiance in the picture. */
+/* The same as a part of the largest radiance in the image. */
 static const double peak_bound = 5e-5;
 
 static const int band_counts[] = { 1, 3, 5, 8, 10, 20 };
@@ -19,7 +19,7 @@ enum { BAND_COUNTS = sizeof band_counts / sizeof band_counts[0] };
 
 typedef struct worst {
     double relative; /* to the magnitude at the pixel */
-    double peak;     /* to the largest radiance of the picture */
+    double peak;     /* to the largest radiance of the image */
     int surfaces;
 } worst;
 
@@ -54,7 +54,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
         lights[i] = scene_light_as_sphere(&frame->lights[i]);
-    image picture = render_image(renderer, frame);
+    image drawn = render_image(renderer, frame);
     gpu_pixel *pixels = render_pixels(renderer, frame);
     float diffuse[LMP_BANDS_MAX], glossy[LMP_BANDS_MAX];
     lmp_lobe_diffuse(frame->bands, diffuse);
@@ -72,7 +72,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
         }
         const float expected[3] = { c.r + p->emission.r, c.g + p->emission.g, c.b + p->emission.b };
         for (int k = 0; k < 3; k++) {
-            const double error = fabs((double)picture.rgb[3 * i + (size_t)k] - (double)expected[k]);
+            const double error = fabs((double)drawn.rgb[3 * i + (size_t)k] - (double)expected[k]);
             assert_true(isfinite(error));
             if (p->kind != GPU_KIND_SURFACE) {
                 assert_true(error == 0);
@@ -85,7 +85,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
         }
     }
     w.peak = difference / fmax(peak, 1e-30);
-    image_free(&picture);
+    image_free(&drawn);
     free(pixels);
     return w;
 }
@@ -193,11 +193,11 @@ static void check_far(scene *world, gpu_renderer *renderer) {
     gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.light_count = 1;
     check_with("far", renderer, frame);
-    image picture = render_image(renderer, &frame);
+    image drawn = render_image(renderer, &frame);
     double sum = 0;
     for (size_t i = 0; i < 3 * PIXELS; i++)
-        sum += (double)picture.rgb[i];
-    image_free(&picture);
+        sum += (double)drawn.rgb[i];
+    image_free(&drawn);
     assert_true(sum > 0.01 * PIXELS);
 }
 
@@ -241,9 +241,9 @@ static void check_bytes(scene *world, gpu_renderer *renderer) {
     static unsigned char bytes[GPU_METHOD_PREINTEGRATED][3 * PIXELS];
     cli_error error = { "" };
     gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
-    image picture = render_image(renderer, &frame);
-    const float exposure = image_auto_exposure(&picture);
-    image_free(&picture);
+    image drawn = render_image(renderer, &frame);
+    const float exposure = image_auto_exposure(&drawn);
+    image_free(&drawn);
     for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
         frame.method = (gpu_method)m;
         expect(gpu_render(renderer, &frame, NULL, &error), &error);

@@ -23,7 +23,7 @@ static double difference(gpu_renderer *renderer, const gpu_frame *frame, int *by
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
         lights[i] = scene_light_as_sphere(&frame->lights[i]);
-    image picture = render_image(renderer, frame);
+    image drawn = render_image(renderer, frame);
     gpu_pixel *pixels = render_pixels(renderer, frame);
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
     double worst = 0, peak = 0;
@@ -37,13 +37,13 @@ static double difference(gpu_renderer *renderer, const gpu_frame *frame, int *by
             lmp_shade(&settings, &p->material, &p->surface, lights, frame->light_count);
         const float expected[3] = { c.r + p->emission.r, c.g + p->emission.g, c.b + p->emission.b };
         for (size_t k = 0; k < 3; k++) {
-            const double error = fabs((double)picture.rgb[3 * i + k] - (double)expected[k]);
+            const double error = fabs((double)drawn.rgb[3 * i + k] - (double)expected[k]);
             assert_true(isfinite(error));
             worst = fmax(worst, error);
             peak = fmax(peak, (double)expected[k]);
         }
     }
-    image_free(&picture);
+    image_free(&drawn);
     free(pixels);
     return worst / peak;
 }

@@ -37,8 +37,8 @@ tail -c $((3 * 960 * 540)) 20.ppm | od -An -v -tu1 -w2880 | awk '
     { for (i = 1; i <= NF; i += 3) bright += $i > 230 }
     END { print sky, red / pixels, blue / pixels, bright
         exit !(sky == 0 && red / pixels > 60 && red > blue && bright > 1000 && bright < 20000) }' >log ||
-    fail "the picture is not as it should be: $(cat log)"
+    fail "the image is not as it should be: $(cat log)"
 if xvfb-run -a build/lanterns "$glsl/lampion.glsl" "$examples/CMakeLists.txt" 1 none.ppm >log 2>&1; then
     fail "a broken shader is not refused"
 fi
-[ ! -e none.ppm ] || fail "a broken shader leaves a picture"
+[ ! -e none.ppm ] || fail "a broken shader leaves an image"

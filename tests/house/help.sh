@@ -56,7 +56,7 @@ if command -v script >/dev/null; then
     for terminal in dumb xterm; do
         script -qec "TERM=$terminal '$PROGRAM' reference builtin:ball --size 96x64 --spp 64 -o '$WORK/t.png'" \
             /dev/null >"$WORK/$terminal" </dev/null
-        [ -s "$WORK/t.png" ] || fail "no picture on a terminal"
+        [ -s "$WORK/t.png" ] || fail "no image on a terminal"
         ! grep -q "$(printf '\033\\[[0-9;]*m')" "$WORK/$terminal" || fail "colors on $terminal"
     done
     [ ! -s "$WORK/dumb" ] || fail "progress on a dumb terminal: $(cat "$WORK/dumb")"

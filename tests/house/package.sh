@@ -87,9 +87,9 @@ code_blocks README.md sh | grep '^lampion.* scene\.' | # small: the last --size 
 (cd "$WORK/reader" && PATH=$root/usr/bin:$PATH XDG_CACHE_HOME=$WORK/cache sh -eu commands >log 2>&1) ||
     fail "the README's way: $(cat "$WORK/reader/log")"
 awk '$1 == "relmse" { found = $2 } END { exit !(found != "" && found < 0.01) }' "$WORK/reader/log" ||
-    fail "the picture is far from the truth: $(cat "$WORK/reader/log")"
-for picture in scene.png gold.png; do
-    [ -s "$WORK/reader/$picture" ] || fail "no $picture"
+    fail "the image is far from the truth: $(cat "$WORK/reader/log")"
+for image in scene.png gold.png; do
+    [ -s "$WORK/reader/$image" ] || fail "no $image"
 done
 ! cmp -s "$WORK/reader/scene.png" "$WORK/reader/gold.png" || fail "the material changes nothing"
 

@@ -71,12 +71,12 @@ static void assert_refused(const char *name, const char *expected) {
 }
 
 static void assert_lights_refused(const char *json, const char *expected) {
-    char path[512], picture[512];
+    char path[512], pixels[512];
     folder_write_text("lights.json", json);
     snprintf(path, sizeof path, "%s", in_folder("lights.json"));
-    snprintf(picture, sizeof picture, "%s", in_folder("picture.png"));
+    snprintf(pixels, sizeof pixels, "%s", in_folder("image.png"));
     const char *const arguments[] = { "lampion", "render", "builtin:ball", "--lights",
-                                      path,      "-o",     picture,        NULL };
+                                      path,      "-o",     pixels,         NULL };
     const int before = count_entries(folder);
     assert_one_line(run_program(arguments), json, expected);
     assert_int_equal(count_entries(folder), before);
@@ -111,7 +111,7 @@ static void what_is_no_scene_is_refused(void **state) {
     folder_write_text("text.obj", "nothing to see here\n");
     folder_write_text("text.gltf", "nothing to see here\n");
     folder_write_text("wrong.txt", "v 0 0 0\n");
-    folder_write_text("picture.png", "\x89PNG\r\n\x1a\n");
+    folder_write_text("image.png", "\x89PNG\r\n\x1a\n");
     mkdir(in_folder("directory.gltf"), 0700);
     assert_int_equal(mkfifo(in_folder("fifo.gltf"), 0600), 0);
     assert_refused("missing.gltf", "does not exist");
@@ -120,7 +120,7 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_refused("text.obj", "text.obj: ");
     assert_refused("text.gltf", "is no scene");
     assert_refused("wrong.txt", "is no scene");
-    assert_refused("picture.png", "is no scene");
+    assert_refused("image.png", "is no scene");
     assert_refused("directory.gltf", "is a directory");
     assert_refused("fifo.gltf", "is not a regular file");
     assert_refused("a\nname\x1b[31m", "does not exist");
@@ -313,7 +313,7 @@ static void textures_that_cannot_be_are_refused(void **state) {
     assert_refused("textured.gltf", "t.png");
     folder_write("t.png", large, sizeof large);
     assert_refused("textured.gltf", "t.png");
-    folder_write_text("t.png", "no picture");
+    folder_write_text("t.png", "no image");
     assert_refused("textured.gltf", "t.png");
     folder_write_text("embedded.gltf", HEAD
                       "\"materials\":[{\"emissiveTexture\":{\"index\":0}}],"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion brdf: values through every format, tables, pictures, and what it refuses.
+# lampion brdf: values through every format, tables, images, and what it refuses.
 set -eu
 . tests/house/common.sh
 export XDG_CACHE_HOME="$WORK/cache"

@@ -63,7 +63,7 @@ static outcome parse(int argc, char **argv) {
         { "fov", 0, CLI_FLOAT, &v->fov, "R", "field of view", 0.01, 3.1, NULL, NULL },
         { "eye", 0, CLI_VEC3, v->eye, "X,Y,Z", "place", 0, 0, NULL, &v->eye_given },
         { "method", 0, CLI_CHOICE, &v->method, "NAME", "method", 0, 0, methods, NULL },
-        { "output", 'o', CLI_TEXT, &v->output, "FILE", "picture", 0, 0, NULL, NULL },
+        { "output", 'o', CLI_TEXT, &v->output, "FILE", "image", 0, 0, NULL, NULL },
         { "frames", 0, CLI_RANGE, v->frames, "N|A-B", "frames", 0, 99, NULL, NULL },
         { "part", 0, CLI_PART, v->part, "I/N", "part", 1, 99, NULL, NULL },
         { "lights", 0, CLI_LIST, &v->lights, "FILE", "lights", 0, 0, NULL, NULL },

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures: what is written comes back, damaged files are refused, exposure and tone. */
+/* Images: what is written comes back, damaged files are refused, exposure and tone. */
 #include "app/image/image.h"
 #include "app/file/file.h"
 #include "tests/program/folder.h"
@@ -25,12 +25,12 @@ static int remove_folder(void **state) {
 }
 
 static image noise(void) {
-    image picture;
+    image pixels;
     cli_error error;
-    assert_true(image_create(&picture, WIDTH, HEIGHT, &error));
+    assert_true(image_create(&pixels, WIDTH, HEIGHT, &error));
     for (size_t i = 0; i < VALUES; i++)
-        picture.rgb[i] = (float)exp(check_random_between(-30, 30));
-    return picture;
+        pixels.rgb[i] = (float)exp(check_random_between(-30, 30));
+    return pixels;
 }
 
 static void openexr_keeps_every_bit(void **state) {
@@ -90,10 +90,10 @@ static void survive_damage(const char *good, const char *bad) {
         fclose(stream);
         if (step >= 150)
             bytes[at] = before;
-        image picture;
+        image pixels;
         error.text[0] = '\0';
-        if (image_read(in_folder(bad), &picture, &error)) {
-            image_free(&picture);
+        if (image_read(in_folder(bad), &pixels, &error)) {
+            image_free(&pixels);
         } else {
             refused++;
             assert_true(error.text[0] && !strchr(error.text, '\n'));
@@ -106,7 +106,7 @@ static void survive_damage(const char *good, const char *bad) {
     free(data);
 }
 
-static void damaged_pictures_are_refused_in_one_line(void **state) {
+static void damaged_images_are_refused_in_one_line(void **state) {
     (void)state;
     survive_damage("a.exr", "bad.exr");
     survive_damage("a.png", "bad.png");
@@ -121,12 +121,12 @@ static void a_png_that_claims_to_be_huge_is_refused(void **state) {
                                            0x00, 0x00, 0x39, 0x67, 0x4e, 0x07, 0x00, 0x00, 0x00,
                                            0x00, 0x49, 0x44, 0x41, 0x54, 0x35, 0xaf, 0x06, 0x1e };
     cli_error error = { "" };
-    image picture;
+    image pixels;
     FILE *stream = fopen(in_folder("bad.png"), "wb");
     assert_non_null(stream);
     fwrite(bytes, 1, sizeof bytes, stream);
     fclose(stream);
-    assert_false(image_read(in_folder("bad.png"), &picture, &error));
+    assert_false(image_read(in_folder("bad.png"), &pixels, &error));
     assert_non_null(strstr(error.text, "too large"));
 }
 
@@ -143,62 +143,62 @@ static void paths_that_cannot_be_written_are_refused_at_once(void **state) {
 /* --- exposure and tone --------------------------------------------------------------------------
  */
 
-static void fill(image *picture, float value) {
+static void fill(image *pixels, float value) {
     for (size_t i = 0; i < VALUES; i++)
-        picture->rgb[i] = value;
+        pixels->rgb[i] = value;
 }
 
 static void exposure_puts_what_is_lit_at_middle_grey(void **state) {
     (void)state;
-    image picture = noise();
-    fill(&picture, 40);
-    CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
+    image pixels = noise();
+    fill(&pixels, 40);
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 0.18 - 1), 0.05);
     /* background, lamps and numbers that are none do not count */
     for (size_t i = 0; i < VALUES / 2; i++)
-        picture.rgb[i] = 0;
+        pixels.rgb[i] = 0;
     for (size_t i = VALUES / 2; i < VALUES / 2 + 36; i++)
-        picture.rgb[i] = 1e9f;
-    picture.rgb[VALUES - 1] = NAN;
-    picture.rgb[VALUES - 4] = INFINITY;
-    CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
+        pixels.rgb[i] = 1e9f;
+    pixels.rgb[VALUES - 1] = NAN;
+    pixels.rgb[VALUES - 4] = INFINITY;
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 0.18 - 1), 0.05);
     /* nor does what is black beside the rest */
     for (size_t i = 0; i < VALUES / 2; i++)
-        picture.rgb[i] = 1e-5f;
-    CHECK_WITHIN(fabs((double)image_auto_exposure(&picture) * 40 / 0.18 - 1), 0.05);
-    fill(&picture, 0);
-    assert_true(image_auto_exposure(&picture) == 1);
+        pixels.rgb[i] = 1e-5f;
+    CHECK_WITHIN(fabs((double)image_auto_exposure(&pixels) * 40 / 0.18 - 1), 0.05);
+    fill(&pixels, 0);
+    assert_true(image_auto_exposure(&pixels) == 1);
     CHECK_WITHIN(fabs((double)image_exposure_of_stops(-2) - 0.25), 1e-7);
-    image_free(&picture);
+    image_free(&pixels);
 }
 
 static void the_curve_keeps_black_and_grey_rises_and_ends_white(void **state) {
     (void)state;
     static unsigned char bytes[VALUES];
-    image picture = noise();
+    image pixels = noise();
     for (size_t i = 0; i < VALUES; i++)
-        picture.rgb[i] = powf(10, -4 + 8 * (float)(i / 3) / (float)(VALUES / 3));
-    image_tone_map(&picture, 1, bytes);
+        pixels.rgb[i] = powf(10, -4 + 8 * (float)(i / 3) / (float)(VALUES / 3));
+    image_tone_map(&pixels, 1, bytes);
     for (size_t i = 3; i < VALUES; i++)
         assert_true(bytes[i] >= bytes[i - 3]);
     assert_int_equal(bytes[0], 0);
     assert_int_equal(bytes[VALUES - 1], 255);
-    fill(&picture, 0.18f);
-    picture.rgb[3] = picture.rgb[4] = picture.rgb[5] = NAN;
-    picture.rgb[6] = picture.rgb[7] = picture.rgb[8] = INFINITY;
-    picture.rgb[9] = picture.rgb[10] = picture.rgb[11] = -1;
-    image_tone_map(&picture, 1, bytes);
+    fill(&pixels, 0.18f);
+    pixels.rgb[3] = pixels.rgb[4] = pixels.rgb[5] = NAN;
+    pixels.rgb[6] = pixels.rgb[7] = pixels.rgb[8] = INFINITY;
+    pixels.rgb[9] = pixels.rgb[10] = pixels.rgb[11] = -1;
+    image_tone_map(&pixels, 1, bytes);
     assert_true(abs(bytes[0] - 118) <= 1); /* sRGB of 0.18 */
     assert_int_equal(bytes[3], 0);
     assert_int_equal(bytes[6], 255);
     assert_int_equal(bytes[9], 0);
-    image_free(&picture);
+    image_free(&pixels);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(openexr_keeps_every_bit),
         cmocka_unit_test(png_keeps_every_byte),
-        cmocka_unit_test(damaged_pictures_are_refused_in_one_line),
+        cmocka_unit_test(damaged_images_are_refused_in_one_line),
         cmocka_unit_test(a_png_that_claims_to_be_huge_is_refused),
         cmocka_unit_test(paths_that_cannot_be_written_are_refused_at_once),
         cmocka_unit_test(exposure_puts_what_is_lit_at_middle_grey),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion render as a user runs it: pictures, sequences, statistics, and what it refuses.
+# lampion render as a user runs it: images, sequences, statistics, and what it refuses.
 set -eu
 . tests/house/common.sh
 export LAMPION_GL_DEBUG=fatal
@@ -7,7 +7,7 @@ export LAMPION_GL_DEBUG=fatal
 export ASAN_OPTIONS=detect_leaks=0
 small="--size 64x36 --bands 4"
 
-# the same command gives the same bytes; the methods give the same picture
+# the same command gives the same bytes; the methods give the same image
 "$PROGRAM" render builtin:balls $small -o "$WORK/a.png"
 "$PROGRAM" render builtin:balls $small -o "$WORK/b.png"
 cmp "$WORK/a.png" "$WORK/b.png" || fail "two runs differ"
@@ -55,7 +55,7 @@ refused() {
     "$PROGRAM" render "$@" >"$WORK/out" 2>"$WORK/err" || got=$?
     [ $got -eq "$status" ] || fail "render $*: status $got, not $status"
     [ "$(wc -l <"$WORK/err")" -eq 1 ] || fail "render $*: not one line: $(cat "$WORK/err")"
-    [ ! -e "$WORK/x.png" ] || fail "render $*: left a picture"
+    [ ! -e "$WORK/x.png" ] || fail "render $*: left an image"
 }
 refused 2
 refused 2 builtin:ball

@@ -98,7 +98,7 @@ static void an_obj_is_read_with_its_materials(void **state) {
     CHECK_NEAR(0.25, material->base_color[1], 1e-6);
     /* Ns = 2 / roughness⁴ - 2 */
     CHECK_NEAR(98.0, 2.0 / pow((double)material->roughness, 4.0) - 2.0, 0.01);
-    /* The picture's v is up, the scene's is down. */
+    /* The image's v is up, the scene's is down. */
     CHECK_NEAR(1.0, s.vertices[0].uv[1], 1e-6);
     /* The emissive square is one light of the same power: area times pi times radiance. */
     assert_int_equal(s.light_count, 1);
@@ -343,7 +343,7 @@ static void a_scene_without_lights_gets_hidden_studio_lights(void **state) {
     scene_free(&s);
 }
 
-/* The largest coordinate in the picture, 1 at its edges, of what the camera sees. */
+/* The largest coordinate in the image, 1 at its edges, of what the camera sees. */
 static double filled(const scene *s, const scene_camera *camera, double aspect) {
     double f[3], r[3], u[3], length = 0, largest = 0;
     for (int k = 0; k < 3; k++)
@@ -371,7 +371,7 @@ static double filled(const scene *s, const scene_camera *camera, double aspect) 
     return largest;
 }
 
-static void a_scene_without_cameras_fills_nine_tenths_of_the_picture(void **state) {
+static void a_scene_without_cameras_fills_nine_tenths_of_the_image(void **state) {
     (void)state;
     static const char *const shapes[] = {
         "v 0 0 0\nv 1 0 0\nv 0 5 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 3 2 4\n",
@@ -389,7 +389,7 @@ static void a_scene_without_cameras_fills_nine_tenths_of_the_picture(void **stat
     }
 }
 
-static void a_narrow_picture_widens_the_camera_s_view(void **state) {
+static void a_narrow_image_widens_the_camera_s_view(void **state) {
     (void)state;
     scene s = load("builtin:balls", false);
     const float aspect = s.cameras[0].aspect, wide = s.cameras[0].fov;
@@ -417,8 +417,8 @@ int main(void) {
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
         cmocka_unit_test(a_scene_without_lights_gets_hidden_studio_lights),
-        cmocka_unit_test(a_scene_without_cameras_fills_nine_tenths_of_the_picture),
-        cmocka_unit_test(a_narrow_picture_widens_the_camera_s_view),
+        cmocka_unit_test(a_scene_without_cameras_fills_nine_tenths_of_the_image),
+        cmocka_unit_test(a_narrow_image_widens_the_camera_s_view),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

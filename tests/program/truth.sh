@@ -3,7 +3,7 @@
 set -eu
 . tests/house/common.sh
 
-# refuses STATUS TEXT COMMAND…: ends so, saying TEXT, and leaves no picture behind.
+# refuses STATUS TEXT COMMAND…: ends so, saying TEXT, and leaves no image behind.
 refuses() {
     expected=$1 text=$2
     shift 2
@@ -12,7 +12,7 @@ refuses() {
     [ $status = "$expected" ] || fail "$*: status $status, not $expected"
     grep -q -- "$text" "$WORK/err" || fail "$*: $(cat "$WORK/err")"
     [ "$(grep -c . "$WORK/err")" -le 2 ] || fail "$*: more than a line"
-    [ ! -e "$WORK/none.png" ] || fail "$*: left a picture"
+    [ ! -e "$WORK/none.png" ] || fail "$*: left an image"
 }
 
 # E = pi L sin²a cos(theta) of a sphere of radius 1/2 at distance 2, half of it by a white floor
@@ -21,14 +21,14 @@ radiance=$("$PROGRAM" reference --point 0,0,0 --light 0,2,0,0.5,8,16,32)
 small="--size 48x32 --random-lights 3 --spp 8"
 "$PROGRAM" reference builtin:balls $small --threads 1 -o "$WORK/one.exr"
 "$PROGRAM" reference builtin:balls $small --threads 2 -o "$WORK/two.exr"
-cmp "$WORK/one.exr" "$WORK/two.exr" || fail "the number of threads changes the picture"
+cmp "$WORK/one.exr" "$WORK/two.exr" || fail "the number of threads changes the image"
 "$PROGRAM" reference builtin:balls $small --noise-seed 2 -o "$WORK/other.exr"
 "$PROGRAM" reference builtin:balls $small -o "$WORK/one.png"
 "$PROGRAM" reference builtin:balls $small --ev 1 -o "$WORK/brighter.png"
-grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the picture"
+grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
 
 "$PROGRAM" compare "$WORK/one.exr" "$WORK/two.exr" --fail-above max=0 --fail-above ssim=1 \
-    >"$WORK/out" || fail "equal pictures are not equal"
+    >"$WORK/out" || fail "equal images are not equal"
 "$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --json --heatmap "$WORK/heat.png" \
     --fail-above rmse=1000 | grep -q '"bad_values": 0' || fail "no JSON"
 [ -s "$WORK/heat.png" ] || fail "no heat map"
@@ -40,7 +40,7 @@ refuses 2 'METRIC' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above beauty=1
 refuses 2 'not a number' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rmse=nan
 refuses 2 'did you mean rmse' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rsme=1
 refuses 2 'two of a kind' compare "$WORK/one.exr" "$WORK/one.png"
-refuses 2 'two pictures' compare "$WORK/one.exr"
+refuses 2 'two images' compare "$WORK/one.exr"
 refuses 2 'heat.txt' compare "$WORK/one.exr" "$WORK/two.exr" --heatmap "$WORK/heat.txt"
 mkfifo "$WORK/fifo.exr"
 refuses 1 'no.* regular file' compare "$WORK/one.exr" "$WORK/fifo.exr"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion view in a window, by real input: a session checked step by step, by its state and pictures.
+# lampion view in a window, by real input: a session checked step by step, by its state and images.
 set -eu
 . tests/house/common.sh
 for tool in xvfb-run xdotool; do
@@ -68,12 +68,12 @@ isnt() { [ "$("$1" "$2")" != "$3" ]; }
 says() { value message | grep -q "$1"; }
 
 shots=0
-# shot: takes a screenshot of the picture as it is and waits for it; $picture is its name.
+# shot: takes a screenshot of the image as it is and waits for it; $image is its name.
 shot() {
     shots=$((shots + 1))
-    picture=$(printf 'lampion-%04d.png' $shots)
+    image=$(printf 'lampion-%04d.png' $shots)
     xdotool key p
-    until_true "screenshot $shots" test -s "$picture"
+    until_true "screenshot $shots" test -s "$image"
 }
 
 "$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 320x180 --samples 2 \
@@ -84,9 +84,9 @@ until_true "opening" is value method '"preintegrated"'
 until_true "opening" is value height 180
 xdotool mousemove 20 20
 shot
-first=$picture
+first=$image
 
-# the light in the middle of the picture is dragged; the camera stays
+# the light in the middle of the image is dragged; the camera stays
 eye=$(value eye)
 position=$(value position)
 xdotool mousemove 160 90 mousedown 1 mousemove 180 80 mousemove 200 70 mouseup 1
@@ -94,7 +94,7 @@ until_true "dragging a light" isnt value position "$position"
 until_true "selecting a light" is value selected 0
 is value eye "$eye" || fail "dragging a light moved the camera"
 shot
-cmp -s "$first" "$picture" && fail "the dragged light is not to be seen"
+cmp -s "$first" "$image" && fail "the dragged light is not to be seen"
 
 # the camera: orbit, fly, frame all
 xdotool mousemove 40 60 mousedown 1 mousemove 60 70 mousemove 90 80 mouseup 1
@@ -134,11 +134,11 @@ is value bands 11 || fail "the left side changed as well"
 xdotool mousemove 160 60 mousedown 1 mousemove 130 60 mousemove 100 60 mouseup 1
 until_true "the divider" isnt value divider 0.5
 shot
-split=$picture
+split=$image
 xdotool key x
 until_true "the difference" is value split '"difference"'
 shot
-for name in "$split" "$picture"; do
+for name in "$split" "$image"; do
     "$PROGRAM" render --from "$name" -o again.png || fail "$name is not repeated"
     cmp "$name" again.png || fail "$name is repeated otherwise"
 done
@@ -164,7 +164,7 @@ is value width 400 || fail "starting anew lost the size"
 
 # the scene file: broken, it stays; mended, it is read again
 shot
-before=$picture
+before=$image
 sleep 1
 echo 'f 1 2 99' >room.obj
 until_true "a broken scene" says "room.obj"
@@ -172,7 +172,7 @@ says "read again" && fail "a broken scene was taken"
 printf '%s\n' "$room" | sed 's/^v -4 4 -4/v -4 2 -4/' >room.obj
 until_true "a mended scene" says "read again"
 shot
-cmp -s "$before" "$picture" && fail "the new scene is not to be seen"
+cmp -s "$before" "$image" && fail "the new scene is not to be seen"
 
 xdotool key ctrl+q
 status=0
@@ -205,7 +205,7 @@ count=$(find one -name 'frame_*.png' | wc -l)
 [ "$count" -gt 20 ] || fail "only $count frames are recorded"
 diff -r one two || fail "two runs of a script differ"
 "$PROGRAM" render --from one/dropped.png -o again.png
-cmp one/dropped.png again.png || fail "a picture with a dropped material is repeated otherwise"
+cmp one/dropped.png again.png || fail "an image with a dropped material is repeated otherwise"
 
 # refusals
 refused() {
@@ -222,13 +222,13 @@ refused view --from room.obj
 small="room.obj --lights lights.json --size 80x60 --frames 9"
 printf '0 shot none/x.png\n' >bad.txt
 refused view $small --script bad.txt
-grep -q 'none/x.png' err || fail "not the picture's fault: $(cat err)"
+grep -q 'none/x.png' err || fail "not the image's fault: $(cat err)"
 refused view $small --record room.obj
 refused view $small --state none/state.json
 printf '0 shot first.png\n1 key Ctrl+Q\n' >first.txt
-"$PROGRAM" view $small --script first.txt || fail "a picture of the first frame: $?"
-[ -s first.png ] || fail "no picture of the first frame"
+"$PROGRAM" view $small --script first.txt || fail "an image of the first frame: $?"
+[ -s first.png ] || fail "no image of the first frame"
 "$PROGRAM" render room.obj --size 8x8 -o plain.png 2>/dev/null
 refused render --from plain.png -o x.png
 refused render --from one/dropped.png -o x.exr
-[ ! -e x.png ] || fail "a refusal left a picture"
+[ ! -e x.png ] || fail "a refusal left an image"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The picture that the GPU shades against the ground truth of the same cut lobes. */
+/* The image that the GPU shades against the ground truth of the same cut lobes. */
 #include "app/gpu/gpu.h"
 #include "app/reference/light.h"
 #include "app/reference/reference.h"
@@ -15,7 +15,7 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
                                gpu_pixel **pixels) {
     gpu_context context;
     cli_error error;
-    image picture;
+    image drawn;
     const gpu_frame frame = { .width = WIDTH,
                               .height = HEIGHT,
                               .camera = settings->camera,
@@ -27,11 +27,11 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
     gpu_renderer *renderer = gpu_renderer_create(&context, world, &error);
     assert_non_null(renderer);
     assert_true(gpu_render(renderer, &frame, NULL, &error));
-    assert_true(gpu_read_image(renderer, &picture, &error));
+    assert_true(gpu_read_image(renderer, &drawn, &error));
     assert_true(gpu_read_pixels(renderer, pixels, &error));
     gpu_renderer_destroy(renderer);
     gpu_context_destroy(&context);
-    return picture;
+    return drawn;
 }
 
 /* What one pixel shows. */
@@ -93,10 +93,10 @@ static sight *look(const scene *world, const scene_camera *camera) {
 }
 
 /* Whether a channel differs by more than 4 standard errors and one step of 8 bits. */
-static bool differs(const float *picture, const float *truth, const float *standard_error,
+static bool differs(const float *drawn, const float *truth, const float *standard_error,
                     double exposure) {
     for (int c = 0; c < 3; c++) {
-        const double d = fabs((double)picture[c] - (double)truth[c]);
+        const double d = fabs((double)drawn[c] - (double)truth[c]);
         if (!((d - 4 * (double)standard_error[c]) * exposure <= 1.0 / 255))
             return true;
     }
@@ -117,21 +117,21 @@ static void check_scene(const char *name, int lights, const reference_cut *cut) 
     assert_true(scene_apply_lights(&world, &random, &error));
     settings.camera = scene_default_camera(&world, (float)WIDTH / HEIGHT);
     assert_true(reference_render(&world, &settings, &truth, &standard_error, &error));
-    image picture = draw_by_harmonics(&world, &settings, &pixels);
+    image drawn = draw_by_harmonics(&world, &settings, &pixels);
     sight *sights = look(&world, &settings.camera);
     const double exposure = (double)image_auto_exposure(&truth);
     for (int p = 0; p < WIDTH * HEIGHT; p++) {
         const bool edge =
             !same_sight(&pixels[p], &sights[p], reference_from_floats(settings.camera.eye));
         edges += edge;
-        different += !edge && differs(&picture.rgb[3 * p], &truth.rgb[3 * p],
+        different += !edge && differs(&drawn.rgb[3 * p], &truth.rgb[3 * p],
                                       &standard_error.rgb[3 * p], exposure);
     }
     assert_int_equal(different, 0);
     assert_in_range(edges, 0, WIDTH * HEIGHT / 250);
     free(sights);
     free(pixels);
-    image_free(&picture);
+    image_free(&drawn);
     image_free(&truth);
     image_free(&standard_error);
     scene_free(&world);

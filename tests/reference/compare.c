@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Metrics of hand-made pictures. */
+/* Metrics of hand-made images. */
 #include "app/compare/compare.h"
 #include "tests/oracle/check.h"
 
@@ -13,7 +13,7 @@ typedef struct pair {
     image a, b;
 } pair;
 
-/* Two equal pictures with values in 0 … 1, the largest of them 1. */
+/* Two equal images with values in 0 … 1, the largest of them 1. */
 static void make_pair(pair *p) {
     for (int i = 0; i < VALUES; i++)
         p->a_values[i] = p->b_values[i] = (float)((i * 37) % 101) / 100;
@@ -28,7 +28,7 @@ static compare_result compare(const pair *p, double peak) {
     return result;
 }
 
-static void equal_pictures_have_no_difference(void **state) {
+static void equal_images_have_no_difference(void **state) {
     (void)state;
     pair p;
     make_pair(&p);
@@ -126,15 +126,15 @@ static void display_values_are_srgb(void **state) {
     (void)state;
     float values[6] = { 0, 0.002f, 0.214041f, 1, 3, -1 };
     const float expected[6] = { 0, 0.02584f, 0.5f, 1, 1, 0 };
-    image picture = { 2, 1, values };
-    compare_to_display(&picture);
+    image pixels = { 2, 1, values };
+    compare_to_display(&pixels);
     for (int i = 0; i < 6; i++)
         CHECK_WITHIN(fabsf(values[i] - expected[i]), 1e-5);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_pictures_have_no_difference),
+        cmocka_unit_test(equal_images_have_no_difference),
         cmocka_unit_test(one_changed_value_gives_the_metrics_by_hand),
         cmocka_unit_test(the_peak_scales_psnr),
         cmocka_unit_test(ssim_of_an_offset_is_the_luminance_term),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Pictures of the ground truth: a floor whose every pixel has a known value. */
+/* Images of the ground truth: a floor whose every pixel has a known value. */
 #include "app/reference/quadrature.h"
 #include "app/reference/reference.h"
 #include "tests/oracle/check.h"
@@ -160,7 +160,7 @@ static void the_number_of_threads_changes_no_bit(void **state) {
     scene_free(&world);
 }
 
-/* Of the picture's middle row, whether the left and the right end are lit. */
+/* Of the image's middle row, whether the left and the right end are lit. */
 static void lit_ends(const stage *s, bool *left, bool *right) {
     image radiance;
     draw_plain(s, &radiance);

@@ -76,7 +76,7 @@ static void calls_the_function_as_often_as_documented(void **state) {
         CHECK_WITHIN(fabsf(all[k]), 1e-4);
 }
 
-/* --- pictures --------------------------------------------------------------------------------- */
+/* --- images --------------------------------------------------------------------------------- */
 
 /* The direction of a pixel's center by the words of the header. */
 static void pixel_direction(int width, int height, int row, int column, double w[3]) {
@@ -87,7 +87,7 @@ static void pixel_direction(int width, int height, int row, int column, double w
     w[2] = -sin(polar) * cos(azimuth);
 }
 
-static void a_constant_picture_is_a_constant(void **state) {
+static void a_constant_image_is_a_constant(void **state) {
     (void)state;
     enum { WIDTH = 64, HEIGHT = 32 };
     static float pixels[WIDTH * HEIGHT], sh[25];
@@ -102,7 +102,7 @@ static void a_constant_picture_is_a_constant(void **state) {
         CHECK_WITHIN(fabsf(sh[LMP_SH_INDEX(1, m)]), 1e-6);
 }
 
-static void a_picture_of_a_cosine_is_a_cosine(void **state) {
+static void a_image_of_a_cosine_is_a_cosine(void **state) {
     (void)state;
     enum { WIDTH = 256, HEIGHT = 128, CHANNELS = 6 };
     float *pixels = malloc(sizeof(float) * (WIDTH * CHANNELS + 5) * HEIGHT);
@@ -132,7 +132,7 @@ static void a_picture_of_a_cosine_is_a_cosine(void **state) {
     }
 }
 
-static void the_middle_of_a_picture_is_towards_minus_z(void **state) {
+static void the_middle_of_an_image_is_towards_minus_z(void **state) {
     (void)state;
     enum { WIDTH = 33, HEIGHT = 17 };
     static float pixels[WIDTH * HEIGHT], sh[16];
@@ -154,9 +154,9 @@ int main(void) {
         cmocka_unit_test(returns_the_coefficients_of_a_series),
         cmocka_unit_test(is_exact_up_to_the_documented_degree),
         cmocka_unit_test(calls_the_function_as_often_as_documented),
-        cmocka_unit_test(a_constant_picture_is_a_constant),
-        cmocka_unit_test(a_picture_of_a_cosine_is_a_cosine),
-        cmocka_unit_test(the_middle_of_a_picture_is_towards_minus_z),
+        cmocka_unit_test(a_constant_image_is_a_constant),
+        cmocka_unit_test(a_image_of_a_cosine_is_a_cosine),
+        cmocka_unit_test(the_middle_of_an_image_is_towards_minus_z),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
