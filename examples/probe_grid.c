@@ -29,7 +29,7 @@ static void update(const lmp_light *lights) {
 }
 
 /* Irradiance on a surface: bilinear between the four probes around, and a dot product (paper
- * Eq. 4) with the cosine lobe round its normal. */
+ * Eq. 4) with the cosine lobe around its normal. */
 static float irradiance(lmp_vec3 point, lmp_vec3 normal) {
     float lambda[BANDS], lobe[COEFFICIENTS], sum = 0;
     lmp_lobe_diffuse(BANDS, lambda);

@@ -43,7 +43,7 @@
  *   lmp_material_from_…      glTF's metallic-roughness as a lmp_material
  *   lmp_sphere_project       the LMP_SH_COUNT coefficients of a sphere light, for probes
  *   lmp_sh_eval              Y_lm of a direction
- *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe round w: lambda_l Y_lm(w)
+ *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
  *   lmp_cap_of_sphere, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
  * and in preintegrated_lobe.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
  * All names begin with lmp_ or LMP_. Nothing is kept: no uniforms, buffers or bindings.

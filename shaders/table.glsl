@@ -24,7 +24,7 @@ vec3 table_flatten(vec3 v, vec3 n, vec3 otherwise) {
     return length2 > 1e-12 * dot(v, v) ? rest * inversesqrt(length2) : otherwise;
 }
 
-/* First values of the four rows round a view, and their weights. */
+/* First values of the four rows around a view, and their weights. */
 void table_rows(int table, float cos_theta, float phi, out ivec4 first, out vec4 weight) {
     ivec3 shape = ivec3(table_values[table].xyz);
     float row = acos(clamp(cos_theta, 0.0, 1.0)) * (2.0 / LMP_PI) * float(shape.y - 1);

@@ -10,7 +10,7 @@ typedef struct animation animation;
 
 /* Opens a path by name:
  *
- *     orbit       each light on its own small closed orbit round its place, 8 s
+ *     orbit       each light on its own small closed orbit around its place, 8 s
  *     bounce      each light falls to the bottom of the scene and comes back, 8 s / a whole number
  *     scene       as the scene file's own animation moves its lights
  *     FILE.json   what the file says

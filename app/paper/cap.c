@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The section of Fig. 4b in pixels: x, the unit circle round it, the light and its tangents. */
+/* The section of Fig. 4b in pixels: x, the unit circle around it, the light and its tangents. */
 static bool draw_geometry(const char *file, cli_error *error) {
     const double unit = 110, distance = 330, radius = 120, x = 150, y = 170;
     const double a = asin(radius / distance), reach = sqrt(distance * distance - radius * radius);
@@ -105,7 +105,7 @@ bool paper_step_cap(paper *p, cli_error *error) {
         return false;
     page_image(&p->page, "figure4.svg",
                "A sphere of radius r at distance d covers a cap Q of half angle a of the unit "
-               "sphere round the shaded point x.");
+               "sphere around the shaded point x.");
     return write_errors(p, error);
 }
 

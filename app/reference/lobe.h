@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* lobe.h - materials as lobes, in double. A lobe is weight (e+1)/(2 pi) max(q·w, 0)^e round an axis
- * q; the diffuse lobe albedo/pi max(n·w, 0) is the one with e = 1. */
+/* lobe.h - materials as lobes, in double. A lobe is weight (e+1)/(2 pi) max(q·w, 0)^e around an
+ * axis q; the diffuse lobe albedo/pi max(n·w, 0) is the one with e = 1. */
 #ifndef LAMPION_REFERENCE_LOBE_H
 #define LAMPION_REFERENCE_LOBE_H
 

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-/* A lobe k(q·w) over a cap round another axis is a single integral over the angle g from q:
- * ∫ k(cos g) sin g arc(g) dg, where arc(g) is the length, in radians of azimuth round q, of the
+/* A lobe k(q·w) over a cap around another axis is a single integral over the angle g from q:
+ * ∫ k(cos g) sin g arc(g) dg, where arc(g) is the length, in radians of azimuth around q, of the
  * part of the circle at g that lies in the cap. */
 typedef struct overlap {
     const reference_lobe *lobe;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* vector.h - 3D vectors in double, the random streams, and directions drawn round an axis. */
+/* vector.h - 3D vectors in double, the random streams, and directions drawn around an axis. */
 #ifndef LAMPION_REFERENCE_VECTOR_H
 #define LAMPION_REFERENCE_VECTOR_H
 
@@ -56,7 +56,7 @@ static inline reference_vec reference_mirror(reference_vec v, reference_vec n) {
     return reference_subtract(reference_scale(2 * reference_dot(n, v), n), v);
 }
 
-/* The direction at `cosine` and `sine` from `axis`, at azimuth 2 pi turn: round an orthonormal
+/* The direction at `cosine` and `sine` from `axis`, at azimuth 2 pi turn: around an orthonormal
  * basis without branches at the poles (Duff et al. 2017). */
 static inline reference_vec reference_around(reference_vec axis, double cosine, double sine,
                                              double turn) {

@@ -65,9 +65,9 @@ static void add_material(scene_builder *builder, const char *name, float r, floa
 /* In the order of `stone`. */
 static void add_materials(scene_builder *builder) {
     static const char *const gloss_names[3][4] = {
-        { "tile light polished", "tile light honed", "tile light worn", "tile light matt" },
-        { "tile dark polished", "tile dark honed", "tile dark worn", "tile dark matt" },
-        { "tile accent polished", "tile accent honed", "tile accent worn", "tile accent matt" },
+        { "tile light polished", "tile light honed", "tile light worn", "tile light matte" },
+        { "tile dark polished", "tile dark honed", "tile dark worn", "tile dark matte" },
+        { "tile accent polished", "tile accent honed", "tile accent worn", "tile accent matte" },
     };
     static const float tile_colors[3][3] = { { 0.62f, 0.56f, 0.47f },
                                              { 0.055f, 0.07f, 0.075f },
@@ -205,7 +205,7 @@ static void turn_arch(scene_shaper *shaper, const shape_point *profile, int poin
                                           .segments = segments });
 }
 
-/* One face of the wall round an arch, at depth z, seen from +z (or from -z if `back`). */
+/* One face of the wall around an arch, at depth z, seen from +z (or from -z if `back`). */
 static void put_spandrels(scene_shaper *shaper, const storey_plan *s, float z, bool back) {
     enum { STEPS = 24 };
     const float half = 0.5f * BAY, r = s->opening;
@@ -583,7 +583,7 @@ static void put_lunettes(court_plan *court) {
 /* --- lanterns -----------------------------------------------------------------------------------
  */
 
-/* A round paper lantern: bamboo rings, two collars and a cord round a glowing sphere. */
+/* A round paper lantern: bamboo rings, two collars and a cord around a glowing sphere. */
 static void put_lantern(court_plan *court, lmp_vec3 center, float radius, float ceiling) {
     scene_shaper *shaper = &court->shaper;
     const shape_point top[] = { { 0.36f * radius, 0.93f * radius },

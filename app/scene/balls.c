@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* balls.c - builtin:balls, a row of spheres from matt to glossy, and builtin:ball, a preview. */
+/* balls.c - builtin:balls, a row of spheres from matte to glossy, and builtin:ball, a preview. */
 #include "app/scene/builtin.h"
 #include "app/scene/shape.h"
 #include "app/scene/vector.h"
@@ -120,7 +120,7 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) 
     shaper.material = add_material(builder, "test_material", 0.70f, 0.36f, 0.12f, 0.35f, 0.0f);
     turn_sphere(&shaper, vec(0.0f, 1.18f, 0.0f), 1.0f, 192);
     shaper_finish(&shaper);
-    /* Ten lights on two rings round the ball, warm on the left and cold on the right. */
+    /* Ten lights on two rings around the ball, warm on the left and cold on the right. */
     for (int i = 0; i < 10; i++) {
         const float angle = 2.0f * PI * ((float)(i / 2) + 0.5f) / 5.0f;
         const float height = i % 2 ? 3.3f : 1.7f, ring = i % 2 ? 1.9f : 2.5f;

@@ -10,7 +10,7 @@ static double triangle_area(const scene_vertex *vertices, const uint32_t *corner
     return 0.5 * (double)vec_length(vec_cross(vec_sub(b, a), vec_sub(c, a)));
 }
 
-/* The sphere round the mesh's box, shrunk to its farthest vertex, and its area. */
+/* The sphere around the mesh's box, shrunk to its farthest vertex, and its area. */
 static float bounding_radius(const scene_builder *builder, const scene_mesh *mesh, lmp_vec3 center,
                              double *area) {
     const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);

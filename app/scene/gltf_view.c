@@ -59,7 +59,7 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     const lmp_vec3 forward = axis_of(m, 2, -1.0f), up = axis_of(m, 1, 1.0f);
     const lmp_vec3 center =
         vec((float)box->center[0], (float)box->center[1], (float)box->center[2]);
-    /* The target is where the view passes the scene's middle, so that one can orbit round it. */
+    /* The target is where the view passes the scene's middle, so that one can orbit around it. */
     const float reach = fmaxf(vec_dot(vec_sub(center, eye), forward), 0.1f * (float)box->diagonal);
     vec_store(eye, camera->eye);
     vec_store(vec_add(eye, vec_scale(forward, reach)), camera->target);

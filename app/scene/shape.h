@@ -8,7 +8,7 @@
 #define SHAPE_MATERIALS_MAX 32
 
 /* Where shapes go: triangles are sorted by material, and one mesh a material comes out. Shapes are
- * given in a local frame: turned by `quarters` of 90° round y, then moved to `origin`. */
+ * given in a local frame: turned by `quarters` of 90° around y, then moved to `origin`. */
 typedef struct scene_shaper {
     scene_builder *builder;
     builder_array triangles[SHAPE_MATERIALS_MAX]; /* uint32_t indices */
@@ -40,8 +40,8 @@ typedef struct shape_turning {
     lmp_vec3 origin;
     char axis;      /* 'x', 'y' or 'z' */
     float from, to; /* angles; both 0: all round */
-    int segments;   /* round the axis */
-    int flutes;     /* 0, or the number of hollows round the axis */
+    int segments;   /* around the axis */
+    int flutes;     /* 0, or the number of hollows around the axis */
     float depth;    /* of a flute, relative to the radius */
 } shape_turning;
 

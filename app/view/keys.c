@@ -109,7 +109,7 @@ static float brightest(const float color[3]) {
     return fmaxf(color[0], fmaxf(color[1], color[2]));
 }
 
-/* A part of the hue circle round the gray axis: red, green and blue turn into each other. */
+/* A part of the hue circle around the gray axis: red, green and blue turn into each other. */
 static void turn_hue(scene_light *light, float by) {
     const float angle = 2 * PI * by, c = cosf(angle), s = sinf(angle), root = sqrtf(1.0f / 3);
     const float *from = light->radiance, most = brightest(from);

@@ -28,7 +28,7 @@ view_drawing view_draw_help(int width, int height, double scale);
 /* One line in a rounded box, at most `width` pixels wide. */
 view_drawing view_draw_message(const char *text, int width, double scale);
 
-/* A ring of that radius in pixels, round the middle of the drawing. */
+/* A ring of that radius in pixels, around the middle of the drawing. */
 view_drawing view_draw_ring(double radius, double scale);
 
 #endif

@@ -306,7 +306,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
             v->sample < 0 ? 1 : v->sample + 1, v->sample < 0 ? 1 : d->samples);
     add_row(rows, &count, "Geometry", "%.1f ms", t->gbuffer);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
-            v->figures.device == DEVICE_CPU ? "processor" : "graphics card");
+            v->figures.device == DEVICE_CPU ? "processor" : "GPU");
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
     add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);

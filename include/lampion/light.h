@@ -2,7 +2,7 @@
 /* lampion/light.h - lights, and their exact projection onto spherical harmonics.
  *
  * Seen from a point, a sphere of radius r at distance d covers a spherical cap of half angle a,
- * sin a = r/d, round the direction w to its center. Uniform radiance L makes its coefficients
+ * sin a = r/d, around the direction w to its center. Uniform radiance L makes its coefficients
  *
  *     Z_l  = sqrt(pi (2l+1)) / 2 L sin²a R_l(cos a)   where z is w       (paper Eq. 12)
  *     L_lm = pi L sin²a R_l(cos a) Y_lm(w)            in any frame       (paper Eq. 13)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion/lobe.h - circularly symmetric kernels k(q·w) round an axis q, and their response to
+/* lampion/lobe.h - circularly symmetric kernels k(q·w) around an axis q, and their response to
  * lights.
  *
  * A kernel is given by its Funk-Hecke factors lambda_l = 2 pi ∫ k(t) P_l(t) dt: its coefficients
  * are lambda_l Y_lm(q). By the addition theorem its integral against a light of zonal coefficients
- * Z_l round w needs n terms instead of n²:
+ * Z_l around w needs n terms instead of n²:
  *
  *     ∫ L(w') k(q·w') dw' = Σ_l Z_l sqrt((2l+1)/4pi) lambda_l P_l(q·w) */
 #ifndef LAMPION_LOBE_H

@@ -96,7 +96,7 @@ LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *
                                      float *sh);
 
 /* Coefficients of a latitude-longitude image. Row 0 touches +y (up), column 0 starts at azimuth
- * -pi round y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
+ * -pi around y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
  * angles. A pixel counts as a constant seen at its center: take images of at least 4 * bands
  * rows. The cost is width * height * bands².
  *

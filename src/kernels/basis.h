@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* basis.h - Y_lm, and every sum over m of a function round an axis: L_lm = radial_l Y_lm(axis).
+/* basis.h - Y_lm, and every sum over m of a function around an axis: L_lm = radial_l Y_lm(axis).
  *
  * Column m of the basis is q_l^m {C_m, S_m} (tables.h). Two orders of the same operations: by
  * columns, with the recurrence in registers, where the destination takes any plane; and by bands,

@@ -124,7 +124,7 @@ typedef struct lmp_kernels {
     void (*gradient)(int bands, const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
                      float cos_min, size_t count, const lmp_kernel_out *out,
                      const lmp_kernel_out *gradient);
-    /* 3 values: the response of a lobe round each point's axis to the lights. */
+    /* 3 values: the response of a lobe around each point's axis to the lights. */
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
                  const lmp_kernel_out *out);

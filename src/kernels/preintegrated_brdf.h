@@ -21,7 +21,7 @@ typedef struct brdf_block {
 } brdf_block;
 
 /* A light's cap (u and v are not set), the angle from the mirror direction to its axis, and the
- * azimuth round it. */
+ * azimuth around it. */
 typedef struct measured_aim {
     shade_aim cap;
     vf angle, azimuth;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* brdf_series.c - a table's series seen from the mirror direction, summed on rings round it.
+/* brdf_series.c - a table's series seen from the mirror direction, summed on rings around it.
  *
  * There a lobe is nearly round, so few orders m matter but at grazing views; and a ring's azimuths
  * share the sum over l (paper Eq. 6 with the cap's R_l, Eq. 13). */

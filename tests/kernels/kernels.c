@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Every kernel, on every instruction set this machine has: against the oracle in double precision,
  * and bit for bit against the scalar build and the committed checksums, which hold for every
- * compiler. Memory round each output is guarded. */
+ * compiler. Memory around each output is guarded. */
 #include "tests/kernels/shading.h"
 
 #include <math.h>

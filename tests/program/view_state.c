@@ -246,7 +246,7 @@ static void lights_change_as_the_keys_say(void **unused) {
     key("-");
     for (int i = 0; i < 12; i++)
         key("h");
-    for (int k = 0; k < 3; k++) /* round the circle; clamping to gamut may pale it a little */
+    for (int k = 0; k < 3; k++) /* around the circle; clamping to gamut may pale it a little */
         assert_true(light->radiance[k] >= 0 && isfinite(light->radiance[k]));
     CHECK_NEAR(4, light->radiance[0], 0.05);
     const double spread = (double)(light->radiance[0] - light->radiance[2]);

@@ -264,7 +264,7 @@ static void a_sphere_has_the_power_its_radiance_says(void **state) {
     CHECK_WITHIN(fabs((double)(power / intensity) / (4 * ORACLE_PI) - 1), 1e-6);
 }
 
-/* All of a sphere's power arrives on any sphere round it: the irradiance of band 1 times 4 pi d².
+/* All of a sphere's power arrives on any sphere around it: the irradiance of band 1 times 4 pi d².
  */
 static void a_sphere_sends_its_power_through_any_shell(void **state) {
     (void)state;

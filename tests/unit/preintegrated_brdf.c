@@ -54,7 +54,7 @@ typedef struct probe {
     float radius;
 } probe;
 
-/* A direction at g, p round the mirror direction, of the frame whose z is the normal. */
+/* A direction at g, p around the mirror direction, of the frame whose z is the normal. */
 static lmp_vec3 around_mirror(const probe *p, double g, double azimuth) {
     const double x = sin(g) * cos(azimuth), y = sin(g) * sin(azimuth), z = cos(g);
     const double c = cos(p->theta), s = sin(p->theta);

@@ -179,15 +179,15 @@ static void a_white_surface_in_uniform_light_returns_it(void **state) {
                             .radiance = { 0.5f, 1, 2 },
                             .ground = { 0.5f, 1, 2 } };
     const lmp_surface surface = random_surface();
-    const lmp_material matt = { .diffuse = { 1, 1, 1 } },
+    const lmp_material matte = { .diffuse = { 1, 1, 1 } },
                        glossy = { .specular = { 1, 1, 1 }, .exponent = 100 };
     const double expected[3] = { 0.5, 1, 2 };
     float channels[3];
-    to_array(lmp_shade(NULL, &matt, &surface, &sky, 1), channels);
+    to_array(lmp_shade(NULL, &matte, &surface, &sky, 1), channels);
     CHECK_WITHIN(check_error(3, expected, channels), 1e-6);
     to_array(lmp_shade(NULL, &glossy, &surface, &sky, 1), channels);
     CHECK_WITHIN(check_error(3, expected, channels), 1e-6);
-    to_array(lmp_shade(NULL, &matt, &surface, NULL, 0), channels);
+    to_array(lmp_shade(NULL, &matte, &surface, NULL, 0), channels);
     for (int c = 0; c < 3; c++)
         assert_true(channels[c] == 0);
 }
