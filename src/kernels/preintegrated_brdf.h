@@ -7,7 +7,7 @@
 #ifndef LAMPION_KERNELS_MEASURED_H
 #define LAMPION_KERNELS_MEASURED_H
 
-#include "src/kernels/shade.h"
+#include "src/kernels/preintegrated_lobe.h"
 
 /* --- where ------------------------------------------------------------------------------------ */
 
