@@ -70,8 +70,21 @@ static void aim_encoder(exr_encode_pipeline_t *encoder, const image_layer *layer
         }
 }
 
+/* Readers take a chunk of the size of its packed bytes for these, but OpenEXRCore 3.1 leaves
+ * deflated bytes of just that size. */
+static exr_result_t compress_or_store(exr_encode_pipeline_t *encoder) {
+    exr_result_t (*const *const compress)(exr_encode_pipeline_t *) = encoder->encoding_user_data;
+    const exr_result_t r = (*compress)(encoder);
+    if (r == EXR_ERR_SUCCESS && encoder->compressed_bytes >= encoder->packed_bytes) {
+        memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
+        encoder->compressed_bytes = encoder->packed_bytes;
+    }
+    return r;
+}
+
 static exr_result_t write_rows(exr_context_t context, const image_layer *layers, int count) {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+    exr_result_t (*compress)(exr_encode_pipeline_t *) = NULL;
     exr_chunk_info_t chunk;
     int32_t step = 1;
     exr_result_t r = exr_get_scanlines_per_chunk(context, 0, &step);
@@ -83,8 +96,12 @@ static exr_result_t write_rows(exr_context_t context, const image_layer *layers,
         if (r != EXR_ERR_SUCCESS)
             break;
         aim_encoder(&encoder, layers, count, row);
-        if (row == 0)
+        if (row == 0) {
             r = exr_encoding_choose_default_routines(context, 0, &encoder);
+            compress = encoder.compress_fn;
+            encoder.compress_fn = compress_or_store;
+            encoder.encoding_user_data = (void *)&compress;
+        }
         if (r == EXR_ERR_SUCCESS)
             r = exr_encoding_run(context, 0, &encoder);
     }
