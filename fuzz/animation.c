@@ -23,7 +23,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         animation_move_all(read, &world, seconds, moved);
         for (size_t i = 0; i < world.light_count; i++)
             for (int k = 0; k < 3; k++)
-                if (!isfinite(moved[i].center[k]))
+                if (!isfinite((&moved[i].emitter.position.x)[k]))
                     abort();
     }
     animation_close(read);

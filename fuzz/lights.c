@@ -6,10 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void check(const scene_light *light) {
+static void check(const lmp_light *light) {
+    const float *position = &light->position.x, *radiance = &light->radiance.r;
     for (int i = 0; i < 3; i++)
-        if (!isfinite(light->center[i]) || !(light->radiance[i] >= 0) ||
-            !isfinite(light->radiance[i]))
+        if (!isfinite(position[i]) || !(radiance[i] >= 0) || !isfinite(radiance[i]))
             abort();
     if (!(light->radius >= 0) || !isfinite(light->radius))
         abort();
@@ -28,6 +28,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         abort();
     unlink(path);
     for (size_t i = 0; i < world.light_count; i++)
-        check(&world.lights[i]);
+        check(&world.lights[i].emitter);
     return 0;
 }

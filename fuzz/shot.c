@@ -18,7 +18,8 @@ static void check(const view_settings *s) {
             abort();
     for (size_t i = 0; i < s->light_count; i++)
         for (int k = 0; k < 3; k++)
-            if (!isfinite(s->lights[i].center[k]) || !(s->lights[i].radiance[k] >= 0))
+            if (!isfinite((&s->lights[i].emitter.position.x)[k]) ||
+                !((&s->lights[i].emitter.radiance.r)[k] >= 0))
                 abort();
 }
 

@@ -21,32 +21,36 @@
 static void orbit(const animation *all, size_t number, double seconds, scene_light *light) {
     const float size = vec_length(vec_sub(vec_load(all->maximum), vec_load(all->minimum)));
     uint64_t random = 0x6c616d70 + number;
+    float center[3];
+    vec_store(light->emitter.position, center);
     for (int k = 0; k < 3; k++) {
         /* Whole multiples of one frequency: every orbit closes after PERIOD. */
         const double cycles = 1.0 + (double)(random_bits(&random) % 3);
         const double phase = 2.0 * (double)PI * (double)random_unit(&random);
         const double angle = 2.0 * (double)PI * cycles * seconds / PERIOD;
-        const float place = light->center[k];
+        const float rest = center[k];
         /* Inside the bounds where the light was inside. */
-        const float room = fminf(place - all->minimum[k], all->maximum[k] - place);
-        const float reach = fmaxf(0.0f, fminf(ORBIT_SIZE * size, room - light->radius));
-        light->center[k] = place + 0.5f * reach * (float)(sin(angle + phase) - sin(phase));
+        const float room = fminf(rest - all->minimum[k], all->maximum[k] - rest);
+        const float reach = fmaxf(0.0f, fminf(ORBIT_SIZE * size, room - light->emitter.radius));
+        center[k] = rest + 0.5f * reach * (float)(sin(angle + phase) - sin(phase));
     }
+    light->emitter.position = vec_load(center);
 }
 
-/* Falls from its place to the bottom, and rises again: parabolas of one height. */
+/* Falls from where it rests to the bottom, and rises again: parabolas of one height. */
 static void bounce(double bottom, double period, double seconds, scene_light *light) {
-    const double height = (double)light->center[1] - (double)light->radius - bottom;
+    const double top = (double)light->emitter.position.y;
+    const double height = top - (double)light->emitter.radius - bottom;
     const double fall = 1.0 - fabs(2.0 * fmod(seconds, period) / period - 1.0);
     if (height > 0.0)
-        light->center[1] = (float)((double)light->center[1] - height * fall * fall);
+        light->emitter.position.y = (float)(top - height * fall * fall);
 }
 
 /* From a greater height a fall takes longer, by its square root; the period is a part of PERIOD. */
 static double bounce_period(const animation *all, const scene_light *light) {
     const double whole = (double)all->maximum[1] - (double)all->minimum[1];
     const double height =
-        (double)light->center[1] - (double)light->radius - (double)all->minimum[1];
+        (double)light->emitter.position.y - (double)light->emitter.radius - (double)all->minimum[1];
     if (!(whole > 0.0) || !(height > 0.0))
         return PERIOD;
     const double count = floor(PERIOD / (BOUNCE_PERIOD * sqrt(height / whole)) + 0.5);
@@ -57,17 +61,19 @@ static double bounce_period(const animation *all, const scene_light *light) {
 static void circle(const path *p, double seconds, scene_light *light) {
     const double angle = 2.0 * (double)PI * fmod(seconds, p->period) / p->period;
     const double c = cos(angle), s = sin(angle), *a = p->axis;
+    float center[3];
     double from[3], along = 0.0;
+    vec_store(light->emitter.position, center);
     for (int k = 0; k < 3; k++) {
-        from[k] = (double)light->center[k] - p->center[k];
+        from[k] = (double)center[k] - p->center[k];
         along += from[k] * a[k];
     }
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         const double across = a[i] * from[j] - a[j] * from[i];
-        light->center[k] =
-            (float)(p->center[k] + from[k] * c + across * s + a[k] * along * (1.0 - c));
+        center[k] = (float)(p->center[k] + from[k] * c + across * s + a[k] * along * (1.0 - c));
     }
+    light->emitter.position = vec_load(center);
 }
 
 /* The speed at a key: that of the way from its neighbor before to the one after. */
@@ -86,6 +92,8 @@ static void follow_keys(const path *p, double seconds, scene_light *light) {
     }
     const path_key *from = &p->keys[low], *to = &p->keys[high];
     const double step = to->time - from->time, u = (time - from->time) / step;
+    float center[3];
+    vec_store(light->emitter.position, center);
     for (int k = 0; k < 3; k++) {
         const double way = to->offset[k] - from->offset[k];
         double offset = from->offset[k] + way * u;
@@ -93,8 +101,9 @@ static void follow_keys(const path *p, double seconds, scene_light *light) {
             offset += u * (1.0 - u) *
                       ((1.0 - u) * (speed_at(p, low, k) * step - way) -
                        u * (speed_at(p, high, k) * step - way));
-        light->center[k] = (float)((double)light->center[k] + offset);
+        center[k] = (float)((double)center[k] + offset);
     }
+    light->emitter.position = vec_load(center);
 }
 
 void animation_move(const animation *all, size_t number, double seconds, scene_light *light) {

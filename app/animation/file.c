@@ -92,8 +92,9 @@ static bool read_keys(const path_reader *reader, const cJSON *array, const scene
         if (!(key[0] > before) || (p->key_count == 0) != (key[0] == 0.0) || key[0] > SECONDS_MAX)
             return fail_path(reader, "has keys whose seconds do not rise from 0");
         p->keys[p->key_count].time = p->period = before = key[0];
+        const float *rest = &light->emitter.position.x;
         for (int k = 0; k < 3; k++)
-            p->keys[p->key_count].offset[k] = key[k + 1] - (double)light->center[k];
+            p->keys[p->key_count].offset[k] = key[k + 1] - (double)rest[k];
         p->key_count++;
     }
     return true;

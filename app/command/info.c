@@ -38,9 +38,9 @@ static void add_lights(cJSON *root, const scene *s) {
     for (size_t i = 0; i < s->light_count; i++) {
         const scene_light *light = &s->lights[i];
         cJSON *entry = cJSON_CreateObject();
-        add_vector(entry, "position", light->center, 3);
-        add_vector(entry, "radius", &light->radius, 1);
-        add_vector(entry, "radiance", light->radiance, 3);
+        add_vector(entry, "position", &light->emitter.position.x, 3);
+        add_vector(entry, "radius", &light->emitter.radius, 1);
+        add_vector(entry, "radiance", &light->emitter.radiance.r, 3);
         cJSON_AddBoolToObject(entry, "emissive_mesh", light->hidden != 0);
         cJSON_AddItemToArray(list, entry);
     }

@@ -96,9 +96,9 @@ static bool parse_light(const char *text, scene_light *light, cli_error *error) 
         values[i] = (float)value;
         at += length + 1;
     }
-    *light = (scene_light) { .center = { values[0], values[1], values[2] },
-                             .radius = values[3],
-                             .radiance = { values[4], values[5], values[6] } };
+    light->emitter = (lmp_light) { .position = { values[0], values[1], values[2] },
+                                   .radius = values[3],
+                                   .radiance = { values[4], values[5], values[6] } };
     return true;
 }
 

@@ -70,7 +70,7 @@ bool device_shade(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgb
     lmp_light *lights = calloc(frame->light_count + 1, sizeof *lights);
     bool ok = lights;
     for (size_t i = 0; ok && i < frame->light_count; i++)
-        lights[i] = scene_light_as_sphere(&frame->lights[i]);
+        lights[i] = frame->lights[i].emitter;
     if (ok)
 #pragma omp parallel reduction(&& : ok)
     {

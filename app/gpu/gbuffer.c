@@ -118,9 +118,12 @@ static lmp_rgb decode_emission(uint32_t bits) {
 }
 
 static void decode_light(const gpu_gbuffer *g, unsigned index, size_t x, gpu_row *row) {
-    for (int c = 0; c < 3; c++)
-        row->emission[c][x] =
-            index < g->frame->light_count ? g->frame->lights[index].radiance[c] : 0;
+    const lmp_rgb none = { 0, 0, 0 };
+    const lmp_rgb radiance =
+        index < g->frame->light_count ? g->frame->lights[index].emitter.radiance : none;
+    row->emission[0][x] = radiance.r;
+    row->emission[1][x] = radiance.g;
+    row->emission[2][x] = radiance.b;
 }
 
 /* Positions and views of every pixel; what is no surface is nonsense. */

@@ -249,10 +249,12 @@ static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
     for (size_t i = 0; i < frame->light_count; i++) {
         const scene_light *light = &frame->lights[i];
         shared_light *to = &block.lights[i];
-        memcpy(to->sphere, light->center, sizeof light->center);
-        to->sphere[3] = light->radius;
-        memcpy(to->radiance, light->radiance, sizeof light->radiance);
-        to->radiance[3] = light->hidden ? 1 : 0;
+        const lmp_vec3 center = light->emitter.position;
+        const lmp_rgb radiance = light->emitter.radiance;
+        *to = (shared_light) {
+            .sphere = { center.x, center.y, center.z, light->emitter.radius },
+            .radiance = { radiance.r, radiance.g, radiance.b, light->hidden ? 1 : 0 },
+        };
     }
     if (frame->light_count)
         glNamedBufferSubData(r->lights_block, 0,

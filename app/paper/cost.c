@@ -26,9 +26,11 @@ typedef struct outcome {
 static double response(const setting *s, int bands, double angle) {
     const reference_cut cut = { .bands = bands, .window = s->window };
     const reference_material material = { .specular = { 1, 1, 1 }, .exponent = s->exponent };
-    const scene_light light = { .center = { (float)sin(angle), (float)cos(angle), 0 },
-                                .radius = (float)s->ratio,
-                                .radiance = { 1, 1, 1 } };
+    const scene_light light = {
+        .emitter = { .position = { (float)sin(angle), (float)cos(angle), 0 },
+                     .radius = (float)s->ratio,
+                     .radiance = { 1, 1, 1 } },
+    };
     const reference_vec up = { 0, 1, 0 };
     reference_surface surface;
     double radiance[3];

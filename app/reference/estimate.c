@@ -43,8 +43,8 @@ static double lobe_bound(const reference_lobe *lobe, bool cut, const reference_c
     return fabs(there) + 0.05 * fabs(reference_lobe_at(lobe, 1));
 }
 
-static double mean_of_product(const double a[3], const float b[3]) {
-    return (a[0] * (double)b[0] + a[1] * (double)b[1] + a[2] * (double)b[2]) / 3;
+static double mean_of_product(const double a[3], lmp_rgb b) {
+    return (a[0] * (double)b.r + a[1] * (double)b.g + a[2] * (double)b.b) / 3;
 }
 
 /* The part of the samples of a lobe and a light that the lobe should draw: it is the better source
@@ -67,7 +67,7 @@ static double share(const reference_surface *surface, const scene_light *light,
     *any = false;
     for (int k = 0; k < REFERENCE_LOBES; k++) {
         const reference_lobe *lobe = &surface->lobes[k];
-        const double strength = mean_of_product(lobe->weight, light->radiance);
+        const double strength = mean_of_product(lobe->weight, light->emitter.radiance);
         const double part = lobe_part(lobe, surface->cut, cap);
         if (!(strength > 0))
             continue;
@@ -96,8 +96,8 @@ static void plan_samples(const reference_estimator *estimator, const reference_s
             .axis = cap.axis,
             .limit = 1 - cap.one_minus_cos,
             .one_minus_cos = cap.one_minus_cos,
-            .radiance = { (double)light->radiance[0], (double)light->radiance[1],
-                          (double)light->radiance[2] },
+            .radiance = { (double)light->emitter.radiance.r, (double)light->emitter.radiance.g,
+                          (double)light->emitter.radiance.b },
             .density = part / cap.solid_angle,
             .cumulative = total,
             .light = light,

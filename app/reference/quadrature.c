@@ -96,11 +96,12 @@ void reference_quadrature(const reference_surface *surface, const scene_light *l
     radiance[0] = radiance[1] = radiance[2] = 0;
     for (size_t i = 0; i < count; i++) {
         const reference_cap cap = reference_cap_of(&lights[i], surface->position, surface->cut);
+        const float *emitted = &lights[i].emitter.radiance.r;
         for (int k = 0; k < REFERENCE_LOBES; k++) {
             const reference_lobe *lobe = &surface->lobes[k];
             const double response = lobe_over_cap(lobe, &cap);
             for (int c = 0; c < 3; c++)
-                radiance[c] += lobe->weight[c] * response * (double)lights[i].radiance[c];
+                radiance[c] += lobe->weight[c] * response * (double)emitted[c];
         }
     }
 }

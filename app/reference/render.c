@@ -113,8 +113,9 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
     double emission[3] = { 0 };
     bool clamped = false;
     if (light) {
+        const float *radiance = &light->emitter.radiance.r;
         for (int c = 0; c < 3; c++)
-            emission[c] = (double)light->radiance[c];
+            emission[c] = (double)radiance[c];
     } else if (isfinite(hit.distance)) {
         const reference_stop stop = { settings->samples, settings->error };
         reference_surface surface;

@@ -3,6 +3,8 @@
 #ifndef LAMPION_REFERENCE_VECTOR_H
 #define LAMPION_REFERENCE_VECTOR_H
 
+#include <lampion/base.h>
+
 #include <math.h>
 #include <stdint.h>
 
@@ -14,6 +16,10 @@ typedef struct reference_vec {
 
 static inline reference_vec reference_from_floats(const float v[3]) {
     return (reference_vec) { (double)v[0], (double)v[1], (double)v[2] };
+}
+
+static inline reference_vec reference_from(lmp_vec3 v) {
+    return (reference_vec) { (double)v.x, (double)v.y, (double)v.z };
 }
 
 static inline reference_vec reference_add(reference_vec a, reference_vec b) {

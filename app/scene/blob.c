@@ -139,10 +139,12 @@ static bool views_fit(const blob_header *header) {
             return false;
     const scene_light *lights = blob_items(header, BLOB_LIGHTS);
     for (uint64_t i = 0; i < header->sections[BLOB_LIGHTS].count; i++) {
-        bool fits = all_finite(lights[i].center, 3) && all_finite(&lights[i].radius, 1) &&
-                    lights[i].radius > 0.0f && lights[i].hidden <= 1;
+        const lmp_light *light = &lights[i].emitter;
+        const float *radiance = &light->radiance.r;
+        bool fits = light->kind == LMP_LIGHT_SPHERE && all_finite(&light->position.x, 3) &&
+                    all_finite(&light->radius, 1) && light->radius > 0.0f && lights[i].hidden <= 1;
         for (int k = 0; k < 3; k++)
-            fits = fits && isfinite(lights[i].radiance[k]) && lights[i].radiance[k] >= 0.0f;
+            fits = fits && isfinite(radiance[k]) && radiance[k] >= 0.0f;
         if (!fits)
             return false;
     }

@@ -19,6 +19,6 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder);
 bool builtin_make(const char *name, scene_builder *builder, cli_error *error);
 
 /* A lantern's color: mostly warm, else one of a few saturated hues; brightest channel 1. */
-void builtin_light_color(uint64_t *random, float warm_share, float color[3]);
+lmp_rgb builtin_light_color(uint64_t *random, float warm_fraction);
 
 #endif

@@ -45,12 +45,13 @@ bool emission_add_lights(scene_builder *builder, const char *subject, cli_error 
         if (!light)
             return cli_fail(error, subject, "does not fit into memory");
         const double sides = material->flags & SCENE_DOUBLE_SIDED ? 2.0 : 1.0;
-        light->hidden = 1;
-        light->radius = radius;
-        vec_store(center, light->center);
+        float radiance[3];
         for (int k = 0; k < 3; k++)
-            light->radiance[k] = (float)(sides * area * M_PI * (double)emission[k] /
-                                         (4.0 * M_PI * M_PI * (double)radius * (double)radius));
+            radiance[k] = (float)(sides * area * M_PI * (double)emission[k] /
+                                  (4.0 * M_PI * M_PI * (double)radius * (double)radius));
+        light->hidden = 1;
+        light->emitter =
+            (lmp_light) { .position = center, .radius = radius, .radiance = rgb_load(radiance) };
     }
     return true;
 }

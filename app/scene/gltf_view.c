@@ -110,11 +110,13 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
     scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
     if (!light)
         return cli_fail(error, document->subject, "does not fit into memory");
-    light->radius = (float)radius;
-    for (int k = 0; k < 3; k++) {
-        light->center[k] = (float)center[k];
-        light->radiance[k] = (float)(strength * color[k] / (M_PI * radius * radius));
-    }
+    const double area = M_PI * radius * radius;
+    light->emitter = (lmp_light) {
+        .position = { (float)center[0], (float)center[1], (float)center[2] },
+        .radius = (float)radius,
+        .radiance = { (float)(strength * color[0] / area), (float)(strength * color[1] / area),
+                      (float)(strength * color[2] / area) },
+    };
     const size_t number = builder_count(builder, BLOB_LIGHTS) - 1;
     return far || gltf_add_motion(document, motions, node, number, builder, error);
 }

@@ -9,47 +9,36 @@
 
 /* Random lights: radii relative to the scene's size, and the mean irradiance (a white light spread
  * over the scene's bounding sphere) that their powers add up to. */
-#define RANDOM_RADIUS_SMALL 0.008f
-#define RANDOM_RADIUS_LARGE 0.020f
-#define RANDOM_IRRADIANCE   12.0f
-#define RANDOM_MARGIN       0.08f /* kept free at the sides of the bounds */
-#define RANDOM_WARM_SHARE   0.5f
+#define RANDOM_RADIUS_SMALL  0.008f
+#define RANDOM_RADIUS_LARGE  0.020f
+#define RANDOM_IRRADIANCE    12.0f
+#define RANDOM_MARGIN        0.08f /* kept free at the sides of the bounds */
+#define RANDOM_WARM_FRACTION 0.5f
 
 void scene_clear_lights(scene *s) {
     s->light_count = 0;
     s->motion_count = 0;
 }
 
-lmp_light scene_light_as_sphere(const scene_light *light) {
-    return (lmp_light) {
-        .kind = LMP_LIGHT_SPHERE,
-        .position = vec_load(light->center),
-        .radius = light->radius,
-        .radiance = { light->radiance[0], light->radiance[1], light->radiance[2] },
-    };
-}
-
 static float scene_size(const scene *s) {
     return vec_length(vec_sub(vec_load(s->maximum), vec_load(s->minimum)));
 }
 
-void builtin_light_color(uint64_t *random, float warm_share, float color[3]) {
-    static const float saturated[][3] = {
+lmp_rgb builtin_light_color(uint64_t *random, float warm_fraction) {
+    static const lmp_rgb saturated[] = {
         { 0.08f, 0.55f, 1.0f }, { 1.0f, 0.10f, 0.32f }, { 0.10f, 1.0f, 0.55f },
         { 0.62f, 0.16f, 1.0f }, { 1.0f, 0.32f, 0.05f }, { 0.05f, 0.90f, 1.0f },
     };
     const float pick = random_unit(random), shade = random_unit(random);
-    if (pick < warm_share) {
-        color[0] = 1.0f;
-        color[1] = 0.44f + 0.18f * shade;
-        color[2] = 0.10f + 0.20f * shade;
-        return;
-    }
+    if (pick < warm_fraction)
+        return (lmp_rgb) { 1.0f, 0.44f + 0.18f * shade, 0.10f + 0.20f * shade };
     const int count = (int)(sizeof saturated / sizeof *saturated);
-    int hue = (int)((pick - warm_share) / (1.0f - warm_share) * (float)count);
+    int hue = (int)((pick - warm_fraction) / (1.0f - warm_fraction) * (float)count);
     hue = hue < count ? hue : count - 1;
-    for (int k = 0; k < 3; k++)
-        color[k] = saturated[hue][k] + (1.0f - saturated[hue][k]) * 0.12f * shade;
+    const lmp_rgb pure = saturated[hue];
+    return (lmp_rgb) { pure.r + (1.0f - pure.r) * 0.12f * shade,
+                       pure.g + (1.0f - pure.g) * 0.12f * shade,
+                       pure.b + (1.0f - pure.b) * 0.12f * shade };
 }
 
 bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *error) {
@@ -59,23 +48,24 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
     const float size = scene_size(s);
     uint64_t random = seed;
     for (int i = 0; i < count; i++) {
-        scene_light light = { 0 };
         /* Many lights are smaller ones, so that a thousand of them still leave room. */
         const float crowd = fminf(1.0f, sqrtf(30.0f / (float)count));
-        light.radius =
+        const float radius =
             size * crowd * random_between(&random, RANDOM_RADIUS_SMALL, RANDOM_RADIUS_LARGE);
+        float position[3];
         for (int k = 0; k < 3; k++) {
             const float extent = s->maximum[k] - s->minimum[k];
-            light.center[k] = s->minimum[k] +
-                              extent * random_between(&random, RANDOM_MARGIN, 1.0f - RANDOM_MARGIN);
+            position[k] = s->minimum[k] +
+                          extent * random_between(&random, RANDOM_MARGIN, 1.0f - RANDOM_MARGIN);
         }
-        float color[3];
-        builtin_light_color(&random, RANDOM_WARM_SHARE, color);
+        const lmp_rgb color = builtin_light_color(&random, RANDOM_WARM_FRACTION);
         /* Power that gives the bounding sphere its irradiance, divided among the lights. */
         const float power = RANDOM_IRRADIANCE * PI * size * size / (float)count;
-        for (int k = 0; k < 3; k++)
-            light.radiance[k] = color[k] * lmp_sphere_radiance_from_power(power, light.radius);
-        s->lights[s->light_count++] = light;
+        s->lights[s->light_count++].emitter = (lmp_light) {
+            .position = vec_load(position),
+            .radius = radius,
+            .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)),
+        };
     }
     return true;
 }
@@ -85,7 +75,7 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
 typedef struct studio_light {
     float right, up, towards;
     float radius, irradiance;
-    float color[3];
+    lmp_rgb color;
 } studio_light;
 
 static const studio_light studio_lights[] = {
@@ -111,12 +101,13 @@ static void add_studio_lights(scene *s) {
                     vec_scale(towards, from->towards));
         /* E = I / d², and I = pi r² L. */
         const float intensity = from->irradiance * vec_dot(offset, offset);
-        scene_light light = { .radius = half * from->radius, .hidden = 1 };
-        vec_store(vec_add(center, vec_scale(offset, half)), light.center);
-        for (int k = 0; k < 3; k++)
-            light.radiance[k] =
-                from->color[k] * lmp_sphere_radiance_from_intensity(intensity, from->radius);
-        s->lights[s->light_count++] = light;
+        const float radiance = lmp_sphere_radiance_from_intensity(intensity, from->radius);
+        s->lights[s->light_count++] = (scene_light) {
+            .emitter = { .position = vec_add(center, vec_scale(offset, half)),
+                         .radius = half * from->radius,
+                         .radiance = rgb_scale(from->color, radiance) },
+            .hidden = 1,
+        };
     }
     fprintf(stderr,
             "lampion: %s: no lights in it, using three studio lights (--lights, --random-lights "

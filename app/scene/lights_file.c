@@ -63,16 +63,18 @@ static bool read_light(const lights_reader *reader, const cJSON *entry, scene_li
         return fail_light(reader, "needs one of radiance, power and intensity");
     if (!read_color(radiance ? radiance : power ? power : intensity, color))
         return fail_light(reader, "has a strength that is neither a number nor three");
-    *light = (scene_light) { .radius = (float)radius->valuedouble };
+    *light = (scene_light) { .emitter.radius = (float)radius->valuedouble };
+    lmp_light *sphere = &light->emitter;
     for (int k = 0; k < 3; k++) {
         const float strength = (float)color[k];
-        light->center[k] = (float)position[k];
-        light->radiance[k] = radiance ? strength
-                             : power  ? lmp_sphere_radiance_from_power(strength, light->radius)
-                                      : lmp_sphere_radiance_from_intensity(strength, light->radius);
-        if (!(fabsf(light->center[k]) <= LMP_LENGTH_MAX))
+        float *to = &sphere->radiance.r + k, *at = &sphere->position.x + k;
+        *at = (float)position[k];
+        *to = radiance ? strength
+              : power  ? lmp_sphere_radiance_from_power(strength, sphere->radius)
+                       : lmp_sphere_radiance_from_intensity(strength, sphere->radius);
+        if (!(fabsf(*at) <= LMP_LENGTH_MAX))
             return fail_light(reader, "has a position that is not finite, or beyond 1e17");
-        if (!(light->radiance[k] >= 0.0f) || !isfinite(light->radiance[k]))
+        if (!(*to >= 0.0f) || !isfinite(*to))
             return fail_light(reader, "has a strength that is negative or not finite");
     }
     return true;

@@ -67,12 +67,10 @@ typedef struct scene_camera {
     float aspect; /* the image it was framed for, width / height; 0: any */
 } scene_camera;
 
-/* A glowing sphere. */
+/* A light and whether it is seen: of all kinds only spheres can be. */
 typedef struct scene_light {
-    float center[3], radius;
-    float radiance[3];
-    uint32_t
-        hidden; /* 1: it shades, but its sphere is not drawn (an emissive mesh is, or nothing) */
+    lmp_light emitter;
+    uint32_t hidden; /* 1: it shades, but is not drawn (an emissive mesh is, or nothing) */
 } scene_light;
 
 /* How the scene file moves a light: its offset from its place at even steps of time, from 0 to the
@@ -209,8 +207,5 @@ typedef struct scene_camera_options {
 /* Finds the camera for an image of `size` pixels, upright and not inside its own target. */
 bool scene_place_camera(const scene *scene, const scene_camera_options *options, const int size[2],
                         scene_camera *camera, cli_error *error);
-
-/* The light as the library knows it. */
-lmp_light scene_light_as_sphere(const scene_light *light);
 
 #endif

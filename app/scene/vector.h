@@ -35,6 +35,20 @@ static inline lmp_vec3 vec_scale(lmp_vec3 a, float s) {
     return (lmp_vec3) { a.x * s, a.y * s, a.z * s };
 }
 
+static inline lmp_rgb rgb_load(const float *p) {
+    return (lmp_rgb) { p[0], p[1], p[2] };
+}
+
+static inline void rgb_store(lmp_rgb a, float *p) {
+    p[0] = a.r;
+    p[1] = a.g;
+    p[2] = a.b;
+}
+
+static inline lmp_rgb rgb_scale(lmp_rgb a, float s) {
+    return (lmp_rgb) { a.r * s, a.g * s, a.b * s };
+}
+
 static inline float vec_dot(lmp_vec3 a, lmp_vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -109,12 +109,12 @@ int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count
                     float *distance) {
     int nearest = -1;
     for (size_t i = 0; i < count; i++) {
-        const lmp_vec3 way = vec_sub(vec_load(lights[i].center), ray->from);
+        const lmp_vec3 way = vec_sub(lights[i].emitter.position, ray->from);
         const float along = vec_dot(way, ray->direction);
         const lmp_vec3 miss = vec_sub(way, vec_scale(ray->direction, along));
-        const float reach = lights[i].radius + slack * along;
+        const float reach = lights[i].emitter.radius + slack * along;
         /* not the light that one is inside of: it would catch every ray */
-        if (!(along > 0) || vec_length(way) <= lights[i].radius ||
+        if (!(along > 0) || vec_length(way) <= lights[i].emitter.radius ||
             !(vec_dot(miss, miss) <= reach * reach))
             continue;
         if (nearest < 0 || along < *distance) {

@@ -83,53 +83,55 @@ static void swap_sides(view_state *s, int unused) {
  */
 
 /* Applies to the selected light, or to all of them. */
-static void each_light(view_state *s, void (*change)(scene_light *light, float by), float by) {
+static void each_light(view_state *s, void (*change)(lmp_light *light, float by), float by) {
     for (size_t i = 0; i < s->now.light_count; i++)
         if (s->selected < 0 || (size_t)s->selected == i)
-            change(&s->now.lights[i], by);
+            change(&s->now.lights[i].emitter, by);
     s->lights_edited = true;
 }
 
 /* The power stays: a larger light is a dimmer one. */
-static void grow(scene_light *light, float by) {
+static void grow(lmp_light *light, float by) {
     const float radius = light->radius * by;
     if (!(radius > 1e-12f && radius < 1e12f))
         return;
     light->radius = radius;
+    float *radiance = &light->radiance.r;
     for (int k = 0; k < 3; k++)
-        light->radiance[k] = fminf(light->radiance[k] / (by * by), RADIANCE_MAX);
+        radiance[k] = fminf(radiance[k] / (by * by), RADIANCE_MAX);
 }
 
-static void brighten(scene_light *light, float by) {
+static void brighten(lmp_light *light, float by) {
+    float *radiance = &light->radiance.r;
     for (int k = 0; k < 3; k++)
-        light->radiance[k] = fminf(light->radiance[k] * by, RADIANCE_MAX);
+        radiance[k] = fminf(radiance[k] * by, RADIANCE_MAX);
 }
 
 static float brightest(const float color[3]) {
     return fmaxf(color[0], fmaxf(color[1], color[2]));
 }
 
-/* A part of the hue circle around the gray axis: red, green and blue turn into each other. */
-static void turn_hue(scene_light *light, float by) {
+/* A part of the hue circle around the gray axis: red, green and blue rotate into each other. */
+static void rotate_hue(lmp_light *light, float by) {
     const float angle = 2 * PI * by, c = cosf(angle), s = sinf(angle), root = sqrtf(1.0f / 3);
-    const float *from = light->radiance, most = brightest(from);
+    float from[3], to[3];
+    rgb_store(light->radiance, from);
     const float mean = (from[0] + from[1] + from[2]) / 3;
-    float to[3];
     for (int k = 0; k < 3; k++) {
         const float across = root * (from[(k + 2) % 3] - from[(k + 1) % 3]);
         to[k] = fmaxf(0, from[k] * c + across * s + mean * (1 - c));
     }
-    const float scale = brightest(to) > 0 ? most / brightest(to) : 1;
-    for (int k = 0; k < 3; k++)
-        light->radiance[k] = to[k] * scale;
+    const float scale = brightest(to) > 0 ? brightest(from) / brightest(to) : 1;
+    light->radiance = rgb_scale(rgb_load(to), scale);
 }
 
-static void make_paler(scene_light *light, float by) {
-    const float most = brightest(light->radiance);
-    for (int k = 0; k < 3; k++) {
-        const float moved = light->radiance[k] + by * (most - light->radiance[k]);
-        light->radiance[k] = fmaxf(0, moved);
-    }
+static void make_paler(lmp_light *light, float by) {
+    float color[3];
+    rgb_store(light->radiance, color);
+    const float most = brightest(color);
+    for (int k = 0; k < 3; k++)
+        color[k] = fmaxf(0, color[k] + by * (most - color[k]));
+    light->radiance = rgb_load(color);
 }
 
 static void resize_lights(view_state *s, int sign) {
@@ -141,7 +143,7 @@ static void brighten_lights(view_state *s, int sign) {
 }
 
 static void recolor_lights(view_state *s, int sign) {
-    each_light(s, turn_hue, sign > 0 ? HUE_STEP : -HUE_STEP);
+    each_light(s, rotate_hue, sign > 0 ? HUE_STEP : -HUE_STEP);
 }
 
 static void fade_lights(view_state *s, int sign) {
@@ -160,12 +162,12 @@ static scene_light model_light(const view_state *s) {
     if (s->selected >= 0)
         return s->now.lights[s->selected];
     const float diagonal = fmaxf(scene_diagonal(s->world), 1e-6f);
-    scene_light light = { .radius = NEW_RADIUS * diagonal };
-    const float color[3] = { 1, 0.6f, 0.25f };
-    for (int k = 0; k < 3; k++)
-        light.radiance[k] = color[k] * lmp_sphere_radiance_from_power(
-                                           NEW_IRRADIANCE * PI * diagonal * diagonal, light.radius);
-    return light;
+    const float radius = NEW_RADIUS * diagonal, power = NEW_IRRADIANCE * PI * diagonal * diagonal;
+    const lmp_rgb color = { 1, 0.6f, 0.25f };
+    return (scene_light) {
+        .emitter = { .radius = radius,
+                     .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)) },
+    };
 }
 
 /* Over the surface under the pointer, or as far away as the camera's target. */
@@ -186,8 +188,8 @@ static void add_light(view_state *s, int unused) {
     const float distance = hit.mesh >= 0 ? hit.distance : reach;
     lmp_vec3 place = vec_add(ray.from, vec_scale(ray.direction, distance));
     if (hit.mesh >= 0)
-        place = vec_add(place, vec_scale(hit.normal, 3 * light.radius));
-    vec_store(place, light.center);
+        place = vec_add(place, vec_scale(hit.normal, 3 * light.emitter.radius));
+    light.emitter.position = place;
     s->selected = (int)s->now.light_count;
     s->numbers[s->now.light_count] = s->next_number++;
     s->now.lights[s->now.light_count++] = light;
@@ -282,7 +284,7 @@ static void frame_light(view_state *s, int unused) {
     if (s->selected < 0)
         return;
     const scene_light *light = &s->now.lights[s->selected];
-    view_frame(&s->now.camera, vec_load(light->center), 10 * light->radius,
+    view_frame(&s->now.camera, light->emitter.position, 10 * light->emitter.radius,
                (float)s->now.width / (float)s->now.height);
 }
 

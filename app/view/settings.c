@@ -81,9 +81,9 @@ static void add_look(cJSON *array, const view_look *look) {
 
 static void add_light(cJSON *array, const scene_light *light) {
     cJSON *object = cJSON_CreateObject();
-    add_floats(object, "position", light->center, 3);
-    cJSON_AddNumberToObject(object, "radius", (double)light->radius);
-    add_floats(object, "radiance", light->radiance, 3);
+    add_floats(object, "position", &light->emitter.position.x, 3);
+    cJSON_AddNumberToObject(object, "radius", (double)light->emitter.radius);
+    add_floats(object, "radiance", &light->emitter.radiance.r, 3);
     if (light->hidden)
         cJSON_AddTrueToObject(object, "hidden");
     cJSON_AddItemToArray(array, object);
@@ -186,9 +186,14 @@ static bool read_looks(const cJSON *root, view_look looks[2]) {
 static bool read_light(const cJSON *object, scene_light *light) {
     const double far = (double)LMP_LENGTH_MAX, bright = 3e38;
     light->hidden = cJSON_IsTrue(file_json_member(object, "hidden")) ? 1 : 0;
-    return read_floats(object, "position", -far, far, light->center) &&
-           read_float(object, "radius", 0, far, &light->radius) && light->radius > 0 &&
-           read_floats(object, "radiance", 0, bright, light->radiance);
+    float position[3] = { 0 }, radiance[3] = { 0 };
+    const bool ok = read_floats(object, "position", -far, far, position) &&
+                    read_float(object, "radius", 0, far, &light->emitter.radius) &&
+                    light->emitter.radius > 0 &&
+                    read_floats(object, "radiance", 0, bright, radiance);
+    light->emitter.position = (lmp_vec3) { position[0], position[1], position[2] };
+    light->emitter.radiance = (lmp_rgb) { radiance[0], radiance[1], radiance[2] };
+    return ok;
 }
 
 static bool read_lights(const cJSON *root, view_settings *s) {

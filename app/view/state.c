@@ -153,13 +153,15 @@ static int light_at_pointer(const view_state *s) {
     if (light < 0)
         return -1;
     const view_hit hit = view_pick_surface(&ray, s->world);
-    return hit.mesh >= 0 && hit.distance < light_distance - shown.lights[light].radius ? -1 : light;
+    return hit.mesh >= 0 && hit.distance < light_distance - shown.lights[light].emitter.radius
+               ? -1
+               : light;
 }
 
 static void grab_light(view_state *s, int index) {
     const scene_light shown = shown_light(s, index);
     double x, y, scale;
-    if (!view_project(&s->now.camera, s->now.width, s->now.height, vec_load(shown.center), &x, &y,
+    if (!view_project(&s->now.camera, s->now.width, s->now.height, shown.emitter.position, &x, &y,
                       &scale))
         return;
     s->drag = VIEW_DRAG_LIGHT;
@@ -167,8 +169,7 @@ static void grab_light(view_state *s, int index) {
     s->grab_depth = 0.5f * (float)((double)s->now.height / scale) / tanf(0.5f * s->now.camera.fov);
     s->grab_x = s->x - x;
     s->grab_y = s->y - y;
-    for (int k = 0; k < 3; k++)
-        s->grab[k] = s->now.lights[index].center[k] - shown.center[k];
+    s->grab = vec_sub(s->now.lights[index].emitter.position, shown.emitter.position);
 }
 
 /* Under the pointer, in the plane across the view where it was grabbed. */
@@ -180,8 +181,7 @@ static void drag_light(view_state *s) {
                                              0.5 * s->now.width, 0.5 * s->now.height);
     const float along = vec_dot(ray.direction, middle.direction);
     const lmp_vec3 to = vec_add(ray.from, vec_scale(ray.direction, s->grab_depth / along));
-    float *center = s->now.lights[s->selected].center;
-    vec_store(vec_add(to, vec_load(s->grab)), center);
+    s->now.lights[s->selected].emitter.position = vec_add(to, s->grab);
     s->lights_edited = true;
 }
 

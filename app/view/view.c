@@ -294,7 +294,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     }
     if (s->selected >= 0)
         add_row(rows, &count, "Lights", "%zu, number %d: radius %.3g", d->light_count, s->selected,
-                (double)s->now.lights[s->selected].radius);
+                (double)s->now.lights[s->selected].emitter.radius);
     else
         add_row(rows, &count, "Lights", "%zu", d->light_count);
     add_row(rows, &count, "Time", "%s %.2f s%s", s->path_names[s->path], s->seconds,
@@ -388,9 +388,9 @@ static void draw_ring(viewer *v, double scale) {
     if (v->state.selected < 0 || (size_t)v->state.selected >= d->light_count)
         return;
     const scene_light *light = &d->lights[v->state.selected];
-    if (!view_project(&d->camera, d->width, d->height, vec_load(light->center), &x, &y, &pixels))
+    if (!view_project(&d->camera, d->width, d->height, light->emitter.position, &x, &y, &pixels))
         return;
-    const double radius = (double)light->radius * pixels + 5 * scale;
+    const double radius = (double)light->emitter.radius * pixels + 5 * scale;
     if (!(radius < d->width))
         return;
     char text[32];

@@ -195,13 +195,13 @@ static int side_of_outline(const gpu_frame *frame, const scene_light *light, int
     const double ray[3] = { (x + 0.5 - SIDE / 2) * step, -(y + 0.5 - SIDE / 2) * step, -1 };
     double along = 0, length2 = 0, center2 = 0;
     for (int i = 0; i < 3; i++) {
-        const double c = (double)light->center[i] - (double)frame->camera.eye[i];
+        const double c = (double)(&light->emitter.position.x)[i] - (double)frame->camera.eye[i];
         along += ray[i] * c;
         length2 += ray[i] * ray[i];
         center2 += c * c;
     }
     const double miss2 = center2 - along * along / length2;
-    const double r2 = (double)light->radius * (double)light->radius;
+    const double r2 = (double)light->emitter.radius * (double)light->emitter.radius;
     return fabs(miss2 - r2) < 1e-4 * r2 ? 0 : miss2 < r2 ? 1 : -1;
 }
 
@@ -209,7 +209,9 @@ static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
     (void)state;
     const scene *world = make_sheets();
     /* half of it sticks out of the sheet's front */
-    sheet.lights[0] = (scene_light) { { 0.2f, 0.1f, 0 }, 0.6f, { 5, 1e9f, 1e-9f }, 0 };
+    sheet.lights[0] = (scene_light) {
+        .emitter = { .position = { 0.2f, 0.1f, 0 }, .radius = 0.6f, .radiance = { 5, 1e9f, 1e-9f } }
+    };
     gpu_renderer *renderer = open_renderer(world);
     gpu_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
@@ -228,9 +230,9 @@ static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
     assert_true(on > 100);
     free(pixels);
 
-    sheet.lights[0].center[2] = -2; /* behind the sheet */
+    sheet.lights[0].emitter.position.z = -2; /* behind the sheet */
     assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_SURFACE);
-    sheet.lights[0].center[2] = 2;
+    sheet.lights[0].emitter.position.z = 2;
     assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_LIGHT);
     sheet.lights[0].hidden = 1;
     assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_SURFACE);
@@ -240,7 +242,9 @@ static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
 static void a_camera_inside_a_light_sees_it_all_round(void **state) {
     (void)state;
     const scene *world = make_sheets();
-    sheet.lights[0] = (scene_light) { { 0, 0, 3 }, 1, { 1, 2, 3 }, 0 };
+    sheet.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, 0, 3 }, .radius = 1, .radiance = { 1, 2, 3 } }
+    };
     gpu_renderer *renderer = open_renderer(world);
     gpu_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
@@ -276,7 +280,9 @@ static void the_device_and_the_cpu_tone_map_alike(void **state) {
     static unsigned char on_device[3 * PIXELS], on_cpu[3 * PIXELS];
     cli_error error = { "" };
     const scene *world = make_sheets();
-    sheet.lights[0] = (scene_light) { { 0.5f, 0.5f, 1 }, 0.3f, { 5, 40, 0.2f }, 0 };
+    sheet.lights[0] = (scene_light) {
+        .emitter = { .position = { 0.5f, 0.5f, 1 }, .radius = 0.3f, .radiance = { 5, 40, 0.2f } }
+    };
     gpu_renderer *renderer = open_renderer(world);
     gpu_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;

@@ -37,14 +37,15 @@ static double magnitude(const gpu_pixel *p, const gpu_frame *frame, const float 
                          g * (double)fmaxf(p->material.specular.r, p->material.specular.g);
     for (size_t i = 0; i < frame->light_count; i++) {
         const scene_light *light = &frame->lights[i];
-        const float x = light->center[0] - p->surface.position.x,
-                    y = light->center[1] - p->surface.position.y,
-                    z = light->center[2] - p->surface.position.z;
+        const float x = light->emitter.position.x - p->surface.position.x,
+                    y = light->emitter.position.y - p->surface.position.y,
+                    z = light->emitter.position.z - p->surface.position.z;
         const double d2 = (double)(x * x + y * y + z * z);
-        const double r2 = (double)(light->radius * light->radius);
+        const double r2 = (double)(light->emitter.radius * light->emitter.radius);
         const double strength = d2 > r2 ? 2 * r2 / d2 : 4;
-        sum += strength *
-               (double)fmaxf(light->radiance[0], fmaxf(light->radiance[1], light->radiance[2]));
+        sum +=
+            strength * (double)fmaxf(light->emitter.radiance.r,
+                                     fmaxf(light->emitter.radiance.g, light->emitter.radiance.b));
     }
     return lobes * sum;
 }
@@ -53,7 +54,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
-        lights[i] = scene_light_as_sphere(&frame->lights[i]);
+        lights[i] = frame->lights[i].emitter;
     image drawn = render_image(renderer, frame);
     gpu_pixel *pixels = render_pixels(renderer, frame);
     float diffuse[LMP_BANDS_MAX], glossy[LMP_BANDS_MAX];
@@ -170,13 +171,20 @@ static void check_buried(scene *world, gpu_renderer *renderer) {
     for (size_t i = 0; i < PIXELS && count < 8; i += PIXELS / 16)
         if (pixels[i].kind == GPU_KIND_SURFACE) {
             const lmp_vec3 at = pixels[i].surface.position;
-            world->lights[count] =
-                (scene_light) { { at.x, at.y, at.z }, count % 2 ? 0.7f : 0.001f, { 3, 2, 1 }, 1 };
+            world->lights[count] = (scene_light) { .emitter = { .position = { at.x, at.y, at.z },
+                                                                .radius = count % 2 ? 0.7f : 0.001f,
+                                                                .radiance = { 3, 2, 1 } },
+                                                   .hidden = 1 };
             count++;
         }
     assert_true(count >= 4);
-    world->lights[count++] = (scene_light) { { 0, 1, 0 }, 100, { 0.5f, 1, 2 }, 1 };
-    world->lights[count++] = (scene_light) { { 0, 1, 0 }, 0, { 1, 1, 1 }, 1 };
+    world->lights[count++] = (scene_light) {
+        .emitter = { .position = { 0, 1, 0 }, .radius = 100, .radiance = { 0.5f, 1, 2 } },
+        .hidden = 1
+    };
+    world->lights[count++] = (scene_light) {
+        .emitter = { .position = { 0, 1, 0 }, .radius = 0, .radiance = { 1, 1, 1 } }, .hidden = 1
+    };
     free(pixels);
     frame.light_count = count;
     check_with("buried", renderer, frame);
@@ -189,7 +197,9 @@ static void lights_that_hold_or_touch_surfaces_agree_with_lmp_shade(void **state
 
 static void check_far(scene *world, gpu_renderer *renderer) {
     /* r/d = 1e-6, as bright on the balls as a near lamp */
-    world->lights[0] = (scene_light) { { 6e3f, 8e3f, 0 }, 1e-2f, { 1e12f, 2e12f, 3e12f }, 0 };
+    world->lights[0] = (scene_light) { .emitter = { .position = { 6e3f, 8e3f, 0 },
+                                                    .radius = 1e-2f,
+                                                    .radiance = { 1e12f, 2e12f, 3e12f } } };
     gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.light_count = 1;
     check_with("far", renderer, frame);

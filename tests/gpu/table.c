@@ -22,7 +22,7 @@ static lmp_brdf_table *table_of(lmp_result made, lmp_brdf *brdf) {
 static double difference(gpu_renderer *renderer, const gpu_frame *frame, int *by_table) {
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
-        lights[i] = scene_light_as_sphere(&frame->lights[i]);
+        lights[i] = frame->lights[i].emitter;
     image drawn = render_image(renderer, frame);
     gpu_pixel *pixels = render_pixels(renderer, frame);
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };

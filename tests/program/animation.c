@@ -36,9 +36,9 @@ static scene_light at(const animation *path, const scene *s, size_t number, doub
 }
 
 static void check_place(const scene_light *light, double x, double y, double z) {
-    CHECK_NEAR(x, light->center[0], 1e-5);
-    CHECK_NEAR(y, light->center[1], 1e-5);
-    CHECK_NEAR(z, light->center[2], 1e-5);
+    CHECK_NEAR(x, light->emitter.position.x, 1e-5);
+    CHECK_NEAR(y, light->emitter.position.y, 1e-5);
+    CHECK_NEAR(z, light->emitter.position.z, 1e-5);
 }
 
 /* Writes a temporary file; unlink it. */
@@ -62,10 +62,12 @@ static void orbits_close_inside_the_scene(void **state) {
     for (size_t i = 0; i < s.light_count; i++) {
         const scene_light start = at(path, &s, i, 0.0), closed = at(path, &s, i, 8.0);
         for (int k = 0; k < 3; k++) {
-            CHECK_NEAR(s.lights[i].center[k], start.center[k], 1e-6);
-            CHECK_NEAR(start.center[k], closed.center[k], 1e-4);
-            assert_true(later[i].center[k] >= s.minimum[k] && later[i].center[k] <= s.maximum[k]);
-            moved += fabs((double)later[i].center[k] - (double)start.center[k]);
+            CHECK_NEAR((&s.lights[i].emitter.position.x)[k], (&start.emitter.position.x)[k], 1e-6);
+            CHECK_NEAR((&start.emitter.position.x)[k], (&closed.emitter.position.x)[k], 1e-4);
+            assert_true((&later[i].emitter.position.x)[k] >= s.minimum[k] &&
+                        (&later[i].emitter.position.x)[k] <= s.maximum[k]);
+            moved += fabs((double)(&later[i].emitter.position.x)[k] -
+                          (double)(&start.emitter.position.x)[k]);
         }
     }
     assert_true(moved > 1.0);
@@ -81,13 +83,14 @@ static void bounces_touch_the_ground_and_come_back(void **state) {
         double lowest = 1e9;
         for (int step = 0; step <= 8 * 960; step++) {
             const scene_light light = at(path, &s, i, step / 960.0);
-            CHECK_NEAR(s.lights[i].center[0], light.center[0], 0.0);
-            assert_true(light.center[1] <= s.lights[i].center[1]);
-            lowest = fmin(lowest, (double)(light.center[1] - light.radius - s.minimum[1]));
+            CHECK_NEAR(s.lights[i].emitter.position.x, light.emitter.position.x, 0.0);
+            assert_true(light.emitter.position.y <= s.lights[i].emitter.position.y);
+            lowest = fmin(lowest,
+                          (double)(light.emitter.position.y - light.emitter.radius - s.minimum[1]));
         }
         CHECK_NEAR(0.0, lowest, 0.02);
         const scene_light closed = at(path, &s, i, 8.0);
-        CHECK_NEAR(s.lights[i].center[1], closed.center[1], 1e-5);
+        CHECK_NEAR(s.lights[i].emitter.position.y, closed.emitter.position.y, 1e-5);
     }
     animation_close(path);
     scene_free(&s);
@@ -96,7 +99,8 @@ static void bounces_touch_the_ground_and_come_back(void **state) {
 static void files_say_how_lights_move(void **state) {
     (void)state;
     scene s = load("builtin:ball");
-    s.lights[0].center[0] = s.lights[0].center[1] = s.lights[0].center[2] = 1.0f;
+    s.lights[0].emitter.position.x = s.lights[0].emitter.position.y =
+        s.lights[0].emitter.position.z = 1.0f;
     s.lights[2] = s.lights[0];
     s.lights[3] = s.lights[0];
     const char *file = write_file(
@@ -114,7 +118,7 @@ static void files_say_how_lights_move(void **state) {
     light = at(path, &s, 1, 2.25);
     check_place(&light, 2.25, 0, 0);
     light = at(path, &s, 2, 1.0);
-    check_place(&light, 1, (double)light.radius, 1);
+    check_place(&light, 1, (double)light.emitter.radius, 1);
     light = at(path, &s, 3, 1.0); /* a quarter from x towards -z */
     check_place(&light, 1, 1, -1);
     light = at(path, &s, 3, 2.0);

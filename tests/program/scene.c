@@ -103,10 +103,11 @@ static void an_obj_is_read_with_its_materials(void **state) {
     /* The emissive square is one light of the same power: area times pi times radiance. */
     assert_int_equal(s.light_count, 1);
     assert_int_equal(s.lights[0].hidden, 1);
-    CHECK_NEAR(sqrt(2.0), s.lights[0].radius, 1e-5);
+    CHECK_NEAR(sqrt(2.0), s.lights[0].emitter.radius, 1e-5);
     for (int k = 0; k < 3; k++)
         CHECK_NEAR(4.0 * PI * (2.0 + k),
-                   lmp_sphere_power_from_radiance(s.lights[0].radiance[k], s.lights[0].radius),
+                   lmp_sphere_power_from_radiance((&s.lights[0].emitter.radiance.r)[k],
+                                                  s.lights[0].emitter.radius),
                    1e-4);
     scene_free(&s);
 }
@@ -156,14 +157,17 @@ static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) 
     CHECK_NEAR(5.0, s.cameras[0].eye[2], 1e-6);
     assert_true(s.cameras[0].target[2] < 5.0f);
     assert_int_equal(s.light_count, 2);
-    CHECK_NEAR(0.5, s.lights[0].radius, 1e-6);
-    CHECK_NEAR(3.0, s.lights[0].center[2], 1e-6);
+    CHECK_NEAR(0.5, s.lights[0].emitter.radius, 1e-6);
+    CHECK_NEAR(3.0, s.lights[0].emitter.position.z, 1e-6);
     CHECK_NEAR(50.0,
-               lmp_sphere_intensity_from_radiance(s.lights[0].radiance[1], s.lights[0].radius),
+               lmp_sphere_intensity_from_radiance(s.lights[0].emitter.radiance.g,
+                                                  s.lights[0].emitter.radius),
                1e-4);
     /* Double-sided: twice area times pi times radiance. */
-    CHECK_NEAR(2.0 * 2.0 * PI * 4.0,
-               lmp_sphere_power_from_radiance(s.lights[1].radiance[0], s.lights[1].radius), 1e-3);
+    CHECK_NEAR(
+        2.0 * 2.0 * PI * 4.0,
+        lmp_sphere_power_from_radiance(s.lights[1].emitter.radiance.r, s.lights[1].emitter.radius),
+        1e-3);
     scene_free(&s);
 }
 
@@ -277,16 +281,16 @@ static void random_lights_are_the_same_everywhere(void **state) {
     assert_int_equal(s.light_count, 30);
     for (size_t i = 0; i < 3; i++) {
         const scene_light *light = &s.lights[i];
-        const float found[4] = { light->center[0], light->center[1], light->radius,
-                                 light->radiance[1] };
+        const float found[4] = { light->emitter.position.x, light->emitter.position.y,
+                                 light->emitter.radius, light->emitter.radiance.g };
         for (int k = 0; k < 4; k++)
             CHECK_NEAR(golden[i][k], found[k], 2e-6 * fabs((double)golden[i][k]));
     }
     for (size_t i = 0; i < s.light_count; i++)
         for (int k = 0; k < 3; k++) {
-            assert_true(s.lights[i].center[k] >= s.minimum[k]);
-            assert_true(s.lights[i].center[k] <= s.maximum[k]);
-            assert_true(s.lights[i].radiance[k] > 0.0f);
+            assert_true((&s.lights[i].emitter.position.x)[k] >= s.minimum[k]);
+            assert_true((&s.lights[i].emitter.position.x)[k] <= s.maximum[k]);
+            assert_true((&s.lights[i].emitter.radiance.r)[k] > 0.0f);
         }
     assert_false(scene_add_random_lights(&s, SCENE_LIGHTS_MAX - 29, 7, &error));
     assert_non_null(strstr(error.text, "1025"));
@@ -310,9 +314,10 @@ static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
     options.random_count = 4;
     assert_true(scene_apply_lights(&s, &options, &error));
     assert_int_equal(s.light_count, 7);
-    CHECK_NEAR(2.0, s.lights[0].radiance[1], 0.0);
-    CHECK_NEAR(100.0, lmp_sphere_power_from_radiance(s.lights[1].radiance[2], 2.0f), 1e-4);
-    CHECK_NEAR(100.0, lmp_sphere_intensity_from_radiance(s.lights[2].radiance[0], 2.0f), 1e-4);
+    CHECK_NEAR(2.0, s.lights[0].emitter.radiance.g, 0.0);
+    CHECK_NEAR(100.0, lmp_sphere_power_from_radiance(s.lights[1].emitter.radiance.b, 2.0f), 1e-4);
+    CHECK_NEAR(100.0, lmp_sphere_intensity_from_radiance(s.lights[2].emitter.radiance.r, 2.0f),
+               1e-4);
     scene_free(&s);
 }
 
@@ -326,16 +331,16 @@ static void a_scene_without_lights_gets_hidden_studio_lights(void **state) {
     assert_true(scene_apply_lights(&s, &(scene_lights_options) { 0 }, &error));
     assert_int_equal(s.light_count, 3);
     for (size_t i = 0; i < 3; i++)
-        assert_true(s.lights[i].hidden && s.lights[i].radius > 0.0f);
+        assert_true(s.lights[i].hidden && s.lights[i].emitter.radius > 0.0f);
     /* The key light gives the middle an irradiance of 3.2: that of its distance. */
-    const float *c = s.lights[0].center;
+    const lmp_vec3 c = s.lights[0].emitter.position;
     const double square =
-        (double)c[0] * (double)c[0] + (double)c[1] * (double)c[1] + (double)c[2] * (double)c[2];
-    CHECK_NEAR(
-        3.2,
-        (double)lmp_sphere_intensity_from_radiance(s.lights[0].radiance[0], s.lights[0].radius) /
-            square,
-        1e-4);
+        (double)c.x * (double)c.x + (double)c.y * (double)c.y + (double)c.z * (double)c.z;
+    CHECK_NEAR(3.2,
+               (double)lmp_sphere_intensity_from_radiance(s.lights[0].emitter.radiance.r,
+                                                          s.lights[0].emitter.radius) /
+                   square,
+               1e-4);
     /* An empty lights file is a wish for darkness. */
     scene_lights_options dark = { .file = in_folder("lights.json") };
     assert_true(scene_apply_lights(&s, &dark, &error));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The viewer without its window: cameras, picking, dragging, keys, settings, scripts. */
+#include "app/scene/vector.h"
 #include "app/view/draft.h"
 #include "app/view/overlay.h"
 #include "app/view/script.h"
@@ -154,11 +155,16 @@ static void rays_go_where_points_are_projected(void **unused) {
 /* --- lights -------------------------------------------------------------------------------------
  */
 
+static double light_distance(const scene_light *a, const scene_light *b) {
+    return (double)vec_length(vec_sub(a->emitter.position, b->emitter.position));
+}
+
 /* One light between camera and scene. */
 static void place_light(void) {
     state.now.light_count = 1;
-    state.now.lights[0] =
-        (scene_light) { .center = { 0, 0.5f, 6 }, .radius = 0.25f, .radiance = { 4, 2, 1 } };
+    state.now.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, 0.5f, 6 }, .radius = 0.25f, .radiance = { 4, 2, 1 } }
+    };
 }
 
 static void lights_are_dragged_with_the_pointer(void **unused) {
@@ -171,16 +177,14 @@ static void lights_are_dragged_with_the_pointer(void **unused) {
     button(VIEW_PRESS, VIEW_LEFT, false);
     assert_int_equal(state.selected, 0);
     at(x + 63, y - 20);
-    const float *center = state.now.lights[0].center;
+    const lmp_vec3 *center = &state.now.lights[0].emitter.position;
     double x2, y2, scale2;
-    view_project(camera, 640, 480, (lmp_vec3) { center[0], center[1], center[2] }, &x2, &y2,
-                 &scale2);
+    view_project(camera, 640, 480, *center, &x2, &y2, &scale2);
     CHECK_NEAR(x + 60, x2, 1e-2);
     CHECK_NEAR(y - 20, y2, 1e-2);
     CHECK_NEAR(scale, scale2, 1e-2); /* in a plane across the view */
     view_handle(&state, &(view_event) { .kind = VIEW_SCROLL, .y = 1 });
-    view_project(camera, 640, 480, (lmp_vec3) { center[0], center[1], center[2] }, &x2, &y2,
-                 &scale2);
+    view_project(camera, 640, 480, *center, &x2, &y2, &scale2);
     CHECK_NEAR(x + 60, x2, 1e-2);
     assert_true(scale2 < 0.95 * scale); /* the wheel took it away */
     button(VIEW_RELEASE, VIEW_LEFT, false);
@@ -200,28 +204,26 @@ static void moving_lights_are_dragged_too(void **unused) {
     view_advance(&state, 1.3);
     key("space");
     view_shown(&state, &shown);
-    assert_true(distance(shown.lights[0].center, state.now.lights[0].center) >= 0);
-    const float *seen = shown.lights[0].center;
-    view_project(&state.now.camera, 640, 480, (lmp_vec3) { seen[0], seen[1], seen[2] }, &x, &y,
-                 &scale);
+    assert_true(light_distance(&shown.lights[0], &state.now.lights[0]) >= 0);
+    const lmp_vec3 seen = shown.lights[0].emitter.position;
+    view_project(&state.now.camera, 640, 480, seen, &x, &y, &scale);
     at(x, y);
     button(VIEW_PRESS, VIEW_LEFT, false);
     assert_int_equal(state.selected, 0);
     const scene_light before = state.now.lights[0];
     at(x, y); /* no movement, no change */
-    CHECK_NEAR(0, distance(before.center, state.now.lights[0].center), 1e-4);
+    CHECK_NEAR(0, light_distance(&before, &state.now.lights[0]), 1e-4);
     button(VIEW_RELEASE, VIEW_LEFT, false);
 }
 
 static void lights_behind_a_surface_are_not_picked(void **unused) {
     (void)unused;
     place_light();
-    float *center = state.now.lights[0].center;
-    memcpy(center, state.now.camera.target, 3 * sizeof *center);
-    center[2] = world.minimum[2] - 50;
+    const float *target = state.now.camera.target;
+    const lmp_vec3 center = { target[0], target[1], world.minimum[2] - 50 };
+    state.now.lights[0].emitter.position = center;
     double x, y, scale;
-    view_project(&state.now.camera, 640, 480, (lmp_vec3) { center[0], center[1], center[2] }, &x,
-                 &y, &scale);
+    view_project(&state.now.camera, 640, 480, center, &x, &y, &scale);
     at(x, y);
     const view_ray ray = view_ray_through(&state.now.camera, 640, 480, x, y);
     assert_true(view_pick_surface(&ray, &world).mesh >= 0);
@@ -237,26 +239,27 @@ static void lights_change_as_the_keys_say(void **unused) {
     assert_int_equal(state.selected, 0);
     const scene_light before = state.now.lights[0], *light = &state.now.lights[0];
     key("]");
-    assert_true(light->radius > before.radius);
-    CHECK_NEAR(before.radiance[0] * before.radius * before.radius,
-               light->radiance[0] * light->radius * light->radius, 1e-5);
+    assert_true(light->emitter.radius > before.emitter.radius);
+    CHECK_NEAR(before.emitter.radiance.r * before.emitter.radius * before.emitter.radius,
+               light->emitter.radiance.r * light->emitter.radius * light->emitter.radius, 1e-5);
     key("[");
     key("+");
-    CHECK_NEAR(1.25 * (double)before.radiance[1], light->radiance[1], 1e-4);
+    CHECK_NEAR(1.25 * (double)before.emitter.radiance.g, light->emitter.radiance.g, 1e-4);
     key("-");
     for (int i = 0; i < 12; i++)
         key("h");
     for (int k = 0; k < 3; k++) /* around the circle; clamping to gamut may pale it a little */
-        assert_true(light->radiance[k] >= 0 && isfinite(light->radiance[k]));
-    CHECK_NEAR(4, light->radiance[0], 0.05);
-    const double spread = (double)(light->radiance[0] - light->radiance[2]);
+        assert_true((&light->emitter.radiance.r)[k] >= 0 &&
+                    isfinite((&light->emitter.radiance.r)[k]));
+    CHECK_NEAR(4, light->emitter.radiance.r, 0.05);
+    const double spread = (double)(light->emitter.radiance.r - light->emitter.radiance.b);
     key("j");
-    assert_true((double)(light->radiance[0] - light->radiance[2]) < 0.9 * spread);
+    assert_true((double)(light->emitter.radiance.r - light->emitter.radiance.b) < 0.9 * spread);
     for (int i = 0; i < 400; i++) {
         key("[");
         key("+");
     }
-    assert_true(light->radius > 0 && isfinite(light->radiance[0]));
+    assert_true(light->emitter.radius > 0 && isfinite(light->emitter.radiance.r));
     at(320, 240);
     key("n");
     assert_int_equal(state.now.light_count, 2);

@@ -17,9 +17,11 @@ static reference_vec unit(double x, double y, double z) {
 }
 
 static scene_light light_at(double x, double y, double z, double radius) {
-    return (scene_light) { .center = { (float)x, (float)y, (float)z },
-                           .radius = (float)radius,
-                           .radiance = { 1, 2, 4 } };
+    return (scene_light) {
+        .emitter = { .position = { (float)x, (float)y, (float)z },
+                     .radius = (float)radius,
+                     .radiance = { 1, 2, 4 } },
+    };
 }
 
 static reference_surface surface_of(const reference_cut *cut, const reference_material *material,
@@ -47,11 +49,11 @@ static void check_result(const reference_result *result, const double truth[3]) 
 }
 
 static double irradiance(const scene_light *light) {
-    const double d2 = (double)light->center[0] * (double)light->center[0] +
-                      (double)light->center[1] * (double)light->center[1] +
-                      (double)light->center[2] * (double)light->center[2];
-    return REFERENCE_PI * (double)light->radius * (double)light->radius / d2 *
-           (double)light->center[1] / sqrt(d2);
+    const double d2 = (double)light->emitter.position.x * (double)light->emitter.position.x +
+                      (double)light->emitter.position.y * (double)light->emitter.position.y +
+                      (double)light->emitter.position.z * (double)light->emitter.position.z;
+    return REFERENCE_PI * (double)light->emitter.radius * (double)light->emitter.radius / d2 *
+           (double)light->emitter.position.y / sqrt(d2);
 }
 
 /* E = pi L sin²a cos(theta); a white diffuse surface reflects E/pi. */
@@ -110,7 +112,7 @@ static void the_horizon_cuts_a_light(void **state) {
     (void)state;
     for (int i = 1; i < 10; i++) {
         const scene_light light = light_at(1, 0, 0, 0.1 * i);
-        const double s = (double)light.radius, a = asin(s);
+        const double s = (double)light.emitter.radius, a = asin(s);
         const double e = (a - s * cos(a)) / REFERENCE_PI, truth[3] = { e, 2 * e, 4 * e };
         const reference_surface surface = surface_of(&whole, &white, up);
         const reference_result result = estimate(&surface, &light, 1, 4096, (uint64_t)i);
@@ -354,7 +356,7 @@ static void tables_reflect_as_the_library_shades_them(void **state) {
         lmp_light spheres[4];
         random_lights(lights, 4);
         for (int k = 0; k < 4; k++)
-            spheres[k] = scene_light_as_sphere(&lights[k]);
+            spheres[k] = lights[k].emitter;
         const lmp_rgb c = lmp_shade_table(table, &surface, (lmp_vec3) { 1, 0, 0 }, spheres, 4);
         const reference_result result =
             estimate_measured(&(reference_material_source) { NULL, table }, view, lights, 4);

@@ -34,8 +34,12 @@ static void build(stage *s) {
                       .metallic_roughness_map = { .texture = -1 },
                       .normal_map = { .texture = -1 },
                       .emission_map = { .texture = -1 } },
-        .lights = { { { 1, 3, -1 }, 0.5f, { 10, 20, 30 }, 0 },
-                    { { -3, 1, 2 }, 2, { 1, 1, 1 }, 0 } },
+        .lights = { { .emitter = { .position = { 1, 3, -1 },
+                                   .radius = 0.5f,
+                                   .radiance = { 10, 20, 30 } } },
+                    { .emitter = { .position = { -3, 1, 2 },
+                                   .radius = 2,
+                                   .radiance = { 1, 1, 1 } } } },
         .settings = { .width = WIDTH,
                       .height = HEIGHT,
                       .camera = { .eye = { 0, 5, 0.01f }, .up = { 0, 1, 0 }, .fov = 1 },
@@ -177,7 +181,7 @@ static void backs_of_single_sided_triangles_are_not_seen(void **state) {
     build(&s);
     s.lights[0].hidden = s.lights[1].hidden = 1;
     s.settings.camera.eye[1] = -5;
-    s.lights[0].center[1] = -3;
+    s.lights[0].emitter.position.y = -3;
     lit_ends(&s, &left, &right);
     assert_false(left || right);
     s.material.flags = SCENE_DOUBLE_SIDED;
@@ -206,7 +210,10 @@ static void a_normal_map_tilts_the_normal(void **state) {
     stage s;
     image flat, tilted;
     build(&s);
-    s.lights[0] = (scene_light) { { 100, 100, 0 }, 1, { 1e4f, 1e4f, 1e4f }, 1 };
+    s.lights[0] = (scene_light) {
+        .emitter = { .position = { 100, 100, 0 }, .radius = 1, .radiance = { 1e4f, 1e4f, 1e4f } },
+        .hidden = 1
+    };
     s.world.light_count = 1;
     s.material.metallic = 0;
     s.material.roughness = 1;
@@ -231,11 +238,13 @@ static void shadows_fall_only_when_asked_for(void **state) {
     bool left, right;
     build(&s);
     s.material.flags = SCENE_DOUBLE_SIDED;
-    s.lights[0] = (scene_light) { { 0, -3, 0 }, 4, { 1, 1, 1 }, 1 };
+    s.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, -3, 0 }, .radius = 4, .radiance = { 1, 1, 1 } }, .hidden = 1
+    };
     s.world.light_count = 1;
     s.settings.camera.eye[1] = 6;
     s.material.roughness = 1;
-    s.lights[0].radius = 2.5f;
+    s.lights[0].emitter.radius = 2.5f;
     s.vertices[0].normal[1] = s.vertices[1].normal[1] = -1; /* shaded as if seen from below */
     s.vertices[2].normal[1] = s.vertices[3].normal[1] = -1;
     lit_ends(&s, &left, &right);
@@ -250,7 +259,9 @@ static void glowing_spheres_are_seen(void **state) {
     stage s;
     image radiance, standard_error;
     build(&s);
-    s.lights[0] = (scene_light) { { 0, 2, 0 }, 1, { 3, 5, 7 }, 0 };
+    s.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, 2, 0 }, .radius = 1, .radiance = { 3, 5, 7 } }
+    };
     draw(&s, &radiance, &standard_error);
     const size_t i = 3 * (WIDTH * (HEIGHT / 2) + WIDTH / 2);
     assert_true(radiance.rgb[i] == 3 && radiance.rgb[i + 1] == 5 && radiance.rgb[i + 2] == 7);
