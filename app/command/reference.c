@@ -53,8 +53,13 @@ static bool choose_materials(reference_arguments *a, const scene *world, device_
         const int use = all->uses[i];
         if (use < 0)
             continue;
-        (*sources)[i].table = cut->bands ? all->tables[use] : all->opened[use].table;
-        (*sources)[i].brdf = cut->bands ? NULL : all->opened[use].brdf;
+        const lmp_brdf_table *table = cut->bands ? all->tables[use] : all->opened[use].table;
+        if (table)
+            (*sources)[i] =
+                (reference_material_source) { .coefficients = lmp_brdf_table_coefficients(table),
+                                              .table = lmp_brdf_table_describe(table) };
+        else
+            (*sources)[i].brdf = all->opened[use].brdf;
     }
     return true;
 }

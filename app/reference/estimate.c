@@ -178,8 +178,8 @@ static void take_sample(const reference_estimator *estimator, const plan *p, uin
         for (int c = 0; c < 3; c++)
             reflected[c] += lobe->weight[c] * at;
     }
-    if (p->surface->measured)
-        reference_tabulated_at(p->surface->measured, w, reflected);
+    if (p->surface->tabulated)
+        reference_tabulated_at(p->surface->tabulated, w, reflected);
     value[0] = value[1] = value[2] = 0;
     if (reflected[0] == 0 && reflected[1] == 0 && reflected[2] == 0)
         return;

@@ -55,7 +55,7 @@ void reference_surface_set(reference_surface *surface, const reference_cut *cut,
     }
     diffuse->bands = specular->bands = 0;
     surface->cut = cut->bands > 0;
-    surface->measured = NULL;
+    surface->tabulated = NULL;
     if (cut->bands) {
         cut_lobe(diffuse, cut);
         cut_lobe(specular, cut);
@@ -65,15 +65,15 @@ void reference_surface_set(reference_surface *surface, const reference_cut *cut,
 /* Neither too broad nor too narrow for most materials; the samples are weighted for it. */
 #define GUIDE_EXPONENT 40
 
-void reference_surface_measure(reference_surface *surface, const reference_tabulated *measured,
+void reference_surface_measure(reference_surface *surface, const reference_tabulated *tabulated,
                                reference_vec normal, reference_vec view) {
     const reference_material guide = { { 1, 1, 1 }, { 0.5, 0.5, 0.5 }, GUIDE_EXPONENT };
     const reference_cut whole = { .bands = 0 };
     const reference_vec ray_origin = surface->ray_origin;
     reference_surface_set(surface, &whole, &guide, surface->position, normal, view);
     surface->ray_origin = ray_origin;
-    surface->measured = measured;
-    surface->cut = measured->source->table != NULL;
+    surface->tabulated = tabulated;
+    surface->cut = tabulated->source->coefficients != NULL;
 }
 
 double reference_lobe_at(const reference_lobe *lobe, double cosine) {

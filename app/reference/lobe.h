@@ -4,7 +4,7 @@
 #ifndef LAMPION_REFERENCE_LOBE_H
 #define LAMPION_REFERENCE_LOBE_H
 
-#include "app/reference/measured.h"
+#include "app/reference/tabulated.h"
 
 #include <lampion/sh.h>
 
@@ -40,8 +40,8 @@ typedef struct reference_surface {
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
     reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular */
     bool cut;                              /* they, or the measured material, are a cut series */
-    const reference_tabulated *measured;   /* reflects instead of the lobes, or NULL: the lobes then
-                                             only guide the samples */
+    const reference_tabulated *tabulated;  /* reflects instead of the lobes, or NULL: the lobes then
+                                            only guide the samples */
 } reference_surface;
 
 /* normal and view must be unit; ray_origin becomes the position. */
@@ -49,8 +49,8 @@ void reference_surface_set(reference_surface *surface, const reference_cut *cut,
                            const reference_material *material, reference_vec position,
                            reference_vec normal, reference_vec view);
 
-/* Makes the surface reflect as `measured`, aimed already. */
-void reference_surface_measure(reference_surface *surface, const reference_tabulated *measured,
+/* Makes the surface reflect as `tabulated`, aimed already. */
+void reference_surface_measure(reference_surface *surface, const reference_tabulated *tabulated,
                                reference_vec normal, reference_vec view);
 
 /* The lobe without its weight, at q·w = cosine. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* reference.h - ground truth: direct lighting by glowing spheres, by Monte Carlo in double.
  *
- * The oracle of the program: it shares no code with the kernels, the shading methods or the GPU.
- * What it takes from <lampion/…> are types alone. */
+ * It judges the program, so it uses no kernel, shading method, light or table of the library: of
+ * <lampion/…> it takes types, and lmp_brdf_eval_double of a source BRDF. */
 #ifndef LAMPION_REFERENCE_H
 #define LAMPION_REFERENCE_H
 

@@ -71,7 +71,7 @@ static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
 /* What a thread needs of its own. */
 typedef struct worker {
     reference_estimator estimator;
-    reference_tabulated measured;
+    reference_tabulated tabulated;
 } worker;
 
 /* Fills the surface and the light it emits itself. */
@@ -93,9 +93,9 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     surface->ray_origin = hit->ray_origin;
     const reference_material_source *source =
         f->settings->materials ? &f->settings->materials[hit->material] : NULL;
-    if (source && (source->brdf || source->table)) {
-        reference_tabulated_aim(&own->measured, source, normal, hit->tangent, view);
-        reference_surface_measure(surface, &own->measured, normal, view);
+    if (source && (source->brdf || source->coefficients)) {
+        reference_tabulated_aim(&own->tabulated, source, normal, hit->tangent, view);
+        reference_surface_measure(surface, &own->tabulated, normal, view);
     }
 }
 
@@ -138,10 +138,10 @@ static bool trace_rows(const frame *f, int threads) {
     bool ok = true;
 #pragma omp parallel num_threads(threads)
     {
-        worker own = { .measured = { .coefficients = NULL } };
+        worker own = { .tabulated = { .coefficients = NULL } };
         const bool mine =
             reference_estimator_create(&own.estimator, f->scene->lights, f->scene->light_count) &&
-            reference_tabulated_create(&own.measured, f->settings->materials,
+            reference_tabulated_create(&own.tabulated, f->settings->materials,
                                        f->settings->materials ? f->scene->material_count : 0);
         if (!mine) {
 #pragma omp atomic write
@@ -162,7 +162,7 @@ static bool trace_rows(const frame *f, int threads) {
                 cli_progress("tracing", (double)rows / f->settings->height);
         }
         reference_estimator_free(&own.estimator);
-        reference_tabulated_free(&own.measured);
+        reference_tabulated_free(&own.tabulated);
     }
     cli_progress_end();
     return ok;

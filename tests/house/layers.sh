@@ -28,7 +28,7 @@ may_include() {
     app/figure) echo app/cli app/image app/figure base ;;
     app/scene) echo app/cli app/file app/image app/scene LIBRARY ;;
     app/animation) echo app/cli app/file app/scene app/animation base ;;
-    # the oracle shares no code with what it judges
+    # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/material base sh brdf ;;
     app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
@@ -86,7 +86,12 @@ violations() (
     done
 )
 
-found=$(violations .)
+# read_tables ROOT: prints where the reference renderer asks the library to read a BRDF's table.
+read_tables() {
+    grep -rn 'lmp_brdf_table_[a-z_]* *(' "$1/app/reference" || true
+}
+
+found=$(violations .; read_tables .)
 [ -z "$found" ] || fail "$found"
 
 # plant FILE INCLUDE: the violation must be seen.
@@ -103,6 +108,10 @@ plant include/lampion/sh.h '<lampion/light.h>'
 plant app/scene/planted.c '"app/gpu/gpu.h"'
 plant app/reference/planted.c '<lampion/shade.h>'
 plant app/reference/planted.c '"src/kernels/kernels.h"'
+mkdir -p "$WORK/app/reference"
+echo 'lmp_brdf_table_view(table, 1, 0, rgb);' >"$WORK/app/reference/planted.c"
+[ -n "$(read_tables "$WORK")" ] || fail "the reference may read the library's tables unseen"
+rm "$WORK/app/reference/planted.c"
 plant app/cli/planted.c '"app/command/command.h"'
 plant src/novel/planted.c '<math.h>'
 mkdir -p "$WORK/src/shade"

@@ -304,16 +304,16 @@ static void cutting_a_lobe_costs_what_the_theory_says(void **state) {
                      0.05);
 }
 
-static reference_result estimate_measured(const reference_material_source *source,
-                                          reference_vec view, const scene_light *lights,
-                                          size_t count) {
-    reference_tabulated measured;
+static reference_result estimate_tabulated(const reference_material_source *source,
+                                           reference_vec view, const scene_light *lights,
+                                           size_t count) {
+    reference_tabulated tabulated;
     reference_surface surface = surface_of(&whole, &white, view);
-    assert_true(reference_tabulated_create(&measured, source, 1));
-    reference_tabulated_aim(&measured, source, up, (reference_vec) { 1, 0, 0 }, view);
-    reference_surface_measure(&surface, &measured, up, view);
+    assert_true(reference_tabulated_create(&tabulated, source, 1));
+    reference_tabulated_aim(&tabulated, source, up, (reference_vec) { 1, 0, 0 }, view);
+    reference_surface_measure(&surface, &tabulated, up, view);
     const reference_result result = estimate(&surface, lights, count, 20000, 11);
-    reference_tabulated_free(&measured);
+    reference_tabulated_free(&tabulated);
     return result;
 }
 
@@ -329,9 +329,9 @@ static void brdfs_reflect_as_their_lobes(void **state) {
     const reference_material diffuse = { .diffuse = { 0.5, 0.25, 1 } };
     const reference_material lobe = { .specular = { 0.5, 0.25, 1 }, .exponent = 21 };
     for (int i = 0; i < 2; i++) {
-        const reference_material_source source = { i ? phong : lambert, NULL };
+        const reference_material_source source = { .brdf = i ? phong : lambert };
         const reference_surface surface = surface_of(&whole, i ? &lobe : &diffuse, up);
-        const reference_result result = estimate_measured(&source, up, lights, 5);
+        const reference_result result = estimate_tabulated(&source, up, lights, 5);
         double exact[3];
         reference_quadrature(&surface, lights, 5, exact);
         check_result(&result, exact);
@@ -358,8 +358,10 @@ static void tables_reflect_as_the_library_shades_them(void **state) {
         for (int k = 0; k < 4; k++)
             spheres[k] = lights[k].emitter;
         const lmp_rgb c = lmp_shade_table(table, &surface, (lmp_vec3) { 1, 0, 0 }, spheres, 4);
-        const reference_result result =
-            estimate_measured(&(reference_material_source) { NULL, table }, view, lights, 4);
+        const reference_material_source source = { .coefficients =
+                                                       lmp_brdf_table_coefficients(table),
+                                                   .table = lmp_brdf_table_describe(table) };
+        const reference_result result = estimate_tabulated(&source, view, lights, 4);
         const double shaded[3] = { (double)c.r, (double)c.g, (double)c.b };
         for (int k = 0; k < 3; k++)
             CHECK_WITHIN(fabs((result.mean[k] < 0 ? 0 : result.mean[k]) - shaded[k]),
