@@ -5,6 +5,7 @@
 #include "src/kernels/lobe.h"
 #include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
+#include "src/kernels/shade_zonal.h"
 #include "src/kernels/vectors.h"
 
 extern const lmp_kernels LMP_KERNELS;

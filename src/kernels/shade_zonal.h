@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/* shade_zonal.h - both lobes summed over bands, by recurrences in the angles of light and lobes. */
+#ifndef LAMPION_KERNELS_SHADE_ZONAL_H
+#define LAMPION_KERNELS_SHADE_ZONAL_H
+
+#include "src/kernels/shade.h"
+
+/* Up to so many bands all recurrences run in monic form, x p_(l-1) - c_l p_(l-2): the product of
+ * two monic polynomials then stays a normal float. */
+#define ZONAL_MONIC_BANDS 48
+
+/* What is the same for every surface, by band, broadcast: as operands in memory they cost no
+ * instruction. The factors of R_l P_l hold their norms, of l = 0 those of strength and solid angle,
+ * which are pi (1 + |cos a|) and 2 pi times an aim's weight.
+ * Even bands of the diffuse lobe take two steps at once:
+ * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. */
+typedef struct zonal_tables {
+    vf diffuse[LMP_BANDS_MAX], phong[LMP_BANDS_MAX];
+    vf cap[LMP_BANDS_MAX], lobe[LMP_BANDS_MAX]; /* c_l; only in monic form */
+    vf even_a[LMP_BANDS_MAX], even_b[LMP_BANDS_MAX], even_c[LMP_BANDS_MAX];
+} zonal_tables;
+
+/* Fewer bands are padded by some of weight 0. */
+#define ZONAL_BANDS_MIN 3
+
+/* P_l = t_l u P_(l-1) - d_l P_(l-2), or in monic form t = 1. */
+LMP_INLINE double zonal_t(int monic, int l) {
+    return monic ? 1 : (2 * l - 1) / (double)l;
+}
+LMP_INLINE double zonal_d(int monic, int l) {
+    return monic ? (l - 1) * (l - 1) / (double)((2 * l - 1) * (2 * l - 3)) : (l - 1) / (double)l;
+}
+
+static inline void zonal_prepare(int bands, int monic, const float *window, const float *diffuse,
+                                 zonal_tables *tables) {
+    double norm_p = 1, norm_r = 1;
+    for (int l = 0; l < bands || l < ZONAL_BANDS_MIN; l++) {
+        if (monic && l >= 1)
+            norm_p *= (2 * l - 1) / (double)l;
+        if (monic && l >= 2) {
+            /* R_l = (2l-1)/(l+1) alpha R_(l-1) - (l-2)/(l+1) R_(l-2) */
+            norm_r *= (2 * l - 1) / (double)(l + 1);
+            tables->cap[l] = vf_set((float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3))));
+            tables->lobe[l] = vf_set((float)zonal_d(monic, l));
+        }
+        const double scale = (l == 0 ? 0.5 : (2 * l + 1) / 4.0) * norm_p * norm_r;
+        const double factor = l < bands ? scale * (double)window[l] : 0;
+        tables->phong[l] = vf_set((float)factor);
+        tables->diffuse[l] = vf_set(l < bands ? (float)(factor * (double)diffuse[l]) : 0);
+        if (l >= 2) {
+            const double t2 = zonal_t(monic, l), t1 = zonal_t(monic, l - 1);
+            const double d2 = zonal_d(monic, l), d1 = zonal_d(monic, l - 1);
+            const double down = l == 2 ? 0 : t2 * d1 / zonal_t(monic, l - 2);
+            tables->even_a[l] = vf_set((float)(t2 * t1));
+            tables->even_b[l] = vf_set((float)(down + d2));
+            tables->even_c[l] = vf_set(l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2)));
+        }
+    }
+}
+
+/* lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), of the lobe that integrates to 1. */
+LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, vf *weights) {
+    vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
+    weights[0] = before * tables->phong[0];
+    LMP_ROLLED for (int l = 1; l < bands || l < ZONAL_BANDS_MIN; l++) {
+        weights[l] = lambda * tables->phong[l];
+        const vf next = before * ((exponent - (float)(l - 1)) / (exponent + (float)(l + 2)));
+        before = lambda;
+        lambda = next;
+    }
+}
+
+/* Both lobes' sums on their way through the bands: R_l, P_l of the normal (even l) and of the
+ * mirror direction, each with the one before. */
+typedef struct zonal_sums {
+    vf r1, r0, p1, p0, q1, q0;
+    vf diffuse, specular;
+} zonal_sums;
+
+LMP_INLINE void zonal_add_specular(const vf *weights, int l, zonal_sums *sums) {
+    sums->specular = sums->specular + weights[l] * (sums->r1 * sums->q1);
+    LMP_OPAQUE_LANES(sums->specular);
+}
+
+LMP_INLINE void zonal_add_diffuse(const zonal_tables *tables, int l, vf square, zonal_sums *sums) {
+    const vf p2 = (square - tables->even_b[l]) * sums->p1 - tables->even_c[l] * sums->p0;
+    sums->p0 = sums->p1;
+    sums->p1 = p2;
+    sums->diffuse = sums->diffuse + tables->diffuse[l] * (sums->r1 * p2);
+    LMP_OPAQUE_LANES(sums->diffuse);
+}
+
+/* Monic form, x = |cos a|. */
+LMP_INLINE void zonal_step(const zonal_tables *tables, int l, vf x, vf v, zonal_sums *sums) {
+    const vf r2 = x * sums->r1 - tables->cap[l] * sums->r0;
+    const vf q2 = v * sums->q1 - tables->lobe[l] * sums->q0;
+    sums->r0 = sums->r1;
+    sums->r1 = r2;
+    sums->q0 = sums->q1;
+    sums->q1 = q2;
+}
+
+LMP_INLINE zonal_sums zonal_monic(int bands, const zonal_tables *tables, const vf *weights,
+                                  const shade_aim *aim) {
+    const vf one = vf_set(1), v = aim->v, square = aim->u * aim->u, x = one - aim->t;
+    zonal_sums sums = { x,
+                        one,
+                        square - tables->even_b[2],
+                        one,
+                        v * v - tables->lobe[2],
+                        v,
+                        tables->diffuse[1] * aim->u,
+                        weights[1] * v };
+    sums.diffuse = sums.diffuse + tables->diffuse[2] * (x * sums.p1);
+    zonal_add_specular(weights, 2, &sums);
+    LMP_UNROLL for (int l = 3; l < bands; l += 2) {
+        zonal_step(tables, l, x, v, &sums);
+        zonal_add_specular(weights, l, &sums);
+        if (l + 1 == bands)
+            break;
+        zonal_step(tables, l + 1, x, v, &sums);
+        zonal_add_specular(weights, l + 1, &sums);
+        zonal_add_diffuse(tables, l + 1, square, &sums);
+    }
+    return sums;
+}
+
+/* The same of more bands: R_l by its differences r0 = R_l - R_(l-1), which keeps more of them
+ * exact. */
+LMP_INLINE zonal_sums zonal_long(int bands, const zonal_tables *tables, const vf *weights,
+                                 const shade_aim *aim) {
+    const vf one = vf_set(1), zero = vf_set(0), v = aim->v, square = aim->u * aim->u;
+    zonal_sums sums = { one, zero, one, zero, v, one, tables->diffuse[1] * aim->u, weights[1] * v };
+    LMP_ROLLED for (int l = 2; l < bands; l++) {
+        const float *d = lmp_table_legendre_d, *t = lmp_table_legendre_t;
+        sums.r0 = lmp_table_cap_d[l] * sums.r0 - lmp_table_cap_t[l] * (aim->t * sums.r1);
+        sums.r1 = sums.r1 + sums.r0;
+        const vf q2 = t[l] * (v * sums.q1) - d[l] * sums.q0;
+        sums.q0 = sums.q1;
+        sums.q1 = q2;
+        zonal_add_specular(weights, l, &sums);
+        if (l % 2 == 0)
+            zonal_add_diffuse(tables, l, tables->even_a[l] * square, &sums);
+    }
+    return sums;
+}
+
+/* Adds one light's answers to the block's sums. The chains of successive lights run side by side:
+ * none waits for the one before. */
+LMP_INLINE void zonal_light(int bands, int monic, const zonal_tables *tables, const vf *weights,
+                            const shade_aim *aim, lmp_rgb rgb, shade_sums *sums) {
+    const zonal_sums zonal =
+        monic ? zonal_monic(bands, tables, weights, aim) : zonal_long(bands, tables, weights, aim);
+    const vf rise = vf_set(2) - aim->t;
+    vf diffuse = aim->weight * (rise * zonal.diffuse + tables->diffuse[0]);
+    vf specular = aim->weight * (rise * zonal.specular + weights[0]);
+    if (__builtin_expect(aim->everywhere, 0)) {
+        diffuse = diffuse + 2 * tables->diffuse[0] * aim->ambient;
+        specular = specular + 2 * weights[0] * aim->ambient;
+    }
+    shade_gather(rgb, diffuse, specular, sums);
+}
+
+LMP_INLINE void zonal_all(int bands, int monic, const zonal_tables *tables,
+                          const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                          size_t light_count, size_t count,
+                          const lmp_kernel_accumulated *gathered) {
+    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
+    vf weights[LMP_BANDS_MAX]; /* of R_l P_l of the Phong lobe */
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        const float *exponent = surfaces->exponent + e;
+        shade_sums sums;
+        shade_sums_load(gathered, e, &sums);
+        /* Neighbors are often of one material. */
+        if (e == 0 || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
+            zonal_phong(bands, tables, vf_load(exponent), weights);
+        shade_aim_all(surfaces, lights, light_count, e, aims);
+        for (size_t i = 0; i < light_count; i++) {
+            LMP_OPAQUE(tables);
+            zonal_light(bands, monic, tables, weights, &aims[i], lights[i].radiance, &sums);
+        }
+        shade_sums_store(&sums, e, gathered);
+    }
+}
+
+LMP_INLINE void zonal_surfaces(int bands, int constant, const zonal_tables *tables,
+                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                               size_t light_count, size_t count,
+                               const lmp_kernel_accumulated *gathered) {
+    if (constant || bands <= ZONAL_MONIC_BANDS)
+        zonal_all(bands, 1, tables, surfaces, lights, light_count, count, gathered);
+    else
+        zonal_all(bands, 0, tables, surfaces, lights, light_count, count, gathered);
+}
+
+static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
+                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                               size_t light_count, size_t count,
+                               const lmp_kernel_accumulated *gathered) {
+    zonal_tables tables;
+    zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
+    BASIS_SPECIALISE(bands, zonal_surfaces, &tables, surfaces, lights, light_count, count, gathered)
+}
+
+#endif
