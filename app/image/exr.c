@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/image/exr.h"
+
 #include "app/file/file.h"
-#include "app/image/internal.h"
 
 #include <errno.h>
 #include <openexr.h>

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* PNG with a text chunk, which libpng's simple functions do not know. */
+#include "app/image/png.h"
+
 #include "app/file/file.h"
-#include "app/image/image.h"
 
 #include <errno.h>
 #include <png.h>

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/* pixels.h - an image in memory: linear RGB in float. */
+#ifndef LAMPION_IMAGE_PIXELS_H
+#define LAMPION_IMAGE_PIXELS_H
+
+#include "app/cli/cli.h"
+
+/* Rows from the top, tightly packed, linear RGB. */
+typedef struct image {
+    int width, height;
+    float *rgb; /* 3 * width * height, malloc'ed */
+} image;
+
+#define IMAGE_SIZE_MAX   16384     /* pixels a side */
+#define IMAGE_PIXELS_MAX (1 << 26) /* of an image */
+
+bool image_create(image *image, int width, int height, cli_error *error);
+void image_free(image *image);
+
+/* image_create for an image whose size a file claims. */
+bool image_create_read(const char *path, long long width, long long height, image *image,
+                       cli_error *error);
+
+#endif

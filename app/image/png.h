@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* png.h - PNG files of 8 bits. */
+#ifndef LAMPION_IMAGE_PNG_H
+#define LAMPION_IMAGE_PNG_H
+
+#include "app/image/pixels.h"
+
+/* Writes 8-bit RGB as PNG. */
+bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
+                      cli_error *error);
+
+/* The same with a text chunk (iTXt, UTF-8, compressed), and the text of such a file: the first of
+ * that key, at most IMAGE_TEXT_MAX bytes, to be freed. */
+#define IMAGE_TEXT_MAX (1 << 22)
+typedef struct image_text {
+    const char *key, *text;
+} image_text;
+bool image_write_png8_text(const unsigned char *rgb8, int width, int height, const image_text *text,
+                           const char *path, cli_error *error);
+bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error);
+
+/* Its sRGB, linearized. */
+bool image_read_png(const char *path, image *image, cli_error *error);
+
+#endif
