@@ -16,6 +16,8 @@
 
 #include <lampion/base.h>
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -31,6 +33,18 @@ extern "C" {
  *
  * direction must be unit; sh receives LMP_SH_COUNT(bands) values */
 LMP_API void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh);
+
+/* Y_lm(direction) and its surface gradient, the derivatives of Y_lm(v / |v|) by x, y, z where v is
+ * the direction: they are perpendicular to it. Second derivatives sum to -l(l+1) Y_lm.
+ *
+ * direction must be unit; sh receives LMP_SH_COUNT(bands) values, gradient three planes of as many,
+ * d/dx, d/dy, d/dz */
+LMP_API void lmp_sh_eval_gradient(int bands, lmp_vec3 direction, float *sh, float *gradient);
+
+/* s a + t b, coefficient by coefficient: sums, differences, scaled and interpolated functions.
+ *
+ * a, b and sh hold LMP_SH_COUNT(bands) values; sh may be a or b */
+LMP_API void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b, float *sh);
 
 /* Σ a_i b_i: the integral of the product of the two functions (paper Eq. 4).
  *
@@ -53,6 +67,15 @@ LMP_API void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, flo
  * rotation need not be exactly unit, it is normalized; it must not be zero
  * matrices receives LMP_SH_ROTATION_COUNT(bands) values, each matrix row-major */
 LMP_API void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices);
+
+/* The same from a rotation matrix, row-major: R w are its rows times w. It must be a rotation, up
+ * to rounding. */
+LMP_API void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matrices);
+
+/* Rotates coefficients by `angle` radians around z, from x toward y: O(bands²), without matrices.
+ *
+ * sh and rotated hold LMP_SH_COUNT(bands) values and may be the same array */
+LMP_API void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated);
 
 /* Rotates coefficients by the matrices of lmp_sh_rotation.
  *
@@ -95,16 +118,45 @@ typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
 LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *user, int nodes,
                                      float *sh);
 
-/* Coefficients of a latitude-longitude image. Row 0 touches +y (up), column 0 starts at azimuth
- * -pi around y where azimuth = atan2(x, -z), as in glTF viewers; pixel weights are exact solid
- * angles. A pixel counts as a constant seen at its center: take images of at least 4 * bands
- * rows. The cost is width * height * bands².
+/* Texels of an image: any number of channels, interleaved or planar. Strides are in bytes; 0 means
+ * tight and interleaved. A texel counts as a constant seen at its center, weighted by its exact
+ * solid angle: take images of at least 4 * bands rows. Sums are in double, whatever the size. The
+ * cost is that of bands² / 2 multiplications and additions a texel and channel. */
+typedef enum lmp_texel { LMP_TEXEL_FLOAT = 0, LMP_TEXEL_HALF } lmp_texel;
+
+/* A latitude-longitude image of the surroundings; zero-initialize it. Row 0 touches up (+y). The
+ * center column shows +x and columns run toward +z, u = 1/2 + atan2(z, x) / 2 pi, as in three.js
+ * and in the sample viewer of glTF.
  *
- * pixels: height rows of width pixels of `channels` floats; row_stride in bytes, a
- * multiple of 4, 0 = tight
- * sh receives channels planes of LMP_SH_COUNT(bands) values */
-LMP_API void lmp_sh_project_latlong(int bands, const float *pixels, int width, int height,
-                                    int channels, size_t row_stride, float *sh);
+ * azimuth is the direction of the center column, in radians from +x toward +z */
+typedef struct lmp_latlong {
+    const void *pixels;
+    int width, height, channels;
+    lmp_texel texel;
+    size_t row_stride, texel_stride, channel_stride;
+    float azimuth;
+    bool mirrored; /* columns run from +z toward -z: the surroundings as seen in a mirror */
+    bool z_up;     /* for worlds with z up: (x, y, z) of a world with y up is (x, -z, y) there */
+} lmp_latlong;
+
+/* Coefficients of a latitude-longitude image: sh receives `channels` planes of LMP_SH_COUNT(bands)
+ * values. */
+LMP_API void lmp_sh_project_latlong(int bands, const lmp_latlong *image, float *sh);
+
+/* A cube map; zero-initialize it. The faces are +x, -x, +y, -y, +z, -z, each `size` rows of `size`
+ * texels, oriented as OpenGL, Vulkan and Direct3D store them (OpenGL 4.6, table 8.19): column and
+ * row grow along -z and -y on +x, z and -y on -x, x and z on +y, x and -z on -y, x and -y on +z, -x
+ * and -y on -z. */
+typedef struct lmp_cubemap {
+    const void *faces[6];
+    int size, channels;
+    lmp_texel texel;
+    size_t row_stride, texel_stride, channel_stride;
+    bool left_handed; /* the map is of a left-handed world, as Direct3D's: its z is -z here */
+} lmp_cubemap;
+
+/* Coefficients of a cube map: sh receives `channels` planes of LMP_SH_COUNT(bands) values. */
+LMP_API void lmp_sh_project_cubemap(int bands, const lmp_cubemap *map, float *sh);
 
 /* The product of two functions, cut to `bands` bands: a table of triple products
  * Γ_ijk = ∫ Y_i Y_j Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
