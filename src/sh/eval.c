@@ -62,3 +62,49 @@ void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh) 
     lmp_sh_eval(bands, axis, sh);
     lmp_sh_window_apply(bands, weights, sh, sh);
 }
+
+void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b, float *sh) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
+        sh[i] = s * a[i] + t * b[i];
+}
+
+/* --- gradient ----------------------------------------------------------------------------------
+ */
+
+/* The derivatives of the polynomial q(z) C, without their part along the direction w: those of
+ * Y(v/|v|) at w. */
+static void put_gradient(lmp_vec3 g, lmp_vec3 w, size_t i, size_t plane, float *gradient) {
+    const float along = g.x * w.x + g.y * w.y + g.z * w.z;
+    gradient[i] = g.x - along * w.x;
+    gradient[plane + i] = g.y - along * w.y;
+    gradient[2 * plane + i] = g.z - along * w.z;
+}
+
+void lmp_sh_eval_gradient(int bands, lmp_vec3 direction, float *sh, float *gradient) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const size_t plane = LMP_SH_COUNT(bands);
+    float q[LMP_BANDS_MAX + 1], above[LMP_BANDS_MAX + 1]; /* q_l^m and q_l^(m+1) */
+    lmp_azimuth a = { 1, 0 }, below = { 0, 0 };           /* (x + iy)^m and ^(m-1) */
+    lmp_sh_column(bands, 0, direction.z, q);
+    for (int m = 0; m < bands; m++) {
+        const float *slope = lmp_table_slope + lmp_table_index(m, m), k = (float)m;
+        above[m] = 0;
+        if (m + 1 < bands)
+            lmp_sh_column(bands, m + 1, direction.z, above);
+        for (int l = m; l < bands; l++) {
+            const float dz = slope[l - m] * above[l];
+            const lmp_vec3 sine = { k * q[l] * below.s, k * q[l] * below.c, dz * a.s };
+            const lmp_vec3 cosine = { k * q[l] * below.c, -k * q[l] * below.s, dz * a.c };
+            /* -m first: at m = 0 both are one coefficient, and cosine wins */
+            sh[LMP_SH_INDEX(l, -m)] = q[l] * a.s;
+            put_gradient(sine, direction, LMP_SH_INDEX(l, -m), plane, gradient);
+            sh[LMP_SH_INDEX(l, m)] = q[l] * a.c;
+            put_gradient(cosine, direction, LMP_SH_INDEX(l, m), plane, gradient);
+        }
+        below = a;
+        a = lmp_azimuth_next(a, direction);
+        for (int l = m + 1; l < bands; l++)
+            q[l] = above[l];
+    }
+}

@@ -124,3 +124,40 @@ void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rot
         }
     }
 }
+
+/* The unit quaternion of a matrix, from its largest component so that nothing cancels. */
+static lmp_quat quaternion_of(const float r[9]) {
+    const float trace = r[0] + r[4] + r[8];
+    const float four[4] = { 1 + 2 * r[0] - trace, 1 + 2 * r[4] - trace, 1 + 2 * r[8] - trace,
+                            1 + trace };
+    int largest = 0;
+    for (int i = 1; i < 4; i++)
+        if (four[i] > four[largest])
+            largest = i;
+    /* 4 q_i q_j for every pair of x, y, z, w */
+    const float products[4][4] = {
+        { four[0], r[1] + r[3], r[2] + r[6], r[7] - r[5] },
+        { r[1] + r[3], four[1], r[5] + r[7], r[2] - r[6] },
+        { r[2] + r[6], r[5] + r[7], four[2], r[3] - r[1] },
+        { r[7] - r[5], r[2] - r[6], r[3] - r[1], four[3] },
+    };
+    const float *q = products[largest];
+    return (lmp_quat) { q[0], q[1], q[2], q[3] };
+}
+
+void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matrices) {
+    lmp_sh_rotation(bands, quaternion_of(rotation), matrices);
+}
+
+void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    for (int m = 0; m < bands; m++) {
+        const float c = (float)cos(m * (double)angle), s = (float)sin(m * (double)angle);
+        for (int l = m; l < bands; l++) {
+            const float plus = sh[LMP_SH_INDEX(l, m)], minus = sh[LMP_SH_INDEX(l, -m)];
+            /* -m first: at m = 0 both are one coefficient, which stays */
+            rotated[LMP_SH_INDEX(l, -m)] = s * plus + c * minus;
+            rotated[LMP_SH_INDEX(l, m)] = m > 0 ? c * plus - s * minus : plus;
+        }
+    }
+}

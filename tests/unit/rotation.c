@@ -15,23 +15,6 @@ static float *allocate_matrices(int bands) {
     return matrices;
 }
 
-/* The quaternion of a rotation matrix, by its largest component. */
-static lmp_quat quaternion_of(const double r[9]) {
-    const double four[4] = { 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8], 1 - r[0] - r[4] + r[8],
-                             1 + r[0] + r[4] + r[8] };
-    const double q[4][4] = {
-        { four[0], r[1] + r[3], r[2] + r[6], r[7] - r[5] },
-        { r[1] + r[3], four[1], r[5] + r[7], r[2] - r[6] },
-        { r[2] + r[6], r[5] + r[7], four[2], r[3] - r[1] },
-        { r[7] - r[5], r[2] - r[6], r[3] - r[1], four[3] },
-    };
-    int best = 0;
-    for (int k = 1; k < 4; k++)
-        best = four[k] > four[best] ? k : best;
-    return (lmp_quat) { (float)q[best][0], (float)q[best][1], (float)q[best][2],
-                        (float)q[best][3] };
-}
-
 static void matrix_of(lmp_quat q, double rotation[9]) {
     const double wide[4] = { (double)q.x, (double)q.y, (double)q.z, (double)q.w };
     oracle_quaternion_matrix(wide, rotation);
@@ -49,9 +32,12 @@ static void rotates_the_vector_file(void **state) {
         check_csv_numbers(csv, row, 0, 9, rotation);
         check_csv_numbers(csv, row, 9, 64, in);
         check_csv_numbers(csv, row, 73, 64, expected);
+        float matrix[9];
         for (int k = 0; k < 64; k++)
             sh[k] = (float)in[k];
-        lmp_sh_rotation(8, quaternion_of(rotation), matrices);
+        for (int k = 0; k < 9; k++)
+            matrix[k] = (float)rotation[k];
+        lmp_sh_rotation_from_matrix(8, matrix, matrices);
         lmp_sh_rotate(8, matrices, sh, rotated);
         CHECK_WITHIN(check_error(64, expected, rotated), 3e-6);
     }
@@ -163,6 +149,48 @@ static void undoes_itself(void **state) {
     free(again);
 }
 
+/* All four branches: a rotation whose largest quaternion component is x, y, z, w. */
+static void a_matrix_rotates_like_its_quaternion(void **state) {
+    (void)state;
+    enum { BANDS = 6 };
+    static float expected[LMP_SH_ROTATION_COUNT(BANDS)], matrices[LMP_SH_ROTATION_COUNT(BANDS)];
+    for (int i = 0; i < 40; i++) {
+        lmp_quat q = check_random_rotation();
+        float *largest[4] = { &q.x, &q.y, &q.z, &q.w };
+        *largest[i % 4] *= 10;
+        double rotation[9];
+        float matrix[9];
+        matrix_of(q, rotation);
+        for (int k = 0; k < 9; k++)
+            matrix[k] = (float)rotation[k];
+        lmp_sh_rotation(BANDS, q, expected);
+        lmp_sh_rotation_from_matrix(BANDS, matrix, matrices);
+        for (size_t k = 0; k < LMP_SH_ROTATION_COUNT(BANDS); k++)
+            CHECK_WITHIN(fabsf(matrices[k] - expected[k]), 3e-6);
+    }
+}
+
+static void around_z_needs_no_matrices(void **state) {
+    (void)state;
+    enum { BANDS = 12, COUNT = BANDS * BANDS };
+    static float matrices[LMP_SH_ROTATION_COUNT(BANDS)];
+    const float angles[] = { 0, 0.3f, -1.9f, 3.14159265f, 40 };
+    for (int i = 0; i < 5; i++) {
+        float sh[COUNT], expected[COUNT], rotated[COUNT];
+        for (int k = 0; k < COUNT; k++)
+            sh[k] = (float)check_random_between(-1, 1);
+        const double half = (double)angles[i] / 2;
+        const lmp_quat q = { 0, 0, (float)sin(half), (float)cos(half) };
+        lmp_sh_rotation(BANDS, q, matrices);
+        lmp_sh_rotate(BANDS, matrices, sh, expected);
+        lmp_sh_rotate_z(BANDS, angles[i], sh, rotated);
+        lmp_sh_rotate_z(BANDS, angles[i], sh, sh); /* in place */
+        assert_memory_equal(sh, rotated, sizeof sh);
+        for (int k = 0; k < COUNT; k++)
+            CHECK_WITHIN(fabsf(rotated[k] - expected[k]), 4e-6);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rotates_the_vector_file),
@@ -171,6 +199,8 @@ int main(void) {
         cmocka_unit_test(is_orthogonal_at_128_bands),
         cmocka_unit_test(of_no_rotation_is_the_identity),
         cmocka_unit_test(undoes_itself),
+        cmocka_unit_test(a_matrix_rotates_like_its_quaternion),
+        cmocka_unit_test(around_z_needs_no_matrices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

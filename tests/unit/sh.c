@@ -126,6 +126,41 @@ static void turns_zonal_coefficients_to_any_axis(void **state) {
         CHECK_WITHIN(fabs((double)along[LMP_SH_INDEX(l, 0)] - cap[l]), 1e-5);
 }
 
+/* By central differences of the oracle, in double: at the poles, too. */
+static void the_gradient_is_that_of_the_definition(void **state) {
+    (void)state;
+    enum { BANDS = 20, COUNT = BANDS * BANDS };
+    static float sh[COUNT], gradient[3 * COUNT], value[COUNT];
+    static double expected[COUNT], above[COUNT], below[COUNT];
+    const double step = 1e-5;
+    for (int i = 0; i < 30; i++) {
+        const lmp_vec3 d = i < 2 ? (lmp_vec3) { 0, 0, i ? -1.f : 1.f } : check_random_direction();
+        lmp_sh_eval_gradient(BANDS, d, sh, gradient);
+        lmp_sh_eval(BANDS, d, value);
+        assert_memory_equal(sh, value, sizeof sh);
+        for (int axis = 0; axis < 3; axis++) {
+            double w[3];
+            wide(d, w);
+            w[axis] += step;
+            oracle_sh_eval(BANDS, w, above);
+            w[axis] -= 2 * step;
+            oracle_sh_eval(BANDS, w, below);
+            for (int k = 0; k < COUNT; k++)
+                expected[k] = (above[k] - below[k]) / (2 * step);
+            CHECK_WITHIN(check_error(COUNT, expected, gradient + axis * COUNT), 2e-5);
+        }
+    }
+}
+
+static void combines_two_functions(void **state) {
+    (void)state;
+    float a[4] = { 1, 2, 3, 4 };
+    const float b[4] = { 8, 6, 4, 2 };
+    lmp_sh_combine(2, 0.5f, a, -1, b, a);
+    const float expected[4] = { -7.5f, -5, -2.5f, 0 };
+    assert_memory_equal(a, expected, sizeof a);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(evaluates_the_vector_file),
@@ -134,6 +169,8 @@ int main(void) {
         cmocka_unit_test(stays_finite_next_to_the_poles),
         cmocka_unit_test(reconstructs_what_the_coefficients_say),
         cmocka_unit_test(turns_zonal_coefficients_to_any_axis),
+        cmocka_unit_test(the_gradient_is_that_of_the_definition),
+        cmocka_unit_test(combines_two_functions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
