@@ -1,21 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* info.c - lampion info: what is in a scene. */
 #include "app/command/command.h"
+#include "app/file/file.h"
 #include "app/scene/scene.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-static void add_vector(cJSON *object, const char *name, const float *numbers, int count) {
-    cJSON *array = cJSON_AddArrayToObject(object, name);
-    for (int i = 0; i < count; i++) {
-        /* Shortest text that reads back as the float. */
-        char text[32];
-        snprintf(text, sizeof text, "%.9g", (double)numbers[i]);
-        cJSON_AddItemToArray(array, cJSON_CreateRaw(text));
-    }
-}
 
 static void add_materials(cJSON *root, const scene *s) {
     cJSON *list = cJSON_AddArrayToObject(root, "materials");
@@ -23,10 +14,10 @@ static void add_materials(cJSON *root, const scene *s) {
         const scene_material *material = &s->materials[i];
         cJSON *entry = cJSON_CreateObject();
         cJSON_AddStringToObject(entry, "name", material->name);
-        add_vector(entry, "base_color", material->base_color, 4);
+        file_json_add_floats(entry, "base_color", material->base_color, 4);
         cJSON_AddNumberToObject(entry, "metallic", (double)material->metallic);
         cJSON_AddNumberToObject(entry, "roughness", (double)material->roughness);
-        add_vector(entry, "emission", material->emission, 3);
+        file_json_add_floats(entry, "emission", material->emission, 3);
         cJSON_AddBoolToObject(entry, "double_sided", (material->flags & SCENE_DOUBLE_SIDED) != 0);
         cJSON_AddBoolToObject(entry, "alpha_mask", (material->flags & SCENE_ALPHA_MASK) != 0);
         cJSON_AddItemToArray(list, entry);
@@ -35,15 +26,8 @@ static void add_materials(cJSON *root, const scene *s) {
 
 static void add_lights(cJSON *root, const scene *s) {
     cJSON *list = cJSON_AddArrayToObject(root, "lights");
-    for (size_t i = 0; i < s->light_count; i++) {
-        const scene_light *light = &s->lights[i];
-        cJSON *entry = cJSON_CreateObject();
-        add_vector(entry, "position", &light->emitter.position.x, 3);
-        add_vector(entry, "radius", &light->emitter.radius, 1);
-        add_vector(entry, "radiance", &light->emitter.radiance.r, 3);
-        cJSON_AddBoolToObject(entry, "emissive_mesh", light->hidden != 0);
-        cJSON_AddItemToArray(list, entry);
-    }
+    for (size_t i = 0; i < s->light_count; i++)
+        cJSON_AddItemToArray(list, scene_light_to_json(&s->lights[i]));
 }
 
 static cJSON *describe(const scene *s) {
@@ -52,8 +36,8 @@ static cJSON *describe(const scene *s) {
     cJSON_AddBoolToObject(root, "cached", s->cached);
     cJSON_AddNumberToObject(root, "triangles", (double)(s->index_count / 3));
     cJSON_AddNumberToObject(root, "vertices", (double)s->vertex_count);
-    add_vector(root, "minimum", s->minimum, 3);
-    add_vector(root, "maximum", s->maximum, 3);
+    file_json_add_floats(root, "minimum", s->minimum, 3);
+    file_json_add_floats(root, "maximum", s->maximum, 3);
     cJSON_AddNumberToObject(root, "area", s->area);
     cJSON *meshes = cJSON_AddArrayToObject(root, "meshes");
     for (size_t i = 0; i < s->mesh_count; i++) {
@@ -77,9 +61,9 @@ static cJSON *describe(const scene *s) {
     for (size_t i = 0; i < s->camera_count; i++) {
         cJSON *entry = cJSON_CreateObject();
         cJSON_AddStringToObject(entry, "name", s->cameras[i].name);
-        add_vector(entry, "eye", s->cameras[i].eye, 3);
-        add_vector(entry, "target", s->cameras[i].target, 3);
-        add_vector(entry, "fov", &s->cameras[i].fov, 1);
+        file_json_add_floats(entry, "eye", s->cameras[i].eye, 3);
+        file_json_add_floats(entry, "target", s->cameras[i].target, 3);
+        file_json_add_floats(entry, "fov", &s->cameras[i].fov, 1);
         cJSON_AddItemToArray(cameras, entry);
     }
     add_lights(root, s);
@@ -104,10 +88,24 @@ static void print_names(const char *what, const char *name, size_t size, size_t 
     puts(count > SHOWN ? ", …" : "");
 }
 
-static void print_text(const scene *s) {
-    size_t hidden = 0;
-    for (size_t i = 0; i < s->light_count; i++)
+/* "30: 28 sphere, 2 spot" */
+static void print_lights(const scene *s) {
+    size_t of_kind[SCENE_LIGHT_KINDS] = { 0 }, hidden = 0;
+    for (size_t i = 0; i < s->light_count; i++) {
+        of_kind[s->lights[i].emitter.kind]++;
         hidden += s->lights[i].hidden;
+    }
+    const char *separator = ": ";
+    printf("%-10s %zu", "lights", s->light_count);
+    for (int kind = 0; kind < SCENE_LIGHT_KINDS; kind++)
+        if (of_kind[kind]) {
+            printf("%s%zu %s", separator, of_kind[kind], scene_light_kinds[kind].name);
+            separator = ", ";
+        }
+    printf(hidden ? " (%zu of them emissive meshes)\n" : "\n", hidden);
+}
+
+static void print_text(const scene *s) {
     printf("%s%s\n", s->origin, s->cached ? " (from the cache)" : "");
     printf("%-10s %zu\n", "triangles", s->index_count / 3);
     printf("%-10s %zu\n", "vertices", s->vertex_count);
@@ -119,8 +117,7 @@ static void print_text(const scene *s) {
     print_names("materials", s->materials->name, sizeof *s->materials, s->material_count);
     print_names("textures", s->textures->name, sizeof *s->textures, s->texture_count);
     print_names("cameras", s->cameras->name, sizeof *s->cameras, s->camera_count);
-    printf("%-10s %zu", "lights", s->light_count);
-    printf(hidden ? " (%zu of them emissive meshes)\n" : "\n", hidden);
+    print_lights(s);
 }
 
 static int run(const cli_command *command, int argc, char **argv) {

@@ -5,8 +5,6 @@
 #include "app/device/materials.h"
 #include "app/reference/quadrature.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,18 +91,20 @@ static bool parse_light(const char *text, scene_light *light, cli_error *error) 
     const char *at = text;
     for (int i = 0; i < 7; i++) {
         const size_t length = strcspn(at, ",");
-        const double largest = i < 4 ? (double)LMP_LENGTH_MAX : (double)FLT_MAX;
         double value;
-        if (at[length] != (i < 6 ? ',' : '\0') || !cli_number(at, length, &value) ||
-            !(fabs(value) <= largest) || (i >= 3 && value < 0) || (i == 3 && !((float)value > 0)))
+        if (at[length] != (i < 6 ? ',' : '\0') || !cli_number(at, length, &value))
             return cli_fail(error, "--light", "\"%s\" is not X,Y,Z,RADIUS,R,G,B", text);
         values[i] = (float)value;
         at += length + 1;
     }
-    light->emitter = (lmp_light) { .position = { values[0], values[1], values[2] },
-                                   .radius = values[3],
-                                   .radiance = { values[4], values[5], values[6] } };
-    return true;
+    *light = (scene_light) {
+        .emitter = { .position = { values[0], values[1], values[2] },
+                     .radius = values[3],
+                     .radiance = { values[4], values[5], values[6] } },
+    };
+    scene_light_error wrong;
+    return scene_light_check(light, &wrong) ||
+           cli_fail(error, "--light", "\"%s\"%s", text, wrong.text);
 }
 
 static bool solve_point(const reference_arguments *a, cli_error *error) {

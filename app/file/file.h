@@ -26,6 +26,9 @@ bool file_json_number(const struct cJSON *item, double minimum, double maximum, 
 bool file_json_numbers(const struct cJSON *item, int count, double minimum, double maximum,
                        double *numbers);
 
+/* Adds one number or an array of more, in the shortest text that reads back as the floats. */
+void file_json_add_floats(struct cJSON *object, const char *name, const float *numbers, int count);
+
 /* The first key of an object that is none of the NULL-terminated ones; NULL if there is none. */
 const char *file_json_unknown_key(const struct cJSON *object, const char *const *known);
 

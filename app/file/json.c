@@ -2,6 +2,7 @@
 #include "app/file/file.h"
 
 #include <cjson/cJSON.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,6 +50,22 @@ bool file_json_numbers(const struct cJSON *item, int count, double minimum, doub
             return false;
     }
     return true;
+}
+
+static cJSON *number_of(float number) {
+    char text[32];
+    snprintf(text, sizeof text, "%.9g", (double)number);
+    return cJSON_CreateRaw(text);
+}
+
+void file_json_add_floats(struct cJSON *object, const char *name, const float *numbers, int count) {
+    if (count == 1) {
+        cJSON_AddItemToObject(object, name, number_of(*numbers));
+        return;
+    }
+    cJSON *array = cJSON_AddArrayToObject(object, name);
+    for (int i = 0; i < count; i++)
+        cJSON_AddItemToArray(array, number_of(numbers[i]));
 }
 
 const char *file_json_unknown_key(const struct cJSON *object, const char *const *known) {

@@ -253,7 +253,7 @@ static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
         const lmp_rgb radiance = light->emitter.radiance;
         *to = (shared_light) {
             .sphere = { center.x, center.y, center.z, light->emitter.radius },
-            .radiance = { radiance.r, radiance.g, radiance.b, light->hidden ? 1 : 0 },
+            .radiance = { radiance.r, radiance.g, radiance.b, scene_light_is_drawn(light) ? 0 : 1 },
         };
     }
     if (frame->light_count)

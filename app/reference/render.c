@@ -41,7 +41,7 @@ static const scene_light *seen_light(const frame *f, reference_vec direction, do
     const scene_light *nearest = NULL;
     for (size_t i = 0; i < f->scene->light_count; i++) {
         const scene_light *light = &f->scene->lights[i];
-        if (light->hidden || !reference_light_is_hit(light, f->eye, direction))
+        if (!scene_light_is_drawn(light) || !reference_light_is_hit(light, f->eye, direction))
             continue;
         const double at = reference_light_distance(light, f->eye, direction);
         if (at < distance) {

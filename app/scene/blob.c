@@ -139,13 +139,8 @@ static bool views_fit(const blob_header *header) {
             return false;
     const scene_light *lights = blob_items(header, BLOB_LIGHTS);
     for (uint64_t i = 0; i < header->sections[BLOB_LIGHTS].count; i++) {
-        const lmp_light *light = &lights[i].emitter;
-        const float *radiance = &light->radiance.r;
-        bool fits = light->kind == LMP_LIGHT_SPHERE && all_finite(&light->position.x, 3) &&
-                    all_finite(&light->radius, 1) && light->radius > 0.0f && lights[i].hidden <= 1;
-        for (int k = 0; k < 3; k++)
-            fits = fits && isfinite(radiance[k]) && radiance[k] >= 0.0f;
-        if (!fits)
+        scene_light_error wrong;
+        if (lights[i].hidden > 1 || !scene_light_check(&lights[i], &wrong))
             return false;
     }
     const blob_source *sources = blob_items(header, BLOB_SOURCES);

@@ -5,10 +5,11 @@
 #define LAMPION_SCENE_H
 
 #include "app/cli/cli.h"
+#include "app/scene/light.h"
 
 #include <lampion/lampion.h>
 
-#define SCENE_LIGHTS_MAX 1024 /* sphere lights, from all sources together */
+#define SCENE_LIGHTS_MAX 1024 /* from all sources together */
 #define SCENE_NAME_SIZE  64   /* bytes of a name, NUL included, valid UTF-8 */
 
 /* 48 bytes, as the vertex shader reads them. */
@@ -66,12 +67,6 @@ typedef struct scene_camera {
     float fov;    /* vertical field of view, radians */
     float aspect; /* the image it was framed for, width / height; 0: any */
 } scene_camera;
-
-/* A light and whether it is seen: of all kinds only spheres can be. */
-typedef struct scene_light {
-    lmp_light emitter;
-    uint32_t hidden; /* 1: it shades, but is not drawn (an emissive mesh is, or nothing) */
-} scene_light;
 
 /* How the scene file moves a light: its offset from its place at even steps of time, from 0 to the
  * period, after which it begins anew. */
@@ -142,7 +137,7 @@ typedef struct scene_lights_options {
       .kind = CLI_TEXT,                                                                            \
       .target = &(variable).file,                                                                  \
       .argument = "FILE",                                                                          \
-      .help = "sphere lights from a JSON file, instead of the scene's own" },                      \
+      .help = "lights from a JSON file, instead of the scene's own" },                             \
         { .name = "random-lights",                                                                 \
           .kind = CLI_INT,                                                                         \
           .target = &(variable).random_count,                                                      \

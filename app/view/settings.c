@@ -57,18 +57,12 @@ bool view_set_material(view_settings *s, const char *slot, const char *name) {
 /* --- to JSON ------------------------------------------------------------------------------------
  */
 
-static void add_floats(cJSON *object, const char *name, const float *values, int count) {
-    cJSON *array = cJSON_AddArrayToObject(object, name);
-    for (int i = 0; i < count; i++)
-        cJSON_AddItemToArray(array, cJSON_CreateNumber((double)values[i]));
-}
-
 static void add_camera(cJSON *root, const scene_camera *camera) {
     cJSON *object = cJSON_AddObjectToObject(root, "camera");
-    add_floats(object, "eye", camera->eye, 3);
-    add_floats(object, "target", camera->target, 3);
-    add_floats(object, "up", camera->up, 3);
-    cJSON_AddNumberToObject(object, "fov", (double)camera->fov);
+    file_json_add_floats(object, "eye", camera->eye, 3);
+    file_json_add_floats(object, "target", camera->target, 3);
+    file_json_add_floats(object, "up", camera->up, 3);
+    file_json_add_floats(object, "fov", &camera->fov, 1);
 }
 
 static void add_look(cJSON *array, const view_look *look) {
@@ -79,36 +73,26 @@ static void add_look(cJSON *array, const view_look *look) {
     cJSON_AddItemToArray(array, object);
 }
 
-static void add_light(cJSON *array, const scene_light *light) {
-    cJSON *object = cJSON_CreateObject();
-    add_floats(object, "position", &light->emitter.position.x, 3);
-    cJSON_AddNumberToObject(object, "radius", (double)light->emitter.radius);
-    add_floats(object, "radiance", &light->emitter.radiance.r, 3);
-    if (light->hidden)
-        cJSON_AddTrueToObject(object, "hidden");
-    cJSON_AddItemToArray(array, object);
-}
-
 cJSON *view_settings_to_json(const view_settings *s) {
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "scene", s->scene);
     cJSON_AddNumberToObject(root, "width", s->width);
     cJSON_AddNumberToObject(root, "height", s->height);
     cJSON_AddNumberToObject(root, "samples", s->samples);
-    cJSON_AddNumberToObject(root, "exposure", (double)s->exposure);
-    add_floats(root, "background", s->background, 3);
+    file_json_add_floats(root, "exposure", &s->exposure, 1);
+    file_json_add_floats(root, "background", s->background, 3);
     add_camera(root, &s->camera);
     cJSON *looks = cJSON_AddArrayToObject(root, "looks");
     add_look(looks, &s->looks[0]);
     add_look(looks, &s->looks[1]);
     cJSON_AddStringToObject(root, "split", view_split_names[s->split]);
-    cJSON_AddNumberToObject(root, "divider", (double)s->divider);
+    file_json_add_floats(root, "divider", &s->divider, 1);
     cJSON *materials = cJSON_AddArrayToObject(root, "materials");
     for (int i = 0; i < s->material_count; i++)
         cJSON_AddItemToArray(materials, cJSON_CreateString(s->materials[i]));
     cJSON *lights = cJSON_AddArrayToObject(root, "lights");
     for (size_t i = 0; i < s->light_count; i++)
-        add_light(lights, &s->lights[i]);
+        cJSON_AddItemToArray(lights, scene_light_to_json(&s->lights[i]));
     return root;
 }
 
@@ -183,25 +167,15 @@ static bool read_looks(const cJSON *root, view_look looks[2]) {
            read_look(cJSON_GetArrayItem(array, 1), &looks[1]);
 }
 
-static bool read_light(const cJSON *object, scene_light *light) {
-    const double far = (double)LMP_LENGTH_MAX, bright = 3e38;
-    light->hidden = cJSON_IsTrue(file_json_member(object, "hidden")) ? 1 : 0;
-    float position[3] = { 0 }, radiance[3] = { 0 };
-    const bool ok = read_floats(object, "position", -far, far, position) &&
-                    read_float(object, "radius", 0, far, &light->emitter.radius) &&
-                    light->emitter.radius > 0 &&
-                    read_floats(object, "radiance", 0, bright, radiance);
-    light->emitter.position = (lmp_vec3) { position[0], position[1], position[2] };
-    light->emitter.radiance = (lmp_rgb) { radiance[0], radiance[1], radiance[2] };
-    return ok;
-}
-
 static bool read_lights(const cJSON *root, view_settings *s) {
     const cJSON *array = file_json_member(root, "lights"), *item;
+    scene_light_error wrong;
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > SCENE_LIGHTS_MAX)
         return false;
-    cJSON_ArrayForEach(item,
-                       array) if (!read_light(item, &s->lights[s->light_count++])) return false;
+    cJSON_ArrayForEach(item, array) {
+        if (!scene_light_from_json(item, &s->lights[s->light_count++], &wrong))
+            return false;
+    }
     return true;
 }
 

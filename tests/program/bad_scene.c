@@ -374,34 +374,56 @@ static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) 
     assert_lights_refused("{\"lights\":[],\"lamps\":[]}", "has keys other");
     assert_lights_refused("{\"lights\":[" GOOD ",3]}", "lights[1] is no object");
     assert_lights_refused("{\"lights\":[" GOOD ",{\"position\":[0,1],\"radius\":1,\"power\":1}]}",
-                          "lights[1] has no position");
+                          "lights[1].position is not three numbers");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":-1,\"power\":1}]}",
-                          "lights[0] has no radius above 0");
+                          "lights[0].radius is not above 0");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":0,\"power\":1}]}",
-                          "lights[0] has no radius above 0");
+                          "lights[0].radius is not above 0");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1e999,\"power\":1}]}",
-                          "lights[0] has a radius that is not finite");
+                          "lights[0].radius is not above 0, or above 1e17");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":2e17,\"power\":1}]}",
-                          "lights[0] has a radius that is not finite, or above");
+                          "lights[0].radius is not above 0, or above 1e17");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,2e17],\"radius\":1,\"power\":1}]}",
-                          "lights[0] has a position that is not finite, or beyond");
+                          "lights[0].position is not finite, or beyond 1e17");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1e999,0],\"radius\":1,\"power\":1}]}",
-                          "lights[0] has a position that is not finite");
+                          "lights[0].position is not finite");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":-1}]}",
-                          "lights[0] has a strength that is negative");
+                          "lights[0].radiance is negative");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":[1,1e60,1]}]}",
-                          "lights[0] has a strength that is negative or not finite");
+                          "lights[0].radiance is negative or not finite");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":\"much\"}]}",
-                          "lights[0] has a strength");
+                          "lights[0].power is not a number or three");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1}]}",
-                          "lights[0] needs one");
+                          "lights[0] needs one of radiance, power, intensity");
     assert_lights_refused(
         "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,\"radiance\":1}]}",
-        "lights[0] needs one");
+        "lights[0] needs one of radiance, power, intensity");
     assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"color\":1}]}",
-                          "unknown key \"color\"");
+                          "unknown key \"color\" (a sphere light has position, radius, "
+                          "radiance, power, intensity)");
     assert_lights_refused(
-        "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"radius\":2,\"power\":1}]}", "twice");
+        "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"radius\":2,\"power\":1}]}",
+        "lights[0] has the key \"radius\" twice");
+    assert_lights_refused("{\"lights\":[{\"kind\":\"cone\"}]}",
+                          "lights[0].kind is none of sphere, point, spot, directional, cap, "
+                          "hemisphere");
+    assert_lights_refused("{\"lights\":[{\"kind\":\"point\",\"position\":[0,1,0],\"radius\":1,"
+                          "\"intensity\":1}]}",
+                          "unknown key \"radius\" (a point light has position, intensity)");
+    assert_lights_refused("{\"lights\":[{\"kind\":\"point\",\"position\":[0,1,0]}]}",
+                          "lights[0] needs intensity");
+    assert_lights_refused("{\"lights\":[{\"kind\":\"cap\",\"direction\":[0,1,0],\"angle\":4,"
+                          "\"radiance\":1}]}",
+                          "lights[0].angle is not in 0 to pi");
+    assert_lights_refused("{\"lights\":[{\"kind\":\"directional\",\"direction\":[0,0,0],"
+                          "\"irradiance\":1}]}",
+                          "lights[0].direction is no direction");
+    assert_lights_refused("{\"lights\":[{\"kind\":\"spot\",\"position\":[0,1,0],"
+                          "\"direction\":[0,-1,0],\"inner\":0.5,\"outer\":0.4,\"intensity\":1}]}",
+                          "lights[0].inner is above the outer angle");
+    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,"
+                          "\"hidden\":1}]}",
+                          "lights[0].hidden is neither true nor false");
 }
 
 static int make_folder(void **state) {

@@ -361,7 +361,11 @@ static void damaged_settings_are_refused(void **unused) {
     (void)unused;
     static view_settings read;
     cli_error error;
-    cJSON *root = view_settings_to_json(&state.now);
+    cJSON *written = view_settings_to_json(&state.now);
+    char *text = cJSON_PrintUnformatted(written);
+    cJSON *root = cJSON_Parse(text);
+    cJSON_free(text);
+    cJSON_Delete(written);
     assert_true(view_settings_from_json(root, "shot", &read, &error));
     static const char *const numbers[] = { "width", "height", "samples", "exposure", "divider" };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/light.h"
+
+#include "app/scene/vector.h"
+
+#include <float.h>
+#include <stdio.h>
+
+#define POSITION                                                                                   \
+    { "position", SCENE_LIGHT_POSITION, offsetof(lmp_light, position), false, NULL }
+#define DIRECTION                                                                                  \
+    { "direction", SCENE_LIGHT_DIRECTION, offsetof(lmp_light, direction), false, NULL }
+#define ANGLE(name, optional)                                                                      \
+    { #name, SCENE_LIGHT_ANGLE, offsetof(lmp_light, name), optional, NULL }
+#define COLOR(name, optional)                                                                      \
+    { #name, SCENE_LIGHT_COLOR, offsetof(lmp_light, name), optional, NULL }
+
+const scene_light_kind scene_light_kinds[SCENE_LIGHT_KINDS] = {
+    [LMP_LIGHT_SPHERE] = { "sphere",
+                           { POSITION,
+                             { "radius", SCENE_LIGHT_RADIUS, offsetof(lmp_light, radius), false,
+                               NULL },
+                             COLOR(radiance, false),
+                             { "power", SCENE_LIGHT_COLOR, offsetof(lmp_light, radiance), false,
+                               lmp_sphere_radiance_from_power },
+                             { "intensity", SCENE_LIGHT_COLOR, offsetof(lmp_light, radiance), false,
+                               lmp_sphere_radiance_from_intensity } } },
+    [LMP_LIGHT_POINT] = { "point", { POSITION, COLOR(intensity, false) } },
+    [LMP_LIGHT_SPOT] = { "spot",
+                         { POSITION, DIRECTION, ANGLE(inner, true), ANGLE(outer, false),
+                           COLOR(intensity, false) } },
+    [LMP_LIGHT_DIRECTIONAL] = { "directional", { DIRECTION, COLOR(irradiance, false) } },
+    [LMP_LIGHT_CAP] = { "cap", { DIRECTION, ANGLE(angle, false), COLOR(radiance, false) } },
+    [LMP_LIGHT_HEMISPHERE] = { "hemisphere",
+                               { DIRECTION, COLOR(radiance, false), COLOR(ground, true) } },
+};
+
+bool scene_light_has(const scene_light *light, scene_light_type type) {
+    const scene_light_member *m = scene_light_kinds[light->emitter.kind].members;
+    while (m->name && m->type != type)
+        m++;
+    return m->name;
+}
+
+bool scene_light_is_drawn(const scene_light *light) {
+    return scene_light_has(light, SCENE_LIGHT_RADIUS) && !light->hidden;
+}
+
+int scene_light_count(const scene_light_member *member) {
+    return member->type == SCENE_LIGHT_RADIUS || member->type == SCENE_LIGHT_ANGLE ? 1 : 3;
+}
+
+float *scene_light_value(lmp_light *light, const scene_light_member *member) {
+    void *value = (char *)light + member->offset;
+    return value;
+}
+
+/* --- the ranges ---------------------------------------------------------------------------------
+ */
+
+static bool is_position(const float *v) {
+    return fabsf(v[0]) <= LMP_LENGTH_MAX && fabsf(v[1]) <= LMP_LENGTH_MAX &&
+           fabsf(v[2]) <= LMP_LENGTH_MAX;
+}
+
+static bool is_radius(const float *v) {
+    return *v > 0.0f && *v <= LMP_LENGTH_MAX;
+}
+
+static bool is_direction(const float *v) {
+    return fabsf(vec_length(vec_load(v)) - 1.0f) <= 1e-5f;
+}
+
+static bool is_angle(const float *v) {
+    return *v >= 0.0f && *v <= PI;
+}
+
+static bool is_color(const float *v) {
+    return v[0] >= 0.0f && v[1] >= 0.0f && v[2] >= 0.0f && v[0] <= FLT_MAX && v[1] <= FLT_MAX &&
+           v[2] <= FLT_MAX;
+}
+
+static const struct {
+    bool (*fits)(const float *value);
+    const char *wrong;
+} ranges[] = {
+    [SCENE_LIGHT_POSITION] = { is_position, "is not finite, or beyond 1e17" },
+    [SCENE_LIGHT_RADIUS] = { is_radius, "is not above 0, or above 1e17" },
+    [SCENE_LIGHT_DIRECTION] = { is_direction, "is no direction" },
+    [SCENE_LIGHT_ANGLE] = { is_angle, "is not in 0 to pi" },
+    [SCENE_LIGHT_COLOR] = { is_color, "is negative or not finite" },
+};
+
+bool scene_light_check(const scene_light *light, scene_light_error *error) {
+    lmp_light emitter = light->emitter;
+    const char *wrong = NULL, *name = "";
+    if ((unsigned)emitter.kind >= SCENE_LIGHT_KINDS)
+        wrong = "is of no known kind";
+    const scene_light_member *m = wrong ? NULL : scene_light_kinds[emitter.kind].members;
+    for (; !wrong && m->name; m++)
+        if (!ranges[m->type].fits(scene_light_value(&emitter, m))) {
+            wrong = ranges[m->type].wrong;
+            name = m->name;
+        }
+    if (!wrong && emitter.kind == LMP_LIGHT_SPOT && !(emitter.inner <= emitter.outer)) {
+        wrong = "is above the outer angle";
+        name = "inner";
+    }
+    if (wrong)
+        snprintf(error->text, sizeof error->text, "%s%s %s", *name ? "." : "", name, wrong);
+    return !wrong;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* light.h - a light of a scene: what kinds there are, what each of them has, and all that as JSON
+ * (docs/scenes.md). One table of kinds decides what is read, written, checked and moved. */
+#ifndef LAMPION_SCENE_LIGHT_H
+#define LAMPION_SCENE_LIGHT_H
+
+#include <lampion/light.h>
+
+#include <stdbool.h>
+
+/* A light and whether it is seen: of all kinds only spheres can be. */
+typedef struct scene_light {
+    lmp_light emitter;
+    uint32_t hidden; /* 1: it shades, but is not drawn (an emissive mesh is, or nothing) */
+} scene_light;
+
+/* What a member is, which decides its range. */
+typedef enum scene_light_type {
+    SCENE_LIGHT_POSITION,  /* coordinates up to LMP_LENGTH_MAX */
+    SCENE_LIGHT_RADIUS,    /* above 0, up to LMP_LENGTH_MAX */
+    SCENE_LIGHT_DIRECTION, /* not 0; made a unit vector */
+    SCENE_LIGHT_ANGLE,     /* 0 … pi */
+    SCENE_LIGHT_COLOR      /* finite, not negative */
+} scene_light_type;
+
+typedef struct scene_light_member {
+    const char *name;
+    scene_light_type type;
+    size_t offset; /* in lmp_light */
+    bool optional; /* 0 where it is not given */
+    /* NULL, or the member is another quantity that the value at this offset is made from. */
+    float (*convert)(float given, float radius);
+} scene_light_member;
+
+#define SCENE_LIGHT_MEMBERS_MAX 5
+typedef struct scene_light_kind {
+    const char *name;
+    scene_light_member members[SCENE_LIGHT_MEMBERS_MAX + 1]; /* ended by one without a name */
+} scene_light_kind;
+
+#define SCENE_LIGHT_KINDS (LMP_LIGHT_HEMISPHERE + 1)
+extern const scene_light_kind scene_light_kinds[SCENE_LIGHT_KINDS]; /* by lmp_light_kind */
+
+/* Whether lights of this one's kind have a member of a type. */
+bool scene_light_has(const scene_light *light, scene_light_type type);
+
+/* Whether it is seen, not only what it lights. */
+bool scene_light_is_drawn(const scene_light *light);
+
+/* A member's floats, and how many there are: 1 or 3. */
+int scene_light_count(const scene_light_member *member);
+float *scene_light_value(lmp_light *light, const scene_light_member *member);
+
+/* What is wrong with a light, to follow its name: ".radius is not above 0". */
+typedef struct scene_light_error {
+    char text[224];
+} scene_light_error;
+
+/* Whether the kind is one and every member of it is in its range: the one check for all lights that
+ * come from outside. */
+bool scene_light_check(const scene_light *light, scene_light_error *error);
+
+struct cJSON;
+
+/* Reads { "kind": …, members …, "hidden": … } strictly; without a kind it is a sphere. */
+bool scene_light_from_json(const struct cJSON *object, scene_light *light,
+                           scene_light_error *error);
+
+/* The same light as from_json reads it; NULL without memory. */
+struct cJSON *scene_light_to_json(const scene_light *light);
+
+#endif
