@@ -31,6 +31,10 @@ typedef struct check_errors {
 void check_errors_add(check_errors *errors, double error);
 double check_errors_rms(const check_errors *errors);
 
+/* How many: `all` where LAMPION_LONG=1 asks for a test's full size (./dev test --all), else `some`,
+ * which can fail for the same reasons. */
+int check_count(int some, int all);
+
 /* --- random numbers ---------------------------------------------------------------------------
  * One fixed seed, printed at the first use, settable by the environment variable LAMPION_SEED. */
 double check_random(void);                       /* uniform in [0, 1) */
