@@ -15,8 +15,12 @@ bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_er
 /* Opens a regular file for reading; NULL on failure. */
 FILE *file_open(const char *path, cli_error *error);
 
-/* One JSON value and nothing after it; what follows the `size` bytes of text must be a NUL. The
- * file is named in the error. Free with cJSON_Delete; NULL on failure. */
+/* Where a text stops being one JSON value with nothing after it; NULL if it is one. Stricter than
+ * the parser, which then reads what it says and no less. */
+const char *file_json_fault(const char *text, size_t size);
+
+/* One JSON value and nothing after it. The file is named in the error. Free with cJSON_Delete; NULL
+ * on failure. */
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error);
 struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error);
 

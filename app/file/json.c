@@ -7,16 +7,18 @@
 #include <string.h>
 
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error) {
-    const char *stop = text;
-    cJSON *root = cJSON_ParseWithLengthOpts(text, size + 1, &stop, true);
-    if (root && strlen(text) == size)
-        return root;
-    int line = 1;
-    for (const char *at = text; at < stop && *at; at++)
-        line += *at == '\n';
-    cli_fail(error, path, "is no valid JSON: line %d", line);
-    cJSON_Delete(root);
-    return NULL;
+    const char *fault = file_json_fault(text, size);
+    if (fault) {
+        int line = 1;
+        for (const char *at = text; at < fault; at++)
+            line += *at == '\n';
+        cli_fail(error, path, "is no valid JSON: line %d", line);
+        return NULL;
+    }
+    cJSON *root = cJSON_ParseWithLength(text, size);
+    if (!root)
+        cli_fail(error, path, "is JSON that does not fit into memory");
+    return root;
 }
 
 struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error) {

@@ -8,12 +8,12 @@
 #include <string.h>
 
 const size_t blob_item_size[BLOB_SECTIONS] = {
-    [BLOB_VERTICES] = sizeof(scene_vertex),  [BLOB_INDICES] = sizeof(uint32_t),
-    [BLOB_MESHES] = sizeof(scene_mesh),      [BLOB_MATERIALS] = sizeof(scene_material),
-    [BLOB_TEXTURES] = sizeof(scene_texture), [BLOB_TEXELS] = 1,
-    [BLOB_CAMERAS] = sizeof(scene_camera),   [BLOB_LIGHTS] = sizeof(scene_light),
-    [BLOB_MOTIONS] = sizeof(scene_motion),   [BLOB_OFFSETS] = sizeof(lmp_vec3),
-    [BLOB_SOURCES] = sizeof(blob_source),
+    [BLOB_VERTICES] = sizeof(scene_vertex),   [BLOB_INDICES] = sizeof(uint32_t),
+    [BLOB_MESHES] = sizeof(scene_mesh),       [BLOB_MATERIALS] = sizeof(scene_material),
+    [BLOB_TEXTURES] = sizeof(scene_texture),  [BLOB_TEXELS] = 1,
+    [BLOB_CAMERAS] = sizeof(scene_camera),    [BLOB_LIGHTS] = sizeof(scene_light),
+    [BLOB_MOTIONS] = sizeof(scene_motion),    [BLOB_OFFSETS] = sizeof(lmp_vec3),
+    [BLOB_LEFT_OUT] = sizeof(scene_left_out), [BLOB_SOURCES] = sizeof(blob_source),
 };
 
 static uint32_t digest_item_sizes(void) {
@@ -166,6 +166,15 @@ static bool motions_fit(const blob_header *header) {
     return all_finite(&offsets->x, 3 * offset_count);
 }
 
+static bool left_out_fits(const blob_header *header) {
+    const scene_left_out *items = blob_items(header, BLOB_LEFT_OUT);
+    const uint64_t count = header->sections[BLOB_LEFT_OUT].count;
+    for (uint64_t i = 0; i < count && i < SCENE_LEFT_OUT_MAX; i++)
+        if (!name_fits(items[i].what) || !name_fits(items[i].noun))
+            return false;
+    return count <= SCENE_LEFT_OUT_MAX;
+}
+
 bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
                    cli_error *error) {
     const blob_header *header = block;
@@ -183,6 +192,8 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
         return cli_fail(error, subject, "has materials or textures that make no sense");
     if (!views_fit(header))
         return cli_fail(error, subject, "has cameras or lights that make no sense");
+    if (!left_out_fits(header))
+        return cli_fail(error, subject, "gave a list of what is left out that makes no sense");
     if (!motions_fit(header))
         return cli_fail(error, subject, "has an animation that makes no sense");
     return true;
@@ -232,6 +243,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->cameras = blob_items(block, BLOB_CAMERAS);
     s->motions = blob_items(block, BLOB_MOTIONS);
     s->offsets = blob_items(block, BLOB_OFFSETS);
+    s->left_out = blob_items(block, BLOB_LEFT_OUT);
     s->vertex_count = header->sections[BLOB_VERTICES].count;
     s->index_count = header->sections[BLOB_INDICES].count;
     s->mesh_count = header->sections[BLOB_MESHES].count;
@@ -241,6 +253,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->camera_count = header->sections[BLOB_CAMERAS].count;
     s->motion_count = header->sections[BLOB_MOTIONS].count;
     s->offset_count = header->sections[BLOB_OFFSETS].count;
+    s->left_out_count = header->sections[BLOB_LEFT_OUT].count;
     s->lights = lights;
     s->light_count = header->sections[BLOB_LIGHTS].count;
     s->block = block;

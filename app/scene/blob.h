@@ -21,6 +21,7 @@ typedef enum blob_section {
     BLOB_LIGHTS,
     BLOB_MOTIONS,
     BLOB_OFFSETS,
+    BLOB_LEFT_OUT,
     BLOB_SOURCES,
     BLOB_SECTIONS
 } blob_section;

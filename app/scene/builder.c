@@ -86,6 +86,25 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
         }
 }
 
+void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {
+    char name[SCENE_NAME_SIZE];
+    builder_name(name, what ? what : "");
+    scene_left_out *items = builder_items(builder, BLOB_LEFT_OUT), *found = NULL;
+    const size_t known = builder_count(builder, BLOB_LEFT_OUT);
+    for (size_t i = 0; i < known && !found; i++)
+        if (strcmp(items[i].what, name) == 0 && strcmp(items[i].noun, noun) == 0)
+            found = &items[i];
+    if (!found && known < SCENE_LEFT_OUT_MAX) {
+        found = builder_append(builder, BLOB_LEFT_OUT, 1);
+        if (!found)
+            return;
+        memcpy(found->what, name, sizeof name);
+        builder_name(found->noun, noun);
+    }
+    if (found)
+        found->count += (uint32_t)count;
+}
+
 /* Bytes of the UTF-8 character at text, 0 if it is none (overlong forms and surrogates are none).
  */
 static size_t utf8_length(const unsigned char *text) {

@@ -31,6 +31,10 @@ scene_material *builder_material(scene_builder *builder, const char *name);
  * none. */
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index);
 
+/* Notes that `count` of `noun` (in the singular) are read without something that they have, or,
+ * with `what` NULL, not at all. */
+void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count);
+
 /* Copies a name cut to whole UTF-8 characters; what is not UTF-8 or is a control character becomes
  * '?'. */
 void builder_name(char name[SCENE_NAME_SIZE], const char *text);

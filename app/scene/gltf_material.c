@@ -21,41 +21,41 @@ typedef struct texture_pool {
     cli_error *error;
 } texture_pool;
 
-static bool decode_image(texture_pool *pool, size_t image) {
+/* The bytes of an image, and a name for messages. */
+static bool find_image(const texture_pool *pool, size_t image, gltf_bytes *bytes, char *name,
+                       size_t size) {
     const gltf *document = pool->document;
-    const cJSON *entry = document->images.items[image];
-    const char *uri = gltf_text(entry, "uri"), *name = gltf_text(entry, "name");
-    char number[32];
-    scene_texture *texture = &pool->decoded[image];
-    bool ok = true;
-    const unsigned char *bytes;
-    size_t size;
-    void *owned = NULL;
-    if (uri[0] && strncmp(uri, "data:", 5) != 0) {
+    const cJSON *entry = gltf_item(document, GLTF_IMAGES, image);
+    const char *uri = gltf_text(entry, "uri"), *own = gltf_text(entry, "name");
+    const bool embedded = !uri[0] || strncmp(uri, "data:", 5) == 0;
+    if (own[0] || !embedded)
+        snprintf(name, size, "%s", own[0] ? own : uri);
+    else
+        snprintf(name, size, "image %zu", image);
+    if (!uri[0]) {
+        *bytes = gltf_view_bytes(document, (size_t)gltf_index(entry, "bufferView"));
+    } else if (embedded) {
+        if (!gltf_data_uri(uri, bytes))
+            return gltf_fail(document, GLTF_IMAGES, image, "is no valid base64", pool->error);
+    } else {
         const source *found;
         if (!sources_read(document->sources, uri, &found, pool->error))
             return false;
-        bytes = found->data;
-        size = found->size;
-        name = name[0] ? name : uri;
-    } else if (uri[0]) {
-        if (!gltf_data_uri_bytes(uri, &owned, &size))
-            return cli_fail(pool->error, document->subject,
-                            "is no valid glTF: image %zu is no valid base64", image);
-        bytes = owned;
-    } else {
-        const long view = gltf_index(entry, "bufferView", document->views.count, &ok);
-        if (view < 0)
-            return cli_fail(pool->error, document->subject,
-                            "is no valid glTF: image %zu has no data", image);
-        ok = gltf_view_bytes(document, (size_t)view, &bytes, &size, &owned, pool->error);
+        *bytes = (gltf_bytes) { .bytes = found->data, .size = found->size };
     }
-    snprintf(number, sizeof number, "image %zu", image);
-    name = name[0] ? name : number;
-    ok = ok &&
-         texture_decode(pool->builder, bytes, size, document->subject, name, texture, pool->error);
-    builder_name(texture->name, name);
-    free(owned);
+    return true;
+}
+
+static bool decode_image(texture_pool *pool, size_t image) {
+    scene_texture *texture = &pool->decoded[image];
+    gltf_bytes bytes = { 0 };
+    char name[512];
+    const bool ok = find_image(pool, image, &bytes, name, sizeof name) &&
+                    texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF,
+                                   pool->document->subject, name, texture, pool->error);
+    if (ok)
+        builder_name(texture->name, name);
+    free(bytes.owned);
     return ok;
 }
 
@@ -90,7 +90,8 @@ static int32_t find_texture(texture_pool *pool, long image, long sampler, uint32
     made[count] = (struct made) { image, sampler, srgb };
     *texture = pool->decoded[image];
     texture->srgb = srgb;
-    const cJSON *entry = sampler < 0 ? NULL : pool->document->samplers.items[sampler];
+    const cJSON *entry =
+        sampler < 0 ? NULL : gltf_item(pool->document, GLTF_SAMPLERS, (size_t)sampler);
     texture->wrap_u = wrap_mode(entry, "wrapS");
     texture->wrap_v = wrap_mode(entry, "wrapT");
     return (int32_t)count;
@@ -98,7 +99,7 @@ static int32_t find_texture(texture_pool *pool, long image, long sampler, uint32
 
 /* uv' = translation * rotation * scale * uv; the rotation is counter-clockwise with v down. */
 static void read_transform(const cJSON *info, scene_texture_use *use) {
-    const cJSON *transform = gltf_member(gltf_member(info, "extensions"), "KHR_texture_transform");
+    const cJSON *transform = gltf_extension(info, "KHR_texture_transform");
     double offset[2] = { 0.0, 0.0 }, scale[2] = { 1.0, 1.0 };
     gltf_numbers(transform, "offset", 2, offset);
     gltf_numbers(transform, "scale", 2, scale);
@@ -116,18 +117,15 @@ static bool read_texture(texture_pool *pool, const cJSON *holder, const char *na
                          scene_texture_use *use) {
     const gltf *document = pool->document;
     const cJSON *info = gltf_member(holder, name);
-    bool ok = true;
-    const long texture = gltf_index(info, "index", document->textures.count, &ok);
     if (!info)
         return true;
-    const cJSON *entry = texture < 0 ? NULL : document->textures.items[texture];
-    const long image = gltf_index(entry, "source", document->images.count, &ok);
-    const long sampler = gltf_index(entry, "sampler", document->samplers.count, &ok);
-    if (!ok || image < 0)
-        return cli_fail(pool->error, document->subject,
-                        "is no valid glTF: a %s refers to no image that can be read", name);
+    const cJSON *entry = gltf_item(document, GLTF_TEXTURES, (size_t)gltf_index(info, "index"));
+    const long image = gltf_index(entry, "source");
+    /* An image that only an extension names, which is then among what is left out. */
+    if (image < 0)
+        return true;
     read_transform(info, use);
-    use->texture = find_texture(pool, image, sampler, srgb);
+    use->texture = find_texture(pool, image, gltf_index(entry, "sampler"), srgb);
     return use->texture >= 0;
 }
 
@@ -140,8 +138,7 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
     if (!material)
         return cli_fail(pool->error, pool->document->subject, "does not fit into memory");
     const cJSON *pbr = gltf_member(entry, "pbrMetallicRoughness");
-    const cJSON *strength =
-        gltf_member(gltf_member(entry, "extensions"), "KHR_materials_emissive_strength");
+    const cJSON *strength = gltf_extension(entry, "KHR_materials_emissive_strength");
     double color[4] = { 1.0, 1.0, 1.0, 1.0 }, emission[3] = { 0.0, 0.0, 0.0 };
     gltf_numbers(pbr, "baseColorFactor", 4, color);
     gltf_numbers(entry, "emissiveFactor", 3, emission);
@@ -160,6 +157,10 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
     const char *mode = gltf_text(entry, "alphaMode");
     if (strcmp(mode, "MASK") == 0 || strcmp(mode, "BLEND") == 0)
         material->flags |= SCENE_ALPHA_MASK;
+    if (strcmp(mode, "BLEND") == 0)
+        builder_left_out(pool->builder, "blending", "material", 1);
+    if (gltf_member(entry, "occlusionTexture"))
+        builder_left_out(pool->builder, "occlusion map", "material", 1);
     return read_texture(pool, pbr, "baseColorTexture", 1, &material->base_color_map) &&
            read_texture(pool, pbr, "metallicRoughnessTexture", 0,
                         &material->metallic_roughness_map) &&
@@ -169,10 +170,10 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
 
 bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error *error) {
     texture_pool pool = { .document = document, .builder = builder, .error = error };
-    pool.decoded = calloc(document->images.count + 1, sizeof *pool.decoded);
+    pool.decoded = calloc(gltf_count(document, GLTF_IMAGES) + 1, sizeof *pool.decoded);
     bool ok = pool.decoded || cli_fail(error, document->subject, "does not fit into memory");
-    for (size_t i = 0; ok && i < document->materials.count; i++)
-        ok = read_material(&pool, document->materials.items[i]);
+    for (size_t i = 0; ok && i < gltf_count(document, GLTF_MATERIALS); i++)
+        ok = read_material(&pool, gltf_item(document, GLTF_MATERIALS, i));
     if (ok) {
         scene_material *fallback = builder_material(builder, "default");
         if (fallback)

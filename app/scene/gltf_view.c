@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* gltf_view.c - cameras and KHR_lights_punctual, which Assimp reads without their extras. */
+/* gltf_view.c - cameras and KHR_lights_punctual. */
 #include "app/scene/gltf.h"
 #include "app/scene/vector.h"
 
@@ -45,16 +45,15 @@ static lmp_vec3 axis_of(const double m[16], int column, float sign) {
 
 static bool add_camera(const gltf *document, size_t node, const scene_box *box,
                        scene_builder *builder, cli_error *error) {
-    const double *m = document->world[node];
-    bool ok = true;
-    const long index =
-        gltf_index(document->nodes.items[node], "camera", document->cameras.count, &ok);
-    const cJSON *entry = document->cameras.items[index];
+    const double *m = document->nodes[node].world;
+    const cJSON *holder = gltf_item(document, GLTF_NODES, node);
+    const size_t index = (size_t)gltf_index(holder, "camera");
+    const cJSON *entry = gltf_item(document, GLTF_CAMERAS, index);
     scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
     if (!camera)
         return cli_fail(error, document->subject, "does not fit into memory");
     const char *name = gltf_text(entry, "name");
-    builder_name(camera->name, name[0] ? name : gltf_text(document->nodes.items[node], "name"));
+    builder_name(camera->name, name[0] ? name : gltf_text(holder, "name"));
     const lmp_vec3 eye = vec((float)m[12], (float)m[13], (float)m[14]);
     const lmp_vec3 forward = axis_of(m, 2, -1.0f), up = axis_of(m, 1, 1.0f);
     const lmp_vec3 center =
@@ -70,23 +69,17 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
                            ? wide
                            : gltf_number(gltf_member(entry, "perspective"), "yfov", 0.7854);
     if (!(fov > 0.0 && fov < M_PI))
-        return cli_fail(error, document->subject,
-                        "is no valid glTF: camera %ld has an impossible field of view", index);
+        return gltf_fail(document, GLTF_CAMERAS, index, "has an impossible field of view", error);
     camera->fov = (float)fmin(fov, 3.1);
     return true;
 }
 
 static bool add_light(const gltf *document, size_t node, const scene_box *box,
                       const gltf_motions *motions, scene_builder *builder, cli_error *error) {
-    const cJSON *holder = document->nodes.items[node];
-    const cJSON *use = gltf_member(gltf_member(holder, "extensions"), "KHR_lights_punctual");
-    bool ok = true;
-    const long index = gltf_index(use, "light", document->lights.count, &ok);
-    if (!ok || index < 0)
-        return cli_fail(error, document->subject, "is no valid glTF: node %zu has no such light",
-                        node);
-    const cJSON *entry = document->lights.items[index];
-    const double *m = document->world[node];
+    const cJSON *holder = gltf_item(document, GLTF_NODES, node);
+    const size_t index = (size_t)gltf_index(gltf_extension(holder, "KHR_lights_punctual"), "light");
+    const cJSON *entry = gltf_item(document, GLTF_LIGHTS, index);
+    const double *m = document->nodes[node].world;
     double color[3] = { 1.0, 1.0, 1.0 }, center[3] = { m[12], m[13], m[14] };
     gltf_numbers(entry, "color", 3, color);
     double strength = gltf_number(entry, "intensity", 1.0);
@@ -106,7 +99,7 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
     if (!(radius > 0.0) || !(strength >= 0.0) || !isfinite(radius) || !isfinite(strength) ||
         !(color[0] >= 0.0 && color[1] >= 0.0 && color[2] >= 0.0))
         return cli_fail(error, document->subject,
-                        "has a light (%ld) whose radius or intensity makes no sense", index);
+                        "has a light (%zu) whose radius or intensity makes no sense", index);
     scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
     if (!light)
         return cli_fail(error, document->subject, "does not fit into memory");
@@ -123,15 +116,17 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
 
 bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *error) {
     const scene_box box = box_of(builder);
-    gltf_motions *motions = gltf_motions_open(document);
-    bool ok = motions || cli_fail(error, document->subject, "does not fit into memory");
-    for (size_t i = 0; i < document->nodes.count && ok; i++) {
-        const cJSON *node = document->nodes.items[i];
-        const bool in_scene = document->world[i][15] != 0.0;
-        const cJSON *extensions = gltf_member(node, "extensions");
-        if (in_scene && gltf_member(node, "camera"))
+    gltf_motions *motions = gltf_motions_open(document, error);
+    bool ok = motions != NULL;
+    for (size_t i = 0; ok && i < gltf_count(document, GLTF_NODES); i++) {
+        const cJSON *node = gltf_item(document, GLTF_NODES, i);
+        if (!document->nodes[i].shown)
+            continue;
+        if (gltf_moves(motions, i) && (gltf_member(node, "mesh") || gltf_member(node, "camera")))
+            builder_left_out(builder, "animation", "node", 1);
+        if (gltf_member(node, "camera"))
             ok = add_camera(document, i, &box, builder, error);
-        if (ok && in_scene && gltf_member(extensions, "KHR_lights_punctual"))
+        if (ok && gltf_extension(node, "KHR_lights_punctual"))
             ok = add_light(document, i, &box, motions, builder, error);
     }
     gltf_motions_close(motions);

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/import.h"
 
+#include "app/scene/assimp.h"
 #include "app/scene/builder.h"
 #include "app/scene/cache.h"
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
-#include "app/scene/mesh.h"
-#include "app/scene/mtl.h"
 #include "app/scene/sandbox.h"
 
-#include <assimp/cfileio.h>
-#include <assimp/cimport.h>
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -22,164 +19,39 @@
 #include <unistd.h>
 
 #define SCENE_SIZE_LIMIT ((size_t)4 << 30)
-#define OBJ_CREASE_COS   0.5f /* 60° */
-#define FLAT_CREASE_COS  2.0f /* glTF: without normals, faces are flat */
 
-typedef enum scene_format { FORMAT_NONE, FORMAT_GLTF, FORMAT_GLB, FORMAT_OBJ } scene_format;
+typedef struct import_job import_job;
+typedef bool (*import_reader)(import_job *job, scene_builder *builder, cli_error *error);
 
 /* One import; the child gets a copy of it. */
-typedef struct import_job {
+struct import_job {
     const char *path;      /* as the user wrote it */
     const char *name;      /* without its folder */
     char folder[PATH_MAX]; /* real path */
     void *data;
     size_t size;
-    scene_format format;
+    import_reader read;
     source_set sources;
-    cli_error *refusal; /* set when Assimp asked for a file it may not have */
-} import_job;
-
-/* --- files for Assimp: from memory, and only the scene's own ------------------------------------
- */
-
-typedef struct open_file {
-    struct aiFile face;
-    const unsigned char *data;
-    size_t size, position;
-} open_file;
-
-static open_file *opened(struct aiFile *file) {
-    return (open_file *)(void *)file->UserData;
-}
-
-static size_t read_file(struct aiFile *file, char *out, size_t item, size_t count) {
-    open_file *f = opened(file);
-    const size_t left = f->size - f->position;
-    const size_t items = item == 0 ? 0 : count < left / item ? count : left / item;
-    memcpy(out, f->data + f->position, items * item);
-    f->position += items * item;
-    return items;
-}
-
-static size_t refuse_write(struct aiFile *file, const char *data, size_t item, size_t count) {
-    (void)file;
-    (void)data;
-    (void)item;
-    (void)count;
-    return 0;
-}
-
-static size_t tell_file(struct aiFile *file) {
-    return opened(file)->position;
-}
-
-static size_t size_file(struct aiFile *file) {
-    return opened(file)->size;
-}
-
-static enum aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin origin) {
-    open_file *f = opened(file);
-    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? f->position : f->size;
-    if (base + offset > f->size)
-        return aiReturn_FAILURE;
-    f->position = base + offset;
-    return aiReturn_SUCCESS;
-}
-
-static void flush_file(struct aiFile *file) {
-    (void)file;
-}
-
-static struct aiFile *open_for_assimp(struct aiFileIO *io, const char *path, const char *mode) {
-    import_job *job = (import_job *)(void *)io->UserData;
-    while (strncmp(path, "./", 2) == 0)
-        path += 2;
-    const void *data = job->data;
-    size_t size = job->size;
-    if (mode[0] != 'r')
-        return NULL;
-    if (strcmp(path, job->name) != 0) {
-        const source *found;
-        cli_error error;
-        if (!sources_read(&job->sources, path, &found, &error)) {
-            if (!job->refusal->text[0])
-                *job->refusal = error;
-            return NULL;
-        }
-        data = found->data;
-        size = found->size;
-    }
-    open_file *f = calloc(1, sizeof *f);
-    if (!f)
-        return NULL;
-    *f = (open_file) { .face = { .ReadProc = read_file,
-                                 .WriteProc = refuse_write,
-                                 .TellProc = tell_file,
-                                 .FileSizeProc = size_file,
-                                 .SeekProc = seek_file,
-                                 .FlushProc = flush_file,
-                                 .UserData = (aiUserData)f },
-                       .data = data,
-                       .size = size };
-    return &f->face;
-}
-
-static void close_for_assimp(struct aiFileIO *io, struct aiFile *file) {
-    (void)io;
-    free(opened(file));
-}
-
-static const struct aiScene *run_assimp(import_job *job, cli_error *error) {
-    struct aiFileIO io = { .OpenProc = open_for_assimp,
-                           .CloseProc = close_for_assimp,
-                           .UserData = (aiUserData)job };
-    const struct aiScene *imported = aiImportFileEx(job->name, 0, &io);
-    /* A file refused is the cause of what Assimp says, or something silently left out. */
-    if (job->refusal->text[0]) {
-        *error = *job->refusal;
-        return NULL;
-    }
-    if (!imported || !imported->mRootNode) {
-        const char *reason = aiGetErrorString();
-        cli_fail(error, job->path, "cannot be read: %.300s",
-                 reason && reason[0] ? reason : "it is damaged");
-        return NULL;
-    }
-    return imported;
-}
+};
 
 /* --- the child's work ---------------------------------------------------------------------------
  */
 
 static bool add_gltf(import_job *job, scene_builder *builder, cli_error *error) {
     gltf document;
-    bool ok = gltf_open(job->data, job->size, &job->sources, &document, error);
-    const bool has_meshes = ok && document.meshes.count > 0;
-    if (has_meshes) {
-        const mesh_options options = { .subject = job->path, .crease_cos = FLAT_CREASE_COS };
-        const struct aiScene *imported = run_assimp(job, error);
-        ok = imported && mesh_add_tree(imported, &options, builder, error);
-        if (imported)
-            aiReleaseImport(imported);
-    }
-    ok = ok && gltf_add_materials(&document, builder, error) &&
-         gltf_add_views(&document, builder, error);
+    sandbox_expect_input(job->size);
+    bool ok = gltf_open(job->data, job->size, &job->sources, builder, &document, error);
+    if (ok)
+        sandbox_expect_input(job->size + gltf_referred_bytes(&document));
+    ok = ok && gltf_load(&document, error) && gltf_add_meshes(&document, builder, error) &&
+         gltf_add_materials(&document, builder, error) && gltf_add_views(&document, builder, error);
     gltf_close(&document);
     return ok;
 }
 
-static bool add_obj(import_job *job, scene_builder *builder, cli_error *error) {
+static bool add_other(import_job *job, scene_builder *builder, cli_error *error) {
     sandbox_expect_input(job->size);
-    const mesh_options options = { .subject = job->path,
-                                   .weld = true,
-                                   .crease_cos = OBJ_CREASE_COS };
-    const struct aiScene *imported = run_assimp(job, error);
-    if (!imported)
-        return false;
-    const bool ok = mesh_add_tree(imported, &options, builder, error) &&
-                    mtl_add_materials(imported, &job->sources, builder, error);
-    aiReleaseImport(imported);
-    return ok;
+    return assimp_add(job->name, job->data, job->size, &job->sources, builder, error);
 }
 
 static bool add_sources(const import_job *job, scene_builder *builder) {
@@ -247,12 +119,8 @@ static bool write_blob(const scene_builder *builder, int output) {
 
 static bool import_in_child(void *context, int output, cli_error *error) {
     import_job *job = context;
-    cli_error refusal = { 0 };
-    job->refusal = &refusal;
     scene_builder builder = { 0 };
-    const bool made =
-        job->format == FORMAT_OBJ ? add_obj(job, &builder, error) : add_gltf(job, &builder, error);
-    if (!made || !check_made(job, &builder, error) ||
+    if (!job->read(job, &builder, error) || !check_made(job, &builder, error) ||
         !emission_add_lights(&builder, job->path, error) || !check_made(job, &builder, error))
         return false;
     if (!add_sources(job, &builder) || builder.out_of_memory || !write_blob(&builder, output))
@@ -263,16 +131,19 @@ static bool import_in_child(void *context, int output, cli_error *error) {
 /* --- the parent ---------------------------------------------------------------------------------
  */
 
-static scene_format format_of(const char *path, const void *data, size_t size) {
+/* What can read the file, by its first bytes or its name; NULL: nothing. */
+static import_reader reader_of(const char *path, const void *data, size_t size) {
     const char *bytes = data, *dot = strrchr(path, '.');
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0)
-        return FORMAT_GLB;
+        return add_gltf;
     size_t start = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     while (start < size && strchr(" \t\r\n", bytes[start]) && bytes[start])
         start++;
     if (start < size && bytes[start] == '{')
-        return FORMAT_GLTF;
-    return dot && strcasecmp(dot, ".obj") == 0 ? FORMAT_OBJ : FORMAT_NONE;
+        return add_gltf;
+    if (dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0))
+        return add_gltf;
+    return dot && assimp_knows(dot) ? add_other : NULL;
 }
 
 /* Splits the path, reads the file, tells its format. */
@@ -286,11 +157,12 @@ static bool prepare(const char *path, import_job *job, cli_error *error) {
         snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
     if (!file_read(path, SCENE_SIZE_LIMIT, &job->data, &job->size, error))
         return false;
-    job->format = format_of(path, job->data, job->size);
+    job->read = reader_of(path, job->data, job->size);
     if (job->size == 0)
         return cli_fail(error, path, "is empty");
-    if (job->format == FORMAT_NONE)
-        return cli_fail(error, path, "is no scene: a .gltf, .glb or .obj file is wanted");
+    if (!job->read)
+        return cli_fail(error, path,
+                        "is no scene: a file of glTF, OBJ, PLY, STL, FBX or the like is wanted");
     if (!realpath(folder, job->folder))
         return cli_fail(error, path, "is in a folder that cannot be opened: %s", strerror(errno));
     job->sources.subject = path;

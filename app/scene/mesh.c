@@ -3,69 +3,25 @@
 
 #include "app/scene/vector.h"
 
-#include <assimp/cimport.h>
-
 #include <stdlib.h>
 #include <string.h>
 
-#define NODE_DEPTH_MAX 1024
 /* more corners at one point than this are not compared with another */
 #define SMOOTH_GROUP_MAX 256
-
-/* One mesh being flattened: its triangles' corners, and one vertex per corner or per vertex. */
-typedef struct flattening {
-    const struct aiMesh *mesh;
-    const mesh_options *options;
-    scene_vertex *vertices;
-    size_t vertex_count;
-    uint32_t *corners; /* 3 a triangle, into vertices */
-    size_t corner_count;
-} flattening;
 
 static float dot3(const float *a, const float *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* --- triangles ----------------------------------------------------------------------------------
+/* --- transforms ---------------------------------------------------------------------------------
  */
 
-static bool collect_corners(flattening *f, cli_error *error) {
-    size_t triangles = 0;
-    for (unsigned i = 0; i < f->mesh->mNumFaces; i++)
-        if (f->mesh->mFaces[i].mNumIndices >= 3)
-            triangles += f->mesh->mFaces[i].mNumIndices - 2;
-    f->corners = malloc((3 * triangles + 1) * sizeof *f->corners);
-    if (!f->corners)
-        return cli_fail(error, f->options->subject, "does not fit into memory");
-    for (unsigned i = 0; i < f->mesh->mNumFaces; i++) {
-        const struct aiFace *face = &f->mesh->mFaces[i];
-        for (unsigned k = 2; k < face->mNumIndices; k++) {
-            const unsigned fan[3] = { face->mIndices[0], face->mIndices[k - 1], face->mIndices[k] };
-            for (int c = 0; c < 3; c++) {
-                if (fan[c] >= f->mesh->mNumVertices)
-                    return cli_fail(error, f->options->subject,
-                                    "has a triangle with a vertex that does not exist");
-                f->corners[f->corner_count++] = fan[c];
-            }
-        }
-    }
-    return true;
-}
-
-/* --- vertices -----------------------------------------------------------------------------------
- */
-
-typedef struct transform {
-    double m[3][4];      /* of points */
-    double normal[3][3]; /* cofactors: of normals, up to scale */
-    bool mirrors;
-} transform;
-
-static transform make_transform(const struct aiMatrix4x4 *a) {
-    transform t = { .m = { { (double)a->a1, (double)a->a2, (double)a->a3, (double)a->a4 },
-                           { (double)a->b1, (double)a->b2, (double)a->b3, (double)a->b4 },
-                           { (double)a->c1, (double)a->c2, (double)a->c3, (double)a->c4 } } };
+mesh_transform mesh_transform_make(const double m[16]) {
+    mesh_transform t;
     double determinant = 0.0;
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            t.m[row][column] = m[4 * column + row];
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
@@ -77,6 +33,7 @@ static transform make_transform(const struct aiMatrix4x4 *a) {
     return t;
 }
 
+/* A vector without a direction becomes zero. */
 static void store_unit(const double v[3], double sign, float out[3]) {
     const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const bool ok = length > 0.0 && isfinite(length);
@@ -84,61 +41,51 @@ static void store_unit(const double v[3], double sign, float out[3]) {
         out[k] = ok ? (float)(sign * v[k] / length) : 0.0f;
 }
 
-/* A normal or tangent that is missing or degenerate stays zero for now. */
-static void fill_vertex(const struct aiMesh *mesh, const transform *t, unsigned i,
-                        scene_vertex *vertex) {
-    const struct aiVector3D p = mesh->mVertices[i];
+void mesh_transform_vertex(const mesh_transform *t, scene_vertex *vertex) {
+    double p[3], n[3], a[3];
+    for (int k = 0; k < 3; k++) {
+        p[k] = t->m[k][3];
+        n[k] = a[k] = 0.0;
+        for (int i = 0; i < 3; i++) {
+            p[k] += t->m[k][i] * (double)vertex->position[i];
+            n[k] += t->normal[k][i] * (double)vertex->normal[i];
+            a[k] += t->m[k][i] * (double)vertex->tangent[i];
+        }
+    }
     for (int k = 0; k < 3; k++)
-        vertex->position[k] = (float)(t->m[k][0] * (double)p.x + t->m[k][1] * (double)p.y +
-                                      t->m[k][2] * (double)p.z + t->m[k][3]);
-    if (mesh->mTextureCoords[0]) {
-        vertex->uv[0] = mesh->mTextureCoords[0][i].x;
-        vertex->uv[1] = 1.0f - mesh->mTextureCoords[0][i].y;
-    }
-    double turned[3];
-    if (mesh->mNormals) {
-        const struct aiVector3D n = mesh->mNormals[i];
-        for (int k = 0; k < 3; k++)
-            turned[k] = t->normal[k][0] * (double)n.x + t->normal[k][1] * (double)n.y +
-                        t->normal[k][2] * (double)n.z;
-        store_unit(turned, t->mirrors ? -1.0 : 1.0, vertex->normal);
-    }
-    if (mesh->mNormals && mesh->mTangents && mesh->mBitangents) {
-        const struct aiVector3D a = mesh->mTangents[i], b = mesh->mBitangents[i];
-        for (int k = 0; k < 3; k++)
-            turned[k] =
-                t->m[k][0] * (double)a.x + t->m[k][1] * (double)a.y + t->m[k][2] * (double)a.z;
-        store_unit(turned, 1.0, vertex->tangent);
-        const struct aiVector3D n = mesh->mNormals[i];
-        const float side = (n.y * a.z - n.z * a.y) * b.x + (n.z * a.x - n.x * a.z) * b.y +
-                           (n.x * a.y - n.y * a.x) * b.z;
-        vertex->tangent[3] = (side < 0.0f) != t->mirrors ? -1.0f : 1.0f;
-    }
+        vertex->position[k] = (float)p[k];
+    store_unit(n, t->mirrors ? -1.0 : 1.0, vertex->normal);
+    store_unit(a, 1.0, vertex->tangent);
+    vertex->tangent[3] = (vertex->tangent[3] < 0.0f) != t->mirrors ? -1.0f : 1.0f;
 }
 
-static bool make_vertices(flattening *f, const transform *t, cli_error *error) {
-    /* Without normals every corner gets a vertex of its own first. */
-    const bool split = !f->mesh->mNormals;
-    f->vertex_count = split ? f->corner_count : f->mesh->mNumVertices;
-    f->vertices = calloc(f->vertex_count + 1, sizeof *f->vertices);
-    if (!f->vertices)
-        return cli_fail(error, f->options->subject, "does not fit into memory");
-    for (size_t i = 0; i < f->vertex_count; i++)
-        fill_vertex(f->mesh, t, split ? f->corners[i] : (unsigned)i, &f->vertices[i]);
-    for (size_t i = 0; split && i < f->corner_count; i++)
-        f->corners[i] = (uint32_t)i;
-    for (size_t i = 0; t->mirrors && i < f->corner_count; i += 3) {
+void mesh_flip(mesh_draft *f) {
+    for (size_t i = 0; i < f->corner_count; i += 3) {
         const uint32_t second = f->corners[i + 1];
         f->corners[i + 1] = f->corners[i + 2];
         f->corners[i + 2] = second;
     }
-    return true;
 }
 
 /* --- missing normals ----------------------------------------------------------------------------
  */
 
-static lmp_vec3 triangle_normal(const flattening *f, size_t triangle) {
+/* A vertex of its own for every corner, so that faces that meet there may differ. */
+static bool split_corners(mesh_draft *f, cli_error *error) {
+    scene_vertex *vertices = malloc((f->corner_count + 1) * sizeof *vertices);
+    if (!vertices)
+        return cli_fail(error, f->subject, "does not fit into memory");
+    for (size_t i = 0; i < f->corner_count; i++) {
+        vertices[i] = f->vertices[f->corners[i]];
+        f->corners[i] = (uint32_t)i;
+    }
+    free(f->vertices);
+    f->vertices = vertices;
+    f->vertex_count = f->corner_count;
+    return true;
+}
+
+static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
     const uint32_t *c = &f->corners[3 * triangle];
     const lmp_vec3 a = vec_load(f->vertices[c[0]].position);
     const lmp_vec3 b = vec_sub(vec_load(f->vertices[c[1]].position), a);
@@ -158,7 +105,7 @@ static int compare_keys(const void *a, const void *b) {
 }
 
 /* Sums the normals of the corners in one place that belong to one smooth surface. */
-static void smooth_group(flattening *f, const corner_key *group, size_t count,
+static void smooth_group(mesh_draft *f, const corner_key *group, size_t count,
                          const lmp_vec3 *faces) {
     for (size_t i = 0; i < count; i++) {
         const lmp_vec3 own = faces[group[i].corner / 3];
@@ -167,7 +114,7 @@ static void smooth_group(flattening *f, const corner_key *group, size_t count,
         for (size_t k = 0; k < count && count <= SMOOTH_GROUP_MAX; k++) {
             const lmp_vec3 other = faces[group[k].corner / 3];
             const lmp_vec3 unit = vec_normalize(other, vec(0.0f, 0.0f, 0.0f));
-            if (k != i && vec_dot(own_unit, unit) > f->options->crease_cos)
+            if (k != i && vec_dot(own_unit, unit) > f->crease_cos)
                 sum = vec_add(sum, other);
         }
         const lmp_vec3 normal = vec_normalize(sum, vec(0.0f, 1.0f, 0.0f));
@@ -175,7 +122,7 @@ static void smooth_group(flattening *f, const corner_key *group, size_t count,
     }
 }
 
-static bool make_normals(flattening *f, cli_error *error) {
+static bool make_normals(mesh_draft *f, cli_error *error) {
     corner_key *keys = malloc((f->corner_count + 1) * sizeof *keys);
     lmp_vec3 *faces = malloc((f->corner_count / 3 + 1) * sizeof *faces);
     const bool ok = keys && faces;
@@ -195,11 +142,11 @@ static bool make_normals(flattening *f, cli_error *error) {
     }
     free(keys);
     free(faces);
-    return ok || cli_fail(error, f->options->subject, "does not fit into memory");
+    return ok || cli_fail(error, f->subject, "does not fit into memory");
 }
 
 /* Zero normals among given ones take their triangle's. */
-static void mend_normals(flattening *f) {
+static void mend_normals(mesh_draft *f) {
     for (size_t i = 0; i < f->corner_count; i++) {
         scene_vertex *vertex = &f->vertices[f->corners[i]];
         if (dot3(vertex->normal, vertex->normal) < 0.5f)
@@ -215,7 +162,7 @@ static void mend_normals(flattening *f) {
  */
 
 /* Adds a triangle's dP/du to `along` and its dP/dv to `across` of its vertices. */
-static void add_triangle_tangent(const flattening *f, size_t triangle, lmp_vec3 *along,
+static void add_triangle_tangent(const mesh_draft *f, size_t triangle, lmp_vec3 *along,
                                  lmp_vec3 *across) {
     const uint32_t *c = &f->corners[3 * triangle];
     const scene_vertex *a = &f->vertices[c[0]], *b = &f->vertices[c[1]], *d = &f->vertices[c[2]];
@@ -235,12 +182,12 @@ static void add_triangle_tangent(const flattening *f, size_t triangle, lmp_vec3 
     }
 }
 
-static bool make_tangents(flattening *f, cli_error *error) {
+static bool make_tangents(mesh_draft *f, cli_error *error) {
     lmp_vec3 *along = calloc(2 * f->vertex_count + 1, sizeof *along);
     if (!along)
-        return cli_fail(error, f->options->subject, "does not fit into memory");
+        return cli_fail(error, f->subject, "does not fit into memory");
     lmp_vec3 *across = along + f->vertex_count;
-    for (size_t i = 0; f->mesh->mTextureCoords[0] && i < f->corner_count / 3; i++)
+    for (size_t i = 0; f->has_uvs && i < f->corner_count / 3; i++)
         add_triangle_tangent(f, i, along, across);
     for (size_t i = 0; i < f->vertex_count; i++) {
         scene_vertex *vertex = &f->vertices[i];
@@ -263,7 +210,7 @@ static bool make_tangents(flattening *f, cli_error *error) {
  */
 
 /* Merges equal vertices, keeping the order of their first use. */
-static bool weld_vertices(flattening *f, cli_error *error) {
+static bool weld_vertices(mesh_draft *f, cli_error *error) {
     size_t buckets = 64;
     while (buckets < 2 * f->vertex_count)
         buckets *= 2;
@@ -291,69 +238,41 @@ static bool weld_vertices(flattening *f, cli_error *error) {
     f->vertex_count = kept;
     free(table);
     free(place);
-    return ok || cli_fail(error, f->options->subject, "does not fit into memory");
+    return ok || cli_fail(error, f->subject, "does not fit into memory");
 }
 
-/* --- the tree -----------------------------------------------------------------------------------
+/* --- into the scene -----------------------------------------------------------------------------
  */
 
-static bool append_flattened(const flattening *f, scene_builder *builder, cli_error *error) {
+static bool append_draft(const mesh_draft *f, scene_builder *builder, cli_error *error) {
     const size_t first_vertex = builder_count(builder, BLOB_VERTICES);
     const size_t first_index = builder_count(builder, BLOB_INDICES);
     if (first_vertex + f->vertex_count >= UINT32_MAX || first_index + f->corner_count >= UINT32_MAX)
-        return cli_fail(error, f->options->subject, "has more than 4 billion vertices");
+        return cli_fail(error, f->subject, "has more than 4 billion vertices");
     scene_vertex *vertices = builder_append(builder, BLOB_VERTICES, f->vertex_count);
     uint32_t *indices = builder_append(builder, BLOB_INDICES, f->corner_count);
     if (!vertices || !indices)
-        return cli_fail(error, f->options->subject, "does not fit into memory");
+        return cli_fail(error, f->subject, "does not fit into memory");
     memcpy(vertices, f->vertices, f->vertex_count * sizeof *vertices);
     for (size_t i = 0; i < f->corner_count; i++)
         indices[i] = (uint32_t)first_vertex + f->corners[i];
-    builder_mesh(builder, f->mesh->mName.data, f->mesh->mMaterialIndex, first_index);
+    builder_mesh(builder, f->name, f->material, first_index);
     return true;
 }
 
-static bool add_mesh(const struct aiMesh *mesh, const struct aiMatrix4x4 *world,
-                     const mesh_options *options, scene_builder *builder, cli_error *error) {
-    flattening f = { .mesh = mesh, .options = options };
-    const transform t = make_transform(world);
-    bool ok = collect_corners(&f, error);
-    if (ok && f.corner_count > 0) {
-        ok = make_vertices(&f, &t, error) && (mesh->mNormals || make_normals(&f, error));
-        if (ok)
-            mend_normals(&f);
-        ok = ok && (!options->weld || weld_vertices(&f, error)) && make_tangents(&f, error) &&
-             append_flattened(&f, builder, error);
-    }
-    free(f.vertices);
-    free(f.corners);
-    return ok;
+bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
+    bool ok = true;
+    if (f->corner_count == 0)
+        return true;
+    if (!f->has_normals)
+        ok = split_corners(f, error) && make_normals(f, error);
+    if (ok)
+        mend_normals(f);
+    return ok && (!f->weld || weld_vertices(f, error)) && make_tangents(f, error) &&
+           append_draft(f, builder, error);
 }
 
-static struct aiMatrix4x4 multiplied(const struct aiMatrix4x4 *a, const struct aiMatrix4x4 *b) {
-    struct aiMatrix4x4 product = *a;
-    aiMultiplyMatrix4(&product, b);
-    return product;
-}
-
-static bool add_node(const struct aiScene *imported, const struct aiNode *node,
-                     const struct aiMatrix4x4 *parent, int depth, const mesh_options *options,
-                     scene_builder *builder, cli_error *error) {
-    if (depth > NODE_DEPTH_MAX)
-        return cli_fail(error, options->subject, "has nodes nested too deep");
-    const struct aiMatrix4x4 world = multiplied(parent, &node->mTransformation);
-    for (unsigned i = 0; i < node->mNumMeshes; i++)
-        if (!add_mesh(imported->mMeshes[node->mMeshes[i]], &world, options, builder, error))
-            return false;
-    for (unsigned i = 0; i < node->mNumChildren; i++)
-        if (!add_node(imported, node->mChildren[i], &world, depth + 1, options, builder, error))
-            return false;
-    return true;
-}
-
-bool mesh_add_tree(const struct aiScene *imported, const mesh_options *options,
-                   scene_builder *builder, cli_error *error) {
-    struct aiMatrix4x4 identity;
-    aiIdentityMatrix4(&identity);
-    return add_node(imported, imported->mRootNode, &identity, 0, options, builder, error);
+void mesh_free(mesh_draft *f) {
+    free(f->vertices);
+    free(f->corners);
 }

@@ -1,21 +1,43 @@
 /* SPDX-License-Identifier: MIT */
-/* mesh.h - from Assimp's node tree to triangles in world space. */
+/* mesh.h - triangles on their way into a scene: what a file does not say of them is made. */
 #ifndef LAMPION_SCENE_MESH_H
 #define LAMPION_SCENE_MESH_H
 
 #include "app/scene/builder.h"
 
-#include <assimp/scene.h>
+#define MESH_CREASE_FLAT 2.0f /* no edge is smooth */
+#define MESH_CREASE_60   0.5f
 
-typedef struct mesh_options {
-    const char *subject;
+/* A mesh in world space. Normals and tangents of a vertex may be zero: they are then made from its
+ * triangles. */
+typedef struct mesh_draft {
+    const char *subject; /* for messages */
+    const char *name;
+    uint32_t material;
+    scene_vertex *vertices; /* from malloc, as are the corners */
+    size_t vertex_count;
+    uint32_t *corners; /* 3 a triangle, below vertex_count */
+    size_t corner_count;
+    bool has_normals, has_uvs;
     bool weld;        /* merge equal vertices: the source has them once a corner */
-    float crease_cos; /* missing normals are smooth across edges flatter than this; above 1: flat */
-} mesh_options;
+    float crease_cos; /* missing normals are smooth across edges flatter than this */
+} mesh_draft;
 
-/* Appends every mesh of every node, transformed; polygons become fans. Material numbers are kept.
- */
-bool mesh_add_tree(const struct aiScene *imported, const mesh_options *options,
-                   scene_builder *builder, cli_error *error);
+/* Makes what is missing and appends the mesh to the builder; one without triangles is left out. */
+bool mesh_add(mesh_draft *draft, scene_builder *builder, cli_error *error);
+void mesh_free(mesh_draft *draft);
+
+/* Turns every triangle over, as a transform that mirrors needs it. */
+void mesh_flip(mesh_draft *draft);
+
+/* An affine map of points, and of the normals and tangents that go with them. */
+typedef struct mesh_transform {
+    double m[3][4];
+    double normal[3][3]; /* cofactors: of normals, up to scale */
+    bool mirrors;
+} mesh_transform;
+
+mesh_transform mesh_transform_make(const double m[16]); /* column-major */
+void mesh_transform_vertex(const mesh_transform *transform, scene_vertex *vertex);
 
 #endif

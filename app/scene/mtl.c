@@ -80,8 +80,8 @@ static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uin
     if (strlen(path.data) >= sizeof(*names)->path)
         return cli_fail(error, sources->subject, "has a texture with too long a name");
     if (!sources_read(sources, path.data, &found, error) ||
-        !texture_decode(builder, found->data, found->size, sources->subject, found->path, &decoded,
-                        error))
+        !texture_decode(builder, found->data, found->size, TEXTURE_ANY, sources->subject,
+                        found->path, &decoded, error))
         return false;
     texture_name *larger = realloc(*names, (count + 1) * sizeof *larger);
     if (larger)

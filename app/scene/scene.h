@@ -76,6 +76,15 @@ typedef struct scene_motion {
     float period;          /* seconds */
 } scene_motion;
 
+#define SCENE_LEFT_OUT_MAX 64
+
+/* What a file has and nothing here shows: "clearcoat" of 2 of noun "material"; without `what`, the
+ * nouns themselves. */
+typedef struct scene_left_out {
+    char what[SCENE_NAME_SIZE], noun[SCENE_NAME_SIZE];
+    uint32_t count;
+} scene_left_out;
+
 /* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
  * after loading but for the lights. */
 typedef struct scene {
@@ -88,8 +97,9 @@ typedef struct scene {
     const scene_camera *cameras;
     const scene_motion *motions; /* at most one a light */
     const lmp_vec3 *offsets;
+    const scene_left_out *left_out;
     size_t vertex_count, index_count, mesh_count, material_count, texture_count, texel_bytes;
-    size_t camera_count, motion_count, offset_count;
+    size_t camera_count, motion_count, offset_count, left_out_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
     size_t light_count;
     float minimum[3], maximum[3]; /* bounds; of a scene without triangles: a unit box */

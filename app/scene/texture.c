@@ -5,12 +5,29 @@
 #include <stb_image.h>
 #include <string.h>
 
-bool texture_decode(scene_builder *builder, const void *data, size_t size, const char *subject,
-                    const char *name, scene_texture *texture, cli_error *error) {
+/* What the first bytes say; the decoder would take more formats than the documented ones. */
+static texture_format format_of(const unsigned char *bytes, size_t size) {
+    if (size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0)
+        return TEXTURE_PNG;
+    if (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0)
+        return TEXTURE_JPEG;
+    if (size >= 2 && memcmp(bytes, "BM", 2) == 0)
+        return TEXTURE_BMP;
+    /* TGA begins without a mark: an identifier's length, a color map or none, a kind of image. */
+    const unsigned kind = size >= 18 ? bytes[2] : 0;
+    const bool mapped = kind == 1 || kind == 9, plain = (kind & 7) == 2 || (kind & 7) == 3;
+    return (mapped && bytes[1] == 1) || (plain && kind <= 11 && bytes[1] <= 1) ? TEXTURE_TGA
+                                                                               : (texture_format)0;
+}
+
+bool texture_decode(scene_builder *builder, const void *data, size_t size, texture_format formats,
+                    const char *subject, const char *name, scene_texture *texture,
+                    cli_error *error) {
     int width, height, channels;
-    if (size > INT_MAX || !stbi_info_from_memory(data, (int)size, &width, &height, &channels))
-        return cli_fail(error, subject, "has a texture \"%.200s\" that is no PNG, JPEG, TGA or BMP",
-                        name);
+    if (size > INT_MAX || !(format_of(data, size) & formats) ||
+        !stbi_info_from_memory(data, (int)size, &width, &height, &channels))
+        return cli_fail(error, subject, "has a texture \"%.200s\" that is no %s", name,
+                        formats == TEXTURE_GLTF ? "PNG or JPEG" : "PNG, JPEG, TGA or BMP");
     if (width < 1 || height < 1 || width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX)
         return cli_fail(error, subject,
                         "has a texture \"%.200s\" of %d x %d pixels (at most %d x %d)", name, width,

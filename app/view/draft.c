@@ -11,7 +11,7 @@
 
 typedef struct cluster {
     int32_t cell[3];
-    uint32_t octant, vertex; /* NONE: empty */
+    uint32_t octant, mesh, vertex; /* NONE: empty */
 } cluster;
 
 typedef struct clusters {
@@ -30,24 +30,27 @@ static uint32_t octant_of(const float normal[3]) {
 }
 
 static size_t hash_of(const cluster *key) {
-    uint64_t h = key->octant;
+    uint64_t h = key->octant | (uint64_t)key->mesh << 3;
     for (int k = 0; k < 3; k++)
         h = (h ^ (uint32_t)key->cell[k]) * 0x9e3779b97f4a7c15u;
     return (size_t)(h ^ h >> 29);
 }
 
 /* The vertex that stands for this one. */
-static uint32_t represent(clusters *c, const scene_vertex *vertices, uint32_t index) {
+static uint32_t represent(clusters *c, const scene_vertex *vertices, uint32_t index,
+                          uint32_t mesh) {
     if (c->vertex_of[index] != NONE)
         return c->vertex_of[index];
     const scene_vertex *v = &vertices[index];
-    cluster key = { .octant = octant_of(v->normal), .vertex = (uint32_t)c->vertex_count };
+    cluster key = { .octant = octant_of(v->normal),
+                    .mesh = mesh,
+                    .vertex = (uint32_t)c->vertex_count };
     for (int k = 0; k < 3; k++)
         key.cell[k] = (int32_t)((v->position[k] - c->minimum[k]) / c->cell);
     size_t slot = hash_of(&key) & c->mask;
     while (c->slots[slot].vertex != NONE &&
            (memcmp(c->slots[slot].cell, key.cell, sizeof key.cell) != 0 ||
-            c->slots[slot].octant != key.octant))
+            c->slots[slot].octant != key.octant || c->slots[slot].mesh != key.mesh))
         slot = (slot + 1) & c->mask;
     if (c->slots[slot].vertex == NONE) {
         c->slots[slot] = key;
@@ -60,25 +63,26 @@ static void simplify_mesh(clusters *c, const scene *world, size_t number) {
     scene_mesh *mesh = &c->meshes[number];
     const uint32_t *from = world->indices + mesh->first_index;
     const uint32_t count = mesh->index_count;
-    for (size_t i = 0; i <= c->mask; i++)
-        c->slots[i].vertex = NONE;
-    memset(c->vertex_of, 0xff, world->vertex_count * sizeof *c->vertex_of);
     mesh->first_index = (uint32_t)c->index_count;
     for (uint32_t i = 0; i < count; i += 3) {
         uint32_t corner[3];
         for (int k = 0; k < 3; k++)
-            corner[k] = represent(c, world->vertices, from[i + (uint32_t)k]);
+            corner[k] = represent(c, world->vertices, from[i + (uint32_t)k], (uint32_t)number);
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
             continue;
         memcpy(c->indices + c->index_count, corner, sizeof corner);
         c->index_count += 3;
     }
     mesh->index_count = (uint32_t)c->index_count - mesh->first_index;
+    /* The next mesh gets vertices of its own. Only what this one touched is cleared, so that many
+     * small meshes cost no more than one large. */
+    for (uint32_t i = 0; i < count; i++)
+        c->vertex_of[from[i]] = NONE;
 }
 
 static bool allocate(clusters *c, const scene *world) {
     size_t slots = 16;
-    while (slots < 2 * world->vertex_count)
+    while (slots < 2 * world->index_count)
         slots *= 2;
     c->mask = slots - 1;
     c->slots = malloc(slots * sizeof *c->slots);
@@ -87,7 +91,11 @@ static bool allocate(clusters *c, const scene *world) {
     c->vertices = malloc((world->index_count + 1) * sizeof *c->vertices);
     c->indices = malloc((world->index_count + 1) * sizeof *c->indices);
     c->meshes = malloc((world->mesh_count + 1) * sizeof *c->meshes);
-    return c->slots && c->vertex_of && c->vertices && c->indices && c->meshes;
+    if (!c->slots || !c->vertex_of || !c->vertices || !c->indices || !c->meshes)
+        return false;
+    memset(c->slots, 0xff, slots * sizeof *c->slots);
+    memset(c->vertex_of, 0xff, world->vertex_count * sizeof *c->vertex_of);
+    return true;
 }
 
 bool view_draft_make(const scene *world, int cells, scene *draft, cli_error *error) {

@@ -116,9 +116,9 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_int_equal(mkfifo(in_folder("fifo.gltf"), 0600), 0);
     assert_refused("missing.gltf", "does not exist");
     assert_refused("empty.gltf", "is empty");
-    assert_refused("blank.gltf", "is no scene");
+    assert_refused("blank.gltf", "is no valid JSON");
     assert_refused("text.obj", "text.obj: ");
-    assert_refused("text.gltf", "is no scene");
+    assert_refused("text.gltf", "is no valid JSON");
     assert_refused("wrong.txt", "is no scene");
     assert_refused("image.png", "is no scene");
     assert_refused("directory.gltf", "is a directory");
@@ -196,17 +196,17 @@ static void counts_beyond_the_data_are_refused(void **state) {
           "accessor 0" },
         { HEAD MESH "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":-3,"
                     "\"type\":\"VEC3\"}]," VIEW BUFFER,
-          "accessor 0" },
+          "accessors[0].count" },
         { HEAD MESH "\"accessors\":[{\"bufferView\":7,\"componentType\":5126,\"count\":3,"
                     "\"type\":\"VEC3\"}]," VIEW BUFFER,
-          "accessor 0" },
+          "accessors[0].bufferView" },
         { HEAD MESH "\"accessors\":[{\"bufferView\":0,\"byteOffset\":1e30,\"componentType\":5126,"
                     "\"count\":3,\"type\":\"VEC3\"}]," VIEW BUFFER,
-          "accessor 0" },
+          "accessors[0].byteOffset" },
         { HEAD MESH ACCESSOR "\"bufferViews\":[{\"buffer\":0,\"byteLength\":99999999}]," BUFFER,
           "bufferView 0" },
         { HEAD MESH ACCESSOR "\"bufferViews\":[{\"buffer\":3,\"byteLength\":36}]," BUFFER,
-          "bufferView 0" },
+          "bufferViews[0].buffer" },
         { HEAD MESH ACCESSOR VIEW
           "\"buffers\":[{\"byteLength\":99999999,\"uri\":\"triangle.bin\"}]}",
           "buffer 0" },
@@ -216,10 +216,10 @@ static void counts_beyond_the_data_are_refused(void **state) {
           "buffer 0" },
         { HEAD
           "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":9}}]}]," ACCESSOR VIEW BUFFER,
-          "mesh 0" },
+          "meshes[0].primitives[0].attributes.POSITION" },
         { HEAD "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":5}]}]"
                "," ACCESSOR VIEW BUFFER,
-          "mesh 0" },
+          "meshes[0].primitives[0].material" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         folder_write_text("lie.gltf", cases[i].text);
@@ -242,29 +242,43 @@ static void assert_nodes_refused(const char *nodes, const char *expected) {
 static void impossible_nodes_are_refused(void **state) {
     (void)state;
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"children\":[0]}]", "node 0");
-    assert_nodes_refused("\"nodes\":[{\"children\":[1]},{\"mesh\":0,\"children\":[0]}]", "node 1");
-    assert_nodes_refused("\"nodes\":[{\"children\":[1,1]},{\"mesh\":0}]", "node 0");
-    assert_nodes_refused("\"nodes\":[{\"children\":[17]}]", "node 0");
-    assert_nodes_refused("\"nodes\":[{\"mesh\":4}]", "node 0");
-    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "node 0");
+    assert_nodes_refused("\"nodes\":[{\"children\":[1]},{\"mesh\":0,\"children\":[0]}]", "node 0");
+    assert_nodes_refused(
+        "\"nodes\":[{\"mesh\":0},{\"children\":[2]},{\"mesh\":0,\"children\":[1]}]", "in a loop");
+    assert_nodes_refused("\"nodes\":[{\"children\":[1,1]},{\"mesh\":0}]",
+                         "nodes[0].children has an entry twice");
+    assert_nodes_refused("\"nodes\":[{\"children\":[2]},{\"children\":[2]},{\"mesh\":0}]",
+                         "another parent");
+    assert_nodes_refused("\"nodes\":[{\"children\":[17]}]", "nodes[0].children[0]");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":4}]", "nodes[0].mesh");
+    assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e999,1,1]}]", "nodes[0].scale[0]");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is no valid JSON");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e300,1e300,1]}]", "finite");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"translation\":[2e17,0,0]}]",
                          "finite place (up to");
-    enum { DEEP = 20000 };
-    char *deep = malloc(32 * DEEP);
-    assert_non_null(deep);
-    size_t used = (size_t)sprintf(deep, "\"nodes\":[");
-    for (int i = 0; i < DEEP; i++)
-        used += (size_t)sprintf(deep + used, "{\"children\":[%d]},", i + 1);
-    sprintf(deep + used, "{\"mesh\":0}]");
-    assert_nodes_refused(deep, "nested too deep");
-    free(deep);
     static char nested[200001];
     memset(nested, '[', sizeof nested - 1);
     nested[0] = '{';
     folder_write_text("nested.gltf", nested);
     assert_refused("nested.gltf", "is no valid JSON");
+}
+
+static void a_chain_of_many_nodes_is_read(void **state) {
+    (void)state;
+    enum { DEEP = 20000 };
+    char *deep = malloc(32 * DEEP + 1024), path[512];
+    assert_non_null(deep);
+    size_t used =
+        (size_t)sprintf(deep, "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],"
+                              "\"nodes\":[");
+    for (int i = 0; i < DEEP; i++)
+        used += (size_t)sprintf(deep + used, "{\"children\":[%d]},", i + 1);
+    sprintf(deep + used, "{\"mesh\":0}],%s", MESH ACCESSOR VIEW BUFFER);
+    folder_write_text("deep.gltf", deep);
+    free(deep);
+    snprintf(path, sizeof path, "%s", in_folder("deep.gltf"));
+    const char *const arguments[] = { "lampion", "info", path, NULL };
+    assert_int_equal(run_program(arguments), 0);
 }
 
 static void bombs_end_quickly(void **state) {
@@ -447,6 +461,7 @@ int main(void) {
         cmocka_unit_test(random_damage_never_crashes_the_program),
         cmocka_unit_test(counts_beyond_the_data_are_refused),
         cmocka_unit_test(impossible_nodes_are_refused),
+        cmocka_unit_test(a_chain_of_many_nodes_is_read),
         cmocka_unit_test(bombs_end_quickly),
         cmocka_unit_test(textures_that_cannot_be_are_refused),
         cmocka_unit_test(files_outside_the_folder_are_never_read),

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scene/assimp.h"
+
+#include "app/scene/mesh.h"
+#include "app/scene/mtl.h"
+
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
+#include <assimp/scene.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NODE_DEPTH_MAX 1024
+
+typedef struct assimp_job {
+    const char *name;
+    const void *data;
+    size_t size;
+    source_set *sources;
+    scene_builder *builder;
+    cli_error refusal; /* set when a file was asked for that may not be read */
+} assimp_job;
+
+/* --- files for Assimp: from memory, and only the scene's own ------------------------------------
+ */
+
+typedef struct open_file {
+    struct aiFile face;
+    const unsigned char *data;
+    size_t size, position;
+} open_file;
+
+static open_file *opened(struct aiFile *file) {
+    return (open_file *)(void *)file->UserData;
+}
+
+static size_t read_file(struct aiFile *file, char *out, size_t item, size_t count) {
+    open_file *f = opened(file);
+    const size_t left = f->size - f->position;
+    const size_t items = item == 0 ? 0 : count < left / item ? count : left / item;
+    memcpy(out, f->data + f->position, items * item);
+    f->position += items * item;
+    return items;
+}
+
+static size_t refuse_write(struct aiFile *file, const char *data, size_t item, size_t count) {
+    (void)file;
+    (void)data;
+    (void)item;
+    (void)count;
+    return 0;
+}
+
+static size_t tell_file(struct aiFile *file) {
+    return opened(file)->position;
+}
+
+static size_t size_file(struct aiFile *file) {
+    return opened(file)->size;
+}
+
+static enum aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin origin) {
+    open_file *f = opened(file);
+    const size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? f->position : f->size;
+    if (base + offset > f->size)
+        return aiReturn_FAILURE;
+    f->position = base + offset;
+    return aiReturn_SUCCESS;
+}
+
+static void flush_file(struct aiFile *file) {
+    (void)file;
+}
+
+static struct aiFile *open_for_assimp(struct aiFileIO *io, const char *path, const char *mode) {
+    assimp_job *job = (assimp_job *)(void *)io->UserData;
+    while (strncmp(path, "./", 2) == 0)
+        path += 2;
+    const void *data = job->data;
+    size_t size = job->size;
+    if (mode[0] != 'r')
+        return NULL;
+    if (strcmp(path, job->name) != 0) {
+        const source *found;
+        cli_error error;
+        if (!sources_read(job->sources, path, &found, &error)) {
+            if (!job->refusal.text[0])
+                job->refusal = error;
+            return NULL;
+        }
+        data = found->data;
+        size = found->size;
+    }
+    open_file *f = calloc(1, sizeof *f);
+    if (!f)
+        return NULL;
+    *f = (open_file) { .face = { .ReadProc = read_file,
+                                 .WriteProc = refuse_write,
+                                 .TellProc = tell_file,
+                                 .FileSizeProc = size_file,
+                                 .SeekProc = seek_file,
+                                 .FlushProc = flush_file,
+                                 .UserData = (aiUserData)f },
+                       .data = data,
+                       .size = size };
+    return &f->face;
+}
+
+static void close_for_assimp(struct aiFileIO *io, struct aiFile *file) {
+    (void)io;
+    free(opened(file));
+}
+
+static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
+    struct aiFileIO io = { .OpenProc = open_for_assimp,
+                           .CloseProc = close_for_assimp,
+                           .UserData = (aiUserData)job };
+    const struct aiScene *imported = aiImportFileEx(job->name, 0, &io);
+    /* A file refused is the cause of what Assimp says, or something silently left out. */
+    if (job->refusal.text[0]) {
+        *error = job->refusal;
+        return NULL;
+    }
+    if (!imported || !imported->mRootNode) {
+        const char *reason = aiGetErrorString();
+        cli_fail(error, job->sources->subject, "cannot be read: %.300s",
+                 reason && reason[0] ? reason : "it is damaged");
+        return NULL;
+    }
+    return imported;
+}
+
+/* --- triangles ----------------------------------------------------------------------------------
+ */
+
+static bool copy_corners(const struct aiMesh *mesh, mesh_draft *draft, cli_error *error) {
+    size_t triangles = 0;
+    for (unsigned i = 0; i < mesh->mNumFaces; i++)
+        if (mesh->mFaces[i].mNumIndices >= 3)
+            triangles += mesh->mFaces[i].mNumIndices - 2;
+    draft->corners = malloc((3 * triangles + 1) * sizeof *draft->corners);
+    if (!draft->corners)
+        return cli_fail(error, draft->subject, "does not fit into memory");
+    for (unsigned i = 0; i < mesh->mNumFaces; i++) {
+        const struct aiFace *face = &mesh->mFaces[i];
+        for (unsigned k = 2; k < face->mNumIndices; k++) {
+            const unsigned fan[3] = { face->mIndices[0], face->mIndices[k - 1], face->mIndices[k] };
+            for (int c = 0; c < 3; c++) {
+                if (fan[c] >= mesh->mNumVertices)
+                    return cli_fail(error, draft->subject,
+                                    "has a triangle with a vertex that does not exist");
+                draft->corners[draft->corner_count++] = fan[c];
+            }
+        }
+    }
+    return true;
+}
+
+static void copy_vector(struct aiVector3D from, float to[3]) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+static void copy_vertex(const struct aiMesh *mesh, unsigned i, scene_vertex *vertex) {
+    copy_vector(mesh->mVertices[i], vertex->position);
+    if (mesh->mTextureCoords[0]) {
+        vertex->uv[0] = mesh->mTextureCoords[0][i].x;
+        vertex->uv[1] = 1.0f - mesh->mTextureCoords[0][i].y;
+    }
+    if (mesh->mNormals)
+        copy_vector(mesh->mNormals[i], vertex->normal);
+    if (mesh->mNormals && mesh->mTangents && mesh->mBitangents) {
+        const struct aiVector3D n = mesh->mNormals[i], a = mesh->mTangents[i],
+                                b = mesh->mBitangents[i];
+        const float side = (n.y * a.z - n.z * a.y) * b.x + (n.z * a.x - n.x * a.z) * b.y +
+                           (n.x * a.y - n.y * a.x) * b.z;
+        copy_vector(a, vertex->tangent);
+        vertex->tangent[3] = side < 0.0f ? -1.0f : 1.0f;
+    }
+}
+
+static bool add_mesh(const assimp_job *job, const struct aiMesh *mesh,
+                     const mesh_transform *transform, cli_error *error) {
+    mesh_draft draft = { .subject = job->sources->subject,
+                         .name = mesh->mName.data,
+                         .material = mesh->mMaterialIndex,
+                         .vertex_count = mesh->mNumVertices,
+                         .has_normals = mesh->mNormals != NULL,
+                         .has_uvs = mesh->mTextureCoords[0] != NULL,
+                         .weld = true,
+                         .crease_cos = MESH_CREASE_60 };
+    draft.vertices = calloc(draft.vertex_count + 1, sizeof *draft.vertices);
+    bool ok = draft.vertices || cli_fail(error, draft.subject, "does not fit into memory");
+    ok = ok && copy_corners(mesh, &draft, error);
+    for (unsigned i = 0; ok && i < mesh->mNumVertices; i++) {
+        copy_vertex(mesh, i, &draft.vertices[i]);
+        mesh_transform_vertex(transform, &draft.vertices[i]);
+    }
+    if (ok && transform->mirrors)
+        mesh_flip(&draft);
+    ok = ok && mesh_add(&draft, job->builder, error);
+    mesh_free(&draft);
+    return ok;
+}
+
+static bool add_node(const assimp_job *job, const struct aiScene *imported,
+                     const struct aiNode *node, const struct aiMatrix4x4 *parent, int depth,
+                     cli_error *error) {
+    if (depth > NODE_DEPTH_MAX)
+        return cli_fail(error, job->sources->subject, "has nodes nested too deep");
+    struct aiMatrix4x4 world = *parent;
+    aiMultiplyMatrix4(&world, &node->mTransformation);
+    const double columns[16] = { (double)world.a1, (double)world.b1, (double)world.c1, 0.0,
+                                 (double)world.a2, (double)world.b2, (double)world.c2, 0.0,
+                                 (double)world.a3, (double)world.b3, (double)world.c3, 0.0,
+                                 (double)world.a4, (double)world.b4, (double)world.c4, 1.0 };
+    const mesh_transform transform = mesh_transform_make(columns);
+    for (unsigned i = 0; i < node->mNumMeshes; i++)
+        if (!add_mesh(job, imported->mMeshes[node->mMeshes[i]], &transform, error))
+            return false;
+    for (unsigned i = 0; i < node->mNumChildren; i++)
+        if (!add_node(job, imported, node->mChildren[i], &world, depth + 1, error))
+            return false;
+    return true;
+}
+
+bool assimp_knows(const char *ending) {
+    return aiIsExtensionSupported(ending) == AI_TRUE;
+}
+
+bool assimp_add(const char *name, const void *data, size_t size, source_set *sources,
+                scene_builder *builder, cli_error *error) {
+    assimp_job job = {
+        .name = name, .data = data, .size = size, .sources = sources, .builder = builder
+    };
+    struct aiMatrix4x4 identity;
+    aiIdentityMatrix4(&identity);
+    const struct aiScene *imported = run_assimp(&job, error);
+    if (!imported)
+        return false;
+    const bool ok = add_node(&job, imported, imported->mRootNode, &identity, 0, error) &&
+                    mtl_add_materials(imported, sources, builder, error);
+    aiReleaseImport(imported);
+    return ok;
+}

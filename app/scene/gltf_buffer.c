@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT */
+/* gltf_buffer.c - buffers, the views into them, and the accessors of these. */
+#include "app/scene/gltf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* of an accessor without a buffer view: its elements are zeros, and cost a file nothing */
+#define UNBACKED_BYTES_MAX (64u << 20)
+
+/* --- data URIs ----------------------------------------------------------------------------------
+ */
+
+static int base64_digit(char c) {
+    return c >= 'A' && c <= 'Z'   ? c - 'A'
+           : c >= 'a' && c <= 'z' ? c - 'a' + 26
+           : c >= '0' && c <= '9' ? c - '0' + 52
+           : c == '+'             ? 62
+           : c == '/'             ? 63
+                                  : -1;
+}
+
+bool gltf_data_uri(const char *uri, gltf_bytes *bytes) {
+    static const char mark[] = ";base64,";
+    const char *found = strncmp(uri, "data:", 5) == 0 ? strstr(uri, mark) : NULL;
+    if (!found)
+        return false;
+    const char *text = found + sizeof mark - 1;
+    size_t length = strlen(text);
+    while (length > 0 && text[length - 1] == '=')
+        length--;
+    unsigned char *out = length % 4 == 1 ? NULL : malloc(length / 4 * 3 + 3);
+    uint32_t group = 0;
+    size_t size = 0;
+    for (size_t i = 0; out && i < length; i++) {
+        const int digit = base64_digit(text[i]);
+        if (digit < 0) {
+            free(out);
+            return false;
+        }
+        group = group << 6 | (uint32_t)digit;
+        if (i % 4 > 0)
+            out[size++] = (unsigned char)(group >> (6 - 2 * (i % 4)));
+    }
+    *bytes = (gltf_bytes) { .bytes = out, .size = size, .owned = out };
+    return out != NULL;
+}
+
+/* --- buffers ------------------------------------------------------------------------------------
+ */
+
+static bool load_buffer(gltf *document, size_t i, cli_error *error) {
+    const cJSON *entry = gltf_item(document, GLTF_BUFFERS, i);
+    const double length = gltf_number(entry, "byteLength", 0.0);
+    const char *uri = gltf_text(entry, "uri");
+    gltf_bytes *buffer = &document->buffers[i];
+    if (strncmp(uri, "data:", 5) == 0) {
+        if (!gltf_data_uri(uri, buffer))
+            return gltf_fail(document, GLTF_BUFFERS, i, "is no valid base64", error);
+    } else if (uri[0]) {
+        const source *found;
+        if (!sources_read(document->sources, uri, &found, error))
+            return false;
+        *buffer = (gltf_bytes) { .bytes = found->data, .size = found->size };
+    } else if (i == 0 && document->binary.bytes) {
+        *buffer = document->binary;
+    } else {
+        return gltf_fail(document, GLTF_BUFFERS, i, "has no data", error);
+    }
+    if ((double)buffer->size < length)
+        return gltf_fail(document, GLTF_BUFFERS, i, "is longer than its data (truncated?)", error);
+    buffer->size = (size_t)length;
+    return true;
+}
+
+static bool check_view(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *view = gltf_item(document, GLTF_VIEWS, i);
+    const size_t room = document->buffers[gltf_index(view, "buffer")].size;
+    const double end = gltf_number(view, "byteOffset", 0.0) + gltf_number(view, "byteLength", 0.0);
+    if (!(end <= (double)room))
+        return gltf_fail(document, GLTF_VIEWS, i, "reaches outside its buffer", error);
+    if ((int)gltf_number(view, "byteStride", 4.0) % 4 != 0)
+        return gltf_fail(document, GLTF_VIEWS, i, "has a stride that is no multiple of 4", error);
+    return true;
+}
+
+gltf_bytes gltf_view_bytes(const gltf *document, size_t view) {
+    const cJSON *entry = gltf_item(document, GLTF_VIEWS, view);
+    const gltf_bytes *buffer = &document->buffers[gltf_index(entry, "buffer")];
+    return (gltf_bytes) { .bytes = buffer->bytes + (size_t)gltf_number(entry, "byteOffset", 0.0),
+                          .size = (size_t)gltf_number(entry, "byteLength", 0.0) };
+}
+
+bool gltf_load_buffers(gltf *document, cli_error *error) {
+    const size_t count = gltf_count(document, GLTF_BUFFERS);
+    document->buffers = calloc(count + 1, sizeof *document->buffers);
+    bool ok = document->buffers || cli_fail(error, document->subject, "does not fit into memory");
+    for (size_t i = 0; i < count && ok; i++)
+        ok = load_buffer(document, i, error);
+    for (size_t i = 0; i < gltf_count(document, GLTF_VIEWS) && ok; i++)
+        ok = check_view(document, i, error);
+    return ok;
+}
+
+/* --- accessors ----------------------------------------------------------------------------------
+ */
+
+static size_t component_size(gltf_component component) {
+    return component <= GLTF_UNSIGNED_BYTE ? 1 : component <= GLTF_UNSIGNED_SHORT ? 2 : 4;
+}
+
+typedef struct element {
+    const char *name;
+    int columns, rows;
+} element;
+
+static const element *find_element(const char *type) {
+    static const element known[] = { { "SCALAR", 1, 1 }, { "VEC2", 1, 2 }, { "VEC3", 1, 3 },
+                                     { "VEC4", 1, 4 },   { "MAT2", 2, 2 }, { "MAT3", 3, 3 },
+                                     { "MAT4", 4, 4 } };
+    const element *found = known;
+    while (strcmp(found->name, type) != 0)
+        found++;
+    return found;
+}
+
+size_t gltf_element_size(const char *type, gltf_component component) {
+    const element *kind = find_element(type);
+    const size_t column = (size_t)kind->rows * component_size(component);
+    /* The columns of a matrix begin at multiples of 4 bytes. */
+    return kind->columns == 1 ? column : (size_t)kind->columns * ((column + 3) & ~(size_t)3);
+}
+
+/* The bytes of `count` elements in the view that `holder` names; NULL if they are not all in it, or
+ * not aligned to their components. */
+static const unsigned char *find_elements(const gltf *document, const cJSON *holder, double count,
+                                          size_t size, size_t stride, gltf_component component) {
+    const gltf_bytes view = gltf_view_bytes(document, (size_t)gltf_index(holder, "bufferView"));
+    const double offset = gltf_number(holder, "byteOffset", 0.0);
+    const cJSON *entry = gltf_item(document, GLTF_VIEWS, (size_t)gltf_index(holder, "bufferView"));
+    const size_t unit = component_size(component);
+    if (!(offset + (count - 1.0) * (double)stride + (double)size <= (double)view.size) ||
+        (size_t)offset % unit != 0 ||
+        ((size_t)gltf_number(entry, "byteOffset", 0.0) + (size_t)offset) % unit != 0)
+        return NULL;
+    return view.bytes + (size_t)offset;
+}
+
+static bool load_sparse(const gltf *document, const cJSON *sparse, size_t size, gltf_accessor *a) {
+    const cJSON *indices = gltf_member(sparse, "indices"), *values = gltf_member(sparse, "values");
+    const double count = gltf_number(sparse, "count", 0.0);
+    if (!(count <= (double)a->count))
+        return false;
+    a->sparse.count = (size_t)count;
+    a->sparse.component = (gltf_component)gltf_number(indices, "componentType", 0.0);
+    const size_t item = component_size(a->sparse.component);
+    a->sparse.indices = find_elements(document, indices, count, item, item, a->sparse.component);
+    a->sparse.values = find_elements(document, values, count, size, size, a->component);
+    return a->sparse.indices && a->sparse.values;
+}
+
+static bool load_accessor(const gltf *document, size_t i, gltf_accessor *a, cli_error *error) {
+    const cJSON *entry = gltf_item(document, GLTF_ACCESSORS, i);
+    const cJSON *sparse = gltf_member(entry, "sparse");
+    const double count = gltf_number(entry, "count", 0.0);
+    const element *kind = find_element(gltf_text(entry, "type"));
+    *a = (gltf_accessor) { .count = (size_t)count,
+                           .width = kind->columns * kind->rows,
+                           .component = (gltf_component)gltf_number(entry, "componentType", 0.0),
+                           .normalized = cJSON_IsTrue(gltf_member(entry, "normalized")),
+                           .view = gltf_index(entry, "bufferView") };
+    const size_t size = gltf_element_size(kind->name, a->component);
+    a->stride = size;
+    for (int k = 0; k < 2; k++) {
+        const cJSON *bounds = gltf_member(entry, k ? "max" : "min");
+        if (bounds && cJSON_GetArraySize(bounds) != a->width)
+            return gltf_fail(document, GLTF_ACCESSORS, i, "has bounds of another length", error);
+    }
+    if (a->normalized && component_size(a->component) == 4)
+        return gltf_fail(document, GLTF_ACCESSORS, i, "has a type that cannot be normalized",
+                         error);
+    if (a->view < 0 && !(count * (double)size <= UNBACKED_BYTES_MAX))
+        return gltf_fail(document, GLTF_ACCESSORS, i, "has a count without data", error);
+    if (a->view >= 0) {
+        const cJSON *view = gltf_item(document, GLTF_VIEWS, (size_t)a->view);
+        a->stride = (size_t)gltf_number(view, "byteStride", (double)size);
+        if (a->stride < size)
+            return gltf_fail(document, GLTF_ACCESSORS, i, "has elements that overlap", error);
+        a->bytes = find_elements(document, entry, count, size, a->stride, a->component);
+        if (!a->bytes)
+            return gltf_fail(document, GLTF_ACCESSORS, i,
+                             "reaches outside its bufferView, or is not aligned in it", error);
+    }
+    return !sparse || load_sparse(document, sparse, size, a) ||
+           gltf_fail(document, GLTF_ACCESSORS, i, "has invalid sparse data", error);
+}
+
+bool gltf_load_accessors(gltf *document, cli_error *error) {
+    const size_t count = gltf_count(document, GLTF_ACCESSORS);
+    document->accessors = calloc(count + 1, sizeof *document->accessors);
+    bool ok = document->accessors || cli_fail(error, document->subject, "does not fit into memory");
+    for (size_t i = 0; i < count && ok; i++)
+        ok = load_accessor(document, i, &document->accessors[i], error);
+    return ok;
+}

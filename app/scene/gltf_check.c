@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: MIT */
+/* gltf_check.c - a document against the schema's tables. */
+#include "app/scene/gltf_schema.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where in the document the walk is, as "materials[2].alphaMode". */
+typedef struct walk {
+    const gltf *document;
+    char path[200];
+    size_t length;
+    cli_error *error;
+} walk;
+
+static bool fail(const walk *w, const char *wrong) {
+    return cli_fail(w->error, w->document->subject, "is no valid glTF: %s %s", w->path, wrong);
+}
+
+/* Steps into a member or, with name NULL, an entry; returns the length to step back to. */
+static size_t step(walk *w, const char *name, size_t index) {
+    const size_t before = w->length, room = sizeof w->path - before;
+    const int written = name ? snprintf(w->path + before, room, "%s%.60s", before ? "." : "", name)
+                             : snprintf(w->path + before, room, "[%zu]", index);
+    w->length += (size_t)written < room ? (size_t)written : room - 1;
+    return before;
+}
+
+static void step_back(walk *w, size_t length) {
+    w->length = length;
+    w->path[length] = 0;
+}
+
+static bool is_choice(const char *choices, const cJSON *value) {
+    char wanted[64];
+    if (cJSON_IsString(value))
+        snprintf(wanted, sizeof wanted, " %.60s ", value->valuestring);
+    else
+        snprintf(wanted, sizeof wanted, " %.0f ", value->valuedouble);
+    return strstr(choices, wanted) != NULL && !strchr(wanted + 1, ' ')[1];
+}
+
+static bool check_number(const walk *w, const gltf_field *field, const cJSON *value) {
+    if (!cJSON_IsNumber(value))
+        return fail(w, "is no number");
+    const double number = value->valuedouble;
+    if (!isfinite(number))
+        return fail(w, "is not a finite number");
+    if (field->type == GLTF_TYPE_INTEGER && number != floor(number))
+        return fail(w, "is no whole number");
+    const bool any = field->minimum == 0.0 && field->maximum == 0.0;
+    if (!any && !(number >= field->minimum && number <= field->maximum))
+        return fail(w, "is out of range");
+    if (field->above && number == field->minimum)
+        return fail(w, "is out of range");
+    return true;
+}
+
+static bool check_reference(const walk *w, const gltf_field *field, const cJSON *value) {
+    const gltf_field index = { .type = GLTF_TYPE_INTEGER, .maximum = 9e15 };
+    if (!check_number(w, &index, value))
+        return false;
+    return value->valuedouble < (double)gltf_count(w->document, field->kind) ||
+           fail(w, "refers to what is not there");
+}
+
+static bool check_object(walk *w, const gltf_object *object, const cJSON *value);
+
+static bool check_references(walk *w, const gltf_field *field, const cJSON *value) {
+    const cJSON *item;
+    if (!cJSON_IsObject(value))
+        return fail(w, "is no object");
+    cJSON_ArrayForEach(item, value) {
+        const size_t before = step(w, item->string, 0);
+        if (!check_reference(w, field, item))
+            return false;
+        step_back(w, before);
+    }
+    return true;
+}
+
+static bool check_value(walk *w, const gltf_field *field, const cJSON *value) {
+    bool ok = true;
+    switch (field->type) {
+    case GLTF_TYPE_NUMBER:
+    case GLTF_TYPE_INTEGER:
+        ok = check_number(w, field, value);
+        break;
+    case GLTF_TYPE_TEXT:
+        ok = cJSON_IsString(value) || fail(w, "is no text");
+        break;
+    case GLTF_TYPE_FLAG:
+        ok = cJSON_IsBool(value) || fail(w, "is neither true nor false");
+        break;
+    case GLTF_TYPE_OBJECT:
+        ok = check_object(w, field->object, value);
+        break;
+    case GLTF_TYPE_REFERENCE:
+        ok = check_reference(w, field, value);
+        break;
+    case GLTF_TYPE_REFERENCES:
+        ok = check_references(w, field, value);
+        break;
+    }
+    return ok && (!field->choices || is_choice(field->choices, value) ||
+                  fail(w, "is none of the values that glTF knows"));
+}
+
+/* --- arrays -------------------------------------------------------------------------------------
+ */
+
+static int compare_items(const void *a, const void *b) {
+    const cJSON *x = *(const cJSON *const *)a, *y = *(const cJSON *const *)b;
+    if (x->valuestring && y->valuestring)
+        return strcmp(x->valuestring, y->valuestring);
+    return (x->valuedouble > y->valuedouble) - (x->valuedouble < y->valuedouble);
+}
+
+static bool check_distinct(const walk *w, const cJSON *array, size_t count) {
+    const cJSON **items = malloc((count + 1) * sizeof *items), *item;
+    bool ok = items || cli_fail(w->error, w->document->subject, "does not fit into memory");
+    size_t i = 0;
+    if (ok)
+        cJSON_ArrayForEach(item, array) items[i++] = item;
+    if (ok)
+        qsort(items, count, sizeof *items, compare_items);
+    for (i = 1; i < count && ok; i++)
+        ok = compare_items(&items[i - 1], &items[i]) != 0 || fail(w, "has an entry twice");
+    free(items);
+    return ok;
+}
+
+static bool check_array(walk *w, const gltf_field *field, const cJSON *array) {
+    const cJSON *item;
+    size_t count = 0;
+    if (!cJSON_IsArray(array))
+        return fail(w, "is no array");
+    cJSON_ArrayForEach(item, array) {
+        const size_t before = step(w, NULL, count++);
+        if (!check_value(w, field, item))
+            return false;
+        step_back(w, before);
+    }
+    if (count < field->least || (field->most && count > field->most))
+        return fail(w, "has the wrong number of entries");
+    return !field->distinct || check_distinct(w, array, count);
+}
+
+/* --- objects ------------------------------------------------------------------------------------
+ */
+
+static bool check_fields(walk *w, const gltf_field *fields, const cJSON *value) {
+    for (const gltf_field *field = fields; field->name; field++) {
+        const cJSON *item = gltf_member(value, field->name);
+        const size_t before = step(w, field->name, 0);
+        if (!item && field->required)
+            return fail(w, "is missing");
+        if (item && !(field->array ? check_array(w, field, item) : check_value(w, field, item)))
+            return false;
+        step_back(w, before);
+    }
+    return true;
+}
+
+/* Texts that say who made the file and how: nothing to be seen. */
+static bool is_metadata(const char *extension) {
+    return strcmp(extension, "KHR_xmp_json_ld") == 0 || strcmp(extension, "KHR_xmp") == 0;
+}
+
+static bool check_extensions(walk *w, const gltf_object *object, const cJSON *value) {
+    static const gltf_field none = { .name = NULL };
+    static const char prefix[] = "KHR_materials_";
+    const cJSON *extensions = gltf_member(value, "extensions"), *item;
+    const gltf_field *known = object->extensions ? object->extensions : &none;
+    if (!extensions)
+        return true;
+    const size_t before = step(w, "extensions", 0);
+    if (!cJSON_IsObject(extensions))
+        return fail(w, "is no object");
+    if (!check_fields(w, known, extensions))
+        return false;
+    cJSON_ArrayForEach(item, extensions) {
+        const gltf_field *field = known;
+        while (field->name && strcmp(field->name, item->string) != 0)
+            field++;
+        const bool shorten = strncmp(item->string, prefix, sizeof prefix - 1) == 0;
+        if (!field->name && !is_metadata(item->string))
+            builder_left_out(w->document->builder, item->string + (shorten ? sizeof prefix - 1 : 0),
+                             object->noun, 1);
+    }
+    step_back(w, before);
+    return true;
+}
+
+static bool check_object(walk *w, const gltf_object *object, const cJSON *value) {
+    if (!cJSON_IsObject(value))
+        return fail(w, "is no object");
+    return check_fields(w, object->fields, value) && check_extensions(w, object, value);
+}
+
+bool gltf_check_schema(const gltf *document, cli_error *error) {
+    walk w = { .document = document, .error = error };
+    if (!cJSON_IsObject(document->root))
+        return cli_fail(error, document->subject, "is no valid glTF: it is no JSON object");
+    return check_object(&w, &gltf_schema, document->root);
+}
+
+/* --- version and extensions ---------------------------------------------------------------------
+ */
+
+/* "2.0" as 2 and 0. */
+static bool parse_version(const char *text, int *major, int *minor) {
+    char rest;
+    return strspn(text, "0123456789.") == strlen(text) && strlen(text) < 10 &&
+           sscanf(text, "%d.%d%c", major, minor, &rest) == 2;
+}
+
+bool gltf_check_version(const gltf *document, cli_error *error) {
+    const cJSON *asset = gltf_member(document->root, "asset");
+    const char *version = gltf_text(asset, "version"), *least = gltf_text(asset, "minVersion");
+    int major, minor, least_major = 2, least_minor = 0;
+    if (!parse_version(version, &major, &minor))
+        return cli_fail(error, document->subject,
+                        "is no valid glTF: asset.version is no version as 2.0");
+    if (major != 2)
+        return cli_fail(error, document->subject, "is glTF %.16s (version 2.0 is read)", version);
+    if (least[0] && !parse_version(least, &least_major, &least_minor))
+        return cli_fail(error, document->subject,
+                        "is no valid glTF: asset.minVersion is no version as 2.0");
+    if (least_major != 2 || least_minor > 0)
+        return cli_fail(error, document->subject,
+                        "needs a reader of glTF %.16s (version 2.0 is read)", least);
+    return true;
+}
+
+static bool lists(const cJSON *array, const char *name) {
+    const cJSON *item;
+    cJSON_ArrayForEach(item, array) {
+        if (strcmp(item->valuestring, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Extensions that a file may require: what they say is read, or a surface without them is still
+ * that surface, and they are named as left out. */
+static bool may_be_required(const char *name) {
+    static const char *const known[] = { "KHR_texture_transform",
+                                         "KHR_mesh_quantization",
+                                         "EXT_mesh_gpu_instancing",
+                                         "KHR_lights_punctual",
+                                         "KHR_materials_emissive_strength",
+                                         "KHR_materials_unlit",
+                                         "KHR_materials_sheen",
+                                         "KHR_materials_clearcoat",
+                                         "KHR_materials_ior",
+                                         "KHR_materials_specular",
+                                         "KHR_materials_transmission",
+                                         "KHR_materials_volume",
+                                         NULL };
+    size_t i = 0;
+    while (known[i] && strcmp(known[i], name) != 0)
+        i++;
+    return known[i] != NULL;
+}
+
+bool gltf_check_extensions(const gltf *document, cli_error *error) {
+    const cJSON *used = gltf_member(document->root, "extensionsUsed"), *item;
+    cJSON_ArrayForEach(item, gltf_member(document->root, "extensionsRequired")) {
+        if (!may_be_required(item->valuestring))
+            return cli_fail(error, document->subject,
+                            "requires the extension %.100s, which is not supported (export it "
+                            "without)",
+                            item->valuestring);
+        if (!lists(used, item->valuestring))
+            return cli_fail(error, document->subject,
+                            "is no valid glTF: it requires %.100s, which extensionsUsed lacks",
+                            item->valuestring);
+    }
+    return true;
+}

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT */
+/* gltf_node.c - the tree of nodes and their transforms. */
+#include "app/scene/gltf.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A rotation of this much more or less than length 1 is rounded; of more it is none. */
+#define QUATERNION_SLACK 0.01
+
+/* --- transforms ---------------------------------------------------------------------------------
+ */
+
+void gltf_transform_read(const cJSON *node, gltf_transform *t) {
+    *t = (gltf_transform) { .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
+    gltf_numbers(node, "translation", 3, t->translation);
+    gltf_numbers(node, "rotation", 4, t->rotation);
+    gltf_numbers(node, "scale", 3, t->scale);
+}
+
+void gltf_transform_matrix(const gltf_transform *t, double m[16]) {
+    double q[4], length2 = 0.0;
+    for (int i = 0; i < 4; i++)
+        length2 += t->rotation[i] * t->rotation[i];
+    for (int i = 0; i < 4; i++)
+        q[i] = length2 > 0.0 ? t->rotation[i] / sqrt(length2) : i == 3;
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double rotation[9] = {
+        1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),
+        2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),
+        2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y),
+    };
+    for (int i = 0; i < 16; i++)
+        m[i] = i % 5 == 0;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            m[4 * column + row] = rotation[3 * column + row] * t->scale[column];
+    memcpy(m + 12, t->translation, sizeof t->translation);
+}
+
+void gltf_multiply(const double *a, const double *b, double *product) {
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; k++)
+                sum += a[4 * k + row] * b[4 * column + k];
+            product[4 * column + row] = sum;
+        }
+}
+
+static bool check_transform(const gltf *document, size_t index, cli_error *error) {
+    static const char *const parts[] = { "translation", "rotation", "scale" };
+    const cJSON *node = gltf_item(document, GLTF_NODES, index);
+    double q[4] = { 0.0, 0.0, 0.0, 1.0 }, last[16] = { [15] = 1.0 };
+    for (size_t i = 0; i < 3; i++)
+        if (gltf_member(node, "matrix") && gltf_member(node, parts[i]))
+            return gltf_fail(document, GLTF_NODES, index, "has a matrix and its parts", error);
+    gltf_numbers(node, "rotation", 4, q);
+    const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(fabs(length - 1.0) <= QUATERNION_SLACK))
+        return gltf_fail(document, GLTF_NODES, index, "has a rotation that is not of length 1",
+                         error);
+    gltf_numbers(node, "matrix", 16, last);
+    if (last[3] != 0.0 || last[7] != 0.0 || last[11] != 0.0 || last[15] != 1.0)
+        return gltf_fail(document, GLTF_NODES, index, "has a matrix whose last row is not 0 0 0 1",
+                         error);
+    return true;
+}
+
+/* --- the tree -----------------------------------------------------------------------------------
+ */
+
+static bool find_parents(const gltf *document, cli_error *error) {
+    const size_t count = gltf_count(document, GLTF_NODES);
+    for (size_t i = 0; i < count; i++)
+        document->nodes[i].parent = -1;
+    for (size_t i = 0; i < count; i++) {
+        const cJSON *child;
+        if (!check_transform(document, i, error))
+            return false;
+        cJSON_ArrayForEach(child, gltf_member(gltf_item(document, GLTF_NODES, i), "children")) {
+            gltf_node *below = &document->nodes[(size_t)child->valuedouble];
+            if (below->parent >= 0)
+                return gltf_fail(document, GLTF_NODES, i, "has a child that has another parent",
+                                 error);
+            below->parent = (long)i;
+        }
+    }
+    return true;
+}
+
+static bool place_node(const gltf *document, size_t index, cli_error *error) {
+    const cJSON *entry = gltf_item(document, GLTF_NODES, index);
+    gltf_node *node = &document->nodes[index];
+    gltf_transform transform;
+    double local[16];
+    gltf_transform_read(entry, &transform);
+    gltf_transform_matrix(&transform, local);
+    gltf_numbers(entry, "matrix", 16, local);
+    if (node->parent >= 0) {
+        gltf_multiply(document->nodes[node->parent].world, local, node->world);
+        node->shown |= document->nodes[node->parent].shown;
+    } else {
+        memcpy(node->world, local, sizeof local);
+    }
+    for (int i = 0; i < 16; i++)
+        if (!isfinite(node->world[i]))
+            return gltf_fail(document, GLTF_NODES, index, "has no finite transform", error);
+    return true;
+}
+
+/* The nodes that a list names onto a stack, so that the first is on its top. */
+static size_t push_all(const cJSON *list, long *stack, size_t used) {
+    const size_t count = (size_t)cJSON_GetArraySize(list);
+    const cJSON *item;
+    size_t i = 0;
+    cJSON_ArrayForEach(item, list) stack[used + count - ++i] = (long)item->valuedouble;
+    return used + count;
+}
+
+/* Orders the nodes of the trees on the stack, and gives them their places in the world. */
+static bool order_nodes(const gltf *document, long *stack, size_t used, size_t *ordered,
+                        cli_error *error) {
+    while (used > 0) {
+        const size_t node = (size_t)stack[--used];
+        document->order[(*ordered)++] = node;
+        if (!place_node(document, node, error))
+            return false;
+        used =
+            push_all(gltf_member(gltf_item(document, GLTF_NODES, node), "children"), stack, used);
+    }
+    return true;
+}
+
+/* First the scene's trees, then those that are not shown, for what refers to them. Nodes that no
+ * tree has are in a loop. */
+static bool order_trees(const gltf *document, long *stack, cli_error *error) {
+    const size_t count = gltf_count(document, GLTF_NODES);
+    const long number = gltf_index(document->root, "scene");
+    const cJSON *roots = NULL, *item;
+    size_t ordered = 0;
+    if (gltf_count(document, GLTF_SCENES) > 0)
+        roots =
+            gltf_member(gltf_item(document, GLTF_SCENES, number < 0 ? 0 : (size_t)number), "nodes");
+    cJSON_ArrayForEach(item, roots) {
+        gltf_node *root = &document->nodes[(size_t)item->valuedouble];
+        if (root->parent >= 0)
+            return gltf_fail(document, GLTF_NODES, (size_t)item->valuedouble,
+                             "is a root of the scene and the child of another node", error);
+        root->shown = true;
+    }
+    if (!order_nodes(document, stack, push_all(roots, stack, 0), &ordered, error))
+        return false;
+    for (size_t i = 0; i < count; i++)
+        if (document->nodes[i].parent < 0 && !document->nodes[i].shown) {
+            stack[0] = (long)i;
+            if (!order_nodes(document, stack, 1, &ordered, error))
+                return false;
+        }
+    return ordered == count ||
+           cli_fail(error, document->subject,
+                    "is no valid glTF: nodes are children of themselves, in a loop");
+}
+
+bool gltf_load_nodes(gltf *document, cli_error *error) {
+    const size_t count = gltf_count(document, GLTF_NODES);
+    document->nodes = calloc(count + 1, sizeof *document->nodes);
+    document->order = calloc(count + 1, sizeof *document->order);
+    long *stack = calloc(count + 1, sizeof *stack);
+    const bool ok = document->nodes && document->order && stack
+                        ? find_parents(document, error) && order_trees(document, stack, error)
+                        : cli_fail(error, document->subject, "does not fit into memory");
+    free(stack);
+    return ok;
+}

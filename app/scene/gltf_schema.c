@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: MIT */
+/* gltf_schema.c - the schema of glTF 2.0 and of the extensions that are read. */
+#include "app/scene/gltf_schema.h"
+
+#include <math.h>
+
+#define END                                                                                        \
+    { .name = NULL }
+#define TEXT .type = GLTF_TYPE_TEXT
+#define FLAG .type = GLTF_TYPE_FLAG
+#define NAME                                                                                       \
+    { .name = "name", TEXT }
+#define COUNT                  .type = GLTF_TYPE_INTEGER, .maximum = 9007199254740991.0 /* 2^53 - 1 */
+#define UNIT                   .maximum = 1.0
+#define POSITIVE               .maximum = INFINITY, .above = true
+#define NOT_NEGATIVE           .maximum = INFINITY
+#define CHOICE(values)         .choices = " " values " "
+#define REFERENCE(of)          .type = GLTF_TYPE_REFERENCE, .kind = (of)
+#define OBJECT(of)             .type = GLTF_TYPE_OBJECT, .object = &(of)
+#define LIST_OF(of)            .array = true, OBJECT(of)
+#define VECTOR(n)              .array = true, .least = (n), .most = (n)
+#define INTEGER_CHOICE(values) .type = GLTF_TYPE_INTEGER, CHOICE(values)
+
+/* --- bytes --------------------------------------------------------------------------------------
+ */
+
+static const gltf_object buffer = {
+    "buffer",
+    (const gltf_field[]) {
+        { "uri", TEXT }, { "byteLength", COUNT, .minimum = 1, .required = true }, NAME, END },
+    NULL,
+};
+static const gltf_object view = {
+    "buffer view",
+    (const gltf_field[]) {
+        { "buffer", REFERENCE(GLTF_BUFFERS), .required = true },
+        { "byteOffset", COUNT },
+        { "byteLength", COUNT, .minimum = 1, .required = true },
+        { "byteStride", .type = GLTF_TYPE_INTEGER, .minimum = 4, .maximum = 252 },
+        { "target", INTEGER_CHOICE("34962 34963") },
+        NAME,
+        END },
+    NULL,
+};
+static const gltf_object sparse_indices = {
+    "accessor",
+    (const gltf_field[]) { { "bufferView", REFERENCE(GLTF_VIEWS), .required = true },
+                           { "byteOffset", COUNT },
+                           { "componentType", INTEGER_CHOICE("5121 5123 5125"), .required = true },
+                           END },
+    NULL,
+};
+static const gltf_object sparse_values = {
+    "accessor",
+    (const gltf_field[]) {
+        { "bufferView", REFERENCE(GLTF_VIEWS), .required = true }, { "byteOffset", COUNT }, END },
+    NULL,
+};
+static const gltf_object sparse = {
+    "accessor",
+    (const gltf_field[]) { { "count", COUNT, .minimum = 1, .required = true },
+                           { "indices", OBJECT(sparse_indices), .required = true },
+                           { "values", OBJECT(sparse_values), .required = true },
+                           END },
+    NULL,
+};
+static const gltf_object accessor = {
+    "accessor",
+    (const gltf_field[]) {
+        { "bufferView", REFERENCE(GLTF_VIEWS) },
+        { "byteOffset", COUNT },
+        { "componentType", INTEGER_CHOICE("5120 5121 5122 5123 5125 5126"), .required = true },
+        { "normalized", FLAG },
+        { "count", COUNT, .minimum = 1, .required = true },
+        { "type", TEXT, CHOICE("SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4"), .required = true },
+        { "max", .array = true, .least = 1, .most = 16 },
+        { "min", .array = true, .least = 1, .most = 16 },
+        { "sparse", OBJECT(sparse) },
+        NAME,
+        END },
+    NULL,
+};
+
+/* --- images and materials -----------------------------------------------------------------------
+ */
+
+static const gltf_object image = {
+    "image",
+    (const gltf_field[]) {
+        { "uri", TEXT }, { "mimeType", TEXT }, { "bufferView", REFERENCE(GLTF_VIEWS) }, NAME, END },
+    NULL,
+};
+static const gltf_object sampler = {
+    "sampler",
+    (const gltf_field[]) { { "magFilter", INTEGER_CHOICE("9728 9729") },
+                           { "minFilter", INTEGER_CHOICE("9728 9729 9984 9985 9986 9987") },
+                           { "wrapS", INTEGER_CHOICE("10497 33071 33648") },
+                           { "wrapT", INTEGER_CHOICE("10497 33071 33648") },
+                           NAME,
+                           END },
+    NULL,
+};
+static const gltf_object texture = {
+    "texture",
+    (const gltf_field[]) {
+        { "sampler", REFERENCE(GLTF_SAMPLERS) }, { "source", REFERENCE(GLTF_IMAGES) }, NAME, END },
+    NULL,
+};
+
+static const gltf_object texture_transform = {
+    "texture",
+    (const gltf_field[]) { { "offset", VECTOR(2) },
+                           { "rotation", .type = GLTF_TYPE_NUMBER },
+                           { "scale", VECTOR(2) },
+                           { "texCoord", COUNT },
+                           END },
+    NULL,
+};
+#define TEXTURE_FIELDS                                                                             \
+    { "index", REFERENCE(GLTF_TEXTURES), .required = true }, {                                     \
+        "texCoord", COUNT                                                                          \
+    }
+static const gltf_field texture_extensions[] = {
+    { "KHR_texture_transform", OBJECT(texture_transform) },
+    END,
+};
+static const gltf_object texture_info = {
+    "texture",
+    (const gltf_field[]) { TEXTURE_FIELDS, END },
+    texture_extensions,
+};
+static const gltf_object normal_texture = {
+    "texture",
+    (const gltf_field[]) { TEXTURE_FIELDS, { "scale", .type = GLTF_TYPE_NUMBER }, END },
+    texture_extensions,
+};
+static const gltf_object occlusion_texture = {
+    "texture",
+    (const gltf_field[]) { TEXTURE_FIELDS, { "strength", UNIT }, END },
+    texture_extensions,
+};
+static const gltf_object metallic_roughness = {
+    "material",
+    (const gltf_field[]) { { "baseColorFactor", VECTOR(4), UNIT },
+                           { "baseColorTexture", OBJECT(texture_info) },
+                           { "metallicFactor", UNIT },
+                           { "roughnessFactor", UNIT },
+                           { "metallicRoughnessTexture", OBJECT(texture_info) },
+                           END },
+    NULL,
+};
+static const gltf_object emissive_strength = {
+    "material",
+    (const gltf_field[]) { { "emissiveStrength", NOT_NEGATIVE }, END },
+    NULL,
+};
+static const gltf_object unlit = { "material", (const gltf_field[]) { END }, NULL };
+static const gltf_object material = {
+    "material",
+    (const gltf_field[]) { { "pbrMetallicRoughness", OBJECT(metallic_roughness) },
+                           { "normalTexture", OBJECT(normal_texture) },
+                           { "occlusionTexture", OBJECT(occlusion_texture) },
+                           { "emissiveTexture", OBJECT(texture_info) },
+                           { "emissiveFactor", VECTOR(3), UNIT },
+                           { "alphaMode", TEXT, CHOICE("OPAQUE MASK BLEND") },
+                           { "alphaCutoff", NOT_NEGATIVE },
+                           { "doubleSided", FLAG },
+                           NAME,
+                           END },
+    (const gltf_field[]) { { "KHR_materials_emissive_strength", OBJECT(emissive_strength) },
+                           { "KHR_materials_unlit", OBJECT(unlit) },
+                           END },
+};
+
+/* --- meshes and nodes ---------------------------------------------------------------------------
+ */
+
+#define ATTRIBUTES .type = GLTF_TYPE_REFERENCES, .kind = GLTF_ACCESSORS
+static const gltf_object primitive = {
+    "mesh",
+    (const gltf_field[]) { { "attributes", ATTRIBUTES, .required = true },
+                           { "indices", REFERENCE(GLTF_ACCESSORS) },
+                           { "material", REFERENCE(GLTF_MATERIALS) },
+                           { "mode", .type = GLTF_TYPE_INTEGER, .maximum = 6 },
+                           { "targets", .array = true, ATTRIBUTES },
+                           END },
+    NULL,
+};
+static const gltf_object mesh = {
+    "mesh",
+    (const gltf_field[]) { { "primitives", LIST_OF(primitive), .least = 1, .required = true },
+                           { "weights", .array = true },
+                           NAME,
+                           END },
+    NULL,
+};
+static const gltf_object skin = {
+    "skin",
+    (const gltf_field[]) { { "inverseBindMatrices", REFERENCE(GLTF_ACCESSORS) },
+                           { "skeleton", REFERENCE(GLTF_NODES) },
+                           { "joints", .array = true, REFERENCE(GLTF_NODES), .least = 1,
+                             .distinct = true, .required = true },
+                           NAME,
+                           END },
+    NULL,
+};
+static const gltf_object light_use = {
+    "node",
+    (const gltf_field[]) { { "light", REFERENCE(GLTF_LIGHTS), .required = true }, END },
+    NULL,
+};
+static const gltf_object instancing = {
+    "node",
+    (const gltf_field[]) { { "attributes", ATTRIBUTES, .required = true }, END },
+    NULL,
+};
+static const gltf_object node = {
+    "node",
+    (const gltf_field[]) { { "camera", REFERENCE(GLTF_CAMERAS) },
+                           { "children", .array = true, REFERENCE(GLTF_NODES), .distinct = true },
+                           { "skin", REFERENCE(GLTF_SKINS) },
+                           { "matrix", VECTOR(16) },
+                           { "mesh", REFERENCE(GLTF_MESHES) },
+                           { "rotation", VECTOR(4), .minimum = -1.0, .maximum = 1.0 },
+                           { "scale", VECTOR(3) },
+                           { "translation", VECTOR(3) },
+                           { "weights", .array = true },
+                           NAME,
+                           END },
+    (const gltf_field[]) { { "KHR_lights_punctual", OBJECT(light_use) },
+                           { "EXT_mesh_gpu_instancing", OBJECT(instancing) },
+                           END },
+};
+static const gltf_object scene_object = {
+    "scene",
+    (const gltf_field[]) {
+        { "nodes", .array = true, REFERENCE(GLTF_NODES), .distinct = true }, NAME, END },
+    NULL,
+};
+
+/* --- cameras and lights -------------------------------------------------------------------------
+ */
+
+static const gltf_object orthographic = {
+    "camera",
+    (const gltf_field[]) { { "xmag", .type = GLTF_TYPE_NUMBER, .required = true },
+                           { "ymag", .type = GLTF_TYPE_NUMBER, .required = true },
+                           { "zfar", POSITIVE, .required = true },
+                           { "znear", NOT_NEGATIVE, .required = true },
+                           END },
+    NULL,
+};
+static const gltf_object perspective = {
+    "camera",
+    (const gltf_field[]) { { "aspectRatio", POSITIVE },
+                           { "yfov", POSITIVE, .required = true },
+                           { "zfar", POSITIVE },
+                           { "znear", POSITIVE, .required = true },
+                           END },
+    NULL,
+};
+static const gltf_object camera = {
+    "camera",
+    (const gltf_field[]) { { "orthographic", OBJECT(orthographic) },
+                           { "perspective", OBJECT(perspective) },
+                           { "type", TEXT, CHOICE("orthographic perspective"), .required = true },
+                           NAME,
+                           END },
+    NULL,
+};
+static const gltf_object spot = {
+    "light",
+    (const gltf_field[]) { { "innerConeAngle", .maximum = M_PI_2 },
+                           { "outerConeAngle", .maximum = M_PI_2, .above = true },
+                           END },
+    NULL,
+};
+static const gltf_object light = {
+    "light",
+    (const gltf_field[]) { { "color", VECTOR(3), NOT_NEGATIVE },
+                           { "intensity", NOT_NEGATIVE },
+                           { "range", POSITIVE },
+                           { "spot", OBJECT(spot) },
+                           { "type", TEXT, CHOICE("directional point spot"), .required = true },
+                           NAME,
+                           END },
+    NULL,
+};
+static const gltf_object lights = {
+    "file",
+    (const gltf_field[]) { { "lights", LIST_OF(light), .required = true }, END },
+    NULL,
+};
+
+/* --- animations ---------------------------------------------------------------------------------
+ */
+
+static const gltf_object channel_target = {
+    "animation",
+    (const gltf_field[]) {
+        { "node", REFERENCE(GLTF_NODES) }, { "path", TEXT, .required = true }, END },
+    NULL,
+};
+static const gltf_object channel = {
+    "animation",
+    (const gltf_field[]) { { "sampler", COUNT, .required = true },
+                           { "target", OBJECT(channel_target), .required = true },
+                           END },
+    NULL,
+};
+static const gltf_object animation_sampler = {
+    "animation",
+    (const gltf_field[]) { { "input", REFERENCE(GLTF_ACCESSORS), .required = true },
+                           { "interpolation", TEXT, CHOICE("LINEAR STEP CUBICSPLINE") },
+                           { "output", REFERENCE(GLTF_ACCESSORS), .required = true },
+                           END },
+    NULL,
+};
+static const gltf_object animation = {
+    "animation",
+    (const gltf_field[]) { { "channels", LIST_OF(channel), .least = 1, .required = true },
+                           { "samplers", LIST_OF(animation_sampler), .least = 1, .required = true },
+                           NAME,
+                           END },
+    NULL,
+};
+
+/* --- the document -------------------------------------------------------------------------------
+ */
+
+static const gltf_object asset = {
+    "file",
+    (const gltf_field[]) { { "copyright", TEXT },
+                           { "generator", TEXT },
+                           { "version", TEXT, .required = true },
+                           { "minVersion", TEXT },
+                           END },
+    NULL,
+};
+const gltf_object gltf_schema = {
+    "file",
+    (const gltf_field[]) { { "extensionsUsed", .array = true, TEXT, .distinct = true },
+                           { "extensionsRequired", .array = true, TEXT, .distinct = true },
+                           { "accessors", LIST_OF(accessor) },
+                           { "animations", LIST_OF(animation) },
+                           { "asset", OBJECT(asset), .required = true },
+                           { "buffers", LIST_OF(buffer) },
+                           { "bufferViews", LIST_OF(view) },
+                           { "cameras", LIST_OF(camera) },
+                           { "images", LIST_OF(image) },
+                           { "materials", LIST_OF(material) },
+                           { "meshes", LIST_OF(mesh) },
+                           { "nodes", LIST_OF(node) },
+                           { "samplers", LIST_OF(sampler) },
+                           { "scene", REFERENCE(GLTF_SCENES) },
+                           { "scenes", LIST_OF(scene_object) },
+                           { "skins", LIST_OF(skin) },
+                           { "textures", LIST_OF(texture) },
+                           END },
+    (const gltf_field[]) { { "KHR_lights_punctual", OBJECT(lights) }, END },
+};

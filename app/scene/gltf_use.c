@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: MIT */
+/* gltf_use.c - what accessors must be for what refers to them, and fields to one another. */
+#include "app/scene/gltf.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- attributes ---------------------------------------------------------------------------------
+ */
+
+/* Component types, as bits. */
+enum {
+    B = 1,   /* signed byte */
+    UB = 2,  /* unsigned byte */
+    S = 4,   /* short */
+    US = 8,  /* unsigned short */
+    UI = 16, /* unsigned int */
+    F = 32,  /* float */
+    NORMALIZED = B | UB | S | US
+};
+
+static unsigned bit_of(gltf_component component) {
+    return 1u << (component == GLTF_FLOAT     ? 5
+                  : component - GLTF_BYTE > 4 ? 4
+                                              : component - GLTF_BYTE);
+}
+
+/* What an attribute may be: types that must be normalized, and those that must not be. */
+typedef struct attribute {
+    const char *name; /* with '_' at its end: a number follows */
+    int least_width, most_width;
+    unsigned plain, normalized;
+    /* the same with KHR_mesh_quantization */
+    unsigned quantized_plain, quantized_normalized;
+} attribute;
+
+static const attribute vertex_attributes[] = {
+    { "POSITION", 3, 3, F, 0, F | NORMALIZED, NORMALIZED },
+    { "NORMAL", 3, 3, F, 0, F, B | S },
+    { "TANGENT", 4, 4, F, 0, F, B | S },
+    { "TEXCOORD_", 2, 2, F, UB | US, F | NORMALIZED, NORMALIZED },
+    { "COLOR_", 3, 4, F, UB | US, F, UB | US },
+    { "JOINTS_", 4, 4, UB | US, 0, UB | US, 0 },
+    { "WEIGHTS_", 4, 4, F, UB | US, F, UB | US },
+    { NULL, 0, 0, 0, 0, 0, 0 },
+};
+static const attribute target_attributes[] = {
+    { "POSITION", 3, 3, F, 0, F | B | S, B | S },
+    { "NORMAL", 3, 3, F, 0, F, B | S },
+    { "TANGENT", 3, 3, F, 0, F, B | S },
+    { "TEXCOORD_", 2, 2, F, B | UB | S | US, F | NORMALIZED, NORMALIZED },
+    { "COLOR_", 3, 4, F, B | UB | S | US, F, NORMALIZED },
+    { NULL, 0, 0, 0, 0, 0, 0 },
+};
+static const attribute instance_attributes[] = {
+    { "TRANSLATION", 3, 3, F, 0, F, 0 },
+    { "ROTATION", 4, 4, F, B | S, F, B | S },
+    { "SCALE", 3, 3, F, 0, F, 0 },
+    { NULL, 0, 0, 0, 0, 0, 0 },
+};
+
+static bool is_named(const attribute *known, const char *name) {
+    const size_t length = strlen(known->name);
+    if (known->name[length - 1] != '_')
+        return strcmp(known->name, name) == 0;
+    const char *number = name + length;
+    return strncmp(known->name, name, length) == 0 && number[0] &&
+           strspn(number, "0123456789") == strlen(number) && (number[0] != '0' || !number[1]);
+}
+
+static bool uses_quantization(const gltf *document) {
+    const cJSON *item;
+    cJSON_ArrayForEach(item, gltf_member(document->root, "extensionsUsed")) {
+        if (strcmp(item->valuestring, "KHR_mesh_quantization") == 0)
+            return true;
+    }
+    return false;
+}
+
+/* All attributes of an object, against a table: of one count (0: that of the first), and what the
+ * table says of each. Names that begin with an underscore are an application's own. */
+static bool check_attributes(const gltf *document, const cJSON *attributes, const attribute *table,
+                             size_t *count) {
+    const bool quantized = uses_quantization(document);
+    const cJSON *item;
+    cJSON_ArrayForEach(item, attributes) {
+        const gltf_accessor *a = &document->accessors[(size_t)item->valuedouble];
+        const attribute *known = table;
+        while (known->name && !is_named(known, item->string))
+            known++;
+        if (*count == 0)
+            *count = a->count;
+        if (a->count != *count)
+            return false;
+        if (!known->name) {
+            if (item->string[0] != '_')
+                return false;
+            continue;
+        }
+        const unsigned plain = quantized ? known->quantized_plain : known->plain;
+        const unsigned normalized = quantized ? known->quantized_normalized : known->normalized;
+        if (a->width < known->least_width || a->width > known->most_width ||
+            !((a->normalized ? normalized : plain) & bit_of(a->component)))
+            return false;
+    }
+    return true;
+}
+
+/* --- meshes -------------------------------------------------------------------------------------
+ */
+
+static bool check_indices(const gltf *document, long index) {
+    if (index < 0)
+        return true;
+    const gltf_accessor *a = &document->accessors[index];
+    const bool strided =
+        a->view >= 0 && gltf_member(gltf_item(document, GLTF_VIEWS, (size_t)a->view), "byteStride");
+    return a->width == 1 && !a->normalized && !strided && (bit_of(a->component) & (UB | US | UI));
+}
+
+static const char *primitive_fault(const gltf *document, const cJSON *primitive) {
+    const cJSON *attributes = gltf_member(primitive, "attributes"), *target;
+    size_t count = 0;
+    if (!check_attributes(document, attributes, vertex_attributes, &count))
+        return "has attributes that do not fit together, or are of no type they may be";
+    if (!check_indices(document, gltf_index(primitive, "indices")))
+        return "has indices that are no unsigned integers, or are interleaved";
+    cJSON_ArrayForEach(target, gltf_member(primitive, "targets")) {
+        if (!check_attributes(document, target, target_attributes, &count))
+            return "has a morph target that does not fit its vertices";
+    }
+    return NULL;
+}
+
+static bool check_mesh(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *mesh = gltf_item(document, GLTF_MESHES, i), *primitive;
+    const cJSON *weights = gltf_member(mesh, "weights");
+    int targets = -1;
+    cJSON_ArrayForEach(primitive, gltf_member(mesh, "primitives")) {
+        const char *fault = primitive_fault(document, primitive);
+        if (fault)
+            return gltf_fail(document, GLTF_MESHES, i, fault, error);
+        const int own = cJSON_GetArraySize(gltf_member(primitive, "targets"));
+        if (targets >= 0 && own != targets)
+            return gltf_fail(document, GLTF_MESHES, i, "has primitives of unlike morph targets",
+                             error);
+        targets = own;
+    }
+    return !weights || cJSON_GetArraySize(weights) == targets ||
+           gltf_fail(document, GLTF_MESHES, i, "has not one weight a morph target", error);
+}
+
+/* --- nodes and skins ----------------------------------------------------------------------------
+ */
+
+static bool check_node(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *node = gltf_item(document, GLTF_NODES, i);
+    const cJSON *instances =
+        gltf_member(gltf_extension(node, "EXT_mesh_gpu_instancing"), "attributes");
+    const cJSON *weights = gltf_member(node, "weights");
+    const long mesh = gltf_index(node, "mesh");
+    size_t count = 0;
+    if (mesh < 0 && (weights || gltf_member(node, "skin")))
+        return gltf_fail(document, GLTF_NODES, i, "has a skin or weights, but no mesh", error);
+    const cJSON *first = cJSON_GetArrayItem(
+        mesh < 0 ? NULL : gltf_member(gltf_item(document, GLTF_MESHES, (size_t)mesh), "primitives"),
+        0);
+    if (weights && cJSON_GetArraySize(weights) != cJSON_GetArraySize(gltf_member(first, "targets")))
+        return gltf_fail(document, GLTF_NODES, i, "has not one weight a morph target", error);
+    return check_attributes(document, instances, instance_attributes, &count) ||
+           gltf_fail(document, GLTF_NODES, i, "has instances that do not fit together", error);
+}
+
+static bool check_skin(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *skin = gltf_item(document, GLTF_SKINS, i);
+    const long matrices = gltf_index(skin, "inverseBindMatrices");
+    const gltf_accessor *a = matrices < 0 ? NULL : &document->accessors[matrices];
+    const size_t joints = (size_t)cJSON_GetArraySize(gltf_member(skin, "joints"));
+    return !a || (a->width == 16 && a->component == GLTF_FLOAT && a->count >= joints) ||
+           gltf_fail(document, GLTF_SKINS, i, "has no matrix for every joint", error);
+}
+
+/* --- cameras, images, animations ----------------------------------------------------------------
+ */
+
+static bool check_camera(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *camera = gltf_item(document, GLTF_CAMERAS, i);
+    const cJSON *view = gltf_member(camera, gltf_text(camera, "type"));
+    const double far = gltf_number(view, "zfar", 0.0);
+    if (!view || (gltf_member(camera, "perspective") && gltf_member(camera, "orthographic")))
+        return gltf_fail(document, GLTF_CAMERAS, i, "is not what its type says", error);
+    return far == 0.0 || far > gltf_number(view, "znear", 0.0) ||
+           gltf_fail(document, GLTF_CAMERAS, i, "has a zfar that is not beyond its znear", error);
+}
+
+static bool check_image(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *image = gltf_item(document, GLTF_IMAGES, i);
+    const bool embedded = gltf_member(image, "bufferView") != NULL;
+    if (embedded == (gltf_member(image, "uri") != NULL))
+        return gltf_fail(document, GLTF_IMAGES, i, "has not one of uri and bufferView", error);
+    return !embedded || gltf_member(image, "mimeType") ||
+           gltf_fail(document, GLTF_IMAGES, i, "has no mimeType", error);
+}
+
+static bool check_light(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *light = gltf_item(document, GLTF_LIGHTS, i), *spot = gltf_member(light, "spot");
+    if (strcmp(gltf_text(light, "type"), "spot") == 0 && !spot)
+        return gltf_fail(document, GLTF_LIGHTS, i, "is a spot without its cone", error);
+    return !spot ||
+           gltf_number(spot, "innerConeAngle", 0.0) <
+               gltf_number(spot, "outerConeAngle", 0.78539816) ||
+           gltf_fail(document, GLTF_LIGHTS, i, "has an inner cone that is not within its outer one",
+                     error);
+}
+
+/* The width of a property's values, 0: one that does not belong to a node. */
+static int path_width(const char *path) {
+    return strcmp(path, "rotation") == 0                                    ? 4
+           : strcmp(path, "translation") == 0 || strcmp(path, "scale") == 0 ? 3
+           : strcmp(path, "weights") == 0                                   ? 1
+                                                                            : 0;
+}
+
+static const char *channel_fault(const gltf *document, const cJSON *channel, const cJSON *samplers,
+                                 size_t sampler_count) {
+    const double number = gltf_number(channel, "sampler", 0.0);
+    if (!(number < (double)sampler_count))
+        return "has a channel whose sampler is not there";
+    const cJSON *sampler = cJSON_GetArrayItem(samplers, (int)number);
+    const gltf_accessor *times = &document->accessors[gltf_index(sampler, "input")];
+    const gltf_accessor *values = &document->accessors[gltf_index(sampler, "output")];
+    const char *path = gltf_text(gltf_member(channel, "target"), "path");
+    const size_t a_key = strcmp(gltf_text(sampler, "interpolation"), "CUBICSPLINE") == 0 ? 3 : 1;
+    const int width = path_width(path);
+    if (times->width != 1 || times->component != GLTF_FLOAT)
+        return "has times that are no floats";
+    if (width == 0)
+        return strcmp(path, "pointer") == 0 ? NULL : "has a channel of an unknown path";
+    if (values->width != width || values->component == GLTF_UNSIGNED_INT ||
+        (values->component != GLTF_FLOAT && !values->normalized))
+        return "has values of another type than its path";
+    if (width > 1 && values->count != times->count * a_key)
+        return "has not one value a time";
+    return NULL;
+}
+
+static bool check_animation(const gltf *document, size_t i, cli_error *error) {
+    const cJSON *animation = gltf_item(document, GLTF_ANIMATIONS, i), *channel;
+    const cJSON *samplers = gltf_member(animation, "samplers");
+    const size_t count = (size_t)cJSON_GetArraySize(samplers);
+    cJSON_ArrayForEach(channel, gltf_member(animation, "channels")) {
+        const char *fault = channel_fault(document, channel, samplers, count);
+        if (fault)
+            return gltf_fail(document, GLTF_ANIMATIONS, i, fault, error);
+    }
+    return true;
+}
+
+bool gltf_check_uses(const gltf *document, cli_error *error) {
+    static const struct {
+        gltf_kind kind;
+        bool (*check)(const gltf *document, size_t i, cli_error *error);
+    } checks[] = { { GLTF_MESHES, check_mesh },         { GLTF_NODES, check_node },
+                   { GLTF_SKINS, check_skin },          { GLTF_CAMERAS, check_camera },
+                   { GLTF_IMAGES, check_image },        { GLTF_LIGHTS, check_light },
+                   { GLTF_ANIMATIONS, check_animation } };
+    for (size_t k = 0; k < sizeof checks / sizeof *checks; k++)
+        for (size_t i = 0; i < gltf_count(document, checks[k].kind); i++)
+            if (!checks[k].check(document, i, error))
+                return false;
+    return true;
+}
