@@ -18,25 +18,25 @@ layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
 #include "lampion.glsl"
 
 #ifdef SHADE_PREINTEGRATED_LOBE
-layout(binding = SHARED_PREINTEGRATED_LOBE_PAIRS) uniform sampler2D response_pairs;
-layout(std430, binding = SHARED_PREINTEGRATED_LOBE) readonly buffer response_block {
+layout(binding = SHARED_PREINTEGRATED_LOBE_PAIRS) uniform sampler2D lobe_pairs;
+layout(std430, binding = SHARED_PREINTEGRATED_LOBE) readonly buffer lobe_block {
     vec4 shape;
     vec4 cells[SHARED_PREINTEGRATED_LOBE_CELLS];
-    float warp[SHARED_PREINTEGRATED_LOBE_WARP];
+    float remap[SHARED_PREINTEGRATED_LOBE_REMAP];
 };
-#define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(response_pairs, (p) * shape.zw, 0.0).rg
+#define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(lobe_pairs, (p) * shape.zw, 0.0).rg
 #define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
-#define LMP_PREINTEGRATED_LOBE_REMAP(i) warp[i]
+#define LMP_PREINTEGRATED_LOBE_REMAP(i) remap[i]
 #define LMP_PREINTEGRATED_LOBE_SHAPE   shape
 #include "preintegrated_lobe.glsl"
 #ifdef MEASURED
 layout(binding = SHARED_PREINTEGRATED_BRDF_TEXELS) uniform sampler2D brdf_texels;
-/* first, for every table, the place of its response's numbers, or 0 */
+/* first, for every table, the index of its preintegrated BRDF's numbers, or 0 */
 layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
-    float measured[];
+    float brdf_values[];
 };
 #define LMP_PREINTEGRATED_BRDF_TEXEL(p) textureLod(brdf_texels, (p) / vec2(textureSize(brdf_texels, 0)), 0.0).rgb
-#define LMP_PREINTEGRATED_BRDF_VALUE(i) measured[i]
+#define LMP_PREINTEGRATED_BRDF_VALUE(i) brdf_values[i]
 #include "preintegrated_brdf.glsl"
 #endif
 #endif
@@ -49,7 +49,7 @@ layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
 #if defined(TABLE_FULL) || defined(MEASURED)
 vec3 shade_by_table(lmp_surface surface, int table) {
 #ifdef MEASURED
-    int first = int(measured[table]);
+    int first = int(brdf_values[table]);
 #ifdef TABLE_FULL
     if (first == 0)
         return shade_table(surface, table);

@@ -48,14 +48,15 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_KIND_LIGHT   2
 #define SHARED_KIND_TABLE   3 /* and up: a surface of table number kind - 3 */
 
-/* Texture unit and storage block of a response (lampion/preintegrated.h), and the most cells and
- * the entries of the warp that the block holds: those of 128 bands at the default error fit. */
+/* Texture unit and storage block of a preintegrated lobe (lampion/preintegrated.h), and the most
+ * cells and the entries of the remap that the block holds: those of 128 bands at the default error
+ * fit. */
 #define SHARED_PREINTEGRATED_LOBE_PAIRS 6
 #define SHARED_PREINTEGRATED_LOBE       3
 #define SHARED_PREINTEGRATED_LOBE_CELLS 128
-#define SHARED_PREINTEGRATED_LOBE_WARP  321
+#define SHARED_PREINTEGRATED_LOBE_REMAP 321
 
-/* Texture unit and storage block of measured materials' responses (preintegrated_brdf.glsl). */
+/* Texture unit and storage block of preintegrated BRDFs (preintegrated_brdf.glsl). */
 #define SHARED_PREINTEGRATED_BRDF_TEXELS 8
 #define SHARED_PREINTEGRATED_BRDF        4
 
@@ -124,13 +125,13 @@ typedef struct shared_pixel {
 #else
 } shared_pixel;
 
-/* A response but for its coefficients, as std430. cells: scale, offset, and the corner in the
- * texture. */
-typedef struct shared_response {
+/* A preintegrated lobe but for its coefficients, as std430. cells: scale, offset, and the corner in
+ * the texture. */
+typedef struct shared_preintegrated_lobe {
     vec4 shape; /* width2, number of cells, size of a texel */
     vec4 cells[SHARED_PREINTEGRATED_LOBE_CELLS];
-    float warp[SHARED_PREINTEGRATED_LOBE_WARP];
-} shared_response;
+    float remap[SHARED_PREINTEGRATED_LOBE_REMAP];
+} shared_preintegrated_lobe;
 
 static_assert(offsetof(shared_frame, eye) == 64, "std140");
 static_assert(offsetof(shared_frame, size_lights) == 144, "std140");

@@ -43,15 +43,15 @@ static void upload_cells(const lmp_preintegrated_lobe_info *info, const corner *
 
 static void upload_block(const lmp_preintegrated_lobe_info *info, const corner *corners,
                          GLsizei height, GLuint *buffer) {
-    shared_response block = { .shape = { info->width2, (float)info->cell_count, 1.0f / ATLAS_WIDTH,
-                                         1 / (float)height } };
+    shared_preintegrated_lobe block = { .shape = { info->width2, (float)info->cell_count,
+                                                   1.0f / ATLAS_WIDTH, 1 / (float)height } };
     for (uint32_t i = 0; i < info->cell_count; i++) {
         block.cells[i][0] = info->cells[i].scale;
         block.cells[i][1] = info->cells[i].offset;
         block.cells[i][2] = (float)corners[i].x;
         block.cells[i][3] = (float)corners[i].y;
     }
-    memcpy(block.warp, info->warp, LMP_PREINTEGRATED_LOBE_REMAP_COUNT * sizeof(float));
+    memcpy(block.remap, info->remap, LMP_PREINTEGRATED_LOBE_REMAP_COUNT * sizeof(float));
     glDeleteBuffers(1, buffer);
     glCreateBuffers(1, buffer);
     glNamedBufferStorage(*buffer, sizeof block, &block, 0);

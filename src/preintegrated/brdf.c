@@ -8,19 +8,19 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* Shares of the time, for progress. */
-#define SERIES_SHARE 0.1
-#define NODES_SHARE  0.3
+/* What part of the time is over after them, for progress. */
+#define SERIES_DONE 0.1
+#define NODES_DONE  0.3
 
 /* --- the object ---------------------------------------------------------------------------------
  */
 
 lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
                                            const lmp_preintegrated_brdf *plan,
-                                           lmp_preintegrated_brdf **response) {
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+                                           lmp_preintegrated_brdf **brdf) {
+    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
     const lmp_preintegrated_brdf_info *info = &plan->info;
-    *response = NULL;
+    *brdf = NULL;
     if (info->texel_count > BRDF_TEXELS_MAX)
         return LMP_ERROR_MEMORY;
     const size_t slices = (size_t)info->view_count * info->cap_count;
@@ -28,12 +28,12 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
     const size_t ambient_bytes = info->view_count * sizeof(lmp_rgb);
     const size_t texel_bytes = (info->texel_count + LMP_KERNEL_TEXELS_SPARE) * 3 * sizeof(int16_t);
     lmp_preintegrated_brdf *made =
-        lmp_allocate(&heap, sizeof *made + slice_bytes + ambient_bytes + texel_bytes);
-    *response = made;
+        lmp_allocate(&resolved, sizeof *made + slice_bytes + ambient_bytes + texel_bytes);
+    *brdf = made;
     if (!made)
         return LMP_ERROR_MEMORY;
     memcpy(made, plan, sizeof *made);
-    made->allocator = heap;
+    made->allocator = resolved;
     made->slices = (lmp_preintegrated_brdf_slice *)(made + 1);
     made->ambient = (lmp_rgb *)(made->slices + slices);
     made->texels = (int16_t *)(made->ambient + info->view_count);
@@ -47,16 +47,15 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
     return LMP_OK;
 }
 
-void lmp_preintegrated_brdf_destroy(lmp_preintegrated_brdf *response) {
-    if (!response)
+void lmp_preintegrated_brdf_destroy(lmp_preintegrated_brdf *brdf) {
+    if (!brdf)
         return;
-    const lmp_allocator heap = response->allocator;
-    lmp_release(&heap, response);
+    const lmp_allocator resolved = brdf->allocator;
+    lmp_release(&resolved, brdf);
 }
 
-lmp_preintegrated_brdf_info lmp_preintegrated_brdf_describe(
-    const lmp_preintegrated_brdf *response) {
-    return response->info;
+lmp_preintegrated_brdf_info lmp_preintegrated_brdf_describe(const lmp_preintegrated_brdf *brdf) {
+    return brdf->info;
 }
 
 /* --- making one ---------------------------------------------------------------------------------
@@ -70,7 +69,7 @@ typedef struct making {
     int cap_count, view_count;
     brdf_column columns[BRDF_STEPS_MAX + 1];
     atomic_size_t done, texels;
-    atomic_int failed;
+    atomic_int result; /* lmp_result of the tasks */
 } making;
 
 static void report(const lmp_preintegrated_brdf_desc *desc, double done) {
@@ -84,28 +83,28 @@ static size_t texels_max(const lmp_preintegrated_brdf_desc *desc) {
 
 static void slices_task(size_t index, void *data) {
     making *job = data;
-    if (atomic_load(&job->failed))
+    if (atomic_load(&job->result) != LMP_OK)
         return;
-    if (!lmp_preintegrated_brdf_slices(&job->views, job->caps, job->cap_count, (int)index,
-                                       job->desc->error, &job->columns[index]) ||
+    if (lmp_preintegrated_brdf_slices(&job->views, job->caps, job->cap_count, (int)index,
+                                      job->desc->error, &job->columns[index]) != LMP_OK ||
         atomic_fetch_add(&job->texels, job->columns[index].texel_count) +
                 job->columns[index].texel_count >
             texels_max(job->desc))
-        atomic_store(&job->failed, 1);
+        atomic_store(&job->result, LMP_ERROR_MEMORY);
     const size_t done = atomic_fetch_add(&job->done, 1) + 1;
-    report(job->desc, NODES_SHARE + (1 - NODES_SHARE) * (double)done / job->cap_count);
+    report(job->desc, NODES_DONE + (1 - NODES_DONE) * (double)done / job->cap_count);
 }
 
 /* The slice coordinate at every step, from the steps of the slices. */
-static void fill_warp(const int *nodes, int count, float *warp) {
+static void fill_remap(const int *nodes, int count, float *remap) {
     for (int k = 0; k + 1 < count; k++)
         for (int i = nodes[k]; i <= nodes[k + 1]; i++)
-            warp[i] = (float)k + (float)(i - nodes[k]) / (float)(nodes[k + 1] - nodes[k]);
+            remap[i] = (float)k + (float)(i - nodes[k]) / (float)(nodes[k + 1] - nodes[k]);
 }
 
 /* All columns' slices, by view, into one object. */
 static lmp_result assemble(const lmp_allocator *allocator, const making *job,
-                           lmp_preintegrated_brdf *plan, lmp_preintegrated_brdf **response) {
+                           lmp_preintegrated_brdf *plan, lmp_preintegrated_brdf **brdf) {
     const size_t caps = (size_t)job->cap_count;
     for (size_t i = 0; i < caps; i++)
         plan->info.texel_count += job->columns[i].texel_count;
@@ -116,19 +115,19 @@ static lmp_result assemble(const lmp_allocator *allocator, const making *job,
     int view_steps[BRDF_STEPS_MAX + 1];
     for (int i = 0; i < job->view_count; i++)
         view_steps[i] = job->series->step[job->view_nodes[i]];
-    fill_warp(view_steps, job->view_count, plan->view_remap);
-    fill_warp(job->caps, job->cap_count, plan->cap_remap);
-    const lmp_result result = lmp_preintegrated_brdf_allocate(allocator, plan, response);
+    fill_remap(view_steps, job->view_count, plan->view_remap);
+    fill_remap(job->caps, job->cap_count, plan->cap_remap);
+    const lmp_result result = lmp_preintegrated_brdf_allocate(allocator, plan, brdf);
     if (result != LMP_OK)
         return result;
     uint32_t first = 0;
     for (size_t v = 0; v < (size_t)job->view_count; v++) {
-        (*response)->ambient[v] = job->series->ambient[job->view_nodes[v]];
+        (*brdf)->ambient[v] = job->series->ambient[job->view_nodes[v]];
         for (size_t i = 0; i < caps; i++) {
-            lmp_preintegrated_brdf_slice *slice = &(*response)->slices[v * caps + i];
+            lmp_preintegrated_brdf_slice *slice = &(*brdf)->slices[v * caps + i];
             *slice = job->columns[i].slices[v];
             const size_t texels = (size_t)slice->rows * slice->columns;
-            memcpy((*response)->texels + 3 * (size_t)first,
+            memcpy((*brdf)->texels + 3 * (size_t)first,
                    job->columns[i].texels + 3 * (size_t)slice->first, texels * 3 * sizeof(int16_t));
             slice->first = first;
             first += (uint32_t)texels;
@@ -138,81 +137,94 @@ static lmp_result assemble(const lmp_allocator *allocator, const making *job,
 }
 
 static lmp_result make_slices(const lmp_allocator *allocator, making *job,
-                              lmp_preintegrated_brdf *plan, lmp_preintegrated_brdf **response) {
+                              lmp_preintegrated_brdf *plan, lmp_preintegrated_brdf **brdf) {
     lmp_parallel_run(job->desc->parallel, job->desc->user, (size_t)job->cap_count, slices_task,
                      job);
-    const lmp_result result =
-        atomic_load(&job->failed) ? LMP_ERROR_MEMORY : assemble(allocator, job, plan, response);
+    lmp_result result = (lmp_result)atomic_load(&job->result);
+    if (result == LMP_OK)
+        result = assemble(allocator, job, plan, brdf);
     for (int i = 0; i < job->cap_count; i++)
         lmp_preintegrated_brdf_column_free(job->series, &job->columns[i]);
     return result;
 }
 
 static lmp_result make(const lmp_allocator *allocator, making *job, lmp_preintegrated_brdf *plan,
-                       lmp_preintegrated_brdf **response) {
-    report(job->desc, SERIES_SHARE);
-    job->cap_count = lmp_preintegrated_brdf_caps(job->series, job->desc, job->caps);
-    report(job->desc, (SERIES_SHARE + NODES_SHARE) / 2);
-    job->view_count = lmp_preintegrated_brdf_view_nodes(job->series, job->desc, job->view_nodes);
-    report(job->desc, NODES_SHARE);
-    if (!job->cap_count || !job->view_count ||
-        lmp_preintegrated_brdf_views(job->series, job->view_nodes, (size_t)job->view_count, 0,
-                                     &job->views) != LMP_OK)
-        return LMP_ERROR_MEMORY;
-    const lmp_result result = make_slices(allocator, job, plan, response);
+                       lmp_preintegrated_brdf **brdf) {
+    report(job->desc, SERIES_DONE);
+    lmp_result result =
+        lmp_preintegrated_brdf_caps(job->series, job->desc, job->caps, &job->cap_count);
+    report(job->desc, (SERIES_DONE + NODES_DONE) / 2);
+    if (result == LMP_OK)
+        result = lmp_preintegrated_brdf_view_nodes(job->series, job->desc, job->view_nodes,
+                                                   &job->view_count);
+    report(job->desc, NODES_DONE);
+    if (result == LMP_OK)
+        result = lmp_preintegrated_brdf_views(job->series, job->view_nodes, (size_t)job->view_count,
+                                              0, &job->views);
+    if (result != LMP_OK)
+        return result;
+    result = make_slices(allocator, job, plan, brdf);
     lmp_preintegrated_brdf_views_free(&job->views);
     return result;
 }
 
-static bool resolve(const lmp_brdf_table *table, lmp_preintegrated_brdf_desc *desc) {
+/* Puts the defaults in place; whether all members are in their ranges. */
+static bool resolve_desc(const lmp_brdf_table *table, lmp_preintegrated_brdf_desc *desc) {
     desc->error = desc->error == 0 ? LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT : desc->error;
     desc->bytes_max = desc->bytes_max ? desc->bytes_max : LMP_PREINTEGRATED_BRDF_BYTES_MAX;
     return desc->error >= LMP_PREINTEGRATED_LOBE_ERROR_MIN && desc->error <= 0.1f &&
            lmp_brdf_table_describe(table).azimuths == 1;
 }
 
+/* All that follows the series. */
+static lmp_result make_from_series(const lmp_allocator *allocator, const lmp_brdf_table_info *table,
+                                   const lmp_preintegrated_brdf_desc *desc, brdf_series *series,
+                                   making *job, lmp_preintegrated_brdf *plan,
+                                   lmp_preintegrated_brdf **brdf) {
+    const lmp_result result = lmp_preintegrated_brdf_choose_rows(series, desc->error);
+    if (result != LMP_OK)
+        return result;
+    memset(job, 0, sizeof *job);
+    memset(plan, 0, sizeof *plan);
+    job->desc = desc;
+    job->series = series;
+    plan->info = (lmp_preintegrated_brdf_info) { .bands = table->bands,
+                                                 .window = table->window,
+                                                 .window_size = table->window_size,
+                                                 .error = desc->error,
+                                                 .mirrored = table->mirrored,
+                                                 .width = series->width,
+                                                 .radius = series->radius,
+                                                 .reach = series->reach,
+                                                 .slope = series->slope,
+                                                 .lobe_angle = series->lobe_angle };
+    return make(allocator, job, plan, brdf);
+}
+
 lmp_result lmp_preintegrated_brdf_create(const lmp_allocator *allocator,
                                          const lmp_brdf_table *table,
                                          const lmp_preintegrated_brdf_desc *desc,
-                                         lmp_preintegrated_brdf **response) {
-    *response = NULL;
+                                         lmp_preintegrated_brdf **brdf) {
+    *brdf = NULL;
     lmp_preintegrated_brdf_desc own = { 0 };
     if (desc)
         own = *desc;
-    if (!resolve(table, &own))
+    if (!resolve_desc(table, &own))
         return LMP_ERROR_ARGUMENT;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    brdf_series *series = lmp_allocate(&heap, sizeof *series);
-    making *job = lmp_allocate(&heap, sizeof *job);
-    lmp_preintegrated_brdf *plan = lmp_allocate(&heap, sizeof *plan);
+    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    brdf_series *series = lmp_allocate(&resolved, sizeof *series);
+    making *job = lmp_allocate(&resolved, sizeof *job);
+    lmp_preintegrated_brdf *plan = lmp_allocate(&resolved, sizeof *plan);
     lmp_result result = series && job && plan
                             ? lmp_preintegrated_brdf_series(allocator, table, &own, series)
                             : LMP_ERROR_MEMORY;
-    if (result == LMP_OK && !lmp_preintegrated_brdf_rows(series, own.error)) {
-        lmp_preintegrated_brdf_series_free(series);
-        result = LMP_ERROR_MEMORY;
-    }
     if (result == LMP_OK) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
-        memset(job, 0, sizeof *job);
-        memset(plan, 0, sizeof *plan);
-        job->desc = &own;
-        job->series = series;
-        plan->info = (lmp_preintegrated_brdf_info) { .bands = info.bands,
-                                                     .window = info.window,
-                                                     .window_size = info.window_size,
-                                                     .error = own.error,
-                                                     .mirrored = info.mirrored,
-                                                     .width = series->width,
-                                                     .radius = series->radius,
-                                                     .reach = series->reach,
-                                                     .slope = series->slope,
-                                                     .lobe_angle = series->lobe_angle };
-        result = make(allocator, job, plan, response);
+        result = make_from_series(allocator, &info, &own, series, job, plan, brdf);
         lmp_preintegrated_brdf_series_free(series);
     }
-    lmp_release(&heap, plan);
-    lmp_release(&heap, job);
-    lmp_release(&heap, series);
+    lmp_release(&resolved, plan);
+    lmp_release(&resolved, job);
+    lmp_release(&resolved, series);
     return result;
 }

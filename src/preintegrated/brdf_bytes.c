@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* measured_bytes.c - the file format .lmps (docs/formats.md): header, warps, views, slices, texels.
+/* brdf_bytes.c - the file format .lmps (docs/formats.md): header, remaps, views, slices, texels.
  */
 #include "src/base/bytes.h"
 
@@ -18,8 +18,8 @@ static size_t body_size(const lmp_preintegrated_brdf_info *info) {
            SLICE_BYTES * (size_t)info->view_count * info->cap_count + 6 * info->texel_count;
 }
 
-size_t lmp_preintegrated_brdf_size(const lmp_preintegrated_brdf *response) {
-    return HEADER + body_size(&response->info) + CHECKSUM;
+size_t lmp_preintegrated_brdf_size(const lmp_preintegrated_brdf *brdf) {
+    return HEADER + body_size(&brdf->info) + CHECKSUM;
 }
 
 static unsigned char *store_floats(unsigned char *p, const float *values, size_t count) {
@@ -44,8 +44,8 @@ static unsigned char *store_header(unsigned char *p, const lmp_preintegrated_brd
     return lmp_bytes_store_u32(p, (uint32_t)info->texel_count);
 }
 
-void lmp_preintegrated_brdf_write(const lmp_preintegrated_brdf *response, void *bytes) {
-    const lmp_preintegrated_brdf_info *info = &response->info;
+void lmp_preintegrated_brdf_write(const lmp_preintegrated_brdf *brdf, void *bytes) {
+    const lmp_preintegrated_brdf_info *info = &brdf->info;
     unsigned char *p = store_header(bytes, info);
     p = store_floats(p, info->view_remap, (size_t)info->view_steps + 1);
     p = store_floats(p, info->cap_remap, (size_t)info->cap_steps + 1);
@@ -71,7 +71,7 @@ static bool positive(float value) {
     return value > 0 && value <= 1e9f;
 }
 
-/* Numbers that describe a response, of a size that agrees with the file's. */
+/* Numbers that describe a brdf, of a size that agrees with the file's. */
 static bool read_header(const unsigned char *bytes, size_t size,
                         lmp_preintegrated_brdf_info *info) {
     const unsigned char *p = bytes + sizeof magic + 4;
@@ -104,18 +104,18 @@ static bool read_header(const unsigned char *bytes, size_t size,
 }
 
 /* Rising from 0 to the last slice. */
-static bool read_warp(const unsigned char **p, uint32_t steps, uint32_t slices, float *warp) {
+static bool read_remap(const unsigned char **p, uint32_t steps, uint32_t slices, float *remap) {
     for (uint32_t i = 0; i <= steps; i++) {
-        warp[i] = lmp_bytes_load_f32(p);
-        if (i > 0 ? !(warp[i] > warp[i - 1]) : !(warp[0] >= 0))
+        remap[i] = lmp_bytes_load_f32(p);
+        if (i > 0 ? !(remap[i] > remap[i - 1]) : !(remap[0] >= 0))
             return false;
     }
-    return warp[steps] <= (float)(slices - 1);
+    return remap[steps] <= (float)(slices - 1);
 }
 
 /* Slices one after another, all texels used. */
-static bool read_slices(const unsigned char **p, lmp_preintegrated_brdf *response) {
-    const lmp_preintegrated_brdf_info *info = &response->info;
+static bool read_slices(const unsigned char **p, lmp_preintegrated_brdf *brdf) {
+    const lmp_preintegrated_brdf_info *info = &brdf->info;
     size_t first = 0;
     for (size_t i = 0; i < (size_t)info->view_count * info->cap_count; i++) {
         lmp_preintegrated_brdf_slice slice = { .first = (uint32_t)first };
@@ -133,45 +133,45 @@ static bool read_slices(const unsigned char **p, lmp_preintegrated_brdf *respons
         first += (size_t)slice.rows * slice.columns;
         if (first > info->texel_count)
             return false;
-        response->slices[i] = slice;
+        brdf->slices[i] = slice;
     }
     return first == info->texel_count;
 }
 
-static bool read_body(const unsigned char *p, lmp_preintegrated_brdf *response) {
-    const lmp_preintegrated_brdf_info *info = &response->info;
-    if (!read_warp(&p, info->view_steps, info->view_count, response->view_remap) ||
-        !read_warp(&p, info->cap_steps, info->cap_count, response->cap_remap))
+static bool read_body(const unsigned char *p, lmp_preintegrated_brdf *brdf) {
+    const lmp_preintegrated_brdf_info *info = &brdf->info;
+    if (!read_remap(&p, info->view_steps, info->view_count, brdf->view_remap) ||
+        !read_remap(&p, info->cap_steps, info->cap_count, brdf->cap_remap))
         return false;
     for (size_t i = 0; i < 3 * (size_t)info->view_count; i++) {
-        (&response->ambient->r)[i] = lmp_bytes_load_f32(&p);
-        if (!(fabsf((&response->ambient->r)[i]) <= 1e30f))
+        (&brdf->ambient->r)[i] = lmp_bytes_load_f32(&p);
+        if (!(fabsf((&brdf->ambient->r)[i]) <= 1e30f))
             return false;
     }
-    if (!read_slices(&p, response))
+    if (!read_slices(&p, brdf))
         return false;
-    lmp_bytes_load_i16s(p, 3 * info->texel_count, response->texels);
+    lmp_bytes_load_i16s(p, 3 * info->texel_count, brdf->texels);
     return true;
 }
 
 lmp_result lmp_preintegrated_brdf_read(const lmp_allocator *allocator, const void *data,
-                                       size_t size, lmp_preintegrated_brdf **response) {
-    *response = NULL;
+                                       size_t size, lmp_preintegrated_brdf **brdf) {
+    *brdf = NULL;
     const lmp_result framed = lmp_bytes_check_frame(data, size, magic, FORMAT_VERSION, HEADER);
     if (framed != LMP_OK)
         return framed;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    lmp_preintegrated_brdf *plan = lmp_allocate(&heap, sizeof *plan);
+    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    lmp_preintegrated_brdf *plan = lmp_allocate(&resolved, sizeof *plan);
     if (!plan)
         return LMP_ERROR_MEMORY;
     memset(plan, 0, sizeof *plan);
     lmp_result result = read_header(data, size, &plan->info)
-                            ? lmp_preintegrated_brdf_allocate(allocator, plan, response)
+                            ? lmp_preintegrated_brdf_allocate(allocator, plan, brdf)
                             : LMP_ERROR_FORMAT;
-    lmp_release(&heap, plan);
-    if (result == LMP_OK && !read_body((const unsigned char *)data + HEADER, *response)) {
-        lmp_preintegrated_brdf_destroy(*response);
-        *response = NULL;
+    lmp_release(&resolved, plan);
+    if (result == LMP_OK && !read_body((const unsigned char *)data + HEADER, *brdf)) {
+        lmp_preintegrated_brdf_destroy(*brdf);
+        *brdf = NULL;
         result = LMP_ERROR_FORMAT;
     }
     return result;

@@ -1,37 +1,38 @@
 /* SPDX-License-Identifier: MIT */
-/* measured_eval.c - one reading of a measured material's response; the kernels and the shader do
- * the same (docs/shading.md). */
+/* brdf_eval.c - one reading of a preintegrated BRDF; the kernels and the shader do the same. */
 #include "src/preintegrated/brdf.h"
 #include "src/preintegrated/spline.h"
 
 #include <assert.h>
 
 /* Where a view lies. */
-typedef struct view_place {
+typedef struct view_position {
     const lmp_preintegrated_brdf_info *info;
     float cosine, sine; /* of theta_o */
     uint32_t view;
-    float share; /* of the view after it */
-} view_place;
+    float fraction; /* of the view after it */
+} view_position;
 
-/* The slice coordinate at `share` of a warp, as the first of two slices and the second's share. */
-static float seek(const float *warp, uint32_t steps, uint32_t count, float share, uint32_t *first) {
-    const float at = fminf(fmaxf(share, 0), 1) * (float)steps;
+/* The slice coordinate at `fraction` of a remap, as the first of two slices and the second's
+ * fraction. */
+static float lookup(const float *remap, uint32_t steps, uint32_t count, float fraction,
+                    uint32_t *first) {
+    const float at = fminf(fmaxf(fraction, 0), 1) * (float)steps;
     const uint32_t i = at < (float)(steps - 1) ? (uint32_t)at : steps - 1;
-    const float slice = warp[i] + (at - (float)i) * (warp[i + 1] - warp[i]);
+    const float slice = remap[i] + (at - (float)i) * (remap[i + 1] - remap[i]);
     *first = slice < (float)(count - 2) ? (uint32_t)slice : count - 2;
     return slice - (float)*first;
 }
 
-static void seek_view(const lmp_preintegrated_brdf_info *info, float cos_theta_o,
-                      view_place *place) {
+static void lookup_view(const lmp_preintegrated_brdf_info *info, float cos_theta_o,
+                        view_position *position) {
     const float cosine = fminf(fmaxf(cos_theta_o, 0), 1);
     const float theta = lmp_preintegrated_lobe_angle(1 - cosine);
-    place->info = info;
-    place->cosine = cosine;
-    place->sine = sqrtf(1 - cosine * cosine);
-    place->share = seek(info->view_remap, info->view_steps, info->view_count,
-                        theta * (float)(2 / LMP_PREINTEGRATED_LOBE_PI), &place->view);
+    position->info = info;
+    position->cosine = cosine;
+    position->sine = sqrtf(1 - cosine * cosine);
+    position->fraction = lookup(info->view_remap, info->view_steps, info->view_count,
+                                theta * (float)(2 / LMP_PREINTEGRATED_PI), &position->view);
 }
 
 /* The whole part of a coordinate that leaves a neighbor before and two after among `count`. */
@@ -62,52 +63,50 @@ static void add_slice(const lmp_preintegrated_brdf_info *info,
 }
 
 /* The axis seen from the mirror direction (-sine, 0, cosine): its angle, and the azimuth. */
-static float angle_from_mirror(const view_place *place, lmp_vec3 axis, float *azimuth) {
-    const float z = axis.z * place->cosine - axis.x * place->sine;
-    const float x = axis.x * place->cosine + axis.z * place->sine, y = axis.y;
+static float angle_from_mirror(const view_position *position, lmp_vec3 axis, float *azimuth) {
+    const float z = axis.z * position->cosine - axis.x * position->sine;
+    const float x = axis.x * position->cosine + axis.z * position->sine, y = axis.y;
     const float across2 = x * x + y * y, across = sqrtf(across2);
     /* 1 - |z| without cancellation */
     const float g = lmp_preintegrated_lobe_angle(fminf(across2 / (1 + fabsf(z)), 1));
     const float cosine = across > 0 ? fminf(fabsf(x) / across, 1) : 1;
     const float quarter = lmp_preintegrated_lobe_angle(1 - cosine);
-    const float half = x < 0 ? (float)LMP_PREINTEGRATED_LOBE_PI - quarter : quarter;
-    *azimuth =
-        y < 0 && !place->info->mirrored ? (float)(2 * LMP_PREINTEGRATED_LOBE_PI) - half : half;
-    return z < 0 ? (float)LMP_PREINTEGRATED_LOBE_PI - g : g;
+    const float half = x < 0 ? (float)LMP_PREINTEGRATED_PI - quarter : quarter;
+    *azimuth = y < 0 && !position->info->mirrored ? (float)(2 * LMP_PREINTEGRATED_PI) - half : half;
+    return z < 0 ? (float)LMP_PREINTEGRATED_PI - g : g;
 }
 
-lmp_rgb lmp_preintegrated_brdf_eval(const lmp_preintegrated_brdf *response, float cos_theta_o,
+lmp_rgb lmp_preintegrated_brdf_eval(const lmp_preintegrated_brdf *brdf, float cos_theta_o,
                                     lmp_vec3 axis, float one_minus_cos) {
     assert(one_minus_cos >= 0 && one_minus_cos <= 1);
-    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(response);
-    view_place place;
-    seek_view(&info, cos_theta_o, &place);
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(brdf);
+    view_position position;
+    lookup_view(&info, cos_theta_o, &position);
     float azimuth, rgb[3] = { 0, 0, 0 };
     uint32_t cap;
-    const float g = angle_from_mirror(&place, axis, &azimuth);
+    const float g = angle_from_mirror(&position, axis, &azimuth);
     const float a = lmp_preintegrated_lobe_angle(one_minus_cos);
     const float s = lmp_preintegrated_brdf_row(info.width, info.reach, info.slope,
                                                g - lmp_preintegrated_brdf_rim(info.radius, a));
     const float second =
-        seek(info.cap_remap, info.cap_steps, info.cap_count, lmp_preintegrated_brdf_cap(a), &cap);
-    const lmp_preintegrated_brdf_slice *slice = info.slices + place.view * info.cap_count + cap;
-    add_slice(&info, slice, s, azimuth, (1 - place.share) * (1 - second), rgb);
-    add_slice(&info, slice + 1, s, azimuth, (1 - place.share) * second, rgb);
+        lookup(info.cap_remap, info.cap_steps, info.cap_count, lmp_preintegrated_brdf_cap(a), &cap);
+    const lmp_preintegrated_brdf_slice *slice = info.slices + position.view * info.cap_count + cap;
+    add_slice(&info, slice, s, azimuth, (1 - position.fraction) * (1 - second), rgb);
+    add_slice(&info, slice + 1, s, azimuth, (1 - position.fraction) * second, rgb);
     slice += info.cap_count;
-    add_slice(&info, slice, s, azimuth, place.share * (1 - second), rgb);
-    add_slice(&info, slice + 1, s, azimuth, place.share * second, rgb);
-    const float scale =
-        2 / ((2 - one_minus_cos) *
-             (2 * (float)LMP_PREINTEGRATED_LOBE_PI * one_minus_cos + info.lobe_angle));
+    add_slice(&info, slice, s, azimuth, position.fraction * (1 - second), rgb);
+    add_slice(&info, slice + 1, s, azimuth, position.fraction * second, rgb);
+    const float scale = 2 / ((2 - one_minus_cos) *
+                             (2 * (float)LMP_PREINTEGRATED_PI * one_minus_cos + info.lobe_angle));
     return (lmp_rgb) { scale * rgb[0], scale * rgb[1], scale * rgb[2] };
 }
 
-lmp_rgb lmp_preintegrated_brdf_ambient(const lmp_preintegrated_brdf *response, float cos_theta_o) {
-    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(response);
-    view_place place;
-    seek_view(&info, cos_theta_o, &place);
-    const lmp_rgb *a = info.ambient + place.view;
-    const float t = place.share;
+lmp_rgb lmp_preintegrated_brdf_ambient(const lmp_preintegrated_brdf *brdf, float cos_theta_o) {
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(brdf);
+    view_position position;
+    lookup_view(&info, cos_theta_o, &position);
+    const lmp_rgb *a = info.ambient + position.view;
+    const float t = position.fraction;
     return (lmp_rgb) { a[0].r + t * (a[1].r - a[0].r), a[0].g + t * (a[1].g - a[0].g),
                        a[0].b + t * (a[1].b - a[0].b) };
 }

@@ -1,85 +1,84 @@
 /* SPDX-License-Identifier: MIT */
-/* measured_nodes.c - which views and which half angles of caps a measured material's response
- * holds: steps between which its values are linear, to a part of the error. */
+/* brdf_nodes.c - which views and which half angles of caps a preintegrated BRDF holds: steps
+ * between which its values are linear, to a part of the error. */
 #include "src/preintegrated/brdf_make.h"
 
 #include "src/base/allocator.h"
 #include "src/base/parallel.h"
 
-#include <stdlib.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #define PROBES    4
 #define COLUMNS   8   /* intervals of half a turn */
-#define STEP      0.7 /* rows, as in brdf_slices.c */
+#define STEP      0.7 /* of the row coordinate */
 #define TOLERANCE 0.3 /* of the error */
 #define INTERVALS 16  /* at least */
 
-/* Values at every place and probe: of a series' views at some half angles, or the other way. */
+/* Values at every node that may be chosen, and probe: of a series' views at some half angles, or
+ * the other way. */
 typedef struct probes {
     const brdf_series *series;
-    int last;                               /* place */
-    int step[BRDF_STEPS_MAX + 1];           /* of a place */
-    size_t rows, columns, size;             /* of a place's values at one probe: 3 rows columns */
+    int last;                               /* node */
+    int step[BRDF_STEPS_MAX + 1];           /* of a node */
+    size_t rows, columns, size;             /* of a node's values at one probe: 3 rows columns */
     double *x;                              /* of the rows, from the rim */
-    float *values;                          /* [place][probe][channel][row][column] */
+    float *values;                          /* [node][probe][channel][row][column] */
     double rim[BRDF_STEPS_MAX + 1][PROBES]; /* of the caps */
     double task_angle[BRDF_STEPS_MAX + 1];
     brdf_views views;
     float peaks[BRDF_STEPS_MAX + 1][PROBES]; /* largest values, at least the floor */
     bool by_cap;                             /* steps are half angles */
-    bool failed[BRDF_STEPS_MAX + 1];
+    atomic_int result;                       /* lmp_result of the tasks */
 } probes;
 
 /* --- gathering ---------------------------------------------------------------------------------
  */
 
-static float *values_at(const probes *p, size_t place, size_t probe) {
-    return p->values + (place * PROBES + probe) * p->size;
+static float *values_at(const probes *p, size_t node, size_t probe) {
+    return p->values + (node * PROBES + probe) * p->size;
 }
 
-/* One half angle: of a place with all probes, or of a probe with all places. */
+/* One half angle: of a node with all probes, or of a probe with all nodes. */
 static void probe_task(size_t index, void *data) {
     probes *p = data;
     float *values[BRDF_STEPS_MAX + 1];
     const double angle = p->task_angle[index],
                  rim = lmp_preintegrated_brdf_rim_of(p->series, angle);
-    double *g = lmp_allocate(&p->series->heap, p->rows * sizeof *g);
-    p->failed[index] = true;
-    if (!g)
+    double *g = lmp_allocate(&p->series->allocator, p->rows * sizeof *g);
+    if (!g) {
+        atomic_store(&p->result, LMP_ERROR_MEMORY);
         return;
+    }
     for (size_t i = 0; i < p->rows; i++)
         g[i] = p->x[i] + rim;
     for (size_t v = 0; v < p->views.count; v++) {
-        const size_t place = p->by_cap ? index : v, probe = p->by_cap ? v : index;
-        values[v] = values_at(p, place, probe);
-        p->rim[place][probe] = rim;
+        const size_t node = p->by_cap ? index : v, probe = p->by_cap ? v : index;
+        values[v] = values_at(p, node, probe);
+        p->rim[node][probe] = rim;
     }
-    p->failed[index] = lmp_preintegrated_brdf_sum(&p->views, angle, g, p->rows, values) != LMP_OK;
-    lmp_release(&p->series->heap, g);
+    if (lmp_preintegrated_brdf_sum(&p->views, angle, g, p->rows, values) != LMP_OK)
+        atomic_store(&p->result, LMP_ERROR_MEMORY);
+    lmp_release(&p->series->allocator, g);
 }
 
 static lmp_result gather(probes *p, const lmp_preintegrated_brdf_desc *desc, size_t tasks) {
     const brdf_series *series = p->series;
     const double first =
-        floor(lmp_preintegrated_brdf_row_of(series, -LMP_PREINTEGRATED_LOBE_PI / 2) / STEP);
-    const double last =
-        ceil(lmp_preintegrated_brdf_row_of(series, LMP_PREINTEGRATED_LOBE_PI) / STEP);
+        floor(lmp_preintegrated_brdf_row_of(series, -LMP_PREINTEGRATED_PI / 2) / STEP);
+    const double last = ceil(lmp_preintegrated_brdf_row_of(series, LMP_PREINTEGRATED_PI) / STEP);
     p->rows = (size_t)(last - first) + 1;
     p->columns = (size_t)p->views.columns[0];
     p->size = 3 * p->rows * p->columns;
-    p->x = lmp_allocate(&series->heap, p->rows * sizeof *p->x);
-    p->values =
-        lmp_allocate(&series->heap, ((size_t)p->last + 1) * PROBES * p->size * sizeof *p->values);
+    p->x = lmp_allocate(&series->allocator, p->rows * sizeof *p->x);
+    p->values = lmp_allocate(&series->allocator,
+                             ((size_t)p->last + 1) * PROBES * p->size * sizeof *p->values);
     if (!p->x || !p->values)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < p->rows; i++)
         p->x[i] = lmp_preintegrated_brdf_x_of(series, STEP * (first + (double)i));
     lmp_parallel_run(desc->parallel, desc->user, tasks, probe_task, p);
-    for (size_t i = 0; i < tasks; i++)
-        if (p->failed[i])
-            return LMP_ERROR_MEMORY;
-    return LMP_OK;
+    return (lmp_result)atomic_load(&p->result);
 }
 
 /* --- choosing ----------------------------------------------------------------------------------
@@ -88,10 +87,10 @@ static lmp_result gather(probes *p, const lmp_preintegrated_brdf_desc *desc, siz
 /* Rows on the sphere proper, g in 0 … pi. */
 static bool row_counts(const probes *p, size_t row, double rim) {
     const double g = p->x[row] + rim;
-    return g >= 0 && g <= LMP_PREINTEGRATED_LOBE_PI;
+    return g >= 0 && g <= LMP_PREINTEGRATED_PI;
 }
 
-/* How far the values of place `middle` are from the line between `low` and `high`. */
+/* How far the values of node `middle` are from the line between `low` and `high`. */
 static float error_at(const probes *p, int low, int high, int middle, size_t probe) {
     const float *a = values_at(p, (size_t)low, probe), *b = values_at(p, (size_t)high, probe);
     const float *v = values_at(p, (size_t)middle, probe);
@@ -109,26 +108,26 @@ static float error_at(const probes *p, int low, int high, int middle, size_t pro
 }
 
 static void find_peaks(probes *p) {
-    for (int place = 0; place <= p->last; place++)
+    for (int node = 0; node <= p->last; node++)
         for (size_t probe = 0; probe < PROBES; probe++) {
-            const float *v = values_at(p, (size_t)place, probe);
+            const float *v = values_at(p, (size_t)node, probe);
             float peak = 0;
             for (size_t row = 0; row < 3 * p->rows; row++)
                 for (size_t i = row * p->columns; i < (row + 1) * p->columns; i++)
-                    if (row_counts(p, row % p->rows, p->rim[place][probe]))
+                    if (row_counts(p, row % p->rows, p->rim[node][probe]))
                         peak = fmaxf(peak, fabsf(v[i]));
-            p->peaks[place][probe] = peak;
+            p->peaks[node][probe] = peak;
         }
-    /* the floor is of all views: probes of a place that is a half angle, or the other way */
-    for (int place = 0; place <= p->last; place++)
+    /* the floor is of all views: probes of a node that is a half angle, or the other way */
+    for (int node = 0; node <= p->last; node++)
         for (size_t probe = 0; probe < PROBES; probe++) {
             float all = 0;
             for (size_t k = 0; k < PROBES && p->by_cap; k++)
-                all = fmaxf(all, p->peaks[place][k]);
+                all = fmaxf(all, p->peaks[node][k]);
             for (int k = 0; k <= p->last && !p->by_cap; k++)
                 all = fmaxf(all, p->peaks[k][probe]);
-            p->peaks[place][probe] =
-                fmaxf(p->peaks[place][probe], (float)LMP_PREINTEGRATED_BRDF_FLOOR * all);
+            p->peaks[node][probe] =
+                fmaxf(p->peaks[node][probe], (float)LMP_PREINTEGRATED_BRDF_FLOOR * all);
         }
 }
 
@@ -158,15 +157,15 @@ static int choose(probes *p, float error, int *nodes) {
 }
 
 static void release(probes *p) {
-    lmp_release(&p->series->heap, p->x);
-    lmp_release(&p->series->heap, p->values);
+    lmp_release(&p->series->allocator, p->x);
+    lmp_release(&p->series->allocator, p->values);
     if (p->views.coefficients)
         lmp_preintegrated_brdf_views_free(&p->views);
-    lmp_release(&p->series->heap, p);
+    lmp_release(&p->series->allocator, p);
 }
 
 static probes *create(const brdf_series *series, int last, bool by_cap) {
-    probes *p = lmp_allocate(&series->heap, sizeof *p);
+    probes *p = lmp_allocate(&series->allocator, sizeof *p);
     if (p)
         memset(p, 0, sizeof *p);
     if (p) {
@@ -183,11 +182,12 @@ static int probe_columns(const brdf_series *series) {
     return series->mirrored ? COLUMNS + 1 : 2 * COLUMNS;
 }
 
-int lmp_preintegrated_brdf_caps(const brdf_series *series, const lmp_preintegrated_brdf_desc *desc,
-                                int *nodes) {
+lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series,
+                                       const lmp_preintegrated_brdf_desc *desc, int *nodes,
+                                       int *count) {
     probes *p = create(series, BRDF_CAP_STEPS, true);
     if (!p)
-        return 0;
+        return LMP_ERROR_MEMORY;
     const int views[PROBES] = {
         lmp_preintegrated_brdf_view_at(series, 1, 4),
         lmp_preintegrated_brdf_view_at(series, 3, 4),
@@ -196,31 +196,35 @@ int lmp_preintegrated_brdf_caps(const brdf_series *series, const lmp_preintegrat
     };
     for (int i = 0; i <= p->last; i++)
         p->task_angle[i] = lmp_preintegrated_brdf_angle_at(i);
-    int count = 0;
-    if (lmp_preintegrated_brdf_views(series, views, PROBES, probe_columns(series), &p->views) ==
-            LMP_OK &&
-        gather(p, desc, (size_t)p->last + 1) == LMP_OK)
-        count = choose(p, desc->error, nodes);
+    lmp_result result =
+        lmp_preintegrated_brdf_views(series, views, PROBES, probe_columns(series), &p->views);
+    if (result == LMP_OK)
+        result = gather(p, desc, (size_t)p->last + 1);
+    if (result == LMP_OK)
+        *count = choose(p, desc->error, nodes);
     release(p);
-    return count;
+    return result;
 }
 
-int lmp_preintegrated_brdf_view_nodes(const brdf_series *series,
-                                      const lmp_preintegrated_brdf_desc *desc, int *nodes) {
+lmp_result lmp_preintegrated_brdf_view_nodes(const brdf_series *series,
+                                             const lmp_preintegrated_brdf_desc *desc, int *nodes,
+                                             int *count) {
     static const int caps[PROBES] = { 0, BRDF_CAP_STEPS / 8, BRDF_CAP_STEPS / 3,
                                       BRDF_CAP_STEPS * 3 / 4 };
     probes *p = create(series, series->view_count - 1, false);
-    int all[BRDF_STEPS_MAX + 1], count = 0;
+    int all[BRDF_STEPS_MAX + 1];
     if (!p)
-        return 0;
+        return LMP_ERROR_MEMORY;
     for (int i = 0; i < series->view_count; i++)
         all[i] = i;
     for (int i = 0; i < PROBES; i++)
         p->task_angle[i] = lmp_preintegrated_brdf_angle_at(caps[i]);
-    if (lmp_preintegrated_brdf_views(series, all, (size_t)series->view_count, probe_columns(series),
-                                     &p->views) == LMP_OK &&
-        gather(p, desc, PROBES) == LMP_OK)
-        count = choose(p, desc->error, nodes);
+    lmp_result result = lmp_preintegrated_brdf_views(series, all, (size_t)series->view_count,
+                                                     probe_columns(series), &p->views);
+    if (result == LMP_OK)
+        result = gather(p, desc, PROBES);
+    if (result == LMP_OK)
+        *count = choose(p, desc->error, nodes);
     release(p);
-    return count;
+    return result;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* bytes.c - the file format .lmpr (docs/formats.md): what cannot be derived, then the coefficients.
+/* lobe_bytes.c - the file format .lmpr (docs/formats.md): what cannot be derived, then the
+ * coefficients.
  */
 #include "src/base/bytes.h"
 
@@ -17,13 +18,13 @@ static size_t plan_size(uint32_t cells) {
     return 4 * LMP_PREINTEGRATED_LOBE_REMAP_COUNT + 8 * (size_t)cells;
 }
 
-size_t lmp_preintegrated_lobe_size(const lmp_preintegrated_lobe *response) {
-    const lmp_preintegrated_lobe_info *info = &response->info;
+size_t lmp_preintegrated_lobe_size(const lmp_preintegrated_lobe *lobe) {
+    const lmp_preintegrated_lobe_info *info = &lobe->info;
     return HEADER + plan_size(info->cell_count) + 4 * info->pair_count + CHECKSUM;
 }
 
-void lmp_preintegrated_lobe_write(const lmp_preintegrated_lobe *response, void *bytes) {
-    const lmp_preintegrated_lobe_info *info = &response->info;
+void lmp_preintegrated_lobe_write(const lmp_preintegrated_lobe *lobe, void *bytes) {
+    const lmp_preintegrated_lobe_info *info = &lobe->info;
     unsigned char *p = bytes;
     memcpy(p, magic, sizeof magic);
     p = lmp_bytes_store_u32(p + sizeof magic, FORMAT_VERSION);
@@ -33,32 +34,32 @@ void lmp_preintegrated_lobe_write(const lmp_preintegrated_lobe *response, void *
     p = lmp_bytes_store_f32(p, info->error);
     p = lmp_bytes_store_u32(p, info->cell_count);
     for (int i = 0; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++)
-        p = lmp_bytes_store_f32(p, response->warp[i]);
+        p = lmp_bytes_store_f32(p, lobe->remap[i]);
     for (uint32_t k = 0; k < info->cell_count; k++) {
-        p = lmp_bytes_store_f32(p, response->cells[k].scale);
-        p = lmp_bytes_store_f32(p, response->cells[k].offset);
+        p = lmp_bytes_store_f32(p, lobe->cells[k].scale);
+        p = lmp_bytes_store_f32(p, lobe->cells[k].offset);
     }
     for (size_t i = 0; i < 2 * info->pair_count; i++)
-        p = lmp_bytes_store_u16(p, (uint16_t)response->coefficients[i]);
+        p = lmp_bytes_store_u16(p, (uint16_t)lobe->coefficients[i]);
     lmp_bytes_store_u32(p, lmp_bytes_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
 }
 
-/* Every reading stays inside: the warp rises from 0 to the last slice, and grids are finite. */
-static int warp_sound(const lmp_preintegrated_lobe *plan) {
+/* Every reading stays inside: the remap rises from 0 to the last slice, and grids are finite. */
+static bool remap_valid(const lmp_preintegrated_lobe *plan) {
     for (int i = 1; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++)
-        if (!(plan->warp[i] > plan->warp[i - 1]))
-            return 0;
-    return plan->warp[0] >= 0 && plan->warp[0] <= 0 &&
-           plan->warp[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1] <= (float)plan->info.cell_count;
+        if (!(plan->remap[i] > plan->remap[i - 1]))
+            return false;
+    return plan->remap[0] >= 0 && plan->remap[0] <= 0 &&
+           plan->remap[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1] <= (float)plan->info.cell_count;
 }
 
-static int cells_sound(const lmp_preintegrated_lobe *plan) {
+static bool cells_valid(const lmp_preintegrated_lobe *plan) {
     for (uint32_t k = 0; k < plan->info.cell_count; k++)
         if (!(plan->cells[k].scale >= 0) || !(plan->cells[k].offset >= 0) ||
             !(lmp_preintegrated_lobe_density(&plan->cells[k], plan->exponents[k + 1]) <=
               DENSITY_MAX))
-            return 0;
-    return 1;
+            return false;
+    return true;
 }
 
 static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preintegrated_lobe *plan) {
@@ -76,15 +77,15 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preinte
         info->cell_count > LOBE_CELLS_MAX || size < HEADER + plan_size(info->cell_count) + CHECKSUM)
         return LMP_ERROR_FORMAT;
     for (int i = 0; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++)
-        plan->warp[i] = lmp_bytes_load_f32(&p);
+        plan->remap[i] = lmp_bytes_load_f32(&p);
     for (uint32_t k = 0; k < info->cell_count; k++) {
         plan->cells[k].scale = lmp_bytes_load_f32(&p);
         plan->cells[k].offset = lmp_bytes_load_f32(&p);
     }
-    if (!warp_sound(plan))
+    if (!remap_valid(plan))
         return LMP_ERROR_FORMAT;
     lmp_preintegrated_lobe_exponents(plan);
-    if (!cells_sound(plan))
+    if (!cells_valid(plan))
         return LMP_ERROR_FORMAT;
     lmp_preintegrated_lobe_layout(plan);
     return size == HEADER + plan_size(info->cell_count) + 4 * info->pair_count + CHECKSUM
@@ -93,24 +94,24 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preinte
 }
 
 lmp_result lmp_preintegrated_lobe_read(const lmp_allocator *allocator, const void *data,
-                                       size_t size, lmp_preintegrated_lobe **response) {
-    *response = NULL;
+                                       size_t size, lmp_preintegrated_lobe **lobe) {
+    *lobe = NULL;
     const unsigned char *bytes = data;
     lmp_result result = lmp_bytes_check_frame(bytes, size, magic, FORMAT_VERSION, HEADER);
     if (result != LMP_OK)
         return result;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    lmp_preintegrated_lobe *plan = lmp_allocate(&heap, sizeof *plan);
+    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    lmp_preintegrated_lobe *plan = lmp_allocate(&resolved, sizeof *plan);
     if (!plan)
         return LMP_ERROR_MEMORY;
     memset(plan, 0, sizeof *plan);
     result = read_plan(bytes, size, plan);
     if (result == LMP_OK)
-        result = lmp_preintegrated_lobe_allocate(allocator, plan, response);
-    lmp_release(&heap, plan);
+        result = lmp_preintegrated_lobe_allocate(allocator, plan, lobe);
+    lmp_release(&resolved, plan);
     if (result != LMP_OK)
         return result;
-    const unsigned char *p = bytes + size - CHECKSUM - 4 * (*response)->info.pair_count;
-    lmp_bytes_load_i16s(p, 2 * (*response)->info.pair_count, (*response)->coefficients);
+    const unsigned char *p = bytes + size - CHECKSUM - 4 * (*lobe)->info.pair_count;
+    lmp_bytes_load_i16s(p, 2 * (*lobe)->info.pair_count, (*lobe)->coefficients);
     return LMP_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* eval.c - one reading of a response; the kernels and the shader do the same (docs/shading.md). */
+/* eval.c - one reading of a lobe; the kernels and the shader do the same (docs/shading.md). */
 #include "src/preintegrated/lobe_eval.h"
 
 #include "src/preintegrated/spline.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 
 void lmp_preintegrated_lobe_lookup(const lmp_preintegrated_lobe_info *info, float exponent,
-                                   lmp_preintegrated_lobe_position *place) {
+                                   lmp_preintegrated_lobe_position *position) {
     uint32_t bits, one;
     const float e = fminf(fmaxf(exponent, 0), LMP_PREINTEGRATED_LOBE_EXPONENT_MAX);
     const float shifted = 1 + e, unit = 1;
@@ -16,47 +16,47 @@ void lmp_preintegrated_lobe_lookup(const lmp_preintegrated_lobe_info *info, floa
     memcpy(&one, &unit, sizeof one);
     const float entry = (float)(bits - one) / (float)(1 << LMP_PREINTEGRATED_LOBE_REMAP_SHIFT);
     const int i = (int)fminf(entry, (float)(LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 2));
-    const float slice = info->warp[i] + (entry - (float)i) * (info->warp[i + 1] - info->warp[i]);
+    const float slice = info->remap[i] + (entry - (float)i) * (info->remap[i + 1] - info->remap[i]);
     const int k = (int)fminf(slice, (float)info->cell_count - 1);
     const lmp_preintegrated_lobe_cell *cell = &info->cells[k];
-    *place = (lmp_preintegrated_lobe_position) {
+    *position = (lmp_preintegrated_lobe_position) {
         .first = cell->first,
         .columns = cell->columns,
-        .share = slice - (float)k,
+        .fraction = slice - (float)k,
         .density = lmp_preintegrated_lobe_density(cell, e),
-        .lobe_angle = lmp_preintegrated_lobe_lobe_angle(info, e),
+        .lobe_angle = lmp_preintegrated_lobe_solid_angle(info, e),
     };
 }
 
 float lmp_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
-                                const lmp_preintegrated_lobe_position *place, float one_minus_cos,
-                                float cosine) {
+                                const lmp_preintegrated_lobe_position *position,
+                                float one_minus_cos, float cosine) {
     const float across = lmp_preintegrated_lobe_angle(1 - fabsf(cosine));
-    const float g = cosine < 0 ? (float)LMP_PREINTEGRATED_LOBE_PI - across : across;
-    const float x = g * place->density,
-                y = lmp_preintegrated_lobe_angle(one_minus_cos) * place->density;
+    const float g = cosine < 0 ? (float)LMP_PREINTEGRATED_PI - across : across;
+    const float x = g * position->density,
+                y = lmp_preintegrated_lobe_angle(one_minus_cos) * position->density;
     const size_t column = (size_t)x, row = (size_t)y;
     float wx[4], wy[4], sum = 0;
     lmp_spline_weights(x - (float)column, wx);
     lmp_spline_weights(y - (float)row, wy);
     for (size_t i = 0; i < 4; i++) {
         const int16_t *pair =
-            info->coefficients + 2 * (place->first + (row + i) * place->columns + column);
+            info->coefficients + 2 * (position->first + (row + i) * position->columns + column);
         for (size_t j = 0; j < 4; j++)
-            sum +=
-                wy[i] * wx[j] *
-                ((1 - place->share) * (float)pair[2 * j] + place->share * (float)pair[2 * j + 1]);
+            sum += wy[i] * wx[j] *
+                   ((1 - position->fraction) * (float)pair[2 * j] +
+                    position->fraction * (float)pair[2 * j + 1]);
     }
     const float mean = sum * LMP_PREINTEGRATED_LOBE_UNIT /
-                       (2 * (float)LMP_PREINTEGRATED_LOBE_PI * one_minus_cos + place->lobe_angle);
+                       (2 * (float)LMP_PREINTEGRATED_PI * one_minus_cos + position->lobe_angle);
     return 2 / (2 - one_minus_cos) * mean;
 }
 
-float lmp_preintegrated_lobe_eval(const lmp_preintegrated_lobe *response, float exponent,
+float lmp_preintegrated_lobe_eval(const lmp_preintegrated_lobe *lobe, float exponent,
                                   float one_minus_cos, float cosine) {
     assert(exponent >= 0 && one_minus_cos >= 0 && one_minus_cos <= 1);
-    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(response);
-    lmp_preintegrated_lobe_position place;
-    lmp_preintegrated_lobe_lookup(&info, exponent, &place);
-    return lmp_preintegrated_lobe_at(&info, &place, one_minus_cos, fminf(fmaxf(cosine, -1), 1));
+    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
+    lmp_preintegrated_lobe_position position;
+    lmp_preintegrated_lobe_lookup(&info, exponent, &position);
+    return lmp_preintegrated_lobe_at(&info, &position, one_minus_cos, fminf(fmaxf(cosine, -1), 1));
 }

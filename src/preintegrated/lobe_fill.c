@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* fill.c - one slice of a response through spherical harmonics: the sum over bands at every node,
- * then the coefficients of the cubic B-spline through the nodes. */
+/* lobe_fill.c - one slice of a preintegrated lobe through spherical harmonics: the sum over bands
+ * at every node, then the coefficients of the cubic B-spline through the nodes. */
 #include "src/preintegrated/lobe.h"
 
 #include "src/base/allocator.h"
@@ -27,10 +27,10 @@ typedef struct slice_grid {
 /* weight_l mean_l(a): the lobe's series term by term, averaged over the cap and times the two
  * solid angles. cos a = c: mean_l = R_l/R_0 = R_l (1 + c)/2 (light.h), which is even in a; so the
  * nodes past pi/2 are exact, too. */
-static void cap_weights(const slice_grid *grid, const float *lobe, double lobe_angle) {
+static void cap_weights(const slice_grid *grid, const float *series, double lobe_angle) {
     for (size_t i = 0; i < grid->rows; i++) {
         const double half = sin((double)i * grid->step / 2), t = 2 * half * half;
-        const double angle = 2 * LMP_PREINTEGRATED_LOBE_PI * t + lobe_angle;
+        const double angle = 2 * LMP_PREINTEGRATED_PI * t + lobe_angle;
         double r = 1, d = 0, plain = 0;
         for (int l = 0; l < grid->bands; l++) {
             if (l >= 2 && t <= 1) {
@@ -43,7 +43,7 @@ static void cap_weights(const slice_grid *grid, const float *lobe, double lobe_a
             }
             const double mean = l == 0 ? 1 : r * (1 - t / 2);
             grid->cap[i * (size_t)grid->bands + (size_t)l] =
-                (float)((double)lobe[l] * mean * angle);
+                (float)((double)series[l] * mean * angle);
         }
     }
 }
@@ -88,41 +88,41 @@ static void store(const slice_grid *grid, const lmp_preintegrated_lobe_cell *cel
     }
 }
 
-static void lobe_series(const lmp_preintegrated_lobe_info *info, float exponent, float *lobe) {
+static void lobe_series(const lmp_preintegrated_lobe_info *info, float exponent, float *series) {
     float weights[LMP_BANDS_MAX];
-    lmp_lobe_phong(info->bands, exponent, lobe);
+    lmp_lobe_phong(info->bands, exponent, series);
     lmp_sh_window(info->window, info->bands, info->window_size, weights);
     for (int l = 0; l < info->bands; l++)
-        lobe[l] *= weights[l] * (float)((2 * l + 1) / (4 * LMP_PREINTEGRATED_LOBE_PI));
+        series[l] *= weights[l] * (float)((2 * l + 1) / (4 * LMP_PREINTEGRATED_PI));
 }
 
-lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *response, uint32_t cell_index,
+lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t cell_index,
                                        uint32_t side) {
-    const lmp_preintegrated_lobe_cell *cell = &response->cells[cell_index];
-    const float exponent = response->exponents[cell_index + side];
-    slice_grid grid = { .bands = response->info.bands,
+    const lmp_preintegrated_lobe_cell *cell = &lobe->cells[cell_index];
+    const float exponent = lobe->exponents[cell_index + side];
+    slice_grid grid = { .bands = lobe->info.bands,
                         .rows = cell->rows + MARGIN,
                         .columns = cell->columns + MARGIN,
                         .step = 1 / (double)lmp_preintegrated_lobe_density(cell, exponent) };
     const size_t bands = (size_t)grid.bands;
-    float *memory = lmp_allocate(
-        &response->allocator,
-        sizeof(float) * (bands * grid.columns + grid.rows * bands + grid.rows * grid.columns));
+    float *memory =
+        lmp_allocate(&lobe->allocator, sizeof(float) * (bands * grid.columns + grid.rows * bands +
+                                                        grid.rows * grid.columns));
     if (!memory)
         return LMP_ERROR_MEMORY;
     grid.band = memory;
     grid.cap = grid.band + bands * grid.columns;
     grid.values = grid.cap + grid.rows * bands;
 
-    float lobe[LMP_BANDS_MAX];
-    lobe_series(&response->info, exponent, lobe);
-    cap_weights(&grid, lobe, (double)lmp_preintegrated_lobe_lobe_angle(&response->info, exponent));
+    float series[LMP_BANDS_MAX];
+    lobe_series(&lobe->info, exponent, series);
+    cap_weights(&grid, series, (double)lmp_preintegrated_lobe_solid_angle(&lobe->info, exponent));
     legendre(&grid);
     sum_bands(&grid);
     for (size_t i = 0; i < grid.rows; i++)
         lmp_spline_coefficients(grid.values + i * grid.columns, grid.columns, 1);
     lmp_spline_coefficients(grid.values, grid.rows, grid.columns);
-    store(&grid, cell, response->coefficients + 2 * (size_t)cell->first + side);
-    lmp_release(&response->allocator, memory);
+    store(&grid, cell, lobe->coefficients + 2 * (size_t)cell->first + side);
+    lmp_release(&lobe->allocator, memory);
     return LMP_OK;
 }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* plan.c - which slices of the exponent a response holds, and the step of each one's grid.
+/* lobe_plan.c - which slices of the exponent a preintegrated lobe holds, and the step of each one's
+ * grid.
  *
  * Three regimes, told apart by x = bands²/(2e), the logarithm by which a Phong lobe has fallen at
- * the cut:
+ * the truncated:
  *   cusp    e < CUSP: max(t, 0)^e is not smooth at t = 0; below e = 1 the full resolution of the
  *           bands is needed there, above it the e-th root of the error.
  *   smooth  large x: the lobe is nearly a Gaussian of width 1/sqrt(e). Grids scaled by that width
  *           make slices alike, so few are needed.
- *   cut     x < CUT: the series rings with the period of its last band, whatever e. Steps are a
- *           fixed part of that period; slices follow exp(-x).
+ *   truncated     x < TRUNCATED: the series rings with the period of its last band, whatever e.
+ * Steps are a fixed part of that period; slices follow exp(-x).
  *
  * The constants were chosen by measuring the error over random configurations (docs/shading.md).
  */
@@ -17,26 +18,26 @@
 #include <math.h>
 #include <string.h>
 
-#define CUSP         4.0
-#define CUT          12.0
-#define STEP_CUT     0.95 /* times 1/(bands + 1): the cap's solid angle adds a degree */
-#define STEP_SMOOTH  0.54 /* times the width */
-#define STEP_CUSP    0.02 /* to the power 1/e */
-#define SLICES_CUT   6.5  /* a unit of log e, times x/(x + CUT_KNEE) */
-#define SLICES_FEW   16   /* more where few bands feel every exponent: 1 + this/bands² */
-#define CUT_KNEE     1.16
-#define SLICES       3.0   /* a unit of log e, of smooth lobes */
-#define SLICES_MIN   0.001 /* keeps the warp rising */
-#define SLICES_CUSP  6.7   /* a unit of e at e = 1 */
-#define CUSP_FADE    1.2
-#define WIDTH_OFFSET 1.5
+#define CUSP             4.0
+#define TRUNCATED        12.0
+#define STEP_TRUNCATED   0.95 /* times 1/(bands + 1): the cap's solid angle adds a degree */
+#define STEP_SMOOTH      0.54 /* times the width */
+#define STEP_CUSP        0.02 /* to the power 1/e */
+#define SLICES_TRUNCATED 6.5  /* a unit of log e, times x/(x + TRUNCATED_KNEE) */
+#define SLICES_FEW       16   /* more where few bands feel every exponent: 1 + this/bands² */
+#define TRUNCATED_KNEE   1.16
+#define SLICES           3.0   /* a unit of log e, of smooth lobes */
+#define SLICES_MIN       0.001 /* keeps the remap rising */
+#define SLICES_CUSP      6.7   /* a unit of e at e = 1 */
+#define CUSP_FADE        1.2
+#define WIDTH_OFFSET     1.5
 
 static double slice_density(const lmp_preintegrated_lobe_info *info, double e) {
     const double x = (double)info->bands * info->bands / (2 * e);
     const double few = 1 + SLICES_FEW / (double)(info->bands * info->bands);
-    const double cut = few * SLICES_CUT * x / (x + CUT_KNEE) * (1 + e) / e;
+    const double truncated = few * SLICES_TRUNCATED * x / (x + TRUNCATED_KNEE) * (1 + e) / e;
     const double cusp = e < 2 * CUSP ? SLICES_CUSP * (1 + e) / pow(fmax(e, 1), CUSP_FADE) : 0;
-    return fmax(fmax(x < 1.6 * CUT ? cut : SLICES, cusp), SLICES_MIN);
+    return fmax(fmax(x < 1.6 * TRUNCATED ? truncated : SLICES, cusp), SLICES_MIN);
 }
 
 static double exponent_at(double entry) {
@@ -49,7 +50,7 @@ static float error_scale(const lmp_preintegrated_lobe_info *info, double power) 
 }
 
 /* The slice coordinate at every entry: the integral of the density; returns the last slice. */
-static int plan_warp(lmp_preintegrated_lobe *plan) {
+static int plan_remap(lmp_preintegrated_lobe *plan) {
     double at[LMP_PREINTEGRATED_LOBE_REMAP_COUNT] = { 0 };
     const double fewer = (double)error_scale(&plan->info, -0.5);
     for (int i = 1; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++) {
@@ -59,8 +60,8 @@ static int plan_warp(lmp_preintegrated_lobe *plan) {
     }
     const int last = (int)ceil(at[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1]);
     for (int i = 0; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++)
-        plan->warp[i] = (float)(at[i] * last / at[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1]);
-    plan->warp[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1] = (float)last;
+        plan->remap[i] = (float)(at[i] * last / at[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1]);
+    plan->remap[LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1] = (float)last;
     return last;
 }
 
@@ -69,39 +70,41 @@ void lmp_preintegrated_lobe_exponents(lmp_preintegrated_lobe *plan) {
     const int last = (int)plan->info.cell_count;
     int i = 0;
     for (int k = 0; k <= last; k++) {
-        while (i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 2 && plan->warp[i + 1] < (float)k)
+        while (i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 2 && plan->remap[i + 1] < (float)k)
             i++;
-        const double a = (double)plan->warp[i], b = (double)plan->warp[i + 1];
+        const double a = (double)plan->remap[i], b = (double)plan->remap[i + 1];
         plan->exponents[k] = (float)exponent_at(i + fmin((k - a) / (b - a), 1));
     }
 }
 
 static void plan_cell(lmp_preintegrated_lobe *plan, int k) {
     const double low = (double)plan->exponents[k], high = (double)plan->exponents[k + 1];
-    const double n = plan->info.bands, cut_from = n * n / (2 * CUT);
+    const double n = plan->info.bands, truncated_from = n * n / (2 * TRUNCATED);
     const double finer = (double)error_scale(&plan->info, 0.25);
     const double width = 1 / sqrt(high + WIDTH_OFFSET);
-    const double step_cut = finer * STEP_CUT / (n + 1), step_smooth = finer * STEP_SMOOTH * width;
+    const double step_truncated = finer * STEP_TRUNCATED / (n + 1),
+                 step_smooth = finer * STEP_SMOOTH * width;
     const double step_cusp = pow(STEP_CUSP * (double)error_scale(&plan->info, 1), 1 / fmax(low, 1));
     lmp_preintegrated_lobe_cell *cell = &plan->cells[k];
-    if (low < 1 || low >= cut_from)
-        cell->offset = (float)(1 / step_cut);
+    if (low < 1 || low >= truncated_from)
+        cell->offset = (float)(1 / step_truncated);
     else if (low < CUSP)
-        cell->offset = (float)(1 / fmax(fmin(step_cusp, step_smooth), step_cut));
+        cell->offset = (float)(1 / fmax(fmin(step_cusp, step_smooth), step_truncated));
     else
-        cell->scale = (float)(width / (high > cut_from ? step_cut : fmax(step_smooth, step_cut)));
+        cell->scale = (float)(width / (high > truncated_from ? step_truncated
+                                                             : fmax(step_smooth, step_truncated)));
 }
 
-int lmp_preintegrated_lobe_plan(lmp_preintegrated_lobe *plan) {
-    const int last = plan_warp(plan);
+lmp_result lmp_preintegrated_lobe_plan(lmp_preintegrated_lobe *plan) {
+    const int last = plan_remap(plan);
     if (last > LOBE_CELLS_MAX)
-        return 0;
+        return LMP_ERROR_ARGUMENT;
     plan->info.cell_count = (uint32_t)last;
     lmp_preintegrated_lobe_exponents(plan);
     for (int k = 0; k < last; k++)
         plan_cell(plan, k);
     lmp_preintegrated_lobe_layout(plan);
-    return 1;
+    return LMP_OK;
 }
 
 void lmp_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan) {
@@ -114,12 +117,12 @@ void lmp_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan) {
         const double finest =
             (double)lmp_preintegrated_lobe_density(cell, plan->exponents[k + 1]) * 1.00001;
         cell->first = pairs;
-        cell->rows = (uint32_t)(finest * LMP_PREINTEGRATED_LOBE_PI / 2) + 4;
-        cell->columns = (uint32_t)(finest * LMP_PREINTEGRATED_LOBE_PI) + 4;
+        cell->rows = (uint32_t)(finest * LMP_PREINTEGRATED_PI / 2) + 4;
+        cell->columns = (uint32_t)(finest * LMP_PREINTEGRATED_PI) + 4;
         pairs += cell->rows * cell->columns;
     }
     info->pair_count = pairs;
-    info->bytes = pairs * 2 * sizeof(int16_t) + sizeof plan->warp +
+    info->bytes = pairs * 2 * sizeof(int16_t) + sizeof plan->remap +
                   info->cell_count * sizeof(lmp_preintegrated_lobe_cell);
 }
 
@@ -127,6 +130,6 @@ float lmp_preintegrated_lobe_density(const lmp_preintegrated_lobe_cell *cell, fl
     return cell->scale * sqrtf(exponent + (float)WIDTH_OFFSET) + cell->offset;
 }
 
-float lmp_preintegrated_lobe_lobe_angle(const lmp_preintegrated_lobe_info *info, float exponent) {
-    return (float)LMP_PREINTEGRATED_LOBE_PI * (1 / (exponent + 1) + info->width2);
+float lmp_preintegrated_lobe_solid_angle(const lmp_preintegrated_lobe_info *info, float exponent) {
+    return (float)LMP_PREINTEGRATED_PI * (1 / (exponent + 1) + info->width2);
 }

@@ -225,7 +225,7 @@ static lmp_kernel_lobe_positions find_places(const lmp_preintegrated_lobe_info *
         exponent = e;
         places->first[i] = place.first;
         places->columns[i] = place.columns;
-        places->share.at[i] = place.share;
+        places->share.at[i] = place.fraction;
         places->density.at[i] = place.density;
         places->lobe_angle.at[i] = place.lobe_angle;
         if (i >= chunk->count && i % LMP_KERNEL_LANES_MAX == LMP_KERNEL_LANES_MAX - 1)
@@ -341,7 +341,7 @@ void lmp_shade_preintegrated_n(const lmp_preintegrated_lobe *response, const lmp
     for (int i = 0; i < LMP_KERNEL_LANES_MAX; i++) {
         method.broad_first[i] = place.first;
         method.broad_columns[i] = place.columns;
-        method.broad[0][i] = place.share;
+        method.broad[0][i] = place.fraction;
         method.broad[1][i] = place.density;
         method.broad[2][i] = place.lobe_angle;
     }

@@ -25,18 +25,18 @@ GLSL
     cat shaders/lampion.glsl
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D pairs;
-layout(std430, binding = 2) readonly buffer response_block { vec4 shape; vec4 cells[64]; float warp[321]; };
+layout(std430, binding = 2) readonly buffer lobe_block { vec4 shape; vec4 cells[64]; float remap[321]; };
 #define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(pairs, p / 2048.0, 0.0).rg
 #define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
-#define LMP_PREINTEGRATED_LOBE_REMAP(i) warp[i]
+#define LMP_PREINTEGRATED_LOBE_REMAP(i) remap[i]
 #define LMP_PREINTEGRATED_LOBE_SHAPE   shape
 GLSL
     cat shaders/preintegrated_lobe.glsl
     cat <<'GLSL'
 layout(binding = 3) uniform highp sampler2D texels;
-layout(std430, binding = 4) readonly buffer brdf_block { float measured[]; };
+layout(std430, binding = 4) readonly buffer brdf_block { float brdf_values[]; };
 #define LMP_PREINTEGRATED_BRDF_TEXEL(p) textureLod(texels, p / 4096.0, 0.0).rgb
-#define LMP_PREINTEGRATED_BRDF_VALUE(i) measured[i]
+#define LMP_PREINTEGRATED_BRDF_VALUE(i) brdf_values[i]
 GLSL
     cat shaders/preintegrated_brdf.glsl
     cat <<'GLSL'
