@@ -8,6 +8,7 @@
 #include <lampion/light.h>
 #include <lampion/lobe.h>
 #include <lampion/preintegrated.h>
+#include <lampion/probe.h>
 #include <lampion/sh.h>
 #include <lampion/shade.h>
 

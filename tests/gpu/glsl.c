@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion.glsl alone, as an engine includes it, against the library. */
+/* lampion.glsl and probe.glsl alone, as an engine includes them, against the library. */
 #include "tests/gpu/device.h"
+#include "tests/oracle/check.h"
+
+#include <lampion/probe.h>
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -9,11 +12,11 @@
 
 enum { POINTS = 64 };
 
-static const char *lampion_glsl(void) {
+static const char *source(const char *name) {
     for (const embedded_file *file = gpu_sources; file->name; file++)
-        if (strcmp(file->name, "lampion.glsl") == 0)
+        if (strcmp(file->name, name) == 0)
             return file->text;
-    fail_msg("lampion.glsl is not embedded");
+    fail_msg("%s is not embedded", name);
     return NULL;
 }
 
@@ -35,10 +38,8 @@ static const char main_function[] =
     "    }\n"
     "}\n";
 
-static GLuint build(int bands) {
-    char head[64];
-    snprintf(head, sizeof head, "#version 450 core\n#define LMP_BANDS %d\n", bands);
-    const char *text[] = { head, lampion_glsl(), main_function };
+static GLuint build(const char *head, const char *file, const char *main) {
+    const char *text[] = { head, source(file), main };
     const GLuint program = glCreateProgram(), shader = glCreateShader(GL_COMPUTE_SHADER);
     GLint ok = 0;
     char log[512] = "";
@@ -82,7 +83,9 @@ static void coefficients_agree_with_the_library(void **state) {
     for (size_t b = 0; b < sizeof band_counts / sizeof band_counts[0]; b++) {
         const int bands = band_counts[b];
         const size_t count = LMP_SH_COUNT(bands), size = POINTS * count * 2 * sizeof(float);
-        const GLuint program = build(bands);
+        char head[64];
+        snprintf(head, sizeof head, "#version 450 core\n#define LMP_BANDS %d\n", bands);
+        const GLuint program = build(head, "lampion.glsl", main_function);
         GLuint buffers[2];
         glCreateBuffers(2, buffers);
         glNamedBufferStorage(buffers[0], sizeof points, points, 0);
@@ -117,9 +120,58 @@ static void coefficients_agree_with_the_library(void **state) {
     }
 }
 
+/* --- probes -------------------------------------------------------------------------------------
+ */
+
+static const char probe_main[] =
+    "layout(local_size_x = 64) in;\n"
+    "layout(std140, binding = 0) uniform probe_block { vec4 linear[3], quadratic[3], last; };\n"
+    "layout(std430, binding = 0) buffer in_block { vec4 normals[]; };\n"
+    "layout(std430, binding = 1) buffer out_block { vec4 values[]; };\n"
+    "void main() {\n"
+    "    uint i = gl_GlobalInvocationID.x;\n"
+    "    values[i] = vec4(lmp_probe_irradiance(linear, quadratic, last, normals[i].xyz), 0.0);\n"
+    "}\n";
+
+static void irradiance_agrees_with_the_library(void **state) {
+    (void)state;
+    float sh[3 * 9], normals[POINTS][4];
+    lmp_probe_constants constants;
+    for (int k = 0; k < 27; k++)
+        sh[k] = (float)check_random_between(-1, 1);
+    for (int i = 0; i < POINTS; i++) {
+        const lmp_vec3 n = check_random_direction();
+        memcpy(normals[i], (const float[4]) { n.x, n.y, n.z }, sizeof normals[i]);
+    }
+    lmp_probe_constants_of(3, sh, 1, &constants);
+    const GLuint program = build("#version 450 core\n", "probe.glsl", probe_main);
+    GLuint buffers[3];
+    glCreateBuffers(3, buffers);
+    glNamedBufferStorage(buffers[0], sizeof normals, normals, 0);
+    glNamedBufferStorage(buffers[1], sizeof normals, NULL, GL_MAP_READ_BIT);
+    glNamedBufferStorage(buffers[2], sizeof constants, &constants, 0);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 2, buffers);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffers[2]);
+    glUseProgram(program);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    const float(*values)[4] = glMapNamedBuffer(buffers[1], GL_READ_ONLY);
+    assert_non_null(values);
+    for (int i = 0; i < POINTS; i++) {
+        const lmp_rgb e =
+            lmp_probe_irradiance(3, sh, (lmp_vec3) { normals[i][0], normals[i][1], normals[i][2] });
+        CHECK_WITHIN(fabsf(values[i][0] - e.r), 1e-5);
+        CHECK_WITHIN(fabsf(values[i][1] - e.g), 1e-5);
+        CHECK_WITHIN(fabsf(values[i][2] - e.b), 1e-5);
+    }
+    glDeleteBuffers(3, buffers);
+    glDeleteProgram(program);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients_agree_with_the_library),
+        cmocka_unit_test(irradiance_agrees_with_the_library),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

@@ -78,6 +78,16 @@ for form in "1 0" "2 1" "6 2"; do
     check "450 core" "$1" "$2" -V
 done
 check "450 core" 20 1
+for version in "450 core" "300 es"; do
+    {
+        echo "#version $version"
+        echo "precision highp float;"
+        cat shaders/probe.glsl
+        echo "uniform vec4 a[3], b[3], c; in vec3 n; out vec4 color;"
+        echo "void main() { color = vec4(lmp_probe_irradiance(a, b, c, normalize(n)), 1.0); }"
+    } >"$WORK/probe.frag"
+    glslangValidator "$WORK/probe.frag" >"$WORK/log" 2>&1 || fail "probe.glsl: $(cat "$WORK/log")"
+done
 for version in "450 core" "310 es"; do
     window "$version" >"$WORK/window.frag"
     glslangValidator "$WORK/window.frag" >"$WORK/log" 2>&1 || fail "lanterns.frag: $(cat "$WORK/log")"

@@ -15,10 +15,11 @@ may_include() {
     sh) echo base kernels sh ;;
     light) echo base kernels sh light ;;
     lobe | brdf) echo base kernels sh light "$1" ;;
+    probe) echo base sh light lobe probe ;;
     preintegrated) echo base kernels sh light lobe brdf preintegrated ;;
     shade) echo base kernels sh light lobe brdf preintegrated shade ;;
     field) echo base kernels sh light lobe brdf preintegrated shade field ;;
-    lampion) echo base sh light lobe brdf preintegrated shade field kernels ;;
+    lampion) echo base sh light lobe probe brdf preintegrated shade field kernels ;;
     app/cli) echo app/cli base ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
@@ -37,7 +38,7 @@ may_include() {
     app/paper) echo app/cli app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
     app/command) echo app/cli app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
         app/command shaders LIBRARY ;;
-    esac | sed 's/LIBRARY/base kernels sh light lobe brdf preintegrated shade field lampion/'
+    esac | sed 's/LIBRARY/base kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }
 
 module_of() {

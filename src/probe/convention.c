@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+#include <lampion/probe.h>
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* A convention's basis function in parts of this library's, and so its coefficient. */
+static double factor(const lmp_probe_convention *convention, int l, int m) {
+    double value = convention->sign == LMP_PROBE_SIGN_POSITIVE && m % 2 != 0 ? -1 : 1;
+    if (convention->normalization == LMP_PROBE_N3D)
+        value *= sqrt(4 * pi);
+    if (convention->normalization == LMP_PROBE_SN3D)
+        value *= sqrt(4 * pi / (2 * l + 1));
+    return value;
+}
+
+/* --- axes ---------------------------------------------------------------------------------------
+ */
+
+/* Rows: the axes of a convention in this library's world. */
+static void axes_of(const lmp_probe_convention *convention, int axes[3][3]) {
+    for (int row = 0; row < 3; row++) {
+        const int axis = convention->axes[row] ? convention->axes[row] : row + 1;
+        assert(abs(axis) <= 3);
+        for (int column = 0; column < 3; column++)
+            axes[row][column] = abs(axis) != column + 1 ? 0 : axis > 0 ? 1 : -1;
+    }
+}
+
+static int determinant(int m[3][3]) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/* Y_lm(x, y, -z) = (-1)^(l+m) Y_lm(x, y, z). */
+static void mirror_z(int bands, float *sh) {
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            if ((l + m) % 2 != 0)
+                sh[LMP_SH_INDEX(l, m)] = -sh[LMP_SH_INDEX(l, m)];
+}
+
+/* f(M w) of f(w): M = turn, or turn times a reflection of z. */
+static void change_axes(int bands, int m[3][3], float *sh) {
+    static const int unchanged[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    const bool mirrored = determinant(m) < 0;
+    float inverse[9], matrices[LMP_SH_ROTATION_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
+    float rotated[LMP_SH_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
+    if (memcmp(m, unchanged, sizeof unchanged) == 0)
+        return;
+    assert(bands <= LMP_PROBE_AXES_BANDS_MAX);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            inverse[3 * column + row] =
+                (float)(mirrored && column == 2 ? -m[row][column] : m[row][column]);
+    lmp_sh_rotation_from_matrix(bands, inverse, matrices);
+    lmp_sh_rotate(bands, matrices, sh, rotated);
+    memcpy(sh, rotated, LMP_SH_COUNT(bands) * sizeof *sh);
+    if (mirrored)
+        mirror_z(bands, sh);
+}
+
+/* --- conversion ---------------------------------------------------------------------------------
+ */
+
+void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_probe_convention *to,
+                       const float *sh, float *converted) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    int a[3][3], b[3][3], change[3][3] = { { 0 } }; /* from's axes by to's */
+    axes_of(from, a);
+    axes_of(to, b);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            for (int k = 0; k < 3; k++)
+                change[row][column] += a[row][k] * b[column][k];
+    assert(determinant(change) != 0);
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            converted[LMP_SH_INDEX(l, m)] =
+                (float)((double)sh[LMP_SH_INDEX(l, m)] / factor(from, l, m));
+    change_axes(bands, change, converted);
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            converted[LMP_SH_INDEX(l, m)] =
+                (float)((double)converted[LMP_SH_INDEX(l, m)] * factor(to, l, m));
+}
+
+static bool agrees(int bands, const lmp_probe_convention *convention, const float *ours,
+                   const float *theirs, float tolerance) {
+    double largest = 0;
+    for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
+        largest = fmax(largest, fabs((double)theirs[i]));
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++) {
+            const size_t i = LMP_SH_INDEX(l, m);
+            const double error = (double)theirs[i] - factor(convention, l, m) * (double)ours[i];
+            if (!(fabs(error) <= (double)tolerance * largest))
+                return false;
+        }
+    return true;
+}
+
+bool lmp_probe_recognize(int bands, const float *ours, const float *theirs, float tolerance,
+                         lmp_probe_convention *convention) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)
+        for (int norm = 0; norm <= LMP_PROBE_SN3D; norm++) {
+            const lmp_probe_convention guess = { .sign = (lmp_probe_sign)sign,
+                                                 .normalization = (lmp_probe_normalization)norm };
+            if (agrees(bands, &guess, ours, theirs, tolerance)) {
+                *convention = guess;
+                return true;
+            }
+        }
+    return false;
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* fit.c - coefficients from scattered samples by least squares.
+ *
+ * The normal equations are summed and solved in double from values in float: the condition number
+ * may reach 1e7 before digits of the values are lost. A sphere that is sampled at all is far from
+ * that; what is not is refused. */
+#include "src/base/allocator.h"
+
+#include <lampion/probe.h>
+
+#include <math.h>
+#include <string.h>
+
+/* Below this part of the largest pivot a coefficient counts as undetermined. */
+static const double pivot_least = 1e-10;
+
+typedef struct normal_equations {
+    size_t count;   /* coefficients */
+    double *matrix; /* count rows; the lower triangle */
+    double *right;  /* right side */
+} normal_equations;
+
+static float element(const float *first, size_t stride, size_t i) {
+    return *(const float *)(const void *)((const char *)first + i * stride);
+}
+
+/* Adds a sample; false where a number of it is not finite or the weight is negative. */
+static bool add_sample(normal_equations *equations, int bands, const lmp_probe_samples *samples,
+                       size_t i, float *basis) {
+    const lmp_vec3_array *d = &samples->directions;
+    const lmp_vec3 w = { element(d->x, d->stride, i), element(d->y, d->stride, i),
+                         element(d->z, d->stride, i) };
+    const double value = (double)element(samples->values.at, samples->values.stride, i);
+    const double weight =
+        samples->weights.at ? (double)element(samples->weights.at, samples->weights.stride, i) : 1;
+    if (!isfinite(w.x) || !isfinite(w.y) || !isfinite(w.z) || !isfinite(value) ||
+        !isfinite(weight) || weight < 0)
+        return false;
+    lmp_sh_eval(bands, w, basis);
+    for (size_t row = 0; row < equations->count; row++) {
+        const double scaled = weight * (double)basis[row];
+        double *line = equations->matrix + row * equations->count;
+        equations->right[row] += scaled * value;
+        for (size_t column = 0; column <= row; column++)
+            line[column] += scaled * (double)basis[column];
+    }
+    return true;
+}
+
+/* In place A = L Lᵀ (Cholesky); false where a pivot is lost in the rounding of what it came from.
+ */
+static bool factorize(normal_equations *equations) {
+    const size_t n = equations->count;
+    double *a = equations->matrix, largest = 0;
+    for (size_t i = 0; i < n; i++)
+        largest = fmax(largest, a[i * n + i]);
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double sum = a[i * n + j];
+            for (size_t k = 0; k < j; k++)
+                sum -= a[i * n + k] * a[j * n + k];
+            if (i != j)
+                a[i * n + j] = sum / a[j * n + j];
+            else if (sum > pivot_least * largest)
+                a[i * n + i] = sqrt(sum);
+            else
+                return false;
+        }
+    return true;
+}
+
+static void solve(const normal_equations *equations, float *sh) {
+    const size_t n = equations->count;
+    const double *a = equations->matrix;
+    double *x = equations->right;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++)
+            x[i] -= a[i * n + k] * x[k];
+        x[i] /= a[i * n + i];
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t k = i + 1; k < n; k++)
+            x[i] -= a[k * n + i] * x[k];
+        x[i] /= a[i * n + i];
+        sh[i] = (float)x[i];
+    }
+}
+
+static lmp_result fit(normal_equations *equations, int bands, const lmp_probe_samples *samples,
+                      double smoothness, float *sh) {
+    float basis[LMP_SH_COUNT(LMP_PROBE_FIT_BANDS_MAX)];
+    for (size_t i = 0; i < samples->count; i++)
+        if (!add_sample(equations, bands, samples, i, basis))
+            return LMP_ERROR_ARGUMENT;
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++) {
+            const double eigenvalue = (double)l * (l + 1);
+            equations->matrix[LMP_SH_INDEX(l, m) * (equations->count + 1)] +=
+                smoothness * eigenvalue * eigenvalue;
+        }
+    if (!factorize(equations))
+        return LMP_ERROR_ARGUMENT;
+    solve(equations, sh);
+    return LMP_OK;
+}
+
+lmp_result lmp_probe_fit(const lmp_allocator *allocator, int bands,
+                         const lmp_probe_samples *samples, float smoothness, float *sh) {
+    if (bands < 1 || bands > LMP_PROBE_FIT_BANDS_MAX || !(smoothness >= 0 && isfinite(smoothness)))
+        return LMP_ERROR_ARGUMENT;
+    const lmp_allocator memory = lmp_allocator_resolve(allocator);
+    const size_t count = LMP_SH_COUNT(bands), size = count * (count + 1) * sizeof(double);
+    normal_equations equations = { .count = count, .matrix = lmp_allocate(&memory, size) };
+    if (!equations.matrix)
+        return LMP_ERROR_MEMORY;
+    memset(equations.matrix, 0, size);
+    equations.right = equations.matrix + count * count;
+    const lmp_result result = fit(&equations, bands, samples, (double)smoothness, sh);
+    lmp_release(&memory, equations.matrix);
+    return result;
+}
