@@ -12,6 +12,7 @@ typedef struct bench_options {
     /* of gpu */
     int device, method;  /* of bench_devices and bench_methods */
     int lights, size[2]; /* 0: many */
+    int seconds;         /* 0: a default, or no limit if `full` */
     const char *scene;   /* NULL: many */
     const char *gl_device;
     cli_list materials;

@@ -6,13 +6,13 @@
 #include "app/device/materials.h"
 
 #include <cjson/cJSON.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-/* Frames of SLOW milliseconds settle with fewer. */
-enum { FRAMES = 9, FRAMES_SLOW = 3, SLOW = 2000, SEED = 7 };
+enum { FRAMES = 9, SECONDS = 180, SEED = 7 };
 
 const char *const bench_devices[] = { "all", "gpu", "cpu", NULL };
 const char *const bench_methods[] = { "all",         "paper", "coefficients",
@@ -20,15 +20,15 @@ const char *const bench_methods[] = { "all",         "paper", "coefficients",
                                       NULL };
 
 /* What shades; `materials`: measured ones, too. */
-typedef struct contestant {
+typedef struct bench_case {
     const char *name;
     device_kind device;
     gpu_method method;
     int bands_max;
     bool materials;
-} contestant;
+} bench_case;
 
-static const contestant contestants[] = {
+static const bench_case cases[] = {
     { "paper", DEVICE_GPU, GPU_METHOD_PAPER, 20, false },
     { "coefficients", DEVICE_GPU, GPU_METHOD_COEFFICIENTS, GPU_COEFFICIENTS_MAX, true },
     { "tabulated-z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX, false },
@@ -37,13 +37,14 @@ static const contestant contestants[] = {
     { "zonal", DEVICE_CPU, GPU_METHOD_ZONAL, LMP_BANDS_MAX, true },
     { "preintegrated", DEVICE_CPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX, true },
 };
-enum { CONTESTANTS = sizeof contestants / sizeof *contestants };
+enum { CASES = sizeof cases / sizeof *cases };
+enum { SCENES = 2, SIZES = 3, BANDS = 6, LIGHTS = 6, SETTINGS_MAX = SIZES * BANDS * LIGHTS };
 
 /* A row's frame, and what shades it. */
-typedef struct bench_case {
-    const contestant *by;
+typedef struct bench_row {
+    const bench_case *by;
     int bands, lights, width, height;
-} bench_case;
+} bench_row;
 
 /* What a row reads besides the scene: its bytes, and what making or loading it took. */
 typedef struct bench_tables {
@@ -57,9 +58,24 @@ typedef struct bench_result {
     double compile_ms; /* of the shader */
 } bench_result;
 
+/* One number of bands and lights, and one size, of the rows of some cases. */
+typedef struct bench_setting {
+    int bands, lights;
+    const int *size;
+} bench_setting;
+
+/* The settings in the order of what they tell, and the time for them all. */
+typedef struct bench_plan {
+    bench_setting settings[SETTINGS_MAX];
+    int setting_count;
+    int rows_ahead, rows_left_out;
+    double end_ms; /* of wall_ms */
+} bench_plan;
+
 /* A scene open on the device, with as many lights as any row asks for. */
 typedef struct bench_stage {
     const bench_options *options;
+    bench_plan *plan;
     const char *name;
     scene world;
     gpu_context context;
@@ -86,19 +102,19 @@ static int by_value(const void *a, const void *b) {
 /* --- which rows ---------------------------------------------------------------------------------
  */
 
-/* The first scene and size are those of the short selection. */
-static const char *const all_scenes[] = { "builtin:atrium", "builtin:ball" };
-static const int all_sizes[][2] = { { 1980, 995 }, { 600, 816 }, { 3400, 900 } };
-static const int all_bands[] = { 5, 8, 10, 20, 50, 100, 0 };
-static const int all_lights[] = { 1, 10, 30, 100, 300, 1000, 0 };
-enum { SCENES = 2, SIZES = 3 };
+/* What tells most first: the paper's 8 bands and 30 lights, then other bands, then other lights.
+ * The first scene and size are those of the short selection. */
+static const char *const all_scenes[SCENES] = { "builtin:atrium", "builtin:ball" };
+static const int all_sizes[SIZES][2] = { { 1980, 995 }, { 600, 816 }, { 3400, 900 } };
+static const int all_bands[BANDS + 1] = { 8, 5, 20, 10, 50, 100, 0 };
+static const int all_lights[LIGHTS + 1] = { 30, 100, 10, 300, 1, 1000, 0 };
 
 static bool is_method(const bench_options *o, const char *name) {
     return o->method == 0 || strcmp(bench_methods[o->method], name) == 0;
 }
 
 /* Whether there is a row of it; bands 0: of any number. */
-static bool is_chosen(const bench_options *o, const contestant *c, int bands) {
+static bool is_chosen(const bench_options *o, const bench_case *c, int bands) {
     return bands <= c->bands_max && (c->materials || o->materials.count == 0) &&
            (o->device == 0 || strcmp(bench_devices[o->device], device_names[c->device]) == 0) &&
            is_method(o, c->name);
@@ -107,6 +123,30 @@ static bool is_chosen(const bench_options *o, const contestant *c, int bands) {
 /* The paper's 30 lights over the bands, its 8 bands over the lights; whatever is fixed; or all. */
 static bool is_setting(const bench_options *o, int bands, int lights) {
     return o->full || o->lights || lights == 30 || (!o->bands && bands == 8 && lights <= 300);
+}
+
+static void plan_setting(bench_plan *plan, const bench_options *o, const bench_setting *setting) {
+    if (!is_setting(o, setting->bands, setting->lights))
+        return;
+    plan->settings[plan->setting_count++] = *setting;
+    for (int i = 0; i < CASES; i++)
+        plan->rows_ahead += is_chosen(o, &cases[i], setting->bands);
+}
+
+/* Of one scene: all bands with the first number of lights, then the other lights. */
+static void plan_rows(bench_plan *plan, const bench_options *o) {
+    const int own_bands[] = { o->bands, 0 }, own_lights[] = { o->lights, 0 };
+    const int *const bands = o->bands ? own_bands : all_bands;
+    const int *const lights = o->lights ? own_lights : all_lights;
+    const int sizes = o->full && !o->size[0] ? SIZES : 1;
+    for (int s = 0; s < sizes; s++) {
+        const int *const size = o->size[0] ? o->size : all_sizes[s];
+        for (const int *b = bands; *b; b++)
+            plan_setting(plan, o, &(bench_setting) { *b, lights[0], size });
+        for (const int *b = bands; *b; b++)
+            for (const int *l = lights + 1; *l; l++)
+                plan_setting(plan, o, &(bench_setting) { *b, *l, size });
+    }
 }
 
 /* --- one row ------------------------------------------------------------------------------------
@@ -143,14 +183,14 @@ static bool find_materials(bench_stage *stage, int bands, cli_error *error) {
 }
 
 /* A shader that sums a material by its bands takes fewer. */
-static int bands_max(const bench_stage *stage, const contestant *c) {
+static int bands_max(const bench_stage *stage, const bench_case *c) {
     for (int i = 0; i < stage->materials.count && c->device == DEVICE_GPU; i++)
         if (!stage->materials.responses[i] && c->bands_max > GPU_BANDS_MAX)
             return GPU_BANDS_MAX;
     return c->bands_max;
 }
 
-static bench_tables tables_of(const bench_stage *stage, const bench_case *c) {
+static bench_tables tables_of(const bench_stage *stage, const bench_row *c) {
     const bool preintegrated = c->by->method == GPU_METHOD_PREINTEGRATED;
     const device_materials *all = &stage->materials;
     bench_tables sum = { .ms = stage->bake_ms };
@@ -168,8 +208,9 @@ static bench_tables tables_of(const bench_stage *stage, const bench_case *c) {
     return sum;
 }
 
-static bool time_case(bench_stage *stage, const bench_case *c, bench_result *result,
-                      cli_error *error) {
+/* In its part of the time left, but one frame at least. */
+static bool time_row(bench_stage *stage, const bench_row *c, bench_result *result,
+                     cli_error *error) {
     gpu_frame frame = {
         .width = c->width,
         .height = c->height,
@@ -187,19 +228,18 @@ static bool time_case(bench_stage *stage, const bench_case *c, bench_result *res
         frame.response = stage->responses[c->bands];
     }
     double samples[FRAMES];
-    int count = FRAMES;
+    int count = 0;
     gpu_times times;
-    const double start = wall_ms();
+    const double start = wall_ms(),
+                 end = start + (stage->plan->end_ms - start) / stage->plan->rows_ahead;
     if (!gpu_render(stage->renderer, &frame, &times, error))
         return false;
     result->compile_ms = wall_ms() - start - times.total;
-    for (int i = 0; i < count; i++) {
+    do {
         if (!gpu_render(stage->renderer, &frame, &times, error))
             return false;
-        samples[i] = times.shade + times.transfer;
-        if (i == FRAMES_SLOW - 1 && samples[i] > SLOW)
-            count = FRAMES_SLOW;
-    }
+        samples[count++] = times.shade + times.transfer;
+    } while (count < FRAMES && wall_ms() < end);
     qsort(samples, (size_t)count, sizeof *samples, by_value);
     result->ms = samples[count / 2];
     result->frames = count;
@@ -216,7 +256,7 @@ static void add_number(cJSON *row, const char *name, double value) {
     cJSON_AddRawToObject(row, name, text);
 }
 
-static void print_json(const bench_stage *stage, const bench_case *c, const bench_result *result,
+static void print_json(const bench_stage *stage, const bench_row *c, const bench_result *result,
                        double ns, double paper) {
     const bench_tables tables = tables_of(stage, c);
     cJSON *row = cJSON_CreateObject();
@@ -245,7 +285,7 @@ static void print_json(const bench_stage *stage, const bench_case *c, const benc
     cJSON_Delete(row);
 }
 
-static void print_row(bench_stage *stage, const bench_case *c, const bench_result *result,
+static void print_row(bench_stage *stage, const bench_row *c, const bench_result *result,
                       double paper) {
     const double ns = 1e6 * result->ms / ((double)c->width * c->height * c->lights);
     if (stage->options->json) {
@@ -306,39 +346,37 @@ static void print_header(const bench_stage *stage) {
 /* --- all rows -----------------------------------------------------------------------------------
  */
 
-/* Everything that is chosen, at one number of bands and lights and one size. */
-static bool time_setting(bench_stage *stage, int bands, int lights, const int size[2],
-                         cli_error *error) {
+/* Everything that is chosen, at one setting. */
+static bool time_setting(bench_stage *stage, const bench_setting *setting, cli_error *error) {
+    bench_plan *plan = stage->plan;
     double paper = 0;
-    for (int i = 0; i < CONTESTANTS; i++) {
-        const bench_case c = { &contestants[i], bands, lights, size[0], size[1] };
+    for (int i = 0; i < CASES; i++) {
+        const bench_row row = { &cases[i], setting->bands, setting->lights, setting->size[0],
+                                setting->size[1] };
         bench_result result;
-        if (!is_chosen(stage->options, c.by, bands))
+        if (!is_chosen(stage->options, row.by, row.bands))
             continue;
-        if (!find_materials(stage, bands, error))
-            return false;
-        if (bands > bands_max(stage, c.by))
+        if (wall_ms() > plan->end_ms) {
+            plan->rows_left_out++;
             continue;
-        if (!time_case(stage, &c, &result, error))
+        }
+        if (!find_materials(stage, row.bands, error))
             return false;
-        paper = c.by->method == GPU_METHOD_PAPER ? result.ms : paper;
-        print_row(stage, &c, &result, paper);
+        if (row.bands <= bands_max(stage, row.by)) {
+            if (!time_row(stage, &row, &result, error))
+                return false;
+            paper = row.by->method == GPU_METHOD_PAPER ? result.ms : paper;
+            print_row(stage, &row, &result, paper);
+        }
+        plan->rows_ahead--;
     }
     return true;
 }
 
 static bool time_all(bench_stage *stage, cli_error *error) {
-    const bench_options *o = stage->options;
-    const int own_bands[] = { o->bands, 0 }, own_lights[] = { o->lights, 0 };
-    const int *const bands = o->bands ? own_bands : all_bands;
-    const int *const lights = o->lights ? own_lights : all_lights;
-    const int sizes = o->full && !o->size[0] ? SIZES : 1;
-    for (int s = 0; s < sizes; s++)
-        for (const int *b = bands; *b; b++)
-            for (const int *l = lights; *l; l++)
-                if (is_setting(o, *b, *l) &&
-                    !time_setting(stage, *b, *l, o->size[0] ? o->size : all_sizes[s], error))
-                    return false;
+    for (int i = 0; i < stage->plan->setting_count; i++)
+        if (!time_setting(stage, &stage->plan->settings[i], error))
+            return false;
     return true;
 }
 
@@ -364,8 +402,8 @@ static void close_stage(bench_stage *stage) {
 /* What the table of options cannot say. */
 static int check_options(const cli_command *command, const bench_options *o) {
     bool any = false;
-    for (int i = 0; i < CONTESTANTS; i++)
-        any = any || is_chosen(o, &contestants[i], o->bands);
+    for (int i = 0; i < CASES; i++)
+        any = any || is_chosen(o, &cases[i], o->bands);
     if (!any)
         return cli_usage(command, "nothing runs by --method %s --device %s --bands %d%s",
                          bench_methods[o->method], bench_devices[o->device], o->bands,
@@ -380,11 +418,16 @@ int bench_gpu(const cli_command *command, const bench_options *o) {
     const int status = check_options(command, o), scenes = o->full && !o->scene ? SCENES : 1;
     if (status != CLI_OK)
         return status;
+    bench_plan plan = { .end_ms = INFINITY };
+    plan_rows(&plan, o);
+    plan.rows_ahead *= scenes;
+    if (o->seconds || !o->full)
+        plan.end_ms = wall_ms() + 1e3 * (o->seconds ? o->seconds : SECONDS);
     bool ok = true, first = true;
     for (int i = 0; i < scenes && ok; i++) {
-        bench_stage stage = { .options = o,
-                              .name = o->scene ? o->scene : all_scenes[i],
-                              .first = first };
+        bench_stage stage = {
+            .options = o, .plan = &plan, .name = o->scene ? o->scene : all_scenes[i], .first = first
+        };
         ok = open_stage(&stage, &error);
         if (ok && i == 0)
             print_header(&stage);
@@ -394,5 +437,8 @@ int bench_gpu(const cli_command *command, const bench_options *o) {
     }
     if (o->json && ok)
         printf("\n  ]\n}\n");
+    if (plan.rows_left_out)
+        fprintf(stderr, "lampion: %d rows left out for want of time (--time)\n",
+                plan.rows_left_out);
     return ok ? CLI_OK : cli_report(&error);
 }
