@@ -14,6 +14,10 @@
  *   LMP_LIGHT_COUNT          int: number of lights
  *   LMP_LIGHT_SPHERE(i)      vec4: center and radius of light i, 0 <= i < LMP_LIGHT_COUNT
  *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
+ * and, where some lights are no spheres,
+ *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from everywhere, a sun or a sky; SPHERE(i) is
+ *                            then its unit axis and 1 - cos a, a its half angle; default false
+ *   LMP_LIGHT_COLOR(i, p)    vec3: its radiance towards p; default LMP_LIGHT_RADIANCE(i)
  *
  * A fragment shader that is lit by it, all of it:
  *
@@ -44,7 +48,7 @@
  *   lmp_sphere_project       the LMP_SH_COUNT coefficients of a sphere light, for probes
  *   lmp_sh_eval              Y_lm of a direction
  *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
- *   lmp_cap_of_sphere, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
+ *   lmp_cap_of_light, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
  * and in preintegrated_lobe.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
  * All names begin with lmp_ or LMP_. Nothing is kept: no uniforms, buffers or bindings.
  *
@@ -175,6 +179,24 @@ lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 point) {
     return cap;
 }
 
+/* The cap of the directions up to a from `axis`, 1 - cos a in 0 … 2. */
+lmp_cap lmp_cap_of_directions(vec3 axis, float one_minus_cos) {
+    float side = one_minus_cos > 1.0 ? -1.0 : 1.0;
+    lmp_cap cap;
+    cap.axis = side * axis;
+    cap.one_minus_cos = min(one_minus_cos, 2.0 - one_minus_cos);
+    cap.base = 2.0 * one_minus_cos;
+    cap.strength = side * cap.one_minus_cos * (2.0 - cap.one_minus_cos);
+    return cap;
+}
+
+/* A light as LMP_LIGHT_SPHERE and LMP_LIGHT_FIXED describe it. */
+lmp_cap lmp_cap_of_light(vec4 sphere, bool fixed_cap, vec3 point) {
+    if (fixed_cap)
+        return lmp_cap_of_directions(sphere.xyz, sphere.w);
+    return lmp_cap_of_sphere(sphere, point);
+}
+
 /* glTF's metallic-roughness as two lobes; metallic and roughness in 0 … 1. */
 lmp_material lmp_material_from_metallic_roughness(vec3 base, float metallic, float roughness) {
     float alpha = max(roughness * roughness, LMP_ALPHA_MIN);
@@ -286,9 +308,8 @@ void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {
 #undef LMP_ROW
 }
 
-/* Coefficients at `point` of a sphere of radiance 1 (paper Eq. 12 and 13). */
-void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
-    lmp_cap cap = lmp_cap_of_sphere(sphere, point);
+/* Coefficients of a cap of radiance 1 (paper Eq. 12 and 13). */
+void lmp_cap_project(lmp_cap cap, out float sh[LMP_SH_COUNT]) {
     float R[LMP_BANDS];
     lmp_cap_series(cap, R);
     lmp_sh_eval(cap.axis, sh);
@@ -304,7 +325,19 @@ void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
 #undef LMP_ROW
 }
 
+/* Coefficients at `point` of a sphere of radiance 1. */
+void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
+    lmp_cap_project(lmp_cap_of_sphere(sphere, point), sh);
+}
+
 #ifdef LMP_LIGHT_COUNT
+#ifndef LMP_LIGHT_FIXED
+#define LMP_LIGHT_FIXED(i) false
+#endif
+#ifndef LMP_LIGHT_COLOR
+#define LMP_LIGHT_COLOR(i, p) LMP_LIGHT_RADIANCE(i)
+#endif
+#define LMP_LIGHT_CAP(i, p) lmp_cap_of_light(LMP_LIGHT_SPHERE(i), LMP_LIGHT_FIXED(i), p)
 
 /* Radiance to the viewer under all lights, by the addition theorem: O(LMP_BANDS) a light.
  *
@@ -335,7 +368,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
 
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
+        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
         float u = dot(cap.axis, surface.normal), v = dot(cap.axis, mirror);
         float r = 1.0, difference = 0.0;
         float p0 = 1.0, p1 = u, p2, q0 = 1.0, q1 = v, q2;
@@ -364,7 +397,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
 #undef LMP_STEP
         d = diffuse[0] * cap.base + cap.strength * d;
         g = glossy[0] * cap.base + cap.strength * g;
-        sum += LMP_LIGHT_RADIANCE(i) * (material.diffuse * d + material.specular * g);
+        sum += LMP_LIGHT_COLOR(i, surface.position) * (material.diffuse * d + material.specular * g);
     }
     return max(sum, vec3(0.0));
 }
@@ -416,11 +449,11 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
      * with darkness. */
     for (int i = 0; i < LMP_LIGHT_COUNT; i += 2) {
         int j = min(i + 1, LMP_LIGHT_COUNT - 1);
-        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
-        lmp_cap cap2 = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(j), surface.position);
+        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position), cap2 = LMP_LIGHT_CAP(j, surface.position);
         vec3 w = world_to_local * cap.axis, w2 = world_to_local * cap2.axis;
-        vec3 radiance = LMP_LIGHT_RADIANCE(i);
-        vec3 radiance2 = i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_RADIANCE(j) : vec3(0.0);
+        vec3 radiance = LMP_LIGHT_COLOR(i, surface.position);
+        vec3 radiance2 =
+            i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_COLOR(j, surface.position) : vec3(0.0);
         float R[LMP_BANDS], R2[LMP_BANDS];
         lmp_cap_series(cap, R);
         lmp_cap_series(cap2, R2);

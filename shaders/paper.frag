@@ -6,9 +6,7 @@
 #include "gbuffer.glsl"
 #include "shared.h"
 
-#define LMP_LIGHT_COUNT       int(size_lights.z)
-#define LMP_LIGHT_SPHERE(i)   lights[i].sphere
-#define LMP_LIGHT_RADIANCE(i) lights[i].radiance.rgb
+#include "light.glsl"
 #include "lampion.glsl"
 
 #include "pixel.glsl"
@@ -26,8 +24,8 @@ vec3 paper_shade(lmp_surface surface, lmp_material material) {
 #undef LMP_ROW
 
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_sphere_project(LMP_LIGHT_SPHERE(i), surface.position, sh);
-        vec3 color = LMP_LIGHT_RADIANCE(i);
+        lmp_cap_project(LMP_LIGHT_CAP(i, surface.position), sh);
+        vec3 color = LMP_LIGHT_COLOR(i, surface.position);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         sum[LMP_INDEX(l, m)] += color * sh[LMP_INDEX(l, m)];                                       \

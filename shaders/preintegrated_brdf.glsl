@@ -107,11 +107,11 @@ vec3 lmp_shade_preintegrated_brdf(lmp_surface surface, int first) {
     lmp_preintegrated_brdf m = lmp_preintegrated_brdf_view(first, dot(surface.view, surface.normal));
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
+        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
         vec3 covered = lmp_preintegrated_brdf_mean(m, world_to_local * cap.axis, cap.one_minus_cos) *
                        (2.0 * LMP_PI * cap.one_minus_cos);
-        /* inside a sphere: light all around less the complementary cap */
-        sum += LMP_LIGHT_RADIANCE(i) * (cap.strength < 0.0 ? m.ambient - covered : covered);
+        /* more than a hemisphere: light all around less the complementary cap */
+        sum += LMP_LIGHT_COLOR(i, surface.position) * (cap.base > 2.0 ? m.ambient - covered : covered);
     }
     return max(sum, vec3(0.0));
 }

@@ -84,9 +84,9 @@ vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_material material) {
     lmp_place diffuse = lmp_preintegrated_lobe_lookup(1.0), specular = lmp_preintegrated_lobe_lookup(material.exponent);
     vec3 mirror = reflect(-surface.view, surface.normal), sum = vec3(0.0);
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = lmp_cap_of_sphere(LMP_LIGHT_SPHERE(i), surface.position);
-        /* inside a sphere: light all around less the complementary cap */
-        bool inside = cap.strength < 0.0;
+        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
+        /* more than a hemisphere: light all around less the complementary cap */
+        bool inside = cap.base > 2.0;
         float t = cap.one_minus_cos, all_around = inside ? 1.0 : 0.0;
         float covered = 2.0 * LMP_PI * t, mean = inside ? -covered : covered;
         float a = sqrt(t) * lmp_angle(1.0 - t);
@@ -94,7 +94,7 @@ vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_material material) {
         float s = lmp_preintegrated_lobe_read(specular, lmp_angle_of_cosine(dot(cap.axis, mirror)), a);
         d = d * mean / (covered + diffuse.angle) + all_around;
         s = s * mean / (covered + specular.angle) + all_around;
-        sum += LMP_LIGHT_RADIANCE(i) * (material.diffuse * d + material.specular * s);
+        sum += LMP_LIGHT_COLOR(i, surface.position) * (material.diffuse * d + material.specular * s);
     }
     return max(sum, vec3(0.0));
 }

@@ -3,9 +3,7 @@
 #include "gbuffer.glsl"
 #include "shared.h"
 
-#define LMP_LIGHT_COUNT       int(size_lights.z)
-#define LMP_LIGHT_SPHERE(i)   lights[i].sphere
-#define LMP_LIGHT_RADIANCE(i) lights[i].radiance.rgb
+#include "light.glsl"
 #ifdef SHADE_TABULATED
 layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
 /* entries from cos a = 0 to 1, at the centers of texels */

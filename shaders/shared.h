@@ -19,7 +19,7 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_FUNCTION                static inline
 #endif
 
-#define SHARED_LIGHTS_MAX 1024
+#define SHARED_LIGHTS_MAX 1025 /* one of them holds what all skies have in common */
 
 /* Uniform block bindings. */
 #define SHARED_FRAME    0
@@ -79,13 +79,20 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
 }
 SHARED_END(shared_frame);
 
+/* What a light is: a sphere that is seen, or one that only shades; a spot's small sphere; or the
+ * same cap from everywhere, with its axis and 1 - cos a for center and radius. */
+#define SHARED_LIGHT_DRAWN  0
+#define SHARED_LIGHT_HIDDEN 1
+#define SHARED_LIGHT_SPOT   2
+#define SHARED_LIGHT_FIXED  3
 #ifdef LAMPION_SHADER
 struct shared_light {
 #else
 typedef struct shared_light {
 #endif
     vec4 sphere;   /* center, radius */
-    vec4 radiance; /* w: 1 = shades, but is not drawn */
+    vec4 radiance; /* w: SHARED_LIGHT_… */
+    vec4 cone;     /* of a spot: what its falloff is made from */
 #ifdef LAMPION_SHADER
 };
 #else
@@ -136,8 +143,8 @@ typedef struct shared_preintegrated_lobe {
 static_assert(offsetof(shared_frame, eye) == 64, "std140");
 static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
 static_assert(sizeof(shared_frame) == 176, "std140");
-static_assert(sizeof(shared_light) == 32, "std140");
-static_assert(sizeof(shared_lights) == 32 * SHARED_LIGHTS_MAX, "std140");
+static_assert(sizeof(shared_light) == 48, "std140");
+static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
 static_assert(offsetof(shared_material, matrix) == 64, "std140");
 static_assert(offsetof(shared_material, offset) == 128, "std140");
 static_assert(sizeof(shared_material) == 192, "std140");

@@ -56,9 +56,12 @@ vec3 shade_table(lmp_surface surface, int table) {
 
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
         vec4 sphere = LMP_LIGHT_SPHERE(i);
-        vec3 to = sphere.xyz - surface.position, radiance = LMP_LIGHT_RADIANCE(i);
+        bool fixed_cap = LMP_LIGHT_FIXED(i);
+        vec3 to = fixed_cap ? sphere.xyz : sphere.xyz - surface.position;
+        vec3 radiance = LMP_LIGHT_COLOR(i, surface.position);
         float sh[LMP_SH_COUNT];
-        lmp_sphere_project(vec4(dot(to, x), dot(to, y), dot(to, n), sphere.w), vec3(0.0), sh);
+        vec4 local = vec4(dot(to, x), dot(to, y), dot(to, n), sphere.w);
+        lmp_cap_project(lmp_cap_of_light(local, fixed_cap, vec3(0.0)), sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         sum[LMP_INDEX(l, m)] += radiance * sh[LMP_INDEX(l, m)];                                    \

@@ -125,6 +125,13 @@ bool gpu_gbuffer_read(const gpu_renderer *renderer, const shared_frame *block,
                       const gpu_frame *frame, gpu_gbuffer *gbuffer, cli_error *error);
 void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
 
+/* --- lights.c -----------------------------------------------------------------------------------
+ */
+
+/* The frame's lights, each at its own index, and one more if some shine from everywhere; returns
+ * how many the shaders have to take. */
+size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
+
 /* --- renderer.c, again --------------------------------------------------------------------------
  */
 
@@ -135,7 +142,8 @@ struct gpu_renderer {
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, empty_array;
-    GLuint zonal; /* texture of the tabulated Z_l */
+    size_t shaded_lights; /* in lights_block */
+    GLuint zonal;         /* texture of the tabulated Z_l */
     int zonal_bands;
     GLuint response_pairs, response_block;  /* texture, buffer */
     const lmp_preintegrated_lobe *response; /* what they hold */

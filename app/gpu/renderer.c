@@ -225,7 +225,7 @@ static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, const floa
     memcpy(block->background, frame->background, sizeof frame->background);
     block->size_lights[0] = (float)frame->width;
     block->size_lights[1] = (float)frame->height;
-    block->size_lights[2] = (float)frame->light_count;
+    block->size_lights[2] = (float)r->shaded_lights;
 
     block->jitter[0] = 2 * offset[0] / (float)frame->width;
     block->jitter[1] = 2 * offset[1] / (float)frame->height;
@@ -244,21 +244,12 @@ static bool fill_frame(const gpu_renderer *r, const gpu_frame *frame, const floa
     return true;
 }
 
-static void upload_lights(const gpu_renderer *r, const gpu_frame *frame) {
+static void upload_lights(gpu_renderer *r, const gpu_frame *frame) {
     shared_lights block;
-    for (size_t i = 0; i < frame->light_count; i++) {
-        const scene_light *light = &frame->lights[i];
-        shared_light *to = &block.lights[i];
-        const lmp_vec3 center = light->emitter.position;
-        const lmp_rgb radiance = light->emitter.radiance;
-        *to = (shared_light) {
-            .sphere = { center.x, center.y, center.z, light->emitter.radius },
-            .radiance = { radiance.r, radiance.g, radiance.b, scene_light_is_drawn(light) ? 0 : 1 },
-        };
-    }
-    if (frame->light_count)
+    r->shaded_lights = gpu_take_lights(frame, &block);
+    if (r->shaded_lights)
         glNamedBufferSubData(r->lights_block, 0,
-                             (GLsizeiptr)(frame->light_count * sizeof(shared_light)), &block);
+                             (GLsizeiptr)(r->shaded_lights * sizeof *block.lights), &block);
 }
 
 /* --- passes -------------------------------------------------------------------------------------
@@ -486,9 +477,9 @@ static void resolve_sample(gpu_renderer *r, const gpu_frame *frame, int index, b
 /* Samples `first` to `last` of a frame. */
 static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, int last, bool show,
                            gpu_times *times, cli_error *error) {
-    if (frame->light_count > SHARED_LIGHTS_MAX)
+    if (frame->light_count > SCENE_LIGHTS_MAX)
         return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
-                        SHARED_LIGHTS_MAX);
+                        SCENE_LIGHTS_MAX);
     if (frame->method == GPU_METHOD_PREINTEGRATED && !frame->response)
         return cli_fail(error, NULL, "preintegrated shading without a response");
     const GLuint program = frame->host ? 0 : find_variant(r, frame, error);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Every method of the renderer against lmp_shade at the very same surface points. */
 #include "tests/gpu/device.h"
+#include "tests/oracle/kinds.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,9 +24,13 @@ typedef struct worst {
     int surfaces;
 } worst;
 
+static double largest(lmp_rgb c) {
+    return (double)fmaxf(fabsf(c.r), fmaxf(fabsf(c.g), fabsf(c.b)));
+}
+
 /* What each light alone would reflect with every term of its series positive: the scale of
- * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of both lobes, times L
- * sin²a. */
+ * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of both lobes, times the
+ * strength of the light's cap over pi, and four times what shines from everywhere. */
 static double magnitude(const gpu_pixel *p, const gpu_frame *frame, const float *diffuse,
                         const float *glossy) {
     double d = 0, g = 0, sum = 0;
@@ -36,16 +41,13 @@ static double magnitude(const gpu_pixel *p, const gpu_frame *frame, const float 
     const double lobes = d * (double)fmaxf(p->material.diffuse.r, p->material.diffuse.g) +
                          g * (double)fmaxf(p->material.specular.r, p->material.specular.g);
     for (size_t i = 0; i < frame->light_count; i++) {
-        const scene_light *light = &frame->lights[i];
-        const float x = light->emitter.position.x - p->surface.position.x,
-                    y = light->emitter.position.y - p->surface.position.y,
-                    z = light->emitter.position.z - p->surface.position.z;
-        const double d2 = (double)(x * x + y * y + z * z);
-        const double r2 = (double)(light->emitter.radius * light->emitter.radius);
-        const double strength = d2 > r2 ? 2 * r2 / d2 : 4;
-        sum +=
-            strength * (double)fmaxf(light->emitter.radiance.r,
-                                     fmaxf(light->emitter.radiance.g, light->emitter.radiance.b));
+        lmp_cap cap;
+        lmp_light light = frame->lights[i].emitter;
+        if (light.kind ==
+            LMP_LIGHT_SPOT) /* rounding of the falloff is one of its whole intensity */
+            light.kind = LMP_LIGHT_POINT;
+        lmp_light_cap(&light, p->surface.position, &cap);
+        sum += 2 / 3.14159265 * largest(cap.strength) + 4 * largest(cap.ambient);
     }
     return lobes * sum;
 }
@@ -216,6 +218,24 @@ static void a_light_a_million_radii_away_agrees_with_lmp_shade(void **state) {
     with_balls(check_far);
 }
 
+static void check_kinds(scene *world, gpu_renderer *renderer) {
+    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    for (int i = 0; i < KINDS; i++) {
+        world->lights[0] = (scene_light) { .emitter = one_of_each_kind[i] };
+        frame.light_count = 1;
+        check_with(scene_light_kinds[one_of_each_kind[i].kind].name, renderer, frame);
+    }
+    for (int i = 0; i < KINDS; i++)
+        world->lights[i] = (scene_light) { .emitter = one_of_each_kind[i] };
+    frame.light_count = KINDS;
+    check_with("all kinds", renderer, frame);
+}
+
+static void every_kind_of_light_agrees_with_lmp_shade(void **state) {
+    (void)state;
+    with_balls(check_kinds);
+}
+
 static void check_counts(scene *world, gpu_renderer *renderer) {
     cli_error error = { "" };
     const scene_lights_options most = { .random_count = SCENE_LIGHTS_MAX, .seed = 1 };
@@ -281,6 +301,7 @@ int main(void) {
         cmocka_unit_test(methods_agree_with_lmp_shade_on_balls_among_random_lights),
         cmocka_unit_test(lights_that_hold_or_touch_surfaces_agree_with_lmp_shade),
         cmocka_unit_test(a_light_a_million_radii_away_agrees_with_lmp_shade),
+        cmocka_unit_test(every_kind_of_light_agrees_with_lmp_shade),
         cmocka_unit_test(no_lights_and_1024_lights_agree_with_lmp_shade),
         cmocka_unit_test(windows_agree_with_lmp_shade),
         cmocka_unit_test(methods_give_the_same_bytes_to_one_level),
