@@ -47,17 +47,17 @@ static bool read_all(int fd, const char *path, size_t expected, size_t limit, vo
     return cli_fail(error, path, "is too large for the memory of this machine");
 }
 
-/* A regular file and what it is; -1 on failure. Non-blocking, so that opening a FIFO by mistake
- * does not wait for a writer. */
-static int open_regular(const char *path, struct stat *status, cli_error *error) {
+/* Non-blocking, so that opening a FIFO by mistake does not wait for a writer. */
+int file_open_descriptor(const char *path, cli_error *error) {
+    struct stat status = { 0 };
     const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd >= 0 && fstat(fd, status) == 0 && S_ISREG(status->st_mode))
+    if (fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
         return fd;
     if (fd < 0 && errno == ENOENT)
         cli_fail(error, path, "does not exist");
     else if (fd < 0)
         cli_fail(error, path, "cannot be opened: %s", strerror(errno));
-    else if (S_ISDIR(status->st_mode))
+    else if (S_ISDIR(status.st_mode))
         cli_fail(error, path, "is a directory, not a file");
     else
         cli_fail(error, path, "is not a regular file");
@@ -67,8 +67,7 @@ static int open_regular(const char *path, struct stat *status, cli_error *error)
 }
 
 FILE *file_open(const char *path, cli_error *error) {
-    struct stat status = { 0 };
-    const int fd = open_regular(path, &status, error);
+    const int fd = file_open_descriptor(path, error);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "rb");
     if (fd >= 0 && !stream) {
         close(fd);
@@ -77,19 +76,24 @@ FILE *file_open(const char *path, cli_error *error) {
     return stream;
 }
 
+bool file_read_descriptor(int fd, const char *path, size_t limit, void **data, size_t *size,
+                          cli_error *error) {
+    const off_t end = lseek(fd, 0, SEEK_END);
+    if (end > 0 && (uint64_t)end > limit)
+        return fail_too_large(path, limit, error);
+    lseek(fd, 0, SEEK_SET);
+    return read_all(fd, path, end > 0 ? (size_t)end : 0, limit, data, size, error);
+}
+
 bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error) {
     *data = NULL;
     *size = 0;
     if (strcmp(path, "-") == 0)
         return read_all(STDIN_FILENO, "standard input", 65536, limit, data, size, error);
-    struct stat status = { 0 };
-    const int fd = open_regular(path, &status, error);
-    if (fd < 0)
-        return false;
-    const bool ok = (uint64_t)status.st_size > limit
-                        ? fail_too_large(path, limit, error)
-                        : read_all(fd, path, (size_t)status.st_size, limit, data, size, error);
-    close(fd);
+    const int fd = file_open_descriptor(path, error);
+    const bool ok = fd >= 0 && file_read_descriptor(fd, path, limit, data, size, error);
+    if (fd >= 0)
+        close(fd);
     return ok;
 }
 

@@ -12,8 +12,13 @@
  * NUL past its end; free() it. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error);
 
-/* Opens a regular file for reading; NULL on failure. */
+/* Opens a regular file for reading; NULL, or -1, on failure. */
 FILE *file_open(const char *path, cli_error *error);
+int file_open_descriptor(const char *path, cli_error *error);
+
+/* file_read of one that is open, from its start; `path` is named in the error. */
+bool file_read_descriptor(int fd, const char *path, size_t limit, void **data, size_t *size,
+                          cli_error *error);
 
 /* Where a text stops being one JSON value with nothing after it; NULL if it is one. Stricter than
  * the parser, which then reads what it says and no less. */

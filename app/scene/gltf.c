@@ -11,18 +11,6 @@ bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder
            gltf_check_schema(document, error) && gltf_check_extensions(document, error);
 }
 
-uint64_t gltf_referred_bytes(const gltf *document) {
-    static const gltf_kind kinds[] = { GLTF_BUFFERS, GLTF_IMAGES };
-    uint64_t total = 0;
-    for (size_t k = 0; k < 2; k++)
-        for (size_t i = 0; i < gltf_count(document, kinds[k]); i++) {
-            const char *uri = gltf_text(gltf_item(document, kinds[k], i), "uri");
-            if (uri[0] && strncmp(uri, "data:", 5) != 0)
-                total += sources_size(document->sources, uri);
-        }
-    return total;
-}
-
 bool gltf_load(gltf *document, cli_error *error) {
     return gltf_load_buffers(document, error) && gltf_load_accessors(document, error) &&
            gltf_load_nodes(document, error) && gltf_check_uses(document, error);

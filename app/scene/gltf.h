@@ -88,9 +88,6 @@ bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder
                gltf *document, cli_error *error);
 void gltf_close(gltf *document);
 
-/* The bytes of the files that the document refers to. */
-uint64_t gltf_referred_bytes(const gltf *document);
-
 /* Loads buffers and checks what the functions below rely on. */
 bool gltf_load(gltf *document, cli_error *error);
 

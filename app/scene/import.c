@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/import.h"
 
+#include "app/sandbox/sandbox.h"
 #include "app/scene/assimp.h"
 #include "app/scene/builder.h"
 #include "app/scene/cache.h"
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
-#include "app/scene/sandbox.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -39,18 +39,15 @@ struct import_job {
 
 static bool add_gltf(import_job *job, scene_builder *builder, cli_error *error) {
     gltf document;
-    sandbox_expect_input(job->size);
-    bool ok = gltf_open(job->data, job->size, &job->sources, builder, &document, error);
-    if (ok)
-        sandbox_expect_input(job->size + gltf_referred_bytes(&document));
-    ok = ok && gltf_load(&document, error) && gltf_add_meshes(&document, builder, error) &&
-         gltf_add_materials(&document, builder, error) && gltf_add_views(&document, builder, error);
+    const bool ok = gltf_open(job->data, job->size, &job->sources, builder, &document, error) &&
+                    gltf_load(&document, error) && gltf_add_meshes(&document, builder, error) &&
+                    gltf_add_materials(&document, builder, error) &&
+                    gltf_add_views(&document, builder, error);
     gltf_close(&document);
     return ok;
 }
 
 static bool add_other(import_job *job, scene_builder *builder, cli_error *error) {
-    sandbox_expect_input(job->size);
     return assimp_add(job->name, job->data, job->size, &job->sources, builder, error);
 }
 
@@ -119,6 +116,7 @@ static bool write_blob(const scene_builder *builder, int output) {
 
 static bool import_in_child(void *context, int output, cli_error *error) {
     import_job *job = context;
+    job->sources.sandboxed = true;
     scene_builder builder = { 0 };
     if (!job->read(job, &builder, error) || !check_made(job, &builder, error) ||
         !emission_add_lights(&builder, job->path, error) || !check_made(job, &builder, error))
@@ -178,23 +176,18 @@ static void free_sources(source_set *set) {
     set->count = 0;
 }
 
-static bool map_output(int fd, const char *path, void **block, size_t *size, cli_error *error) {
-    struct stat status;
-    *block = MAP_FAILED;
-    if (fstat(fd, &status) == 0 && status.st_size > 0) {
-        *size = (size_t)status.st_size;
-        *block = mmap(NULL, *size, PROT_READ, MAP_PRIVATE, fd, 0);
-    }
-    return *block != MAP_FAILED || cli_fail(error, path, "does not fit into memory");
+static int open_source(void *context, const char *name, cli_error *error) {
+    const import_job *job = context;
+    return sources_open(&job->sources, name, error);
 }
 
 static bool import_fresh(import_job *job, void **block, size_t *size, cli_error *error) {
-    int output;
-    if (!sandbox_run(import_in_child, job, job->path, &output, error))
-        return false;
-    const bool mapped = map_output(output, job->path, block, size, error);
-    close(output);
-    if (!mapped)
+    const sandbox_job work = { .subject = job->path,
+                               .input_bytes = job->size,
+                               .context = job,
+                               .work = import_in_child,
+                               .open = open_source };
+    if (!sandbox_run(&work, block, size, error))
         return false;
     if (blob_validate(*block, *size, true, job->path, error))
         return true;

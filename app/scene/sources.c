@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/sources.h"
 
+#include "app/sandbox/sandbox.h"
+
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 static int hex_digit(char c) {
     return c >= '0' && c <= '9'   ? c - '0'
@@ -47,9 +49,9 @@ static bool has_scheme(const char *path) {
     return length > 0 && path[length] == ':';
 }
 
-bool sources_resolve(const source_set *set, const char *uri, char *path, size_t size,
-                     cli_error *error) {
-    char name[sizeof((source *)0)->path], full[PATH_MAX], real[PATH_MAX];
+/* `real` receives the full name of the file. */
+static bool resolve(const source_set *set, const char *uri, char real[PATH_MAX], cli_error *error) {
+    char name[sizeof((source *)0)->path], full[PATH_MAX];
     if (!decode_uri(uri, name, sizeof name))
         return cli_fail(error, set->subject, "refers to a file by a name that is none");
     if (name[0] == '/' || has_parent_component(name) || has_scheme(name))
@@ -70,27 +72,42 @@ bool sources_resolve(const source_set *set, const char *uri, char *path, size_t 
                         "refers to \"%.200s\", a link that leaves its folder (only files inside "
                         "are read)",
                         name);
-    if (strlen(real) >= size)
-        return cli_fail(error, set->subject, "refers to a file by too long a name");
-    strcpy(path, real);
     return true;
 }
 
-uint64_t sources_size(const source_set *set, const char *uri) {
+static bool fail_file(const source_set *set, const char *uri, const cli_error *reason,
+                      cli_error *error) {
+    const char *what = strstr(reason->text, ": ");
+    return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", uri,
+                    what ? what + 2 : "cannot be read");
+}
+
+int sources_open(const source_set *set, const char *uri, cli_error *error) {
     char path[PATH_MAX];
-    cli_error ignored;
-    struct stat status;
-    return sources_resolve(set, uri, path, sizeof path, &ignored) && stat(path, &status) == 0 &&
-                   S_ISREG(status.st_mode)
-               ? (uint64_t)status.st_size
-               : 0;
+    cli_error reason;
+    if (!resolve(set, uri, path, error))
+        return -1;
+    const int fd = file_open_descriptor(path, &reason);
+    if (fd < 0)
+        fail_file(set, uri, &reason, error);
+    return fd;
+}
+
+static bool read_source(const source_set *set, const char *uri, source *item, cli_error *error) {
+    cli_error reason;
+    const int fd = set->sandboxed ? sandbox_open(uri, error) : sources_open(set, uri, error);
+    if (fd < 0)
+        return false;
+    const bool ok =
+        file_read_descriptor(fd, uri, SOURCES_SIZE_LIMIT, &item->data, &item->size, &reason);
+    close(fd);
+    return ok || fail_file(set, uri, &reason, error);
 }
 
 bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error) {
-    char path[PATH_MAX], name[sizeof((source *)0)->path];
-    if (!sources_resolve(set, uri, path, sizeof path, error))
-        return false;
-    decode_uri(uri, name, sizeof name);
+    char name[sizeof((source *)0)->path];
+    if (!decode_uri(uri, name, sizeof name))
+        return cli_fail(error, set->subject, "refers to a file by a name that is none");
     for (size_t i = 0; i < set->count; i++)
         if (strcmp(set->items[i].path, name) == 0) {
             *found = &set->items[i];
@@ -100,13 +117,9 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
         return cli_fail(error, set->subject, "refers to more than %d files", SOURCES_MAX);
     if (!set->items && !(set->items = calloc(SOURCES_MAX, sizeof *set->items)))
         return cli_fail(error, set->subject, "does not fit into memory");
-    cli_error reason;
     source *item = &set->items[set->count];
-    if (!file_read(path, SOURCES_SIZE_LIMIT, &item->data, &item->size, &reason)) {
-        const char *what = strstr(reason.text, ": ");
-        return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
-                        what ? what + 2 : "cannot be read");
-    }
+    if (!read_source(set, uri, item, error))
+        return false;
     strcpy(item->path, name);
     set->count++;
     *found = item;

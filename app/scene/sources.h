@@ -17,19 +17,16 @@ typedef struct source {
 typedef struct source_set {
     const char *subject; /* the scene's name, for messages */
     const char *folder;  /* its real path */
+    bool sandboxed;      /* the parent opens the files */
     source *items;
     size_t count;
 } source_set;
 
-/* Finds the file that `uri` names: relative, without "..", percent-escapes decoded, and after
- * following links still inside the folder. `path` (of `size` bytes) receives its full name. */
-bool sources_resolve(const source_set *set, const char *uri, char *path, size_t size,
-                     cli_error *error);
+/* Opens the file that `uri` names: relative, without "..", percent-escapes decoded, and after
+ * following links still inside the folder. -1 on failure. */
+int sources_open(const source_set *set, const char *uri, cli_error *error);
 
 /* Reads that file, or gives it again. The set keeps it. */
 bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error);
-
-/* The size of the file, 0 if it cannot be had. */
-uint64_t sources_size(const source_set *set, const char *uri);
 
 #endif

@@ -23,11 +23,12 @@ may_include() {
     app/cli) echo app/cli base ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
-    app/image) echo app/cli app/file app/image shaders
+    app/sandbox) echo app/cli app/sandbox ;;
+    app/image) echo app/cli app/file app/sandbox app/image shaders
         ;;
     app/compare) echo app/cli app/image app/compare ;;
     app/figure) echo app/cli app/image app/figure base ;;
-    app/scene) echo app/cli app/file app/image app/scene LIBRARY ;;
+    app/scene) echo app/cli app/file app/sandbox app/image app/scene LIBRARY ;;
     app/animation) echo app/cli app/file app/scene app/animation base ;;
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/sandbox/sandbox.h"
+
+#include "app/sandbox/message.h"
+#include "app/sandbox/policy.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/pidfd.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+/* What any input may use, and what each byte of it adds: a small bomb ends soon, a large honest
+ * scene loads. */
+#define MEMORY_BASE     (1280ull << 20)
+#define MEMORY_PER_BYTE 40
+#define OUTPUT_BASE     (512ull << 20)
+#define OUTPUT_PER_BYTE 24
+#define CPU_BASE        1.0    /* seconds */
+#define CPU_PER_BYTE    0.5e-6 /* seconds */
+#define TICK            20     /* milliseconds between looks at the clock */
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#ifndef SANITIZED
+#define SANITIZED 0
+#endif
+
+/* --- limits -------------------------------------------------------------------------------------
+ */
+
+static void set_limit(pid_t process, __rlimit_resource_t resource, uint64_t soft) {
+    struct rlimit limit;
+    if (prlimit(process, resource, NULL, &limit) != 0)
+        return;
+    limit.rlim_cur = soft < limit.rlim_max ? soft : limit.rlim_max;
+    prlimit(process, resource, &limit, NULL);
+}
+
+static double cpu_seconds(uint64_t input_bytes) {
+    return (CPU_BASE + CPU_PER_BYTE * (double)input_bytes) * (SANITIZED ? 20.0 : 1.0);
+}
+
+/* The address space that a program already has, a graphics driver's among it. */
+static uint64_t address_space(void) {
+    unsigned long long pages = 0;
+    FILE *const stream = fopen("/proc/self/statm", "re");
+    const bool known = stream && fscanf(stream, "%llu", &pages) == 1;
+    if (stream)
+        fclose(stream);
+    return known ? pages * (uint64_t)sysconf(_SC_PAGESIZE) : 0;
+}
+
+/* Sanitizers reserve terabytes of address space and are many times slower. */
+static void set_limits(pid_t process, uint64_t base, uint64_t input_bytes) {
+    if (!SANITIZED)
+        set_limit(process, RLIMIT_AS, base + MEMORY_BASE + MEMORY_PER_BYTE * input_bytes);
+    set_limit(process, RLIMIT_FSIZE, OUTPUT_BASE + OUTPUT_PER_BYTE * input_bytes);
+    set_limit(process, RLIMIT_CPU, (uint64_t)cpu_seconds(input_bytes) + 2);
+}
+
+/* --- the child ----------------------------------------------------------------------------------
+ */
+
+/* Its descriptors: the standard ones on /dev/null, then these two. */
+enum { CHILD_OUTPUT = 3, CHILD_SOCKET = 4 };
+
+static void arrange_descriptors(int output, int socket) {
+    const int null = open("/dev/null", O_RDWR);
+    for (int fd = 0; fd < 3; fd++)
+        dup2(null, fd);
+    /* Out of the way first, whatever numbers they have. */
+    const int high_output = fcntl(output, F_DUPFD, 16), high_socket = fcntl(socket, F_DUPFD, 16);
+    dup2(high_output, CHILD_OUTPUT);
+    dup2(high_socket, CHILD_SOCKET);
+    close_range(CHILD_SOCKET + 1, ~0u, 0);
+}
+
+static void forget_environment(void) {
+    for (char **variable = environ; variable && *variable; variable++)
+        explicit_bzero(*variable, strlen(*variable));
+    clearenv();
+}
+
+/* A session of its own: no terminal to write to, no signal from its keys. */
+static void leave_parent(pid_t parent) {
+    static const int signals[] = { SIGINT, SIGTERM, SIGHUP,  SIGSEGV, SIGBUS, SIGABRT,
+                                   SIGFPE, SIGILL,  SIGXCPU, SIGXFSZ, SIGPIPE };
+    setsid();
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(EXIT_FAILURE);
+    for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+        signal(signals[i], SIG_DFL);
+    forget_environment();
+}
+
+_Noreturn static void child_main(const sandbox_job *job, pid_t parent, int output, int socket) {
+    cli_error error = { 0 };
+    leave_parent(parent);
+    arrange_descriptors(output, socket);
+    const struct rlimit none = { 0, 0 };
+    setrlimit(RLIMIT_CORE, &none);
+    if (policy_enter(&error) && job->work(job->context, CHILD_OUTPUT, &error))
+        _exit(EXIT_SUCCESS);
+    message_send(CHILD_SOCKET, MESSAGE_FAILURE, error.text, -1);
+    _exit(EXIT_FAILURE);
+}
+
+int sandbox_open(const char *name, cli_error *error) {
+    message answer;
+    int file;
+    if (strlen(name) >= sizeof answer.text)
+        cli_fail(error, NULL, "%.64s…: is too long a name", name);
+    else if (!message_send(CHILD_SOCKET, MESSAGE_OPEN, name, -1) ||
+             !message_receive(CHILD_SOCKET, true, &answer, &file))
+        cli_fail(error, name, "cannot be asked for");
+    else if (answer.kind == MESSAGE_FILE && file >= 0)
+        return file;
+    else
+        cli_fail(error, NULL, "%s", answer.text);
+    return -1;
+}
+
+/* --- the parent ---------------------------------------------------------------------------------
+ */
+
+typedef struct guard {
+    const sandbox_job *job;
+    pid_t child;
+    int socket, process; /* the latter is readable when the child has ended */
+    uint64_t base, input_bytes;
+    char complaint[sizeof((cli_error *)0)->text];
+} guard;
+
+static double seconds_of(clockid_t clock) {
+    struct timespec now = { 0 };
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void open_for_child(guard *g, const char *name) {
+    struct stat status;
+    cli_error error = { "no file can be opened" };
+    const int file = g->job->open ? g->job->open(g->job->context, name, &error) : -1;
+    if (file < 0) {
+        message_send(g->socket, MESSAGE_FAILURE, error.text, -1);
+        return;
+    }
+    if (fstat(file, &status) == 0)
+        g->input_bytes += (uint64_t)status.st_size;
+    set_limits(g->child, g->base, g->input_bytes);
+    message_send(g->socket, MESSAGE_FILE, "", file);
+    close(file);
+}
+
+static bool listen_once(guard *g) {
+    message m;
+    if (!message_receive(g->socket, false, &m, NULL))
+        return false;
+    if (m.kind == MESSAGE_OPEN)
+        open_for_child(g, m.text);
+    else
+        strcpy(g->complaint, m.text);
+    return true;
+}
+
+/* Serves the child until it ends, by itself or because its time is over. */
+static void attend(guard *g) {
+    struct pollfd polled[] = { { .fd = g->process, .events = POLLIN },
+                               { .fd = g->socket, .events = POLLIN } };
+    const double end =
+        seconds_of(CLOCK_MONOTONIC) + (double)(g->job->seconds ? g->job->seconds : SANDBOX_SECONDS);
+    clockid_t cpu = CLOCK_MONOTONIC;
+    const bool has_cpu = clock_getcpuclockid(g->child, &cpu) == 0;
+    while (!polled[0].revents) {
+        poll(polled, 2, TICK);
+        if (polled[1].revents && !listen_once(g))
+            polled[1].fd = -1; /* it listens no more; its time still runs */
+        if (seconds_of(CLOCK_MONOTONIC) > end ||
+            (has_cpu && seconds_of(cpu) > cpu_seconds(g->input_bytes)))
+            kill(g->child, SIGKILL);
+    }
+    while (listen_once(g))
+        continue;
+}
+
+static bool explain(int status, const char *complaint, const char *subject, cli_error *error) {
+    if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
+        return true;
+    if (WIFEXITED(status) && complaint[0])
+        return cli_fail(error, NULL, "%s", complaint);
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+        return cli_fail(error, subject, "takes too long to read for its size (is it damaged?)");
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ)
+        return cli_fail(error, subject, "becomes too large for its size (is it damaged?)");
+    return cli_fail(error, subject, "cannot be read: its reader crashed on it (is it damaged?)");
+}
+
+static bool map_output(int output, const char *subject, void **block, size_t *size,
+                       cli_error *error) {
+    struct stat status;
+    *block = MAP_FAILED;
+    if (fstat(output, &status) == 0 && status.st_size > 0) {
+        *size = (size_t)status.st_size;
+        *block = mmap(NULL, *size, PROT_READ, MAP_PRIVATE, output, 0);
+    }
+    return *block != MAP_FAILED || cli_fail(error, subject, "does not fit into memory");
+}
+
+static bool spawn(const sandbox_job *job, int output, guard *g, cli_error *error) {
+    int sockets[2];
+    *g = (guard) { .job = job, .base = address_space(), .input_bytes = job->input_bytes };
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) != 0)
+        return cli_fail(error, job->subject, "cannot be read: no sockets: %s", strerror(errno));
+    const pid_t parent = getpid();
+    g->child = fork();
+    if (g->child == 0) {
+        set_limits(0, g->base, g->input_bytes);
+        child_main(job, parent, output, sockets[1]);
+    }
+    const int reason = errno;
+    close(sockets[1]);
+    g->socket = sockets[0];
+    g->process = g->child > 0 ? pidfd_open(g->child, 0) : -1;
+    if (g->process >= 0)
+        return true;
+    if (g->child > 0) {
+        kill(g->child, SIGKILL);
+        waitpid(g->child, NULL, 0);
+    }
+    close(g->socket);
+    return cli_fail(error, job->subject, "cannot be read: no child process: %s", strerror(reason));
+}
+
+bool sandbox_run(const sandbox_job *job, void **block, size_t *size, cli_error *error) {
+    guard g;
+    int status = 0;
+    const int output = memfd_create("lampion-sandbox", MFD_CLOEXEC);
+    if (output < 0)
+        return cli_fail(error, job->subject, "cannot be read: no memory file: %s", strerror(errno));
+    bool ok = spawn(job, output, &g, error);
+    if (ok) {
+        attend(&g);
+        while (waitpid(g.child, &status, 0) < 0 && errno == EINTR)
+            continue;
+        close(g.process);
+        close(g.socket);
+        ok = explain(status, g.complaint, job->subject, error) &&
+             map_output(output, job->subject, block, size, error);
+    }
+    close(output);
+    return ok;
+}
