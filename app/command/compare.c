@@ -14,6 +14,7 @@ typedef struct compare_arguments {
     float heat_scale;
     cli_list limits; /* METRIC=VALUE */
     bool json;
+    int pixels_max;
 } compare_arguments;
 
 typedef struct limit {
@@ -103,7 +104,7 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
     compare_result result;
     const bool linear = is_exr(arguments->paths[1]);
     for (int i = 0; i < 2; i++) {
-        if (!image_read(arguments->paths[i], &images[i], error))
+        if (!image_read(arguments->paths[i], arguments->pixels_max, &images[i], error))
             return false;
         if (!linear)
             compare_to_display(&images[i]);
@@ -126,7 +127,7 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
 }
 
 static int run(const cli_command *command, int argc, char **argv) {
-    compare_arguments a = { .heat_scale = 0 };
+    compare_arguments a = { .heat_scale = 0, .pixels_max = IMAGE_READ_PIXELS };
     const cli_option options[] = {
         { .name = "fail-above",
           .kind = CLI_LIST,
@@ -147,6 +148,13 @@ static int run(const cli_command *command, int argc, char **argv) {
           .minimum = 0,
           .maximum = 1e30 },
         { .name = "json", .kind = CLI_FLAG, .target = &a.json, .help = "print JSON" },
+        { .name = "max-pixels",
+          .kind = CLI_INT,
+          .target = &a.pixels_max,
+          .argument = "N",
+          .help = "refuse larger images, which take 36 bytes a pixel",
+          .minimum = 1,
+          .maximum = IMAGE_PIXELS_MAX },
         { .name = NULL },
     };
     limit limits[sizeof a.limits.items / sizeof *a.limits.items];

@@ -4,67 +4,113 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define REACH 5
+enum { REACH = 5, WINDOW = 2 * REACH + 1, STRIP = 64 /* rows that a thread takes at once */ };
 #define SIGMA 1.5
 
 /* The windowed means SSIM is made of. */
 enum { X, Y, XX, YY, XY, MEANS };
 
-static void luminance_products(const image *candidate, const image *reference, double *planes) {
-    const size_t pixels = (size_t)candidate->width * (size_t)candidate->height;
-    for (size_t p = 0; p < pixels; p++) {
-        const float *a = candidate->rgb + 3 * p, *b = reference->rgb + 3 * p;
-        const double x = 0.2126 * (double)a[0] + 0.7152 * (double)a[1] + 0.0722 * (double)a[2];
-        const double y = 0.2126 * (double)b[0] + 0.7152 * (double)b[1] + 0.0722 * (double)b[2];
-        planes[X * pixels + p] = x;
-        planes[Y * pixels + p] = y;
-        planes[XX * pixels + p] = x * x;
-        planes[YY * pixels + p] = y * y;
-        planes[XY * pixels + p] = x * y;
+/* Values of each kind a row, one row after the other: the products of a row, then the Gaussian
+ * means along the last WINDOW rows; that of row y is number 1 + y % WINDOW. */
+typedef struct rows {
+    const image *candidate, *reference;
+    double weights[REACH + 1];
+    double *values;
+} rows;
+
+static double *row_of(const rows *r, int number, int kind) {
+    return r->values + ((size_t)number * MEANS + (size_t)kind) * (size_t)r->candidate->width;
+}
+
+static double luminance(const float *rgb) {
+    return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+}
+
+static void multiply_row(const rows *r, int y) {
+    const int width = r->candidate->width;
+    const size_t first = 3 * (size_t)y * (size_t)width;
+    for (int i = 0; i < width; i++) {
+        const double a = luminance(r->candidate->rgb + first + 3 * i);
+        const double b = luminance(r->reference->rgb + first + 3 * i);
+        row_of(r, 0, X)[i] = a;
+        row_of(r, 0, Y)[i] = b;
+        row_of(r, 0, XX)[i] = a * a;
+        row_of(r, 0, YY)[i] = b * b;
+        row_of(r, 0, XY)[i] = a * b;
     }
 }
 
-/* Gaussian mean along one line of `count` values `stride` apart; weights add up to 1 at the ends
- * too. */
-static void blur_line(const double *in, double *out, int count, size_t stride) {
-    double weights[REACH + 1];
-    for (int i = 0; i <= REACH; i++)
-        weights[i] = exp(-i * i / (2 * SIGMA * SIGMA));
+/* Weights add up to 1 at the ends, too. */
+static void blur_row(const rows *r, const double *in, double *out) {
+    const int count = r->candidate->width;
     for (int i = 0; i < count; i++) {
         double sum = 0, all = 0;
         for (int j = i < REACH ? -i : -REACH; j <= REACH && i + j < count; j++) {
-            sum += weights[abs(j)] * in[(size_t)(i + j) * stride];
-            all += weights[abs(j)];
+            sum += r->weights[abs(j)] * in[i + j];
+            all += r->weights[abs(j)];
         }
-        out[(size_t)i * stride] = sum / all;
+        out[i] = sum / all;
     }
 }
 
-static void blur(double *plane, double *scratch, int width, int height) {
-    for (int y = 0; y < height; y++)
-        blur_line(plane + (size_t)y * (size_t)width, scratch + (size_t)y * (size_t)width, width, 1);
-    for (int x = 0; x < width; x++)
-        blur_line(scratch + x, plane + x, height, (size_t)width);
+static void add_row(const rows *r, int y) {
+    multiply_row(r, y);
+    for (int kind = 0; kind < MEANS; kind++)
+        blur_row(r, row_of(r, 0, kind), row_of(r, 1 + y % WINDOW, kind));
+}
+
+/* The mean of a kind at a pixel whose window's rows are there. */
+static double mean_at(const rows *r, int kind, int x, int y) {
+    double sum = 0, all = 0;
+    for (int j = y < REACH ? -y : -REACH; j <= REACH && y + j < r->candidate->height; j++) {
+        sum += r->weights[abs(j)] * row_of(r, 1 + (y + j) % WINDOW, kind)[x];
+        all += r->weights[abs(j)];
+    }
+    return sum / all;
+}
+
+static double similarity(const rows *r, int x, int y, double c1, double c2) {
+    const double a = mean_at(r, X, x, y), b = mean_at(r, Y, x, y);
+    const double aa = mean_at(r, XX, x, y) - a * a, bb = mean_at(r, YY, x, y) - b * b;
+    const double ab = mean_at(r, XY, x, y) - a * b;
+    const double under = (a * a + b * b + c1) * (aa + bb + c2);
+    return under > 0 ? (2 * a * b + c1) * (2 * ab + c2) / under : 1;
+}
+
+/* The sum over the rows from `first`, STRIP of them at most; NaN without memory. */
+static double sum_strip(const image *candidate, const image *reference, double peak, int first) {
+    const double c1 = (0.01 * peak) * (0.01 * peak), c2 = (0.03 * peak) * (0.03 * peak);
+    const int height = candidate->height, end = first + STRIP < height ? first + STRIP : height;
+    rows r = { .candidate = candidate, .reference = reference };
+    r.values = malloc((size_t)(1 + WINDOW) * MEANS * (size_t)candidate->width * sizeof *r.values);
+    if (!r.values)
+        return (double)NAN;
+    for (int i = 0; i <= REACH; i++)
+        r.weights[i] = exp(-i * i / (2 * SIGMA * SIGMA));
+    double sum = 0;
+    int next = first > REACH ? first - REACH : 0;
+    for (int y = first; y < end; y++) {
+        for (; next <= y + REACH && next < height; next++)
+            add_row(&r, next);
+        for (int x = 0; x < candidate->width; x++)
+            sum += similarity(&r, x, y, c1, c2);
+    }
+    free(r.values);
+    return sum;
 }
 
 bool compare_ssim(const image *candidate, const image *reference, double peak, double *ssim) {
-    const size_t pixels = (size_t)candidate->width * (size_t)candidate->height;
-    const double c1 = (0.01 * peak) * (0.01 * peak), c2 = (0.03 * peak) * (0.03 * peak);
-    double *planes = malloc((MEANS + 1) * pixels * sizeof *planes), sum = 0;
-    if (!planes)
+    const int strips = (candidate->height + STRIP - 1) / STRIP;
+    double *const sums = malloc((size_t)strips * sizeof *sums), sum = 0;
+    if (!sums)
         return false;
-    luminance_products(candidate, reference, planes);
-    for (int m = 0; m < MEANS; m++)
-        blur(planes + (size_t)m * pixels, planes + MEANS * pixels, candidate->width,
-             candidate->height);
-    for (size_t p = 0; p < pixels; p++) {
-        const double x = planes[X * pixels + p], y = planes[Y * pixels + p];
-        const double xx = planes[XX * pixels + p] - x * x, yy = planes[YY * pixels + p] - y * y;
-        const double xy = planes[XY * pixels + p] - x * y;
-        const double under = (x * x + y * y + c1) * (xx + yy + c2);
-        sum += under > 0 ? (2 * x * y + c1) * (2 * xy + c2) / under : 1;
-    }
-    free(planes);
-    *ssim = sum / (double)pixels;
-    return true;
+#pragma omp parallel for schedule(dynamic)
+    for (int i = 0; i < strips; i++)
+        sums[i] = sum_strip(candidate, reference, peak, i * STRIP);
+    /* in this order whatever the threads, so that the digits are always the same */
+    for (int i = 0; i < strips; i++)
+        sum += sums[i];
+    free(sums);
+    *ssim = sum / ((double)candidate->width * (double)candidate->height);
+    return !isnan(sum);
 }

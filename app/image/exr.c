@@ -207,8 +207,9 @@ static exr_result_t read_tiles(exr_const_context_t context, image *pixels) {
     return r;
 }
 
-static bool read_part(exr_const_context_t context, const char *path, image *pixels,
-                      cli_error *error) {
+static bool decode_part(exr_const_context_t context, const image_source *source, image *pixels,
+                        cli_error *error) {
+    const char *const path = source->path;
     exr_attr_box2i_t window;
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
     exr_result_t r = exr_get_data_window(context, 0, &window);
@@ -219,8 +220,8 @@ static bool read_part(exr_const_context_t context, const char *path, image *pixe
                         exr_get_default_error_message(r));
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
         return cli_fail(error, path, "deep OpenEXR images are not supported");
-    if (!image_create_read(path, (long long)window.max.x - window.min.x + 1,
-                           (long long)window.max.y - window.min.y + 1, pixels, error))
+    if (!image_create_decoded(source, (long long)window.max.x - window.min.x + 1,
+                              (long long)window.max.y - window.min.y + 1, pixels, error))
         return false;
     r = storage == EXR_STORAGE_TILED ? read_tiles(context, pixels)
                                      : read_scanlines(context, window.min.y, pixels);
@@ -232,19 +233,36 @@ static bool read_part(exr_const_context_t context, const char *path, image *pixe
     return cli_fail(error, path, "damaged OpenEXR: %s", exr_get_default_error_message(r));
 }
 
-bool image_read_exr(const char *path, image *pixels, cli_error *error) {
+static int64_t size_of_source(exr_const_context_t context, void *user) {
+    (void)context;
+    return (int64_t)((const image_source *)user)->size;
+}
+
+static int64_t read_at(exr_const_context_t context, void *user, void *to, uint64_t size,
+                       uint64_t offset, exr_stream_error_func_ptr_t fail) {
+    const image_source *const source = user;
+    (void)context;
+    (void)fail;
+    const uint64_t left = offset < source->size ? source->size - offset : 0;
+    const uint64_t count = size < left ? size : left;
+    if (count > 0)
+        memcpy(to, source->data + offset, count);
+    return (int64_t)count;
+}
+
+bool image_decode_exr(const image_source *source, image *pixels, cli_error *error) {
+    image_source bytes = *source;
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.user_data = &bytes;
+    setup.read_fn = read_at;
+    setup.size_fn = size_of_source;
     setup.error_handler_fn = on_error;
     exr_context_t context = NULL;
-    FILE *stream = file_open(path, error);
-    if (!stream)
-        return false;
-    fclose(stream);
-    const exr_result_t r = exr_start_read(&context, path, &setup);
+    const exr_result_t r = exr_start_read(&context, source->path, &setup);
     if (r != EXR_ERR_SUCCESS)
-        return cli_fail(error, path, "not a readable OpenEXR: %s",
+        return cli_fail(error, source->path, "not a readable OpenEXR: %s",
                         exr_get_default_error_message(r));
-    const bool ok = read_part(context, path, pixels, error);
+    const bool ok = decode_part(context, source, pixels, error);
     exr_finish(&context);
     return ok;
 }

@@ -16,7 +16,8 @@ typedef struct image_layer {
 bool image_write_exr_layers(const char *path, const image_layer *layers, int count,
                             cli_error *error);
 
-/* The channels R, G and B. */
-bool image_read_exr(const char *path, image *image, cli_error *error);
+/* Decodes the channels R, G and B of a file. Foreign files are for image_read, which does it in a
+ * sandbox. */
+bool image_decode_exr(const image_source *source, image *image, cli_error *error);
 
 #endif

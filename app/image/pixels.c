@@ -23,11 +23,17 @@ void image_free(image *pixels) {
     memset(pixels, 0, sizeof *pixels);
 }
 
-bool image_create_read(const char *path, long long width, long long height, image *pixels,
-                       cli_error *error) {
-    if (width < 1 || height < 1 || width > IMAGE_SIZE_MAX || height > IMAGE_SIZE_MAX ||
-        width * height > IMAGE_PIXELS_MAX)
-        return cli_fail(error, path, "an image of %lld x %lld is too large (%d a side, %d pixels)",
-                        width, height, IMAGE_SIZE_MAX, IMAGE_PIXELS_MAX);
+bool image_create_decoded(const image_source *source, long long width, long long height,
+                          image *pixels, cli_error *error) {
+    const bool fits = width >= 1 && height >= 1 && width <= IMAGE_SIZE_MAX &&
+                      height <= IMAGE_SIZE_MAX && width * height <= IMAGE_PIXELS_MAX;
+    if (!fits)
+        return cli_fail(error, source->path,
+                        "an image of %lld x %lld is too large (%d a side, %d pixels)", width,
+                        height, IMAGE_SIZE_MAX, IMAGE_PIXELS_MAX);
+    if (width * height > source->pixels_max)
+        return cli_fail(error, source->path,
+                        "an image of %lld x %lld is too large (%lld pixels; see --max-pixels)",
+                        width, height, source->pixels_max);
     return image_create(pixels, (int)width, (int)height, error);
 }

@@ -17,8 +17,16 @@ typedef struct image {
 bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
 
-/* image_create for an image whose size a file claims. */
-bool image_create_read(const char *path, long long width, long long height, image *image,
-                       cli_error *error);
+/* A foreign file in memory, to be decoded. */
+typedef struct image_source {
+    const char *path; /* named in errors */
+    const unsigned char *data;
+    size_t size;
+    long long pixels_max; /* of the image, at most IMAGE_PIXELS_MAX */
+} image_source;
+
+/* image_create for the size that a file claims. */
+bool image_create_decoded(const image_source *source, long long width, long long height,
+                          image *image, cli_error *error);
 
 #endif

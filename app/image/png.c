@@ -30,9 +30,10 @@ static float linearize(unsigned char byte) {
     return x <= 0.04045f ? x / 12.92f : powf((x + 0.055f) / 1.055f, 2.4f);
 }
 
-static bool read_pixels(png_image *png, const char *path, image *pixels, cli_error *error) {
+static bool decode_pixels(png_image *png, const image_source *source, image *pixels,
+                          cli_error *error) {
     png->format = PNG_FORMAT_RGB;
-    if (!image_create_read(path, png->width, png->height, pixels, error))
+    if (!image_create_decoded(source, png->width, png->height, pixels, error))
         return false;
     const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
     unsigned char *rgb8 = malloc(count);
@@ -40,7 +41,7 @@ static bool read_pixels(png_image *png, const char *path, image *pixels, cli_err
     if (!rgb8 || !png_image_finish_read(png, &black, rgb8, 0, NULL)) {
         free(rgb8);
         image_free(pixels);
-        return cli_fail(error, path, "%s", rgb8 ? png->message : "out of memory");
+        return cli_fail(error, source->path, "%s", rgb8 ? png->message : "out of memory");
     }
     float linear[256];
     for (int i = 0; i < 256; i++)
@@ -51,16 +52,12 @@ static bool read_pixels(png_image *png, const char *path, image *pixels, cli_err
     return true;
 }
 
-bool image_read_png(const char *path, image *pixels, cli_error *error) {
-    FILE *stream = file_open(path, error);
-    if (!stream)
-        return false;
+bool image_decode_png(const image_source *source, image *pixels, cli_error *error) {
     png_image png = { .version = PNG_IMAGE_VERSION };
-    bool ok = png_image_begin_read_from_stdio(&png, stream);
+    bool ok = png_image_begin_read_from_memory(&png, source->data, source->size);
     if (!ok)
-        cli_fail(error, path, "not a readable PNG: %s", png.message);
-    ok = ok && read_pixels(&png, path, pixels, error);
+        cli_fail(error, source->path, "not a readable PNG: %s", png.message);
+    ok = ok && decode_pixels(&png, source, pixels, error);
     png_image_free(&png);
-    fclose(stream);
     return ok;
 }

@@ -76,35 +76,49 @@ static const char *find_text(png_structp png, png_infop info, const char *key) {
     return NULL;
 }
 
+/* What is left of a file in memory. */
+typedef struct remainder {
+    const unsigned char *data;
+    size_t size;
+} remainder;
+
+static void take_bytes(png_structp png, png_bytep bytes, size_t count) {
+    remainder *const rest = png_get_io_ptr(png);
+    if (count > rest->size)
+        png_error(png, "it ends early");
+    memcpy(bytes, rest->data, count);
+    rest->data += count;
+    rest->size -= count;
+}
+
 /* The chunks before the pixels alone. */
-static bool read_stream(png_structp png, png_infop info, FILE *stream) {
+static bool decode_chunks(png_structp png, png_infop info, remainder *rest) {
     if (setjmp(png_jmpbuf(png)))
         return false;
-    png_init_io(png, stream);
+    png_set_read_fn(png, rest, take_bytes);
     png_set_chunk_malloc_max(png, IMAGE_TEXT_MAX);
     png_set_chunk_cache_max(png, 64);
     png_read_info(png, info);
     return true;
 }
 
-bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {
+bool image_decode_png_text(const image_source *source, const char *key, char **text,
+                           cli_error *error) {
     cli_error complaint = { "out of memory" };
+    remainder rest = { source->data, source->size };
     *text = NULL;
-    FILE *stream = file_open(path, error);
-    if (!stream)
-        return false;
     png_structp png =
         png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint, on_error, on_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    const bool ok = info && read_stream(png, info, stream);
+    const bool ok = info && decode_chunks(png, info, &rest);
     const char *found = ok ? find_text(png, info, key) : NULL;
     if (found)
         *text = strdup(found);
     else if (ok)
-        cli_fail(error, path, "holds no settings of Lampion (a screenshot of lampion view does)");
+        cli_fail(error, source->path,
+                 "holds no settings of Lampion (a screenshot of lampion view does)");
     else
-        cli_fail(error, path, "not a readable PNG: %s", complaint.text);
+        cli_fail(error, source->path, "not a readable PNG: %s", complaint.text);
     png_destroy_read_struct(&png, &info, NULL);
-    fclose(stream);
-    return found && (*text || cli_fail(error, path, "out of memory"));
+    return found && (*text || cli_fail(error, source->path, "out of memory"));
 }

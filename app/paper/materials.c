@@ -107,7 +107,7 @@ static bool show_material(paper *p, int number, cli_error *error) {
         image pixels;
         snprintf(from, sizeof from, "figure6-%s-%s.exr", letter, kinds[k]);
         snprintf(to, sizeof to, "figure6-%s-%s.png", letter, kinds[k]);
-        if (!image_read(from, &pixels, error))
+        if (!image_read(from, IMAGE_READ_PIXELS, &pixels, error))
             return false;
         exposure = k == 0 ? image_auto_exposure(&pixels) : exposure;
         const bool ok = image_write(&pixels, to, exposure, error);

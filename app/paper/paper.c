@@ -67,7 +67,8 @@ bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...) {
 bool paper_compare(const char *pixels, const char *truth, compare_result *result,
                    cli_error *error) {
     image a = { .rgb = NULL }, b = { .rgb = NULL };
-    const bool ok = image_read(pixels, &a, error) && image_read(truth, &b, error) &&
+    const bool ok = image_read(pixels, IMAGE_READ_PIXELS, &a, error) &&
+                    image_read(truth, IMAGE_READ_PIXELS, &b, error) &&
                     compare_images(&a, &b, 0, result, error);
     image_free(&a);
     image_free(&b);

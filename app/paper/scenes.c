@@ -131,7 +131,7 @@ static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *e
                    f->scene, f->lights, f->width, f->height, f->samples, f->name))
         return false;
     snprintf(file, sizeof file, "%s-truth.exr", f->name);
-    if (!image_read(file, &truth, error))
+    if (!image_read(file, IMAGE_READ_PIXELS, &truth, error))
         return false;
     *exposure = image_auto_exposure(&truth);
     snprintf(file, sizeof file, "%s-truth.png", f->name);

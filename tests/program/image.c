@@ -39,7 +39,7 @@ static void openexr_keeps_every_bit(void **state) {
     image main_layer = noise(), other = noise(), back;
     const image_layer layers[] = { { "", &main_layer }, { "error", &other } };
     assert_true(image_write_exr_layers(in_folder("a.exr"), layers, 2, &error));
-    assert_true(image_read(in_folder("a.exr"), &back, &error));
+    assert_true(image_read(in_folder("a.exr"), IMAGE_READ_PIXELS, &back, &error));
     assert_int_equal(back.width, WIDTH);
     assert_int_equal(back.height, HEIGHT);
     assert_memory_equal(back.rgb, main_layer.rgb, VALUES * sizeof(float));
@@ -56,7 +56,7 @@ static void png_keeps_every_byte(void **state) {
     for (size_t i = 0; i < VALUES; i++)
         bytes[i] = (unsigned char)(i % 256);
     assert_true(image_write_png8(bytes, WIDTH, HEIGHT, in_folder("a.png"), &error));
-    assert_true(image_read(in_folder("a.png"), &back, &error));
+    assert_true(image_read(in_folder("a.png"), IMAGE_READ_PIXELS, &back, &error));
     for (size_t i = 0; i < VALUES; i++) {
         const double linear = (double)back.rgb[i];
         const double stored =
@@ -92,7 +92,7 @@ static void survive_damage(const char *good, const char *bad) {
             bytes[at] = before;
         image pixels;
         error.text[0] = '\0';
-        if (image_read(in_folder(bad), &pixels, &error)) {
+        if (image_read(in_folder(bad), IMAGE_READ_PIXELS, &pixels, &error)) {
             image_free(&pixels);
         } else {
             refused++;
@@ -126,8 +126,21 @@ static void a_png_that_claims_to_be_huge_is_refused(void **state) {
     assert_non_null(stream);
     fwrite(bytes, 1, sizeof bytes, stream);
     fclose(stream);
-    assert_false(image_read(in_folder("bad.png"), &pixels, &error));
+    assert_false(image_read(in_folder("bad.png"), IMAGE_READ_PIXELS, &pixels, &error));
     assert_non_null(strstr(error.text, "too large"));
+}
+
+static void more_pixels_than_wanted_are_refused(void **state) {
+    (void)state;
+    static const char *const names[] = { "a.png", "a.exr" };
+    cli_error error = { "" };
+    image pixels;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        assert_false(image_read(in_folder(names[i]), WIDTH * HEIGHT - 1, &pixels, &error));
+        assert_non_null(strstr(error.text, "an image of 37 x 23 is too large (850 pixels"));
+        assert_true(image_read(in_folder(names[i]), WIDTH * HEIGHT, &pixels, &error));
+        image_free(&pixels);
+    }
 }
 
 static void paths_that_cannot_be_written_are_refused_at_once(void **state) {
@@ -200,6 +213,7 @@ int main(void) {
         cmocka_unit_test(png_keeps_every_byte),
         cmocka_unit_test(damaged_images_are_refused_in_one_line),
         cmocka_unit_test(a_png_that_claims_to_be_huge_is_refused),
+        cmocka_unit_test(more_pixels_than_wanted_are_refused),
         cmocka_unit_test(paths_that_cannot_be_written_are_refused_at_once),
         cmocka_unit_test(exposure_puts_what_is_lit_at_middle_grey),
         cmocka_unit_test(the_curve_keeps_black_and_grey_rises_and_ends_white),

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT */
+/* Foreign images: the bytes are read here, decoded in the sandbox, and checked when they come back.
+ */
+#include "app/image/image.h"
+
+#include "app/file/file.h"
+#include "app/sandbox/sandbox.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#define FILE_SIZE_MAX ((size_t)2 << 30)
+
+typedef struct decoding {
+    image_source source;
+    image_format format;
+    const char *key; /* of the text that is wanted; NULL: the pixels are */
+} decoding;
+
+/* What comes back: this, and then the rows of the image. */
+typedef struct decoded_size {
+    int32_t width, height;
+} decoded_size;
+
+/* --- in the child -------------------------------------------------------------------------------
+ */
+
+static bool write_all(int output, const void *data, size_t size) {
+    const char *bytes = data;
+    for (size_t done = 0; done < size;) {
+        const ssize_t written = write(output, bytes + done, size - done);
+        if (written < 0 && errno != EINTR)
+            return false;
+        done += written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
+static bool decode_pixels(void *context, int output, cli_error *error) {
+    const decoding *const d = context;
+    image pixels;
+    const bool ok = d->format == IMAGE_PNG ? image_decode_png(&d->source, &pixels, error)
+                                           : image_decode_exr(&d->source, &pixels, error);
+    if (!ok)
+        return false;
+    const decoded_size size = { pixels.width, pixels.height };
+    const size_t bytes = 3 * sizeof(float) * (size_t)pixels.width * (size_t)pixels.height;
+    return (write_all(output, &size, sizeof size) && write_all(output, pixels.rgb, bytes)) ||
+           cli_fail(error, d->source.path, "does not fit into memory");
+}
+
+static bool decode_text(void *context, int output, cli_error *error) {
+    const decoding *const d = context;
+    char *text;
+    return image_decode_png_text(&d->source, d->key, &text, error) &&
+           (write_all(output, text, strlen(text)) ||
+            cli_fail(error, d->source.path, "does not fit into memory"));
+}
+
+/* --- in the parent ------------------------------------------------------------------------------
+ */
+
+static bool decode(decoding *d, const char *path, void **block, size_t *size, cli_error *error) {
+    void *data;
+    if (!file_read(path, FILE_SIZE_MAX, &data, &d->source.size, error))
+        return false;
+    d->source.path = path;
+    d->source.data = data;
+    /* a small file of a flat color may be a large image, and honest */
+    const sandbox_job job = { .subject = path,
+                              .input_bytes = d->source.size + (uint64_t)d->source.pixels_max / 2,
+                              .context = d,
+                              .work = d->key ? decode_text : decode_pixels };
+    const bool ok = sandbox_run(&job, block, size, error);
+    free(data);
+    return ok;
+}
+
+static bool take_image(const decoding *d, const void *block, size_t size, image *pixels,
+                       cli_error *error) {
+    decoded_size claimed = { 0, 0 };
+    if (size >= sizeof claimed)
+        memcpy(&claimed, block, sizeof claimed);
+    if (!image_create_decoded(&d->source, claimed.width, claimed.height, pixels, error))
+        return false;
+    const size_t bytes = 3 * sizeof(float) * (size_t)pixels->width * (size_t)pixels->height;
+    if (size - sizeof claimed == bytes) {
+        memcpy(pixels->rgb, (const char *)block + sizeof claimed, bytes);
+        return true;
+    }
+    image_free(pixels);
+    return cli_fail(error, d->source.path, "cannot be read (is it damaged?)");
+}
+
+bool image_read(const char *path, long long pixels_max, image *pixels, cli_error *error) {
+    decoding d = { .source.pixels_max = pixels_max, .format = image_format_of(path) };
+    void *block;
+    size_t size;
+    memset(pixels, 0, sizeof *pixels);
+    if (d.format == IMAGE_UNKNOWN)
+        return image_fail_format(path, error);
+    if (!decode(&d, path, &block, &size, error))
+        return false;
+    const bool ok = take_image(&d, block, size, pixels, error);
+    munmap(block, size);
+    return ok;
+}
+
+bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {
+    decoding d = { .format = IMAGE_PNG, .key = key };
+    void *block;
+    size_t size;
+    if (!decode(&d, path, &block, &size, error))
+        return false;
+    *text = strndup(block, size);
+    munmap(block, size);
+    return *text || cli_fail(error, path, "out of memory");
+}
