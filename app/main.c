@@ -65,9 +65,12 @@ static bool reader_is_gone(void) {
 /* A reader that has gone away (`| head`) is no news; a full disk is. */
 static int close_output(int status) {
     const bool failed = ferror(stdout) != 0, gone = reader_is_gone();
+    /* stdio forgets why it failed: another write does for the same reason */
+    const int reason = failed && write(STDOUT_FILENO, "\n", 1) < 0 ? errno : 0;
     errno = 0;
     if (fclose(stdout) == 0 && !failed)
         return status;
+    errno = reason ? reason : errno;
     if (!gone && errno != EPIPE) {
         cli_error error;
         cli_fail(&error, "standard output", "cannot write%s%s", errno ? ": " : "",

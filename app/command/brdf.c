@@ -136,12 +136,7 @@ static bool convert(const brdf_options *o, const material *m, cli_error *error) 
                                    : lmp_brdf_write_rgl(m->brdf, NULL, &data, &size);
     if (result != LMP_OK)
         return cli_fail(error, o->output, "%s", lmp_result_text(result));
-    file_writer writer;
-    bool ok = file_write_begin(&writer, o->output, error);
-    if (ok) {
-        fwrite(data, 1, size, writer.stream);
-        ok = file_write_commit(&writer, error);
-    }
+    const bool ok = file_write_whole(o->output, data, size, error);
     free(data);
     return ok;
 }

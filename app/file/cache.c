@@ -156,13 +156,8 @@ void file_cache_clear(void) {
 
 void file_cache_store(const char *path, const void *data, size_t size) {
     cli_error ignored;
-    file_writer writer;
-    if (!file_write_begin(&writer, path, &ignored))
-        return;
-    if (fwrite(data, 1, size, writer.stream) == size && file_write_commit(&writer, &ignored))
+    if (file_write_whole(path, data, size, &ignored))
         trim(limit_of_cache());
-    else
-        file_write_abort(&writer);
 }
 
 void file_cache_store_object(const char *path, size_t size,

@@ -48,17 +48,25 @@ const char *file_json_repeated_key(const struct cJSON *object);
 const struct cJSON *file_json_list(const char *path, const struct cJSON *root, const char *name,
                                    cli_error *error);
 
-/* A file that appears under its name only when complete: written beside it, then renamed. */
+/* A file that appears under its name only when complete: written beside it, then renamed. What
+ * killed runs left in the folder is removed. */
 typedef struct file_writer {
-    FILE *stream; /* write here */
+    FILE *stream;           /* write here */
+    int descriptor, reason; /* of the stream; errno of its first failure */
     char path[4096], temporary[4096];
 } file_writer;
 
+/* The writer stays where it is until it is committed or aborted. */
 bool file_write_begin(file_writer *writer, const char *path, cli_error *error);
-/* Flushes, syncs errors, renames; on failure removes the temporary and reports. */
+/* Flushes, closes, renames; on failure removes the temporary and reports. */
 bool file_write_commit(file_writer *writer, cli_error *error);
 /* Removes the temporary; does nothing after a commit. */
 void file_write_abort(file_writer *writer);
+/* The same with an error: why the stream failed, or else `what` went wrong. Returns false. */
+bool file_write_fail(file_writer *writer, const char *what, cli_error *error);
+
+/* All of it at once. */
+bool file_write_whole(const char *path, const void *data, size_t size, cli_error *error);
 
 /* --- the cache: files by name in $XDG_CACHE_HOME/lampion or ~/.cache/lampion
  * ----------------------- What is there may vanish at any time. Its size is held to a limit:

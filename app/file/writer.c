@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/file/file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 /* Temporaries to remove when the program is interrupted: the handler may only read them. */
 #define PENDING_MAX 8
-static char pending_path[PENDING_MAX][4096];
+#define PATH_SIZE   sizeof((file_writer *)0)->path
+static char pending_path[PENDING_MAX][PATH_SIZE];
 static volatile sig_atomic_t pending_used[PENDING_MAX];
 
 static void remove_pending(int number) {
@@ -49,6 +53,116 @@ static void forget(const char *temporary) {
             pending_used[i] = 0;
 }
 
+/* --- what killed runs left ----------------------------------------------------------------------
+ */
+
+#define TEMPORARY_FORMAT ".lampion-%ld-XXXXXX"
+
+/* The process that made a temporary of this name; 0 if it is none. */
+static pid_t maker_of(const char *name) {
+    static const char prefix[] = ".lampion-";
+    const size_t length = strlen(prefix);
+    char *end;
+    if (strncmp(name, prefix, length) != 0 || name[length] < '1' || name[length] > '9')
+        return 0;
+    const long process = strtol(name + length, &end, 10);
+    return *end == '-' && strlen(end) == strlen("-XXXXXX") && process <= INT_MAX ? (pid_t)process
+                                                                                 : 0;
+}
+
+/* A process of another machine, or of another container, is not seen here, but its lock is. */
+static bool is_stale(int folder, const char *name) {
+    struct stat status;
+    const pid_t maker = maker_of(name);
+    if (maker == 0 || kill(maker, 0) == 0 || errno != ESRCH)
+        return false;
+    const int fd = openat(folder, name, O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    const bool stale = fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
+                       status.st_uid == geteuid() && flock(fd, LOCK_EX | LOCK_NB) == 0;
+    if (fd >= 0)
+        close(fd);
+    return stale;
+}
+
+/* Once a folder, not before each of many numbered images. */
+static void sweep(const char *folder) {
+    static char swept[PATH_SIZE];
+    if (strcmp(swept, folder) == 0)
+        return;
+    strcpy(swept, folder);
+    DIR *const directory = opendir(folder);
+    if (!directory)
+        return;
+    for (const struct dirent *entry; (entry = readdir(directory));)
+        if (is_stale(dirfd(directory), entry->d_name))
+            unlinkat(dirfd(directory), entry->d_name, 0);
+    closedir(directory);
+}
+
+/* --- the stream: as of a file, but it keeps the reason of a failure -----------------------------
+ */
+
+static ssize_t write_bytes(void *cookie, const char *bytes, size_t size) {
+    file_writer *const writer = cookie;
+    ssize_t written;
+    do
+        written = write(writer->descriptor, bytes, size);
+    while (written < 0 && errno == EINTR);
+    if (written < 0 && !writer->reason)
+        writer->reason = errno;
+    return written < 0 ? 0 : written;
+}
+
+static int seek_to(void *cookie, off64_t *offset, int whence) {
+    const file_writer *const writer = cookie;
+    *offset = lseek(writer->descriptor, *offset, whence);
+    return *offset < 0 ? -1 : 0;
+}
+
+static int close_descriptor(void *cookie) {
+    file_writer *const writer = cookie;
+    const int status = close(writer->descriptor);
+    if (status != 0 && !writer->reason)
+        writer->reason = errno;
+    return status;
+}
+
+/* --- writing ------------------------------------------------------------------------------------
+ */
+
+/* The folder of path, then a name that says whose it is. */
+static bool name_temporary(file_writer *writer, const char *path) {
+    const char *const slash = strrchr(path, '/');
+    const int folder = slash ? (int)(slash - path) + 1 : 0;
+    if (strlen(path) >= sizeof writer->path ||
+        snprintf(writer->temporary, sizeof writer->temporary, "%.*s" TEMPORARY_FORMAT, folder, path,
+                 (long)getpid()) >= (int)sizeof writer->temporary)
+        return false;
+    strcpy(writer->path, path);
+    char name[PATH_SIZE];
+    snprintf(name, sizeof name, "%.*s", folder ? folder : 2, folder ? path : "./");
+    sweep(name);
+    return true;
+}
+
+/* An open descriptor for a stream that the writer keeps. */
+static bool open_temporary(file_writer *writer) {
+    const cookie_io_functions_t functions = { .write = write_bytes,
+                                              .seek = seek_to,
+                                              .close = close_descriptor };
+    writer->descriptor = mkostemp(writer->temporary, O_CLOEXEC);
+    if (writer->descriptor < 0) {
+        writer->temporary[0] = 0;
+        return false;
+    }
+    remember(writer->temporary);
+    flock(writer->descriptor, LOCK_EX | LOCK_NB);
+    writer->stream = fopencookie(writer, "wb", functions);
+    if (!writer->stream)
+        close(writer->descriptor);
+    return writer->stream != NULL;
+}
+
 bool file_write_begin(file_writer *writer, const char *path, cli_error *error) {
     *writer = (file_writer) { 0 };
     struct stat status;
@@ -57,43 +171,37 @@ bool file_write_begin(file_writer *writer, const char *path, cli_error *error) {
         return cli_fail(error, path, "is a directory, not a file");
     if (exists && !S_ISREG(status.st_mode))
         return cli_fail(error, path, "is not a regular file");
-    const int size = (int)sizeof writer->temporary;
-    if (snprintf(writer->temporary, sizeof writer->temporary, "%s.XXXXXX", path) >= size) {
-        writer->temporary[0] = 0;
+    if (!name_temporary(writer, path))
         return cli_fail(error, path, "is too long a name");
+    if (!open_temporary(writer)) {
+        writer->reason = errno;
+        return file_write_fail(writer, NULL, error);
     }
-    strcpy(writer->path, path);
-    const int fd = mkostemp(writer->temporary, O_CLOEXEC);
-    if (fd < 0) {
-        writer->temporary[0] = 0;
-        return cli_fail(error, path, "cannot be written: %s", strerror(errno));
-    }
-    remember(writer->temporary);
     /* mkostemp makes it private: give it the mode of any new file. */
     const mode_t mask = umask(0);
     umask(mask);
-    fchmod(fd, exists ? status.st_mode & 0777 : 0666 & ~mask);
-    writer->stream = fdopen(fd, "wb");
-    if (!writer->stream) {
-        close(fd);
-        file_write_abort(writer);
-        return cli_fail(error, path, "cannot be written: %s", strerror(errno));
-    }
+    fchmod(writer->descriptor, exists ? status.st_mode & 0777 : 0666 & ~mask);
     return true;
 }
 
+bool file_write_fail(file_writer *writer, const char *what, cli_error *error) {
+    file_write_abort(writer);
+    return cli_fail(error, writer->path, "cannot be written: %s",
+                    writer->reason ? strerror(writer->reason)
+                    : what         ? what
+                                   : strerror(EIO));
+}
+
 bool file_write_commit(file_writer *writer, cli_error *error) {
-    errno = 0;
     bool ok = !ferror(writer->stream);
-    ok = fclose(writer->stream) == 0 && ok;
+    ok = fclose(writer->stream) == 0 && ok && !writer->reason;
     writer->stream = NULL;
-    if (ok)
-        ok = rename(writer->temporary, writer->path) == 0;
-    if (!ok) {
-        const int reason = errno ? errno : EIO;
-        file_write_abort(writer);
-        return cli_fail(error, writer->path, "cannot be written: %s", strerror(reason));
+    if (ok && rename(writer->temporary, writer->path) != 0) {
+        writer->reason = errno;
+        ok = false;
     }
+    if (!ok)
+        return file_write_fail(writer, NULL, error);
     forget(writer->temporary);
     writer->temporary[0] = 0;
     return true;
@@ -108,4 +216,12 @@ void file_write_abort(file_writer *writer) {
         forget(writer->temporary);
     }
     writer->temporary[0] = 0;
+}
+
+bool file_write_whole(const char *path, const void *data, size_t size, cli_error *error) {
+    file_writer writer;
+    if (!file_write_begin(&writer, path, error))
+        return false;
+    fwrite(data, 1, size, writer.stream);
+    return file_write_commit(&writer, error);
 }

@@ -129,10 +129,8 @@ bool image_write_exr_layers(const char *path, const image_layer *layers, int cou
         const exr_result_t finished = exr_finish(&context);
         r = r == EXR_ERR_SUCCESS ? finished : r;
     }
-    if (r != EXR_ERR_SUCCESS) {
-        file_write_abort(&writer);
-        return cli_fail(error, path, "%s", exr_get_default_error_message(r));
-    }
+    if (r != EXR_ERR_SUCCESS)
+        return file_write_fail(&writer, exr_get_default_error_message(r), error);
     return file_write_commit(&writer, error);
 }
 

@@ -18,10 +18,8 @@ bool image_write_png8(const unsigned char *rgb8, int width, int height, const ch
                       .format = PNG_FORMAT_RGB };
     if (!file_write_begin(&writer, path, error))
         return false;
-    if (!png_image_write_to_stdio(&png, writer.stream, 0, rgb8, 0, NULL)) {
-        file_write_abort(&writer);
-        return cli_fail(error, path, "%s", png.message);
-    }
+    if (!png_image_write_to_stdio(&png, writer.stream, 0, rgb8, 0, NULL))
+        return file_write_fail(&writer, png.message, error);
     return file_write_commit(&writer, error);
 }
 

@@ -57,10 +57,7 @@ bool image_write_png8_text(const unsigned char *rgb8, int width, int height, con
     png_infop info = png ? png_create_info_struct(png) : NULL;
     const bool ok = info && write_stream(png, info, writer.stream, rgb8, width, height, text);
     png_destroy_write_struct(&png, &info);
-    if (ok)
-        return file_write_commit(&writer, error);
-    file_write_abort(&writer);
-    return cli_fail(error, path, "%s", complaint.text);
+    return ok ? file_write_commit(&writer, error) : file_write_fail(&writer, complaint.text, error);
 }
 
 /* --- reading ------------------------------------------------------------------------------------

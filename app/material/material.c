@@ -333,12 +333,7 @@ bool material_write_table(const lmp_brdf_table *table, const char *path, cli_err
     void *const bytes = bytes_of(table, &size);
     if (!bytes)
         return cli_fail(error, path, "out of memory");
-    file_writer writer;
-    bool ok = file_write_begin(&writer, path, error);
-    if (ok) {
-        fwrite(bytes, 1, size, writer.stream);
-        ok = file_write_commit(&writer, error);
-    }
+    const bool ok = file_write_whole(path, bytes, size, error);
     free(bytes);
     return ok;
 }

@@ -223,7 +223,6 @@ static bool record_frame(viewer *v, cli_error *error) {
 /* What the program knows of itself, for tests and for the curious. */
 static bool write_state(viewer *v, cli_error *error) {
     const view_state *s = &v->state;
-    file_writer writer;
     cJSON *root = view_settings_to_json(v->drawn);
     cJSON *ui = cJSON_AddObjectToObject(root, "view");
     cJSON_AddNumberToObject(ui, "frame", v->frame);
@@ -248,11 +247,7 @@ static bool write_state(viewer *v, cli_error *error) {
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     bool ok = text || cli_fail(error, v->options->state, "out of memory");
-    ok = ok && file_write_begin(&writer, v->options->state, error);
-    if (ok) {
-        fputs(text, writer.stream);
-        ok = file_write_commit(&writer, error);
-    }
+    ok = ok && file_write_whole(v->options->state, text, strlen(text), error);
     cJSON_free(text);
     return ok;
 }
