@@ -104,13 +104,15 @@ static void sweep(const char *folder) {
 
 static ssize_t write_bytes(void *cookie, const char *bytes, size_t size) {
     file_writer *const writer = cookie;
-    ssize_t written;
-    do
-        written = write(writer->descriptor, bytes, size);
-    while (written < 0 && errno == EINTR);
-    if (written < 0 && !writer->reason)
-        writer->reason = errno;
-    return written < 0 ? 0 : written;
+    size_t done = 0;
+    while (done < size && !writer->reason) {
+        const ssize_t written = write(writer->descriptor, bytes + done, size - done);
+        if (written >= 0)
+            done += (size_t)written;
+        else if (errno != EINTR)
+            writer->reason = errno;
+    }
+    return writer->reason ? 0 : (ssize_t)size;
 }
 
 static int seek_to(void *cookie, off64_t *offset, int whence) {
