@@ -3,29 +3,29 @@
 
 #include <stdlib.h>
 
-/* A light that can contribute. */
+/* A source that can contribute by a cap of directions. */
 struct reference_candidate {
-    reference_vec axis;
-    double limit; /* w is in the cap if w·axis >= limit */
-    double radiance[3];
+    reference_source source;
+    double limit;      /* w is in the cap if w·axis >= limit */
     double density;    /* of the directions sampled for it, per steradian */
     double cumulative; /* of the probabilities, itself included */
-    double one_minus_cos;
     const scene_light *light;
 };
 
 /* The ways to sample a direction and how often each is taken; the probabilities add up to 1. */
 typedef struct plan {
     const reference_surface *surface;
-    const struct reference_candidate *candidates;
+    struct reference_candidate *candidates;
     int count;
     double by_lobe[REFERENCE_LOBES];
+    double known[3]; /* what single directions give, which needs no samples */
 } plan;
 
 bool reference_estimator_create(reference_estimator *estimator, const scene_light *lights,
                                 size_t count) {
     *estimator = (reference_estimator) { .lights = lights, .light_count = count };
-    estimator->candidates = malloc((count ? count : 1) * sizeof *estimator->candidates);
+    estimator->candidates =
+        calloc(REFERENCE_SOURCES_MAX * count + 1, sizeof *estimator->candidates);
     return estimator->candidates != NULL;
 }
 
@@ -35,7 +35,7 @@ void reference_estimator_free(reference_estimator *estimator) {
 }
 
 /* An upper bound of the mean of the lobe over the cap; of a cut series a guess that is never 0. */
-static double lobe_bound(const reference_lobe *lobe, bool cut, const reference_cap *cap) {
+static double lobe_bound(const reference_lobe *lobe, bool cut, const reference_source *cap) {
     const double nearest = fmax(reference_angle(lobe->axis, cap->axis) - cap->angle, 0);
     const double there = reference_lobe_at(lobe, nearest < REFERENCE_PI ? cos(nearest) : -1);
     if (!cut)
@@ -43,15 +43,15 @@ static double lobe_bound(const reference_lobe *lobe, bool cut, const reference_c
     return fabs(there) + 0.05 * fabs(reference_lobe_at(lobe, 1));
 }
 
-static double mean_of_product(const double a[3], lmp_rgb b) {
-    return (a[0] * (double)b.r + a[1] * (double)b.g + a[2] * (double)b.b) / 3;
+static double mean_of_product(const double a[3], const double b[3]) {
+    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / 3;
 }
 
-/* The part of the samples of a lobe and a light that the lobe should draw: it is the better source
- * where it is narrower than the light. One that is rarely drawn from would only add rare values
- * that the standard error does not know of, so it is left out. Of a cut series there is nothing to
- * sample. */
-static double lobe_part(const reference_lobe *lobe, bool cut, const reference_cap *cap) {
+/* The fraction of the samples of a lobe and a light that the lobe should draw: it is the better
+ * source where it is narrower than the light. One that is rarely drawn from would only add rare
+ * values that the standard error does not know of, so it is left out. Of a cut series there is
+ * nothing to sample. */
+static double lobe_fraction(const reference_lobe *lobe, bool cut, const reference_source *cap) {
     const double width = 2 * REFERENCE_PI / (lobe->exponent + 1);
     const double part = cap->solid_angle / (cap->solid_angle + width);
     if (cut || part < 0.02)
@@ -59,25 +59,74 @@ static double lobe_part(const reference_lobe *lobe, bool cut, const reference_ca
     return part > 0.98 ? 1 : part;
 }
 
-/* What the light can give at most through each lobe, parted between sampling the light and the
- * lobe. Returns the light's part; *any if there is something to sample. */
-static double share(const reference_surface *surface, const scene_light *light,
-                    const reference_cap *cap, double by_lobe[REFERENCE_LOBES], bool *any) {
-    double by_light = 0;
+/* What the source can give at most through each lobe, divided between sampling the source and the
+ * lobe. Returns the source's part; *any if there is something to sample. */
+static double divide(const reference_surface *surface, const reference_source *cap,
+                     double by_lobe[REFERENCE_LOBES], bool *any) {
+    double by_source = 0;
     *any = false;
     for (int k = 0; k < REFERENCE_LOBES; k++) {
         const reference_lobe *lobe = &surface->lobes[k];
-        const double strength = mean_of_product(lobe->weight, light->emitter.radiance);
-        const double part = lobe_part(lobe, surface->cut, cap);
+        const double strength = mean_of_product(lobe->weight, cap->color);
+        const double fraction = lobe_fraction(lobe, surface->cut, cap);
         if (!(strength > 0))
             continue;
         const double most =
             strength * fmin(cap->solid_angle * lobe_bound(lobe, surface->cut, cap), 1);
-        by_light += most * (1 - part);
-        by_lobe[k] += most * part;
+        by_source += most * (1 - fraction);
+        by_lobe[k] += most * fraction;
         *any = *any || most > 0;
     }
-    return by_light;
+    return by_source;
+}
+
+/* What the surface reflects from `w`; returns the density of w over the plan's lobes. */
+static double reflect(const plan *p, reference_vec w, double reflected[3]) {
+    double density = 0;
+    reflected[0] = reflected[1] = reflected[2] = 0;
+    for (int k = 0; k < REFERENCE_LOBES; k++) {
+        const reference_lobe *lobe = &p->surface->lobes[k];
+        const double at = reference_lobe_at(lobe, reference_dot(lobe->axis, w));
+        density += p->by_lobe[k] * at;
+        for (int c = 0; c < 3; c++)
+            reflected[c] += lobe->weight[c] * at;
+    }
+    if (p->surface->tabulated)
+        reference_tabulated_at(p->surface->tabulated, w, reflected);
+    return density;
+}
+
+static double free_path(const reference_estimator *estimator, const reference_surface *surface,
+                        reference_vec w) {
+    return estimator->visibility
+               ? estimator->visibility(surface->ray_origin, w, estimator->visibility_user)
+               : (double)INFINITY;
+}
+
+static void add_known(const reference_estimator *estimator, const reference_source *source,
+                      plan *p) {
+    double reflected[3];
+    if (source->distance > free_path(estimator, p->surface, source->axis))
+        return;
+    reflect(p, source->axis, reflected);
+    for (int c = 0; c < 3; c++)
+        p->known[c] += reflected[c] * source->color[c];
+}
+
+/* Returns the part of the samples that it takes, not yet a fraction. */
+static double add_candidate(const reference_source *source, const scene_light *light, double before,
+                            plan *p) {
+    bool any;
+    const double part = divide(p->surface, source, p->by_lobe, &any);
+    if (any)
+        p->candidates[p->count++] = (struct reference_candidate) {
+            .source = *source,
+            .limit = 1 - source->one_minus_cos,
+            .density = part / source->solid_angle,
+            .cumulative = before + part,
+            .light = light,
+        };
+    return any ? part : 0;
 }
 
 static void plan_samples(const reference_estimator *estimator, const reference_surface *surface,
@@ -86,28 +135,19 @@ static void plan_samples(const reference_estimator *estimator, const reference_s
     *p = (plan) { .surface = surface, .candidates = estimator->candidates };
     for (size_t i = 0; i < estimator->light_count; i++) {
         const scene_light *light = &estimator->lights[i];
-        const reference_cap cap = reference_cap_of(light, surface->position, surface->cut);
-        bool any;
-        const double part = share(surface, light, &cap, p->by_lobe, &any);
-        if (!any)
-            continue;
-        total += part;
-        estimator->candidates[p->count++] = (struct reference_candidate) {
-            .axis = cap.axis,
-            .limit = 1 - cap.one_minus_cos,
-            .one_minus_cos = cap.one_minus_cos,
-            .radiance = { (double)light->emitter.radiance.r, (double)light->emitter.radiance.g,
-                          (double)light->emitter.radiance.b },
-            .density = part / cap.solid_angle,
-            .cumulative = total,
-            .light = light,
-        };
+        reference_source sources[REFERENCE_SOURCES_MAX];
+        const int count = reference_light_sources(light, surface->position, surface->cut, sources);
+        for (int k = 0; k < count; k++)
+            if (sources[k].solid_angle > 0)
+                total += add_candidate(&sources[k], light, total, p);
+            else
+                add_known(estimator, &sources[k], p);
     }
     for (int k = 0; k < REFERENCE_LOBES; k++)
         total += p->by_lobe[k];
     for (int i = 0; i < p->count; i++) {
-        estimator->candidates[i].density /= total;
-        estimator->candidates[i].cumulative /= total;
+        p->candidates[i].density /= total;
+        p->candidates[i].cumulative /= total;
     }
     for (int k = 0; k < REFERENCE_LOBES; k++)
         p->by_lobe[k] /= total > 0 ? total : 1;
@@ -139,51 +179,42 @@ static reference_vec draw(const plan *p, const double u[3], int *sampled) {
     }
     *sampled = find_candidate(p, way);
     const struct reference_candidate *c = &p->candidates[*sampled];
-    const double t = u[1] * c->one_minus_cos;
-    return reference_around(c->axis, 1 - t, sqrt(t * (2 - t)), u[2]);
+    const double t = u[1] * c->source.one_minus_cos;
+    return reference_around(c->source.axis, 1 - t, sqrt(t * (2 - t)), u[2]);
 }
 
-/* The density of `w` over all ways (the balance heuristic's denominator, but for the lobes) and
+/* The density of `w` over all sources (the balance heuristic's denominator, but for the lobes) and
  * the radiance that arrives from it. */
-static double gather(const reference_estimator *estimator, const plan *p, reference_vec w,
-                     int sampled, double radiance[3]) {
-    double density = 0, free_path = (double)INFINITY;
-    if (estimator->visibility)
-        free_path = estimator->visibility(p->surface->ray_origin, w, estimator->visibility_user);
+static double accumulate(const reference_estimator *estimator, const plan *p, reference_vec w,
+                         int sampled, double radiance[3]) {
+    const double path = free_path(estimator, p->surface, w);
+    double density = 0;
     for (int i = 0; i < p->count; i++) {
         const struct reference_candidate *c = &p->candidates[i];
-        if (!(reference_dot(w, c->axis) >= c->limit) && i != sampled)
+        if (!(reference_dot(w, c->source.axis) >= c->limit) && i != sampled)
             continue;
         density += c->density;
         if (estimator->visibility &&
-            reference_light_distance(c->light, p->surface->position, w) > free_path)
+            reference_light_distance(c->light, p->surface->position, w) > path)
             continue;
         for (int k = 0; k < 3; k++)
-            radiance[k] += c->radiance[k];
+            radiance[k] += c->source.color[k];
     }
     return density;
 }
 
 static void take_sample(const reference_estimator *estimator, const plan *p, uint64_t key,
                         int number, double value[3]) {
-    double u[3], reflected[3] = { 0 }, radiance[3] = { 0 }, density = 0;
+    double u[3], reflected[3], radiance[3] = { 0 };
     int sampled;
     for (int k = 0; k < 3; k++)
         u[k] = reference_random(key, 3 * (uint64_t)number + (uint64_t)k);
     const reference_vec w = draw(p, u, &sampled);
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
-        const reference_lobe *lobe = &p->surface->lobes[k];
-        const double at = reference_lobe_at(lobe, reference_dot(lobe->axis, w));
-        density += p->by_lobe[k] * at;
-        for (int c = 0; c < 3; c++)
-            reflected[c] += lobe->weight[c] * at;
-    }
-    if (p->surface->tabulated)
-        reference_tabulated_at(p->surface->tabulated, w, reflected);
+    double density = reflect(p, w, reflected);
     value[0] = value[1] = value[2] = 0;
     if (reflected[0] == 0 && reflected[1] == 0 && reflected[2] == 0)
         return;
-    density += gather(estimator, p, w, sampled, radiance);
+    density += accumulate(estimator, p, w, sampled, radiance);
     for (int c = 0; c < 3 && density > 0; c++)
         value[c] = reflected[c] * radiance[c] / density;
 }
@@ -204,6 +235,8 @@ reference_result reference_estimate(const reference_estimator *estimator,
     double sum[3] = { 0 }, sum2[3] = { 0 };
     plan p;
     plan_samples(estimator, surface, &p);
+    for (int c = 0; c < 3; c++)
+        result.mean[c] = p.known[c];
     if (p.count == 0)
         return result;
     for (int n = 0; n < stop->samples;) {
@@ -218,13 +251,13 @@ reference_result reference_estimate(const reference_estimator *estimator,
             continue;
         for (int c = 0; c < 3; c++) {
             error += sqrt(variance_of_mean(sum[c], sum2[c], n));
-            mean += fabs(sum[c]) / n;
+            mean += fabs(sum[c] / n + p.known[c]);
         }
         if (mean > 0 && error <= stop->error * mean)
             break;
     }
     for (int c = 0; c < 3; c++) {
-        result.mean[c] = sum[c] / result.samples;
+        result.mean[c] += sum[c] / result.samples;
         result.standard_error[c] = sqrt(variance_of_mean(sum[c], sum2[c], result.samples));
     }
     return result;

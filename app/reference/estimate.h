@@ -14,7 +14,7 @@ typedef double (*reference_visibility)(reference_vec point, reference_vec direct
 typedef struct reference_estimator {
     const scene_light *lights;
     size_t light_count;
-    struct reference_candidate *candidates; /* light_count of them */
+    struct reference_candidate *candidates; /* REFERENCE_SOURCES_MAX a light */
     reference_visibility visibility;        /* NULL: nothing hides a light */
     void *visibility_user;
 } reference_estimator;
@@ -35,7 +35,8 @@ typedef struct reference_result {
 } reference_result;
 
 /* Independent samples, numbered from the stream `key`: of the lights' solid angles and of the
- * lobes, weighted by the balance heuristic over all of them (Veach 1997). Unbiased. Of cut lobes
+ * lobes, weighted by the balance heuristic over all of them (Veach 1997); what lights of a single
+ * direction give is added without sampling. Unbiased. Of cut lobes
  * the sum is the series' own: it may be negative. */
 reference_result reference_estimate(const reference_estimator *estimator,
                                     const reference_surface *surface, const reference_stop *stop,

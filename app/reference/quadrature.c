@@ -82,7 +82,7 @@ static void set_breaks(const overlap *o, double breaks[BREAKS]) {
     qsort(breaks, BREAKS, sizeof *breaks, by_value);
 }
 
-static double lobe_over_cap(const reference_lobe *lobe, const reference_cap *cap) {
+static double lobe_over_cap(const reference_lobe *lobe, const reference_source *cap) {
     overlap o = { lobe, reference_angle(lobe->axis, cap->axis), cap->angle };
     double breaks[BREAKS], sum = 0;
     set_breaks(&o, breaks);
@@ -91,17 +91,27 @@ static double lobe_over_cap(const reference_lobe *lobe, const reference_cap *cap
     return sum;
 }
 
+static void add_source(const reference_surface *surface, const reference_source *source,
+                       double radiance[3]) {
+    for (int k = 0; k < REFERENCE_LOBES; k++) {
+        const reference_lobe *lobe = &surface->lobes[k];
+        const double reflected =
+            source->solid_angle > 0
+                ? lobe_over_cap(lobe, source)
+                : reference_lobe_at(lobe, reference_dot(lobe->axis, source->axis));
+        for (int c = 0; c < 3; c++)
+            radiance[c] += lobe->weight[c] * reflected * source->color[c];
+    }
+}
+
 void reference_quadrature(const reference_surface *surface, const scene_light *lights, size_t count,
                           double radiance[3]) {
     radiance[0] = radiance[1] = radiance[2] = 0;
     for (size_t i = 0; i < count; i++) {
-        const reference_cap cap = reference_cap_of(&lights[i], surface->position, surface->cut);
-        const float *emitted = &lights[i].emitter.radiance.r;
-        for (int k = 0; k < REFERENCE_LOBES; k++) {
-            const reference_lobe *lobe = &surface->lobes[k];
-            const double response = lobe_over_cap(lobe, &cap);
-            for (int c = 0; c < 3; c++)
-                radiance[c] += lobe->weight[c] * response * (double)emitted[c];
-        }
+        reference_source sources[REFERENCE_SOURCES_MAX];
+        const int parts =
+            reference_light_sources(&lights[i], surface->position, surface->cut, sources);
+        for (int k = 0; k < parts; k++)
+            add_source(surface, &sources[k], radiance);
     }
 }

@@ -5,6 +5,7 @@
 #include "app/reference/reference.h"
 #include "app/reference/trace.h"
 #include "tests/oracle/check.h"
+#include "tests/oracle/kinds.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,7 +48,7 @@ static sight seen_by_ray(const scene *world, const reference_tracer *tracer, ref
                 hit.normal };
     for (size_t i = 0; i < world->light_count; i++) {
         const scene_light *light = &world->lights[i];
-        if (!light->hidden && reference_light_is_hit(light, eye, direction) &&
+        if (scene_light_is_drawn(light) && reference_light_is_hit(light, eye, direction) &&
             reference_light_distance(light, eye, direction) < hit.distance)
             s.kind = GPU_KIND_LIGHT;
     }
@@ -92,18 +93,19 @@ static sight *look(const scene *world, const scene_camera *camera) {
     return sights;
 }
 
-/* Whether a channel differs by more than 4 standard errors and one step of 8 bits. */
+/* Whether a channel differs by more than 5 standard errors and one step of 8 bits. */
 static bool differs(const float *drawn, const float *truth, const float *standard_error,
                     double exposure) {
     for (int c = 0; c < 3; c++) {
         const double d = fabs((double)drawn[c] - (double)truth[c]);
-        if (!((d - 4 * (double)standard_error[c]) * exposure <= 1.0 / 255))
+        if (!((d - 5 * (double)standard_error[c]) * exposure <= 1.0 / 255))
             return true;
     }
     return false;
 }
 
-static void check_scene(const char *name, int lights, const reference_cut *cut) {
+/* With `kinds`, a light of each kind instead. */
+static void check_scene(const char *name, int lights, bool kinds, const reference_cut *cut) {
     scene world;
     cli_error error;
     image truth, standard_error;
@@ -115,6 +117,10 @@ static void check_scene(const char *name, int lights, const reference_cut *cut) 
     int edges = 0, different = 0;
     assert_true(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error));
     assert_true(scene_apply_lights(&world, &random, &error));
+    for (int i = 0; kinds && i < KINDS; i++)
+        world.lights[i] = (scene_light) { .emitter = one_of_each_kind[i] };
+    if (kinds)
+        world.light_count = KINDS;
     settings.camera = scene_default_camera(&world, (float)WIDTH / HEIGHT);
     assert_true(reference_render(&world, &settings, &truth, &standard_error, &error));
     image drawn = draw_by_harmonics(&world, &settings, &pixels);
@@ -139,18 +145,24 @@ static void check_scene(const char *name, int lights, const reference_cut *cut) 
 
 static void cut_lobes_render_as_the_ground_truth_of_balls(void **state) {
     (void)state;
-    check_scene("builtin:balls", 0, &(reference_cut) { 8, LMP_WINDOW_NONE, 0 });
+    check_scene("builtin:balls", 0, false, &(reference_cut) { 8, LMP_WINDOW_NONE, 0 });
 }
 
 static void cut_lobes_render_as_the_ground_truth_of_the_atrium(void **state) {
     (void)state;
-    check_scene("builtin:atrium", 30, &(reference_cut) { 5, LMP_WINDOW_HANNING, 0 });
+    check_scene("builtin:atrium", 30, false, &(reference_cut) { 5, LMP_WINDOW_HANNING, 0 });
+}
+
+static void every_kind_of_light_renders_as_the_ground_truth(void **state) {
+    (void)state;
+    check_scene("builtin:balls", 0, true, &(reference_cut) { 8, LMP_WINDOW_NONE, 0 });
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cut_lobes_render_as_the_ground_truth_of_balls),
         cmocka_unit_test(cut_lobes_render_as_the_ground_truth_of_the_atrium),
+        cmocka_unit_test(every_kind_of_light_renders_as_the_ground_truth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
