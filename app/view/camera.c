@@ -109,6 +109,8 @@ int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count
                     float *distance) {
     int nearest = -1;
     for (size_t i = 0; i < count; i++) {
+        if (!scene_light_has(&lights[i], SCENE_LIGHT_POSITION))
+            continue;
         const lmp_vec3 way = vec_sub(lights[i].emitter.position, ray->from);
         const float along = vec_dot(way, ray->direction);
         const lmp_vec3 miss = vec_sub(way, vec_scale(ray->direction, along));

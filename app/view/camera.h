@@ -33,8 +33,8 @@ view_ray view_ray_through(const scene_camera *camera, int width, int height, dou
 bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
                   double *y, double *scale);
 
-/* Nearest sphere that the ray meets, or -1. Hidden ones count too. slack: what each sphere's radius
- * grows by a length along the ray, so that far ones can be hit. */
+/* Nearest light with a position that the ray meets, or -1. Hidden ones count too. slack: what each
+ * sphere's radius grows by a length along the ray, so that far ones can be hit. */
 int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float slack,
                     float *distance);
 

@@ -1,22 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* keys.c - what every key does, and the help that says so. */
 #include "app/scene/vector.h"
-#include "app/view/state.h"
+#include "app/view/lights.h"
 
 #include <math.h>
 #include <string.h>
 
-#define SIZE_STEP      1.15f
-#define POWER_STEP     1.25f
-#define RADIANCE_MAX   1e30f
-#define HUE_STEP       (1.0f / 12)
-#define NEW_RADIUS     0.012f /* of the scene's diagonal */
-#define NEW_IRRADIANCE 0.4f   /* that a new light gives the scene's bounding sphere */
-#define FRAME_SECONDS  (1.0 / 24)
-
-static float scene_diagonal(const scene *world) {
-    return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
-}
+#define FRAME_SECONDS (1.0 / 24)
 
 /* --- shading ------------------------------------------------------------------------------------
  */
@@ -77,139 +67,6 @@ static void swap_sides(view_state *s, int unused) {
         return;
     s->now.looks[0] = s->now.looks[1];
     s->now.looks[1] = first;
-}
-
-/* --- lights -------------------------------------------------------------------------------------
- */
-
-/* Applies to the selected light, or to all of them. */
-static void each_light(view_state *s, void (*change)(lmp_light *light, float by), float by) {
-    for (size_t i = 0; i < s->now.light_count; i++)
-        if (s->selected < 0 || (size_t)s->selected == i)
-            change(&s->now.lights[i].emitter, by);
-    s->lights_edited = true;
-}
-
-/* The power stays: a larger light is a dimmer one. */
-static void grow(lmp_light *light, float by) {
-    const float radius = light->radius * by;
-    if (!(radius > 1e-12f && radius < 1e12f))
-        return;
-    light->radius = radius;
-    float *radiance = &light->radiance.r;
-    for (int k = 0; k < 3; k++)
-        radiance[k] = fminf(radiance[k] / (by * by), RADIANCE_MAX);
-}
-
-static void brighten(lmp_light *light, float by) {
-    float *radiance = &light->radiance.r;
-    for (int k = 0; k < 3; k++)
-        radiance[k] = fminf(radiance[k] * by, RADIANCE_MAX);
-}
-
-static float brightest(const float color[3]) {
-    return fmaxf(color[0], fmaxf(color[1], color[2]));
-}
-
-/* A part of the hue circle around the gray axis: red, green and blue rotate into each other. */
-static void rotate_hue(lmp_light *light, float by) {
-    const float angle = 2 * PI * by, c = cosf(angle), s = sinf(angle), root = sqrtf(1.0f / 3);
-    float from[3], to[3];
-    rgb_store(light->radiance, from);
-    const float mean = (from[0] + from[1] + from[2]) / 3;
-    for (int k = 0; k < 3; k++) {
-        const float across = root * (from[(k + 2) % 3] - from[(k + 1) % 3]);
-        to[k] = fmaxf(0, from[k] * c + across * s + mean * (1 - c));
-    }
-    const float scale = brightest(to) > 0 ? brightest(from) / brightest(to) : 1;
-    light->radiance = rgb_scale(rgb_load(to), scale);
-}
-
-static void make_paler(lmp_light *light, float by) {
-    float color[3];
-    rgb_store(light->radiance, color);
-    const float most = brightest(color);
-    for (int k = 0; k < 3; k++)
-        color[k] = fmaxf(0, color[k] + by * (most - color[k]));
-    light->radiance = rgb_load(color);
-}
-
-static void resize_lights(view_state *s, int sign) {
-    each_light(s, grow, sign > 0 ? SIZE_STEP : 1 / SIZE_STEP);
-}
-
-static void brighten_lights(view_state *s, int sign) {
-    each_light(s, brighten, sign > 0 ? POWER_STEP : 1 / POWER_STEP);
-}
-
-static void recolor_lights(view_state *s, int sign) {
-    each_light(s, rotate_hue, sign > 0 ? HUE_STEP : -HUE_STEP);
-}
-
-static void fade_lights(view_state *s, int sign) {
-    each_light(s, make_paler, sign > 0 ? 0.25f : -1.0f / 3);
-}
-
-static void select_light(view_state *s, int step) {
-    const int count = (int)s->now.light_count;
-    if (count > 0)
-        s->selected =
-            s->selected < 0 ? (step > 0 ? 0 : count - 1) : (s->selected + step + count) % count;
-}
-
-/* As bright and large as the selected one; else warm and of a size that suits the scene. */
-static scene_light model_light(const view_state *s) {
-    if (s->selected >= 0)
-        return s->now.lights[s->selected];
-    const float diagonal = fmaxf(scene_diagonal(s->world), 1e-6f);
-    const float radius = NEW_RADIUS * diagonal, power = NEW_IRRADIANCE * PI * diagonal * diagonal;
-    const lmp_rgb color = { 1, 0.6f, 0.25f };
-    return (scene_light) {
-        .emitter = { .radius = radius,
-                     .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)) },
-    };
-}
-
-/* Over the surface under the pointer, or as far away as the camera's target. */
-static void add_light(view_state *s, int unused) {
-    (void)unused;
-    if (s->now.light_count == SCENE_LIGHTS_MAX) {
-        view_say(s, "There are %d lights already: no more fit", SCENE_LIGHTS_MAX);
-        return;
-    }
-    const bool outside = s->x < 0 || s->y < 0;
-    const view_ray ray =
-        view_ray_through(&s->now.camera, s->now.width, s->now.height,
-                         outside ? 0.5 * s->now.width : s->x, outside ? 0.5 * s->now.height : s->y);
-    const view_hit hit = view_pick_surface(&ray, s->world);
-    scene_light light = model_light(s);
-    light.hidden = 0;
-    const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));
-    const float distance = hit.mesh >= 0 ? hit.distance : reach;
-    lmp_vec3 place = vec_add(ray.from, vec_scale(ray.direction, distance));
-    if (hit.mesh >= 0)
-        place = vec_add(place, vec_scale(hit.normal, 3 * light.emitter.radius));
-    light.emitter.position = place;
-    s->selected = (int)s->now.light_count;
-    s->numbers[s->now.light_count] = s->next_number++;
-    s->now.lights[s->now.light_count++] = light;
-    s->lights_edited = true;
-    s->drag = VIEW_DRAG_NONE;
-}
-
-static void remove_light(view_state *s, int unused) {
-    (void)unused;
-    if (s->selected < 0) {
-        view_say(s, "Select a light first: click it, or press Tab");
-        return;
-    }
-    const size_t index = (size_t)s->selected, after = --s->now.light_count - index;
-    memmove(&s->now.lights[index], &s->now.lights[index + 1], after * sizeof *s->now.lights);
-    memset(&s->now.lights[s->now.light_count], 0, sizeof *s->now.lights);
-    memmove(&s->numbers[index], &s->numbers[index + 1], after * sizeof *s->numbers);
-    s->selected = -1;
-    s->drag = VIEW_DRAG_NONE;
-    s->lights_edited = true;
 }
 
 /* --- time ---------------------------------------------------------------------------------------
@@ -279,15 +136,6 @@ static void frame_all(view_state *s, int unused) {
                aspect);
 }
 
-static void frame_light(view_state *s, int unused) {
-    (void)unused;
-    if (s->selected < 0)
-        return;
-    const scene_light *light = &s->now.lights[s->selected];
-    view_frame(&s->now.camera, light->emitter.position, 10 * light->emitter.radius,
-               (float)s->now.width / (float)s->now.height);
-}
-
 static void first_camera(view_state *s, int unused) {
     (void)unused;
     s->camera = 0;
@@ -340,7 +188,7 @@ const view_key view_keys[] = {
     { NULL, "wheel", "nearer, farther", NULL, 0 },
     { NULL, "W A S D  Q E", "fly (Shift: faster)", NULL, 0 },
     { "f", "F", "frame everything", frame_all, 0 },
-    { "F", "Shift F", "frame the selected light", frame_light, 0 },
+    { "F", "Shift F", "frame the selected light", view_frame_light, 0 },
     { "c", "C", "next camera of the scene", next_camera, 1 },
     { "Home", "Home", "first camera", first_camera, 0 },
 
@@ -367,20 +215,23 @@ const view_key view_keys[] = {
 
     { NULL, "Lights", NULL, NULL, 0 },
     { NULL, "left drag on one", "move it (wheel: in depth)", NULL, 0 },
-    { "Tab", "Tab", "select the next", select_light, 1 },
-    { "Shift+Tab", NULL, NULL, select_light, -1 },
-    { "n", "N", "new, over what is pointed at", add_light, 0 },
-    { "Delete", "Delete", "remove the selected", remove_light, 0 },
-    { "Backspace", NULL, NULL, remove_light, 0 },
-    { "[", "[  ]", "smaller, larger (same power)", resize_lights, -1 },
-    { "]", NULL, NULL, resize_lights, 1 },
-    { "-", "-  +", "dimmer, brighter", brighten_lights, -1 },
-    { "+", NULL, NULL, brighten_lights, 1 },
-    { "=", NULL, NULL, brighten_lights, 1 },
-    { "h", "H", "hue", recolor_lights, 1 },
-    { "H", NULL, NULL, recolor_lights, -1 },
-    { "j", "J  Shift J", "paler, purer", fade_lights, 1 },
-    { "J", NULL, NULL, fade_lights, -1 },
+    { "Tab", "Tab", "select the next", view_select_light, 1 },
+    { "Shift+Tab", NULL, NULL, view_select_light, -1 },
+    { "n", "N", "new, over what is pointed at", view_add_light, 0 },
+    { "Delete", "Delete", "remove the selected", view_remove_light, 0 },
+    { "Backspace", NULL, NULL, view_remove_light, 0 },
+    { "[", "[  ]", "smaller, larger (same power)", view_resize_lights, -1 },
+    { "]", NULL, NULL, view_resize_lights, 1 },
+    { "-", "-  +", "dimmer, brighter", view_brighten_lights, -1 },
+    { "+", NULL, NULL, view_brighten_lights, 1 },
+    { "=", NULL, NULL, view_brighten_lights, 1 },
+    { "h", "H", "hue", view_recolor_lights, 1 },
+    { "H", NULL, NULL, view_recolor_lights, -1 },
+    { "k", "K", "kind: sphere, point, spot, …", view_change_kind, 1 },
+    { "K", NULL, NULL, view_change_kind, -1 },
+    { "l", "L", "turn towards what is pointed at", view_aim_light, 0 },
+    { "j", "J  Shift J", "paler, purer", view_fade_lights, 1 },
+    { "J", NULL, NULL, view_fade_lights, -1 },
     { NULL, "", "none selected: all of them", NULL, 0 },
 
     { NULL, "Time", NULL, NULL, 0 },
@@ -393,8 +244,8 @@ const view_key view_keys[] = {
     { NULL, "Window", NULL, NULL, 0 },
     { "F12", "F12  P", "screenshot with its settings", wish, WISH_SHOT },
     { "p", NULL, NULL, wish, WISH_SHOT },
-    { "r", "R", "record numbered frames", wish, WISH_RECORD },
-    { "i", "I", "figures on, off", toggle_overlay, 0 },
+    { "r", "R", "record an image sequence", wish, WISH_RECORD },
+    { "i", "I", "statistics on, off", toggle_overlay, 0 },
     { "F5", "F5", "read the scene again", wish, WISH_RELOAD },
     { "Shift+F5", "Shift F5", "start the graphics anew", wish, WISH_RESTART },
     { "F11", "F11", "full screen", wish, WISH_FULLSCREEN },

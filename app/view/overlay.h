@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* overlay.h - drawings over the image: figures, help, messages, marks. Text by Pango, so that any
- * script of any language is legible. */
+/* overlay.h - drawings over the image: statistics, help, messages, marks. Text by Pango, so that
+ * any script of any language is legible. */
 #ifndef LAMPION_VIEW_OVERLAY_H
 #define LAMPION_VIEW_OVERLAY_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/view/stage.h"
+#include "app/view/compositor.h"
 #include "app/device/materials.h"
 #include "app/view/draft.h"
 
@@ -14,7 +14,7 @@ typedef struct made_response {
     int bands;
     lmp_window window;
     lmp_preintegrated_lobe *response;
-    unsigned used; /* when, by the stage's clock */
+    unsigned used; /* when, by the compositor's clock */
 } made_response;
 
 /* In full; coarse while the camera rests; coarse and of fewer triangles while it moves. */
@@ -30,7 +30,7 @@ typedef struct side {
     bool preintegrated;
 } side;
 
-struct view_stage {
+struct view_compositor {
     gpu_context context;
     const scene *world;
     scene draft; /* without vertices: the scene itself serves */
@@ -41,8 +41,9 @@ struct view_stage {
     unsigned clock;
 };
 
-view_stage *view_stage_create(const gpu_context *context, const scene *world, cli_error *error) {
-    view_stage *s = calloc(1, sizeof *s);
+view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
+                                        cli_error *error) {
+    view_compositor *s = calloc(1, sizeof *s);
     if (!s) {
         cli_fail(error, NULL, "out of memory");
         return NULL;
@@ -51,7 +52,7 @@ view_stage *view_stage_create(const gpu_context *context, const scene *world, cl
     s->world = world;
     s->screen = gpu_screen_create(error);
     if (!s->screen) {
-        view_stage_destroy(s);
+        view_compositor_destroy(s);
         return NULL;
     }
     return s;
@@ -65,7 +66,7 @@ static void close_side(side *own) {
     memset(own, 0, sizeof *own);
 }
 
-void view_stage_destroy(view_stage *s) {
+void view_compositor_destroy(view_compositor *s) {
     if (!s)
         return;
     close_side(&s->sides[0]);
@@ -77,14 +78,14 @@ void view_stage_destroy(view_stage *s) {
     free(s);
 }
 
-gpu_screen *view_stage_screen(view_stage *s) {
+gpu_screen *view_compositor_screen(view_compositor *s) {
     return s->screen;
 }
 
 /* --- responses ----------------------------------------------------------------------------------
  */
 
-static made_response *find_response(view_stage *s, const view_look *look) {
+static made_response *find_response(view_compositor *s, const view_look *look) {
     for (int i = 0; i < RESPONSES; i++)
         if (s->responses[i].response && s->responses[i].bands == look->bands &&
             s->responses[i].window == look->window)
@@ -93,7 +94,7 @@ static made_response *find_response(view_stage *s, const view_look *look) {
 }
 
 /* Makes it, in place of the one that was used longest ago. */
-static const lmp_preintegrated_lobe *get_response(view_stage *s, const view_look *look,
+static const lmp_preintegrated_lobe *get_response(view_compositor *s, const view_look *look,
                                                   cli_error *error) {
     made_response *made = find_response(s, look);
     if (!made) {
@@ -126,7 +127,7 @@ static bool has_materials(const side *own, const view_settings *settings, const 
                                        (size_t)own->count * sizeof *own->names) == 0));
 }
 
-static bool settle_materials(view_stage *s, side *own, const view_settings *settings,
+static bool settle_materials(view_compositor *s, side *own, const view_settings *settings,
                              const view_look *look, cli_error *error) {
     device_materials fresh = { .count = 0 };
     cli_list list = { .count = settings->material_count };
@@ -160,7 +161,7 @@ static bool settle_materials(view_stage *s, side *own, const view_settings *sett
     return true;
 }
 
-const char *view_stage_pending(view_stage *s, const view_settings *settings) {
+const char *view_compositor_pending(view_compositor *s, const view_settings *settings) {
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
     for (int i = 0; i < sides; i++) {
         const view_look *look = &settings->looks[i];
@@ -175,18 +176,18 @@ const char *view_stage_pending(view_stage *s, const view_settings *settings) {
 /* --- drawing ------------------------------------------------------------------------------------
  */
 
-static bool has_draft(const view_stage *s) {
+static bool has_draft(const view_compositor *s) {
     return s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
 }
 
 /* Of a draft, by whether the view is that of the draft before. */
-static quality choose_quality(view_stage *s, const view_settings *settings) {
+static quality choose_quality(view_compositor *s, const view_settings *settings) {
     const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
     s->camera = settings->camera;
     return rests || !has_draft(s) ? RESTING : MOVING;
 }
 
-static bool open_side(view_stage *s, side *own, quality fineness, cli_error *error) {
+static bool open_side(view_compositor *s, side *own, quality fineness, cli_error *error) {
     gpu_renderer **renderer = &own->renderers[fineness];
     if (*renderer)
         return true;
@@ -199,7 +200,7 @@ static bool open_side(view_stage *s, side *own, quality fineness, cli_error *err
 }
 
 /* How to draw a side: how many samples come from what samples counts. */
-static bool fill_frame(view_stage *s, const view_settings *settings, const view_look *look,
+static bool fill_frame(view_compositor *s, const view_settings *settings, const view_look *look,
                        int divisor, gpu_frame *frame, device_kind *device, cli_error *error) {
     *device = device_choose(DEVICE_AUTO, &s->context, look->method, look->bands);
     *frame = (gpu_frame) {
@@ -222,11 +223,11 @@ static bool fill_frame(view_stage *s, const view_settings *settings, const view_
 }
 
 /* Sample `index`, or with -1 all. */
-static bool draw(view_stage *s, const view_settings *settings, int divisor, int index,
-                 view_figures *figures, cli_error *error) {
+static bool draw(view_compositor *s, const view_settings *settings, int divisor, int index,
+                 view_statistics *statistics, cli_error *error) {
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
     const quality fineness = divisor > 1 ? choose_quality(s, settings) : FINE;
-    memset(figures, 0, sizeof *figures);
+    memset(statistics, 0, sizeof *statistics);
     for (int i = 0; i < sides; i++) {
         side *own = &s->sides[i];
         const view_look *look = &settings->looks[i];
@@ -243,35 +244,35 @@ static bool draw(view_stage *s, const view_settings *settings, int divisor, int 
                       : !gpu_refine(renderer, &frame, index, &times, error))
             return false;
         gpu_screen_take(s->screen, renderer, i, settings->exposure);
-        figures->times.gbuffer += times.gbuffer;
-        figures->times.shade += times.shade;
-        figures->times.transfer += times.transfer;
-        figures->times.total += times.total;
-        figures->width = frame.width;
-        figures->height = frame.height;
+        statistics->times.gbuffer += times.gbuffer;
+        statistics->times.shade += times.shade;
+        statistics->times.transfer += times.transfer;
+        statistics->times.total += times.total;
+        statistics->width = frame.width;
+        statistics->height = frame.height;
         if (i == 0)
-            figures->device = device;
+            statistics->device = device;
     }
     return true;
 }
 
-bool view_stage_draw(view_stage *s, const view_settings *settings, view_figures *figures,
-                     cli_error *error) {
-    return draw(s, settings, 1, -1, figures, error);
+bool view_compositor_draw(view_compositor *s, const view_settings *settings,
+                          view_statistics *statistics, cli_error *error) {
+    return draw(s, settings, 1, -1, statistics, error);
 }
 
-bool view_stage_draft(view_stage *s, const view_settings *settings, int divisor,
-                      view_figures *figures, cli_error *error) {
-    return draw(s, settings, divisor, 0, figures, error);
+bool view_compositor_draft(view_compositor *s, const view_settings *settings, int divisor,
+                           view_statistics *statistics, cli_error *error) {
+    return draw(s, settings, divisor, 0, statistics, error);
 }
 
-bool view_stage_refine(view_stage *s, const view_settings *settings, int index,
-                       view_figures *figures, cli_error *error) {
-    return draw(s, settings, 1, index, figures, error);
+bool view_compositor_refine(view_compositor *s, const view_settings *settings, int index,
+                            view_statistics *statistics, cli_error *error) {
+    return draw(s, settings, 1, index, statistics, error);
 }
 
-bool view_stage_expose(view_stage *s, const view_settings *settings, float *exposure,
-                       cli_error *error) {
+bool view_compositor_expose(view_compositor *s, const view_settings *settings, float *exposure,
+                            cli_error *error) {
     gpu_frame frame;
     device_kind device;
     image pixels;
@@ -294,13 +295,13 @@ static gpu_layout layout_of(const view_settings *settings, float line) {
                           line };
 }
 
-void view_stage_show(view_stage *s, const view_settings *settings, float line) {
+void view_compositor_show(view_compositor *s, const view_settings *settings, float line) {
     const gpu_layout layout = layout_of(settings, line);
     gpu_screen_show(s->screen, &layout);
 }
 
-bool view_stage_write(view_stage *s, const view_settings *settings, const char *path,
-                      cli_error *error) {
+bool view_compositor_write(view_compositor *s, const view_settings *settings, const char *path,
+                           cli_error *error) {
     const gpu_layout layout = layout_of(settings, 0);
     unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
     if (!rgb8)

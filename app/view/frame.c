@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT */
+/* frame.c - an image as fine as there is time for. */
+#include "app/view/viewer.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOVING_SECONDS 0.060 /* a frame may take while things move */
+#define STILL_SECONDS  0.12  /* after the last change, refining begins */
+enum { DIVISOR_MAX = 6 };
+
+bool view_steps_time(const viewer *v) {
+    return v->script_next < v->script.count || v->state.recording;
+}
+
+static void show(viewer *v, const char *announcement) {
+    const double began = view_window_clock();
+    view_compositor_show(v->compositor, v->drawn, (float)(2 * view_window_scale(v->window)));
+    view_draw_labels(v, announcement);
+    view_window_swap(v->window);
+    v->show_seconds = view_window_clock() - began;
+}
+
+/* Settings that cannot be drawn are taken back, with a line that says why. */
+static bool take_back(viewer *v, const cli_error *error) {
+    view_say(&v->state, "%s", error->text);
+    if (v->good->width == 0)
+        return false;
+    const int width = v->state.now.width, height = v->state.now.height;
+    memcpy(v->state.now.looks, v->good->looks, sizeof v->good->looks);
+    memcpy(v->state.now.materials, v->good->materials, sizeof v->good->materials);
+    v->state.now.material_count = v->good->material_count;
+    v->state.now.split = v->good->split;
+    v->state.now.camera = v->good->camera;
+    v->state.now.width = width;
+    v->state.now.height = height;
+    v->fresh = true;
+    return true;
+}
+
+/* How coarse a draft has to be, from how long the last one took. */
+static void adapt(viewer *v, double seconds) {
+    const gpu_times *t = &v->statistics.times;
+    const double finer = v->divisor > 1 ? (double)v->divisor / (v->divisor - 1) : 1;
+    /* the window costs the same however many pixels the draft has */
+    const double of_pixels = seconds - v->show_seconds - (v->moves ? 1e-3 * t->gbuffer : 0);
+    const double expected = seconds + of_pixels * (finer * finer - 1);
+    const int before = v->divisor;
+    v->frame_seconds = v->frame_seconds > 0 ? 0.7 * v->frame_seconds + 0.3 * seconds : seconds;
+    /* twice too slow: a first frame of its size, or of a camera that has come to rest, is slower */
+    if (fmin(seconds, v->slow_seconds) > MOVING_SECONDS * 1.1 && v->divisor < DIVISOR_MAX)
+        v->divisor++;
+    else if (v->divisor > 1 && expected < 0.9 * MOVING_SECONDS)
+        v->divisor--;
+    v->slow_seconds = v->divisor == before ? seconds : 0;
+}
+
+/* Draws what has changed, or refines what has not; false if there was nothing to do. */
+static bool draw(viewer *v, bool *worked, cli_error *error) {
+    const bool changed = v->fresh || memcmp(v->shown, v->drawn, sizeof *v->shown) != 0;
+    const bool draft = changed && !view_steps_time(v) && v->divisor > 1 && v->good->width > 0;
+    *worked = false;
+    if (changed) {
+        v->moves = memcmp(&v->shown->camera, &v->drawn->camera, sizeof v->drawn->camera) != 0;
+        memcpy(v->drawn, v->shown, sizeof *v->drawn);
+        v->changed_at = v->clock;
+        v->sample = draft ? -1 : 0;
+    } else if (v->sample >= v->drawn->samples - 1 ||
+               (!view_steps_time(v) && v->clock < v->changed_at + STILL_SECONDS)) {
+        return true;
+    } else {
+        v->sample++;
+    }
+    v->fresh = false;
+    *worked = true;
+    if (!(draft
+              ? view_compositor_draft(v->compositor, v->drawn, v->divisor, &v->statistics, error)
+              : view_compositor_refine(v->compositor, v->drawn, v->sample, &v->statistics, error)))
+        return false;
+    memcpy(v->good, v->drawn, sizeof *v->good);
+    return true;
+}
+
+/* Whether the drawings over the image have to change; notes what they show then. */
+static bool changes_over(viewer *v) {
+    const view_state *s = &v->state;
+    drawn_over now;
+    memset(&now, 0, sizeof now);
+    now.help = s->help;
+    now.overlay = s->overlay;
+    now.playing = s->playing;
+    now.selected = s->selected;
+    memcpy(now.message, s->message, strlen(s->message));
+    const bool changed = memcmp(&now, &v->over, sizeof now) != 0;
+    v->over = now;
+    return changed;
+}
+
+bool view_draw_frame(viewer *v, bool *worked, cli_error *error) {
+    const double began = view_window_clock();
+    const bool first = v->good->width == 0;
+    view_shown(&v->state, v->shown);
+    const char *slow = view_compositor_pending(v->compositor, v->shown);
+    if (slow && !v->waiting && !first && !view_steps_time(v)) {
+        v->waiting = true;
+        show(v, slow);
+        *worked = true;
+        return true;
+    }
+    v->waiting = false;
+    if (!draw(v, worked, error))
+        return take_back(v, error);
+    const bool moving = *worked && v->changed_at == v->clock && !slow && !first;
+    if (v->state.recording && !view_record_frame(v, error))
+        return false;
+    const bool redraw = v->state.wishes.redraw;
+    v->state.wishes.redraw = false;
+    if (!changes_over(v) && !*worked && !redraw)
+        return true;
+    *worked = true;
+    show(v, NULL);
+    if (first)
+        v->divisor = 2;
+    else if (moving)
+        adapt(v, view_window_clock() - began);
+    return true;
+}
+
+bool view_expose(viewer *v, cli_error *error) {
+    view_shown(&v->state, v->shown);
+    return view_compositor_expose(v->compositor, v->shown, &v->state.now.exposure, error);
+}

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/lights.h"
+
+#include "app/scene/vector.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SIZE_STEP      1.15f
+#define POWER_STEP     1.25f
+#define COLOR_MAX      1e30f
+#define HUE_STEP       (1.0f / 12)
+#define NEW_RADIUS     0.012f /* of the scene's diagonal */
+#define NEW_IRRADIANCE 0.4f   /* that a new light gives the scene's bounding sphere */
+#define FRAMED_RADIUS  0.1f   /* at least, of the scene's diagonal */
+
+static float scene_diagonal(const scene *world) {
+    return fmaxf(vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum))), 1e-6f);
+}
+
+static bool is_changed(const view_state *s, size_t index) {
+    return s->selected < 0 || (size_t)s->selected == index;
+}
+
+/* --- size ---------------------------------------------------------------------------------------
+ */
+
+/* A sphere's power stays: a larger one is a dimmer one. Cones and caps widen. */
+static void grow(scene_light *light, float by) {
+    lmp_light *e = &light->emitter;
+    const float radius = e->radius * by;
+    if (scene_light_has(light, SCENE_LIGHT_RADIUS) && radius > 1e-12f && radius < 1e12f) {
+        e->radius = radius;
+        e->radiance = (lmp_rgb) { fminf(e->radiance.r / (by * by), COLOR_MAX),
+                                  fminf(e->radiance.g / (by * by), COLOR_MAX),
+                                  fminf(e->radiance.b / (by * by), COLOR_MAX) };
+    }
+    for (const scene_light_member *m = scene_light_kinds[e->kind].members; m->name; m++)
+        if (m->type == SCENE_LIGHT_ANGLE) {
+            float *angle = scene_light_value(e, m);
+            *angle = fminf(*angle * by, PI);
+        }
+}
+
+void view_resize_lights(view_state *s, int sign) {
+    for (size_t i = 0; i < s->now.light_count; i++)
+        if (is_changed(s, i))
+            grow(&s->now.lights[i], sign > 0 ? SIZE_STEP : 1 / SIZE_STEP);
+    s->lights_edited = true;
+}
+
+/* --- color --------------------------------------------------------------------------------------
+ */
+
+static void each_color(view_state *s, void (*change)(float color[3], float by), float by) {
+    for (size_t i = 0; i < s->now.light_count; i++) {
+        lmp_light *e = &s->now.lights[i].emitter;
+        for (const scene_light_member *m = scene_light_kinds[e->kind].members; m->name; m++)
+            if (is_changed(s, i) && m->type == SCENE_LIGHT_COLOR && !m->convert)
+                change(scene_light_value(e, m), by);
+    }
+    s->lights_edited = true;
+}
+
+static void brighten(float color[3], float by) {
+    for (int k = 0; k < 3; k++)
+        color[k] = fminf(color[k] * by, COLOR_MAX);
+}
+
+static float brightest(const float color[3]) {
+    return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
+
+/* A part of the hue circle around the gray axis: red, green and blue rotate into each other. */
+static void rotate_hue(float color[3], float by) {
+    const float angle = 2 * PI * by, c = cosf(angle), s = sinf(angle), root = sqrtf(1.0f / 3);
+    const float mean = (color[0] + color[1] + color[2]) / 3;
+    float to[3];
+    for (int k = 0; k < 3; k++) {
+        const float across = root * (color[(k + 2) % 3] - color[(k + 1) % 3]);
+        to[k] = fmaxf(0, color[k] * c + across * s + mean * (1 - c));
+    }
+    const float scale = brightest(to) > 0 ? brightest(color) / brightest(to) : 1;
+    for (int k = 0; k < 3; k++)
+        color[k] = to[k] * scale;
+}
+
+static void make_paler(float color[3], float by) {
+    const float most = brightest(color);
+    for (int k = 0; k < 3; k++)
+        color[k] = fmaxf(0, color[k] + by * (most - color[k]));
+}
+
+void view_brighten_lights(view_state *s, int sign) {
+    each_color(s, brighten, sign > 0 ? POWER_STEP : 1 / POWER_STEP);
+}
+
+void view_recolor_lights(view_state *s, int sign) {
+    each_color(s, rotate_hue, sign > 0 ? HUE_STEP : -HUE_STEP);
+}
+
+void view_fade_lights(view_state *s, int sign) {
+    each_color(s, make_paler, sign > 0 ? 0.25f : -1.0f / 3);
+}
+
+/* --- selecting, adding, removing ----------------------------------------------------------------
+ */
+
+void view_select_light(view_state *s, int step) {
+    const int count = (int)s->now.light_count;
+    if (count > 0)
+        s->selected =
+            s->selected < 0 ? (step > 0 ? 0 : count - 1) : (s->selected + step + count) % count;
+}
+
+/* Whether a light is selected; says so if none is. */
+static bool is_selected(view_state *s) {
+    if (s->selected < 0)
+        view_say(s, "Select a light first: click it, or press Tab");
+    return s->selected >= 0;
+}
+
+/* Warm, of a size and brightness that suit the scene. */
+static lmp_light model_light(const view_state *s, lmp_light_kind kind) {
+    const float diagonal = scene_diagonal(s->world),
+                power = NEW_IRRADIANCE * PI * diagonal * diagonal;
+    const lmp_rgb warm = { 1, 0.6f, 0.25f };
+    lmp_light light = { .kind = kind, .direction = { 0, 1, 0 } };
+    switch (kind) {
+    case LMP_LIGHT_SPHERE:
+        light.radius = NEW_RADIUS * diagonal;
+        light.radiance = rgb_scale(warm, lmp_sphere_radiance_from_power(power, light.radius));
+        break;
+    case LMP_LIGHT_SPOT:
+        light.direction = vec(0, -1, 0);
+        light.inner = 0.4f;
+        light.outer = 0.6f;
+        light.intensity = rgb_scale(warm, power / (4 * PI));
+        break;
+    case LMP_LIGHT_POINT:
+        light.intensity = rgb_scale(warm, power / (4 * PI));
+        break;
+    case LMP_LIGHT_DIRECTIONAL:
+        light.irradiance = rgb_scale(warm, NEW_IRRADIANCE);
+        break;
+    case LMP_LIGHT_CAP:
+        light.angle = 0.1f;
+        light.radiance = rgb_scale(warm, NEW_IRRADIANCE / (PI * 0.01f));
+        break;
+    case LMP_LIGHT_HEMISPHERE:
+        light.radiance = rgb_scale((lmp_rgb) { 0.6f, 0.8f, 1 }, NEW_IRRADIANCE / PI);
+        light.ground = rgb_scale(warm, 0.2f * NEW_IRRADIANCE / PI);
+        break;
+    }
+    return light;
+}
+
+static view_ray pointer_ray(const view_state *s) {
+    const bool outside = s->x < 0 || s->y < 0;
+    return view_ray_through(&s->now.camera, s->now.width, s->now.height,
+                            outside ? 0.5 * s->now.width : s->x,
+                            outside ? 0.5 * s->now.height : s->y);
+}
+
+/* As the selected one, if that has a position; else a sphere. Over the surface under the pointer,
+ * or as far away as the camera's target. */
+void view_add_light(view_state *s, int unused) {
+    (void)unused;
+    if (s->now.light_count == SCENE_LIGHTS_MAX) {
+        view_say(s, "There are %d lights already: no more fit", SCENE_LIGHTS_MAX);
+        return;
+    }
+    const view_ray ray = pointer_ray(s);
+    const view_hit hit = view_pick_surface(&ray, s->world);
+    scene_light light = { .emitter = model_light(s, LMP_LIGHT_SPHERE) };
+    if (s->selected >= 0 && scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
+        light.emitter = s->now.lights[s->selected].emitter;
+    const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));
+    const float distance = hit.mesh >= 0 ? hit.distance : reach;
+    lmp_vec3 position = vec_add(ray.from, vec_scale(ray.direction, distance));
+    if (hit.mesh >= 0)
+        position = vec_add(position, vec_scale(hit.normal, 3 * light.emitter.radius));
+    light.emitter.position = position;
+    s->selected = (int)s->now.light_count;
+    s->numbers[s->now.light_count] = s->next_number++;
+    s->now.lights[s->now.light_count++] = light;
+    s->lights_edited = true;
+    s->drag = VIEW_DRAG_NONE;
+}
+
+void view_remove_light(view_state *s, int unused) {
+    (void)unused;
+    if (!is_selected(s))
+        return;
+    const size_t index = (size_t)s->selected, after = --s->now.light_count - index;
+    memmove(&s->now.lights[index], &s->now.lights[index + 1], after * sizeof *s->now.lights);
+    memset(&s->now.lights[s->now.light_count], 0, sizeof *s->now.lights);
+    memmove(&s->numbers[index], &s->numbers[index + 1], after * sizeof *s->numbers);
+    s->selected = -1;
+    s->drag = VIEW_DRAG_NONE;
+    s->lights_edited = true;
+}
+
+/* --- kind, direction, view ----------------------------------------------------------------------
+ */
+
+void view_change_kind(view_state *s, int step) {
+    if (!is_selected(s))
+        return;
+    lmp_light *light = &s->now.lights[s->selected].emitter;
+    const lmp_vec3 position = light->position;
+    const int kind = ((int)light->kind + step + SCENE_LIGHT_KINDS) % SCENE_LIGHT_KINDS;
+    *light = model_light(s, (lmp_light_kind)kind);
+    light->position = position; /* for when it has one again */
+    s->drag = VIEW_DRAG_NONE;
+    s->lights_edited = true;
+    view_say(s, "Light %d: %s", s->selected, scene_light_kinds[kind].name);
+}
+
+void view_aim_light(view_state *s, int unused) {
+    (void)unused;
+    if (!is_selected(s))
+        return;
+    scene_light *light = &s->now.lights[s->selected];
+    const view_ray ray = pointer_ray(s);
+    const view_hit hit = view_pick_surface(&ray, s->world);
+    lmp_vec3 direction = ray.direction;
+    if (!scene_light_has(light, SCENE_LIGHT_DIRECTION)) {
+        view_say(s, "A %s light has no direction", scene_light_kinds[light->emitter.kind].name);
+        return;
+    }
+    if (scene_light_has(light, SCENE_LIGHT_POSITION) && hit.mesh >= 0)
+        direction = vec_sub(vec_add(ray.from, vec_scale(ray.direction, hit.distance)),
+                            light->emitter.position);
+    light->emitter.direction = vec_normalize(direction, light->emitter.direction);
+    s->lights_edited = true;
+}
+
+void view_frame_light(view_state *s, int unused) {
+    (void)unused;
+    if (s->selected < 0 || !scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
+        return;
+    const lmp_light *light = &s->now.lights[s->selected].emitter;
+    const float radius =
+        light->radius > 0 ? 10 * light->radius : FRAMED_RADIUS * scene_diagonal(s->world);
+    view_frame(&s->now.camera, light->position, radius, (float)s->now.width / (float)s->now.height);
+}

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* What the viewer reads and writes, its keys as a table, its drafts and drawings. */
+#include "app/view/draft.h"
+#include "app/view/overlay.h"
+#include "app/view/script.h"
+#include "tests/program/view.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* --- settings, screenshots, scripts -------------------------------------------------------------
+ */
+
+static void screenshots_keep_every_setting(void **unused) {
+    (void)unused;
+    static view_settings read;
+    static unsigned char rgb8[3 * 64 * 48];
+    const char *path = "/tmp/lampion-view-test.png";
+    cli_error error;
+    at(320, 240);
+    key("v");
+    key("t");
+    key("Tab");
+    key("h");
+    state.now.width = 64;
+    state.now.height = 48;
+    if (!view_write_shot(&state.now, rgb8, path, &error) || !view_read_shot(path, &read, &error))
+        fail_msg("%s", error.text);
+    unlink(path);
+    read.camera.aspect = state.now.camera.aspect; /* of no effect */
+    memcpy(read.camera.name, state.now.camera.name, sizeof read.camera.name);
+    assert_memory_equal(&read, &state.now, sizeof read);
+}
+
+static void damaged_settings_are_refused(void **unused) {
+    (void)unused;
+    static view_settings read;
+    cli_error error;
+    cJSON *written = view_settings_to_json(&state.now);
+    char *text = cJSON_PrintUnformatted(written);
+    cJSON *root = cJSON_Parse(text);
+    cJSON_free(text);
+    cJSON_Delete(written);
+    assert_true(view_settings_from_json(root, "shot", &read, &error));
+    static const char *const numbers[] = { "width", "height", "samples", "exposure", "divider" };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        cJSON *item = cJSON_GetObjectItem(root, numbers[i]);
+        const double before = item->valuedouble;
+        cJSON_SetNumberValue(item, -1);
+        assert_false(view_settings_from_json(root, "shot", &read, &error));
+        assert_non_null(strstr(error.text, numbers[i]));
+        cJSON_SetNumberValue(item, (double)NAN);
+        assert_false(view_settings_from_json(root, "shot", &read, &error));
+        cJSON_SetNumberValue(item, before);
+    }
+    assert_true(view_settings_from_json(root, "shot", &read, &error));
+    static const char *const parts[] = { "scene", "camera", "looks", "lights", "materials" };
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        cJSON *item = cJSON_DetachItemFromObject(root, parts[i]);
+        assert_false(view_settings_from_json(root, "shot", &read, &error));
+        assert_non_null(strstr(error.text, parts[i]));
+        cJSON_AddItemToObject(root, parts[i], item);
+    }
+    cJSON_Delete(root);
+}
+
+static bool read_script(const char *text, view_script *script) {
+    char path[] = "/tmp/lampion-script-XXXXXX";
+    cli_error error;
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    assert_int_equal(write(descriptor, text, strlen(text)), strlen(text));
+    close(descriptor);
+    const bool ok = view_script_read(path, script, &error);
+    unlink(path);
+    return ok;
+}
+
+static void scripts_are_read_strictly(void **unused) {
+    (void)unused;
+    view_script script;
+    assert_true(
+        read_script("# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
+                    "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
+                    "4 drop a file.binary  # gold\n5 size 320 200\n6 shot out.png\n7 key Ctrl+Q",
+                    &script));
+    assert_int_equal(script.count, 11);
+    CHECK_NEAR(20.5, script.lines[0].event.y, 0);
+    assert_true(script.lines[1].event.shift);
+    assert_string_equal(script.lines[3].event.text, "?");
+    assert_string_equal(script.lines[7].event.text, "a file.binary");
+    assert_int_equal(script.lines[9].kind, VIEW_SCRIPT_SHOT);
+    view_script_free(&script);
+    static const char *const bad[] = { "x",
+                                       "1",
+                                       "1 move 2",
+                                       "1 move 2 3 4",
+                                       "nan key m",
+                                       "1 key nothing",
+                                       "1 jump",
+                                       "1 press thumb",
+                                       "1 hold z",
+                                       "2 key m\n1 key m",
+                                       "1 size 0 5",
+                                       "-1 key m",
+                                       "1e300 key m",
+                                       "1 scroll 1e300",
+                                       "1 shot out.jpg",
+                                       "1 move 0 -1e300" };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        if (read_script(bad[i], &script))
+            fail_msg("taken: %s", bad[i]);
+}
+
+static void every_key_of_the_help_does_something(void **unused) {
+    (void)unused;
+    for (const view_key *row = view_keys; row->key || row->shown; row++) {
+        assert_true(!row->key || row->act);
+        for (const view_key *other = view_keys; other < row; other++)
+            if (row->key && other->key && strcmp(row->key, other->key) == 0)
+                fail_msg("%s does two things", row->key);
+        if (row->key)
+            key(row->key);
+    }
+    assert_true(state.wishes.quit && state.wishes.shot && state.wishes.reload);
+}
+
+/* --- drafts and drawings ------------------------------------------------------------------------
+ */
+
+static void drafts_have_fewer_triangles_in_the_same_bounds(void **unused) {
+    (void)unused;
+    scene large, draft;
+    cli_error error;
+    assert_true(scene_load("builtin:atrium", NULL, &large, &error));
+    assert_true(view_draft_make(&large, 500, &draft, &error));
+    assert_true(draft.index_count > 0 && draft.index_count < large.index_count / 2);
+    assert_int_equal(draft.mesh_count, large.mesh_count);
+    for (size_t i = 0; i < draft.index_count; i++)
+        assert_true(draft.indices[i] < draft.vertex_count);
+    for (size_t m = 0; m < draft.mesh_count; m++) {
+        const scene_mesh *mesh = &draft.meshes[m];
+        assert_true(mesh->first_index + mesh->index_count <= draft.index_count);
+        for (uint32_t i = 0; i < mesh->index_count; i++) {
+            const float *p = draft.vertices[draft.indices[mesh->first_index + i]].position;
+            for (int k = 0; k < 3; k++)
+                assert_true(p[k] >= mesh->minimum[k] && p[k] <= mesh->maximum[k]);
+        }
+    }
+    view_draft_free(&draft);
+    scene_free(&large);
+}
+
+static void drawings_fit_and_grow_with_the_scale(void **unused) {
+    (void)unused;
+    const view_row rows[] = { { "Lampion", "" }, { "Scene", "a name with ü, 漢字 and \xff" } };
+    view_drawing one = view_draw_panel(rows, 2, 1), two = view_draw_panel(rows, 2, 2);
+    assert_non_null(one.pixels);
+    CHECK_WITHIN(fabs(two.width / (double)one.width - 2), 0.2);
+    view_drawing_free(&one);
+    view_drawing_free(&two);
+    view_drawing help = view_draw_help(1280, 720, 1);
+    assert_true(help.pixels && help.width <= 1280 && help.height <= 720);
+    view_drawing_free(&help);
+    help = view_draw_help(640, 360, 1);
+    assert_true(help.width <= 640 && help.height <= 360);
+    view_drawing_free(&help);
+    view_drawing line = view_draw_message("a long message that must be broken", 120, 1);
+    assert_true(line.pixels && line.width <= 120);
+    view_drawing_free(&line);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(screenshots_keep_every_setting),
+        TEST(damaged_settings_are_refused),
+        TEST(scripts_are_read_strictly),
+        TEST(every_key_of_the_help_does_something),
+        TEST(drafts_have_fewer_triangles_in_the_same_bounds),
+        TEST(drawings_fit_and_grow_with_the_scale),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
