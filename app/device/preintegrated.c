@@ -9,8 +9,6 @@
 #include <string.h>
 #include <sys/mman.h>
 
-enum { PATH_SIZE = 4096 };
-
 /* Rises when the same table, bands and window give other numbers than they did. */
 #define CACHE_EPOCH 3
 
@@ -37,10 +35,12 @@ static void progress(void *user, double done) {
 /* --- the cache ----------------------------------------------------------------------------------
  */
 
+typedef char entry_name[64];
+
 /* What decides the bytes of a response: of which `what`, and how it is made. */
-static bool cache_path(file_hash hash, const char *what, int bands, lmp_window window,
-                       float window_size, char path[PATH_SIZE]) {
-    char text[33], name[64];
+static const char *name_entry(file_hash hash, const char *what, int bands, lmp_window window,
+                              float window_size, entry_name name) {
+    char text[33];
     const struct {
         uint32_t library;
         int32_t epoch, bands, window;
@@ -49,17 +49,17 @@ static bool cache_path(file_hash hash, const char *what, int bands, lmp_window w
     file_hash_add(&hash, what, strlen(what));
     file_hash_add(&hash, &key, sizeof key);
     file_hash_text(&hash, text);
-    snprintf(name, sizeof name, "%s.%s", text, what);
-    return file_cache_path(name, path, PATH_SIZE);
+    snprintf(name, sizeof(entry_name), "%s.%s", text, what);
+    return name;
 }
 
 /* --- lobes --------------------------------------------------------------------------------------
  */
 
-static lmp_preintegrated_lobe *read_lobes(const char *path,
+static lmp_preintegrated_lobe *read_lobes(const char *name,
                                           const lmp_preintegrated_lobe_desc *desc) {
     size_t size;
-    const void *data = file_cache_map(path, &size);
+    const void *data = file_cache_map(name, &size);
     lmp_preintegrated_lobe *response = NULL;
     if (data)
         lmp_preintegrated_lobe_read(NULL, data, size, &response);
@@ -88,17 +88,15 @@ bool device_preintegrated_lobe(int bands, lmp_window window, lmp_preintegrated_l
         .progress = progress,
         .user = what,
     };
-    char path[PATH_SIZE];
-    const bool cached = cache_path((file_hash) { 0 }, "lmpr", bands, window, 0, path);
-    if (cached && (*response = read_lobes(path, &desc)))
+    entry_name name;
+    name_entry((file_hash) { 0 }, "lmpr", bands, window, 0, name);
+    if ((*response = read_lobes(name, &desc)))
         return true;
     const lmp_result result = lmp_preintegrated_lobe_create(NULL, &desc, response);
     cli_progress_end();
     if (result != LMP_OK)
         return cli_fail(error, NULL, "the lobes of %d bands: %s", bands, lmp_result_text(result));
-    if (cached)
-        file_cache_store_object(path, lmp_preintegrated_lobe_size(*response), write_lobes,
-                                *response);
+    file_cache_store_object(name, lmp_preintegrated_lobe_size(*response), write_lobes, *response);
     return true;
 }
 
@@ -121,11 +119,11 @@ static void release_large(void *memory, void *user) {
     free(memory);
 }
 
-static lmp_preintegrated_brdf *read_measured(const char *path) {
+static lmp_preintegrated_brdf *read_measured(const char *name) {
     static const lmp_allocator large = { allocate_large, release_large, NULL };
 
     size_t size;
-    const void *data = file_cache_map(path, &size);
+    const void *data = file_cache_map(name, &size);
     lmp_preintegrated_brdf *response = NULL;
     if (data)
         lmp_preintegrated_brdf_read(&large, data, size, &response);
@@ -150,15 +148,14 @@ bool device_preintegrated_brdf(const material *from, const lmp_brdf_table *table
     const lmp_preintegrated_brdf_desc desc = { .parallel = parallel,
                                                .progress = progress,
                                                .user = what };
-    char path[PATH_SIZE];
+    entry_name name;
     *response = NULL;
     if (info.azimuths > 1) {
         note_without(from, "an anisotropic material's response would take gigabytes");
         return true;
     }
-    const bool cached =
-        cache_path(from->hash, "lmps", info.bands, info.window, info.window_size, path);
-    if (cached && (*response = read_measured(path)))
+    name_entry(from->hash, "lmps", info.bands, info.window, info.window_size, name);
+    if ((*response = read_measured(name)))
         return true;
     const lmp_result result = lmp_preintegrated_brdf_create(NULL, table, &desc, response);
     cli_progress_end();
@@ -168,8 +165,7 @@ bool device_preintegrated_brdf(const material *from, const lmp_brdf_table *table
     }
     if (result != LMP_OK)
         return cli_fail(error, from->name, "%s", lmp_result_text(result));
-    if (cached)
-        file_cache_store_object(path, lmp_preintegrated_brdf_size(*response), write_measured,
-                                *response);
+    file_cache_store_object(name, lmp_preintegrated_brdf_size(*response), write_measured,
+                            *response);
     return true;
 }

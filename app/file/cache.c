@@ -11,6 +11,36 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define CACHE_MAGIC "LAMPCCH"
+enum { CACHE_VERSION = 1, NAME_MAX_LENGTH = 63 };
+
+/* What an entry ends with, after its bytes. */
+typedef struct trailer {
+    char magic[8];
+    uint32_t version, reserved;
+    uint64_t size; /* of the bytes */
+    char name[NAME_MAX_LENGTH + 1];
+    file_hash checksum; /* of the bytes, and of all above */
+} trailer;
+
+static trailer trailer_of(const char *name, const void *data, size_t size) {
+    trailer t = { .magic = CACHE_MAGIC, .version = CACHE_VERSION, .size = size };
+    memcpy(t.name, name, strnlen(name, NAME_MAX_LENGTH));
+    file_hash_add(&t.checksum, data, size);
+    const trailer above = t;
+    file_hash_add(&t.checksum, &above, offsetof(trailer, checksum));
+    return t;
+}
+
+/* --- entries ------------------------------------------------------------------------------------
+ */
+
+static bool is_own_directory(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
+           access(path, R_OK | X_OK) == 0;
+}
+
 bool file_cache_directory(char *path, size_t size) {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
     int length;
@@ -24,31 +54,48 @@ bool file_cache_directory(char *path, size_t size) {
         return false;
     mkdir(path, 0700);
     strcpy(path + length, "/lampion");
-    struct stat status;
-    return (mkdir(path, 0700) == 0 || errno == EEXIST) && stat(path, &status) == 0 &&
-           S_ISDIR(status.st_mode) && access(path, R_OK | W_OK | X_OK) == 0;
+    mkdir(path, 0700);
+    return is_own_directory(path);
 }
 
-bool file_cache_path(const char *name, char *path, size_t size) {
+static bool path_of(const char *name, char *path, size_t size) {
     char directory[3072];
-    if (!file_cache_directory(directory, sizeof directory) ||
-        snprintf(path, size, "%s/%s", directory, name) >= (int)size)
-        return false;
-    utimensat(AT_FDCWD, path, NULL, AT_SYMLINK_NOFOLLOW);
-    return true;
+    return strlen(name) <= NAME_MAX_LENGTH && file_cache_directory(directory, sizeof directory) &&
+           snprintf(path, size, "%s/%s", directory, name) < (int)size;
 }
 
-const void *file_cache_map(const char *path, size_t *size) {
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+/* The bytes of an open entry; NULL if they are not what it says. */
+static const void *map_entry(int fd, const char *name, size_t *size) {
     struct stat status;
-    void *data = MAP_FAILED;
-    if (fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
-        *size = (size_t)status.st_size;
-        data = mmap(NULL, *size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
-    }
-    if (fd >= 0)
-        close(fd);
-    return data == MAP_FAILED ? NULL : data;
+    trailer found;
+    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid() ||
+        status.st_size <= (off_t)sizeof found)
+        return NULL;
+    *size = (size_t)status.st_size - sizeof found;
+    if (pread(fd, &found, sizeof found, (off_t)*size) != (ssize_t)sizeof found)
+        return NULL;
+    void *const data = mmap(NULL, *size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
+    if (data == MAP_FAILED)
+        return NULL;
+    const trailer expected = trailer_of(name, data, *size);
+    if (memcmp(&found, &expected, sizeof found) == 0)
+        return data;
+    munmap(data, *size);
+    return NULL;
+}
+
+const void *file_cache_map(const char *name, size_t *size) {
+    char path[4096];
+    if (!path_of(name, path, sizeof path))
+        return NULL;
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    if (fd < 0)
+        return NULL;
+    const void *const data = map_entry(fd, name, size);
+    if (data)
+        futimens(fd, NULL);
+    close(fd);
+    return data;
 }
 
 void file_cache_unmap(const void *data, size_t size) {
@@ -154,18 +201,25 @@ void file_cache_clear(void) {
     close_list(&list);
 }
 
-void file_cache_store(const char *path, const void *data, size_t size) {
+void file_cache_store(const char *name, const void *data, size_t size) {
+    char path[4096];
     cli_error ignored;
-    if (file_write_whole(path, data, size, &ignored))
+    file_writer writer;
+    const trailer end = trailer_of(name, data, size);
+    if (!path_of(name, path, sizeof path) || !file_write_begin(&writer, path, &ignored))
+        return;
+    fwrite(data, 1, size, writer.stream);
+    fwrite(&end, 1, sizeof end, writer.stream);
+    if (file_write_commit(&writer, &ignored))
         trim(limit_of_cache());
 }
 
-void file_cache_store_object(const char *path, size_t size,
+void file_cache_store_object(const char *name, size_t size,
                              void (*write)(const void *object, void *bytes), const void *object) {
     void *bytes = malloc(size);
     if (bytes) {
         write(object, bytes);
-        file_cache_store(path, bytes, size);
+        file_cache_store(name, bytes, size);
     }
     free(bytes);
 }

@@ -68,28 +68,28 @@ bool file_write_fail(file_writer *writer, const char *what, cli_error *error);
 /* All of it at once. */
 bool file_write_whole(const char *path, const void *data, size_t size, cli_error *error);
 
-/* --- the cache: files by name in $XDG_CACHE_HOME/lampion or ~/.cache/lampion
- * ----------------------- What is there may vanish at any time. Its size is held to a limit:
- * LAMPION_CACHE_MIB from the environment, else FILE_CACHE_MIB. */
+/* --- the cache: entries by name in $XDG_CACHE_HOME/lampion or ~/.cache/lampion
+ * ----------------------- What is there may vanish or be damaged at any time, and may be anyone's:
+ * an entry counts only if it is a regular file of this user with the name, version and checksum
+ * that it says itself. Its size is held to a limit: LAMPION_CACHE_MIB from the environment, else
+ * FILE_CACHE_MIB. */
 #define FILE_CACHE_MIB 2048
 
 /* The directory, created on demand; false without a home (then go on without a cache). */
 bool file_cache_directory(char *path, size_t size);
 
-/* Where the cached file `name` is or would be. One that is there counts as used now. */
-bool file_cache_path(const char *name, char *path, size_t size);
-
-/* A cached file's bytes, not copied: NULL where there is none. Give them back with
- * file_cache_unmap. Cached files are replaced or removed, never changed, so the bytes stay. */
-const void *file_cache_map(const char *path, size_t *size);
+/* The bytes of an entry, not copied, and mapped from the start of a page: NULL where there is none
+ * to be trusted. It counts as used now. Give them back with file_cache_unmap. Entries are replaced
+ * or removed, never changed, so the bytes stay. */
+const void *file_cache_map(const char *name, size_t *size);
 void file_cache_unmap(const void *data, size_t size);
 
-/* Stores a file under a path of file_cache_path, then removes those unused for longest until the
- * limit holds; without effect where that is impossible. */
-void file_cache_store(const char *path, const void *data, size_t size);
+/* Stores an entry, then removes those unused for longest until the limit holds; without effect
+ * where that is impossible. */
+void file_cache_store(const char *name, const void *data, size_t size);
 
 /* The same of the `size` bytes that an object is written to. */
-void file_cache_store_object(const char *path, size_t size,
+void file_cache_store_object(const char *name, size_t size,
                              void (*write)(const void *object, void *bytes), const void *object);
 
 typedef struct file_cache_usage {
@@ -101,7 +101,8 @@ file_cache_usage file_cache_measure(void);
 /* Removes every file of the cache. */
 void file_cache_clear(void);
 
-/* 128-bit content hash for cache keys (not cryptographic); chain calls with the same state. */
+/* 128-bit content hash for cache keys and checksums (XXH3, against damage, not against malice);
+ * chain calls with the same state. */
 typedef struct file_hash {
     uint64_t low, high;
 } file_hash;

@@ -253,10 +253,11 @@ static void show_progress(void *user, double done) {
     cli_progress((const char *)user, done);
 }
 
-/* The cache file of a table; false where there is no cache. */
-static bool cache_path(const material *m, const lmp_brdf_table_desc *desc, char *path,
-                       size_t size) {
-    char key[33], name[64];
+typedef char entry_name[64];
+
+/* The entry of a table in the cache. */
+static const char *name_entry(const material *m, const lmp_brdf_table_desc *desc, entry_name name) {
+    char key[33];
     const struct {
         int numbers[7];
         float reals[2];
@@ -266,19 +267,17 @@ static bool cache_path(const material *m, const lmp_brdf_table_desc *desc, char 
     file_hash hash = m->hash;
     file_hash_add(&hash, &parts, sizeof parts);
     file_hash_text(&hash, key);
-    snprintf(name, sizeof name, "%s.lmpt", key);
-    return file_cache_path(name, path, size);
+    snprintf(name, sizeof(entry_name), "%s.lmpt", key);
+    return name;
 }
 
-static lmp_brdf_table *read_cached(const char *path) {
-    cli_error ignored;
+static lmp_brdf_table *read_cached(const char *name) {
+    size_t size;
     lmp_brdf_table *table = NULL;
-    void *data = NULL;
-    size_t size = 0;
-    if (!file_read(path, FILE_LIMIT, &data, &size, &ignored))
-        return NULL;
-    lmp_brdf_table_read(NULL, data, size, NULL, &table);
-    free(data);
+    const void *const data = file_cache_map(name, &size);
+    if (data)
+        lmp_brdf_table_read(NULL, data, size, NULL, &table);
+    file_cache_unmap(data, size);
     return table;
 }
 
@@ -307,12 +306,11 @@ static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_e
 
 bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_table **table,
                    cli_error *error) {
-    char path[4096];
+    entry_name name;
     *table = NULL;
     if (m->table)
         return copy_table(m->table, table, error);
-    const bool cached = cache_path(m, desc, path, sizeof path);
-    if (cached && (*table = read_cached(path)))
+    if ((*table = read_cached(name_entry(m, desc, name))))
         return true;
     static char what[] = "projecting the BRDF";
     lmp_brdf_table_desc own = *desc;
@@ -323,8 +321,7 @@ bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_
     cli_progress_end();
     if (result != LMP_OK)
         return cli_fail(error, m->name, "%s", lmp_result_text(result));
-    if (cached)
-        file_cache_store_object(path, lmp_brdf_table_size(*table), write_bytes, *table);
+    file_cache_store_object(name, lmp_brdf_table_size(*table), write_bytes, *table);
     return true;
 }
 

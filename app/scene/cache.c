@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/cache.h"
 
-#include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 file_hash cache_key(const char *folder, const char *name, const void *data, size_t size) {
     file_hash key = { BLOB_VERSION, 0 };
@@ -16,11 +11,13 @@ file_hash cache_key(const char *folder, const char *name, const void *data, size
     return key;
 }
 
-static bool cache_path(const file_hash *key, char *path, size_t size) {
-    char text[33], name[64];
+typedef char entry_name[64];
+
+static const char *name_of(const file_hash *key, entry_name name) {
+    char text[33];
     file_hash_text(key, text);
-    snprintf(name, sizeof name, "scene-%s", text);
-    return file_cache_path(name, path, size);
+    snprintf(name, sizeof(entry_name), "scene-%s", text);
+    return name;
 }
 
 static bool sources_unchanged(const void *block, source_set *sources) {
@@ -40,30 +37,19 @@ static bool sources_unchanged(const void *block, source_set *sources) {
 }
 
 bool cache_load(const file_hash *key, source_set *sources, void **block, size_t *size) {
-    char path[4096];
-    struct stat status;
-    if (!cache_path(key, path, sizeof path))
-        return false;
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-    if (fd < 0)
-        return false;
-    *block = MAP_FAILED;
-    if (fstat(fd, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
-        *size = (size_t)status.st_size;
-        *block = mmap(NULL, *size, PROT_READ, MAP_PRIVATE, fd, 0);
-    }
-    close(fd);
-    if (*block == MAP_FAILED)
-        return false;
+    entry_name name;
     cli_error ignored;
-    if (blob_validate(*block, *size, true, path, &ignored) && sources_unchanged(*block, sources))
+    const void *const data = file_cache_map(name_of(key, name), size);
+    if (!data)
+        return false;
+    *block = (void *)(uintptr_t)data;
+    if (blob_validate(data, *size, false, name, &ignored) && sources_unchanged(data, sources))
         return true;
-    munmap(*block, *size);
+    file_cache_unmap(data, *size);
     return false;
 }
 
 void cache_store(const file_hash *key, const void *block, size_t size) {
-    char path[4096];
-    if (cache_path(key, path, sizeof path))
-        file_cache_store(path, block, size);
+    entry_name name;
+    file_cache_store(name_of(key, name), block, size);
 }

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/* The cache: what is in it is believed only if it is what was stored, under its name, by this user;
+ * and whatever is there, or cannot be, nothing waits and nothing fails. */
+#include "app/file/file.h"
+#include "tests/program/folder.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { SIZE = 5000 };
+
+static unsigned char first[SIZE], second[SIZE];
+
+static const char *entry(const char *name) {
+    static char path[600];
+    char directory[512];
+    assert_true(file_cache_directory(directory, sizeof directory));
+    snprintf(path, sizeof path, "%s/%s", directory, name);
+    return path;
+}
+
+static bool holds(const char *name, const unsigned char *expected) {
+    size_t size = 0;
+    const void *const data = file_cache_map(name, &size);
+    const bool same = data && size == SIZE && memcmp(data, expected, SIZE) == 0;
+    if (data && !same)
+        fail_msg("%s: bytes that nobody stored", name);
+    file_cache_unmap(data, size);
+    return same;
+}
+
+static void what_is_stored_comes_back(void **state) {
+    (void)state;
+    assert_false(holds("a", first));
+    file_cache_store("a", first, SIZE);
+    assert_true(holds("a", first));
+    file_cache_store("a", second, SIZE);
+    assert_true(holds("a", second));
+}
+
+static void an_entry_under_another_name_is_none(void **state) {
+    (void)state;
+    char from[600];
+    file_cache_store("a", first, SIZE);
+    snprintf(from, sizeof from, "%s", entry("a"));
+    assert_int_equal(rename(from, entry("b")), 0);
+    assert_false(holds("a", first));
+    assert_false(holds("b", first));
+}
+
+static unsigned char *read_entry(const char *name, size_t *size) {
+    void *bytes;
+    cli_error error;
+    assert_true(file_read(entry(name), 1 << 20, &bytes, size, &error));
+    return bytes;
+}
+
+static void write_entry(const char *name, const unsigned char *bytes, size_t size) {
+    FILE *file = fopen(entry(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void a_damaged_entry_is_none(void **state) {
+    (void)state;
+    const size_t step = getenv("LAMPION_LONG") ? 1 : 23;
+    size_t size;
+    file_cache_store("a", first, SIZE);
+    unsigned char *bytes = read_entry("a", &size);
+    for (size_t cut = 0; cut < size; cut += step) {
+        write_entry("a", bytes, cut);
+        assert_false(holds("a", first));
+    }
+    for (size_t bit = 0; bit < 8 * size; bit += 8 * step + 1) {
+        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+        write_entry("a", bytes, size);
+        assert_false(holds("a", first));
+        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+    }
+    write_entry("a", bytes, size);
+    assert_true(holds("a", first));
+    free(bytes);
+}
+
+static void what_is_no_file_of_ones_own_is_none(void **state) {
+    (void)state;
+    char target[600];
+    file_cache_store("a", first, SIZE);
+    snprintf(target, sizeof target, "%s", entry("a"));
+    assert_int_equal(symlink(target, entry("link")), 0);
+    assert_false(holds("link", first));
+    assert_int_equal(mkfifo(entry("fifo"), 0600), 0);
+    assert_false(holds("fifo", first)); /* nor does it wait for a writer */
+    assert_int_equal(mkdir(entry("folder"), 0700), 0);
+    assert_false(holds("folder", first));
+    if (geteuid() == 0) {
+        assert_int_equal(chown(entry("a"), 65534, 65534), 0);
+        assert_false(holds("a", first));
+    } else {
+        printf("skipped: another user's file needs the right to make one\n");
+    }
+}
+
+static void what_cannot_be_stored_is_no_error(void **state) {
+    (void)state;
+    struct rlimit old, small;
+    getrlimit(RLIMIT_FSIZE, &old);
+    small = old;
+    small.rlim_cur = SIZE / 2;
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    file_cache_store("large", first, SIZE);
+    setrlimit(RLIMIT_FSIZE, &old);
+    assert_false(holds("large", first));
+    setenv("XDG_CACHE_HOME", "/proc", 1);
+    file_cache_store("nowhere", first, SIZE);
+    assert_false(holds("nowhere", first));
+    setenv("XDG_CACHE_HOME", folder, 1);
+    file_cache_store("a-name-of-more-than-the-63-characters-that-the-end-of-an-entry-holds", first,
+                     SIZE);
+    file_cache_store("again", first, SIZE);
+    assert_true(holds("again", first));
+}
+
+static pid_t store_often(const unsigned char *bytes, int times) {
+    const pid_t child = fork();
+    for (int i = 0; child == 0 && i < times; i++)
+        file_cache_store("shared", bytes, SIZE);
+    if (child == 0)
+        _exit(0);
+    return child;
+}
+
+static void two_writers_leave_one_s_bytes(void **state) {
+    (void)state;
+    const int times = getenv("LAMPION_LONG") ? 20000 : 200;
+    file_cache_store("shared", first, SIZE);
+    const pid_t writers[] = { store_often(first, times), store_often(second, times) };
+    for (int i = 0; i < times; i++) {
+        size_t size;
+        const void *const data = file_cache_map("shared", &size);
+        assert_non_null(data);
+        assert_int_equal(size, SIZE);
+        assert_true(memcmp(data, first, SIZE) == 0 || memcmp(data, second, SIZE) == 0);
+        file_cache_unmap(data, size);
+    }
+    for (int i = 0; i < 2; i++)
+        waitpid(writers[i], NULL, 0);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    for (int i = 0; i < SIZE; i++) {
+        first[i] = (unsigned char)(check_random() * 256);
+        second[i] = (unsigned char)(check_random() * 256);
+    }
+    return mkdtemp(folder) && setenv("XDG_CACHE_HOME", folder, 1) == 0 ? 0 : 1;
+}
+
+static int empty(void **state) {
+    (void)state;
+    char command[512];
+    snprintf(command, sizeof command, "rm -rf '%s/lampion'", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(what_is_stored_comes_back, empty),
+        cmocka_unit_test_setup(an_entry_under_another_name_is_none, empty),
+        cmocka_unit_test_setup(a_damaged_entry_is_none, empty),
+        cmocka_unit_test_setup(what_is_no_file_of_ones_own_is_none, empty),
+        cmocka_unit_test_setup(what_cannot_be_stored_is_no_error, empty),
+        cmocka_unit_test_setup(two_writers_leave_one_s_bytes, empty),
+    };
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+}
