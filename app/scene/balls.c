@@ -38,7 +38,7 @@ static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, fl
     scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
     if (!camera)
         return;
-    builder_name(camera->name, "default");
+    scene_clean_name(camera->name, "default");
     vec_store(eye, camera->eye);
     vec_store(target, camera->target);
     camera->up[1] = 1.0f;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/blob.h"
 
-#include "app/scene/builder.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
@@ -74,7 +73,7 @@ static bool name_fits(const char name[SCENE_NAME_SIZE]) {
     char clean[SCENE_NAME_SIZE];
     if (name[SCENE_NAME_SIZE - 1] != 0)
         return false;
-    builder_name(clean, name);
+    scene_clean_name(clean, name);
     return memcmp(clean, name, SCENE_NAME_SIZE) == 0;
 }
 

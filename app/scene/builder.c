@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/builder.h"
 
+#include "app/scene/name.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -59,7 +61,7 @@ scene_material *builder_material(scene_builder *builder, const char *name) {
         .normal_map = none,
         .emission_map = none,
     };
-    builder_name(material->name, name);
+    scene_clean_name(material->name, name);
     return material;
 }
 
@@ -70,7 +72,7 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
     scene_mesh *mesh = builder_append(builder, BLOB_MESHES, 1);
     if (!mesh)
         return;
-    builder_name(mesh->name, name);
+    scene_clean_name(mesh->name, name);
     mesh->material = material;
     mesh->first_index = (uint32_t)first_index;
     mesh->index_count = (uint32_t)(end - first_index);
@@ -88,7 +90,7 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
 
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {
     char name[SCENE_NAME_SIZE];
-    builder_name(name, what ? what : "");
+    scene_clean_name(name, what ? what : "");
     scene_left_out *items = builder_items(builder, BLOB_LEFT_OUT), *found = NULL;
     const size_t known = builder_count(builder, BLOB_LEFT_OUT);
     for (size_t i = 0; i < known && !found; i++)
@@ -99,46 +101,10 @@ void builder_left_out(scene_builder *builder, const char *what, const char *noun
         if (!found)
             return;
         memcpy(found->what, name, sizeof name);
-        builder_name(found->noun, noun);
+        scene_clean_name(found->noun, noun);
     }
     if (found)
         found->count += (uint32_t)count;
-}
-
-/* Bytes of the UTF-8 character at text, 0 if it is none (overlong forms and surrogates are none).
- */
-static size_t utf8_length(const unsigned char *text) {
-    const unsigned char c = text[0];
-    const size_t length = c < 0x80                ? 1
-                          : c >= 0xc2 && c < 0xe0 ? 2
-                          : c >= 0xe0 && c < 0xf0 ? 3
-                          : c >= 0xf0 && c < 0xf5 ? 4
-                                                  : 0;
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    if ((c == 0xe0 && text[1] < 0xa0) || (c == 0xed && text[1] >= 0xa0) ||
-        (c == 0xf0 && text[1] < 0x90) || (c == 0xf4 && text[1] >= 0x90))
-        return 0;
-    return length;
-}
-
-void builder_name(char name[SCENE_NAME_SIZE], const char *text) {
-    size_t used = 0;
-    memset(name, 0, SCENE_NAME_SIZE);
-    for (const unsigned char *c = (const unsigned char *)text; *c;) {
-        const size_t length = utf8_length(c);
-        const bool plain = length > 0 && *c >= 0x20 && *c != 0x7f;
-        const size_t bytes = plain ? length : 1;
-        if (used + bytes >= SCENE_NAME_SIZE)
-            return;
-        if (plain)
-            memcpy(name + used, c, bytes);
-        else
-            name[used] = '?';
-        used += bytes;
-        c += bytes;
-    }
 }
 
 void builder_header(const scene_builder *builder, bool checksum, blob_header *header) {

@@ -35,10 +35,6 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
  * with `what` NULL, not at all. */
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count);
 
-/* Copies a name cut to whole UTF-8 characters; what is not UTF-8 or is a control character becomes
- * '?'. */
-void builder_name(char name[SCENE_NAME_SIZE], const char *text);
-
 /* Fills the header of the packed blob; with `checksum` its content hash too. */
 void builder_header(const scene_builder *builder, bool checksum, blob_header *header);
 

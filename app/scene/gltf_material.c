@@ -54,7 +54,7 @@ static bool decode_image(texture_pool *pool, size_t image) {
                     texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF,
                                    pool->document->subject, name, texture, pool->error);
     if (ok)
-        builder_name(texture->name, name);
+        scene_clean_name(texture->name, name);
     free(bytes.owned);
     return ok;
 }

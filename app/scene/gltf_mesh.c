@@ -126,7 +126,7 @@ static bool add_mesh(const gltf *document, size_t mesh, const double world[16],
     char own[SCENE_NAME_SIZE], name[2 * SCENE_NAME_SIZE];
     snprintf(own, sizeof own, "mesh %zu", mesh);
     if (gltf_text(entry, "name")[0])
-        builder_name(own, gltf_text(entry, "name"));
+        scene_clean_name(own, gltf_text(entry, "name"));
     int number = 0;
     cJSON_ArrayForEach(primitive, primitives) {
         snprintf(name, sizeof name, several ? "%s-%d" : "%s", own, number++);

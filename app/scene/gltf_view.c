@@ -53,7 +53,7 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     if (!camera)
         return cli_fail(error, document->subject, "does not fit into memory");
     const char *name = gltf_text(entry, "name");
-    builder_name(camera->name, name[0] ? name : gltf_text(holder, "name"));
+    scene_clean_name(camera->name, name[0] ? name : gltf_text(holder, "name"));
     const lmp_vec3 eye = vec((float)m[12], (float)m[13], (float)m[14]);
     const lmp_vec3 forward = axis_of(m, 2, -1.0f), up = axis_of(m, 1, 1.0f);
     const lmp_vec3 center =

@@ -94,7 +94,7 @@ static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uin
     *texture = decoded;
     texture->wrap_u = modes[0] == aiTextureMapMode_Clamp ? SCENE_WRAP_CLAMP : SCENE_WRAP_REPEAT;
     texture->wrap_v = modes[1] == aiTextureMapMode_Clamp ? SCENE_WRAP_CLAMP : SCENE_WRAP_REPEAT;
-    builder_name(texture->name, found->path);
+    scene_clean_name(texture->name, found->path);
     use->texture = (int32_t)count;
     return true;
 }

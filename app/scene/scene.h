@@ -6,11 +6,11 @@
 
 #include "app/cli/cli.h"
 #include "app/scene/light.h"
+#include "app/scene/name.h"
 
 #include <lampion/lampion.h>
 
 #define SCENE_LIGHTS_MAX 1024 /* from all sources together */
-#define SCENE_NAME_SIZE  64   /* bytes of a name, NUL included, valid UTF-8 */
 
 /* 48 bytes, as the vertex shader reads them. */
 typedef struct scene_vertex {
