@@ -3,10 +3,5 @@
 set -eu
 . tests/house/common.sh
 
-csv=${LAMPION_DATA:-../shared}/data/merl_sgd/merl_sgd.csv
-if [ -f "$csv" ]; then
-    awk -f src/brdf/generate/sgd_table.awk "$csv" | cmp - src/brdf/sgd_table.c ||
-        fail "src/brdf/sgd_table.c differs from what its generator writes"
-else
-    echo "skipped: $csv is not there"
-fi
+cd src/brdf/generate
+awk -f sgd_table.awk merl_sgd.csv | cmp - ../sgd_table.c || fail "src/brdf/sgd_table.c is not what sgd_table.awk writes"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Writes src/base/tables.c to standard output. Only +, -, *, / and sqrt, all rounded correctly by
- * IEEE 754, so every machine writes the same bytes. */
+ * IEEE 754, so every machine writes the same bytes. What it writes is kept in the tree, for a cross
+ * build could not run it. */
 #include "src/base/tables.h"
 
 #include <math.h>

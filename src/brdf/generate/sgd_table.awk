@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Writes sgd_table.c from merl_sgd.csv (columns: material, alias, 12 parameters of 3 channels):
-#     awk -f src/brdf/generate/sgd_table.awk merl_sgd.csv > src/brdf/sgd_table.c
+#     cd src/brdf/generate && awk -f sgd_table.awk merl_sgd.csv > ../sgd_table.c
+# The numbers were published with the paper named below and read from dj_brdf.h by Jonathan Dupuy, which
+# is in the public domain; as a table they are CC0 1.0.
 # The last parameter, the residual of the fit, takes no part in the evaluation and stays out.
 BEGIN {
     FS = ","
