@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -297,6 +298,34 @@ static void the_device_and_the_cpu_tone_map_alike(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
+/* The sheet fills pixels 16 to 47 of each side: its edges in 8 bits, on each path to them. */
+static void eight_bit_images_are_where_the_camera_says(void **state) {
+    (void)state;
+    static unsigned char rgb8[3 * PIXELS];
+    cli_error error = { "" };
+    const scene *world = make_sheets();
+    sheet.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, 0, 50 }, .radius = 0.1f, .radiance = { 1e6f, 1e6f, 1e6f } }
+    };
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    frame.light_count = 1;
+    for (int m = 0; m <= GPU_METHOD_TABULATED; m++) {
+        frame.method = (gpu_method)m;
+        if (m == GPU_METHOD_PREINTEGRATED)
+            continue; /* wants a table */
+        expect(gpu_render(renderer, &frame, NULL, &error), &error);
+        expect(gpu_read_rgb8(renderer, 1, rgb8, NULL, &error), &error);
+        for (int y = 0; y < SIDE; y++)
+            for (int x = 0; x < SIDE; x++) {
+                const bool sheet_there = x >= 16 && x < 48 && y >= 16 && y < 48;
+                if ((rgb8[3 * (SIDE * y + x)] > 0) != sheet_there)
+                    fail_msg("method %d, pixel %d, %d", m, x, y);
+            }
+    }
+    gpu_renderer_destroy(renderer);
+}
+
 /* --- refusals -----------------------------------------------------------------------------------
  */
 
@@ -317,6 +346,26 @@ static void impossible_frames_are_refused_with_a_reason(void **state) {
     memcpy(frame.camera.target, frame.camera.eye, sizeof frame.camera.eye);
     assert_false(gpu_render(renderer, &frame, NULL, &error));
     assert_non_null(strstr(error.text, "camera"));
+    gpu_renderer_destroy(renderer);
+}
+
+/* Each shader takes as many bands as gpu_bands_max says, and no more. */
+static void bands_up_to_the_limit_of_a_method_are_drawn(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
+        cli_error error = { "" };
+        char limit[32];
+        frame.method = (gpu_method)m;
+        frame.bands = gpu_bands_max(frame.method);
+        snprintf(limit, sizeof limit, "1 to %d", frame.bands);
+        expect(gpu_render(renderer, &frame, NULL, &error), &error);
+        frame.bands++;
+        assert_false(gpu_render(renderer, &frame, NULL, &error));
+        assert_non_null(strstr(error.text, limit));
+    }
     gpu_renderer_destroy(renderer);
 }
 
@@ -351,9 +400,11 @@ static void complaints_of_opengl_are_fatal_here(void **state) {
 int main(void) {
     /* the forking test comes first, before this process has threads of a driver */
     setenv("LAMPION_GL_DEBUG", "fatal", 1);
-    const struct CMUnitTest alone[] = { cmocka_unit_test(complaints_of_opengl_are_fatal_here),
-                                        cmocka_unit_test(
-                                            unknown_devices_are_refused_with_what_was_found) };
+    const struct CMUnitTest alone[] = {
+        cmocka_unit_test(complaints_of_opengl_are_fatal_here),
+        cmocka_unit_test(bands_up_to_the_limit_of_a_method_are_drawn),
+        cmocka_unit_test(unknown_devices_are_refused_with_what_was_found)
+    };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(positions_and_sides_are_where_the_camera_says),
         cmocka_unit_test(masks_cut_and_normal_maps_bend),
@@ -362,6 +413,7 @@ int main(void) {
         cmocka_unit_test(a_camera_inside_a_light_sees_it_all_round),
         cmocka_unit_test(samples_cover_a_pixel_in_part),
         cmocka_unit_test(the_device_and_the_cpu_tone_map_alike),
+        cmocka_unit_test(eight_bit_images_are_where_the_camera_says),
         cmocka_unit_test(impossible_frames_are_refused_with_a_reason),
     };
     return cmocka_run_group_tests(alone, NULL, NULL) +

@@ -4,6 +4,7 @@
 #include "tests/oracle/check.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 16, HEIGHT = 12, VALUES = 3 * WIDTH * HEIGHT };
@@ -81,6 +82,43 @@ static void ssim_of_an_offset_is_the_luminance_term(void **state) {
     assert_true(compare(&p, 1).values[COMPARE_SSIM] < -0.5); /* inverted structure */
 }
 
+/* By its definition, pixel by pixel: a window of 11 x 11, sigma 1.5, cut at the edges; peak 1. */
+static double ssim_by_hand(const pair *p) {
+    const double c1 = 1e-4, c2 = 9e-4;
+    double all = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            double weights = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+            for (int j = 0; j < HEIGHT; j++)
+                for (int i = 0; i < WIDTH; i++) {
+                    const int dx = i - x, dy = j - y;
+                    if (abs(dx) > 5 || abs(dy) > 5)
+                        continue;
+                    const double w = exp(-(dx * dx + dy * dy) / 4.5);
+                    const double u = (double)p->a_values[3 * (WIDTH * j + i)];
+                    const double v = (double)p->b_values[3 * (WIDTH * j + i)];
+                    weights += w, a += w * u, b += w * v;
+                    aa += w * u * u, bb += w * v * v, ab += w * u * v;
+                }
+            a /= weights, b /= weights;
+            const double covariance = ab / weights - a * b;
+            all += (2 * a * b + c1) * (2 * covariance + c2) / (a * a + b * b + c1) /
+                   (aa / weights - a * a + bb / weights - b * b + c2);
+        }
+    return all / (WIDTH * HEIGHT);
+}
+
+static void ssim_of_noise_is_that_of_its_definition(void **state) {
+    (void)state;
+    pair p;
+    make_pair(&p);
+    for (int i = 0; i < VALUES; i++) { /* gray, for luminance is not judged here */
+        p.a_values[i] = (float)((i / 3 * 37) % 101) / 100;
+        p.b_values[i] = (float)((i / 3 * 53) % 97) / 96;
+    }
+    CHECK_WITHIN(fabs(compare(&p, 1).values[COMPARE_SSIM] - ssim_by_hand(&p)), 1e-7);
+}
+
 static void bad_values_poison_every_metric(void **state) {
     (void)state;
     const float bad[] = { NAN, INFINITY, -INFINITY };
@@ -138,6 +176,7 @@ int main(void) {
         cmocka_unit_test(one_changed_value_gives_the_metrics_by_hand),
         cmocka_unit_test(the_peak_scales_psnr),
         cmocka_unit_test(ssim_of_an_offset_is_the_luminance_term),
+        cmocka_unit_test(ssim_of_noise_is_that_of_its_definition),
         cmocka_unit_test(bad_values_poison_every_metric),
         cmocka_unit_test(different_sizes_are_refused),
         cmocka_unit_test(a_heat_map_goes_from_black_to_white_and_marks_bad_values),

@@ -186,6 +186,29 @@ static void samples_are_scaled_by_the_model_and_the_cosine(void **state) {
     }
 }
 
+/* As the database stores isotropic materials: two equal slices, at -pi and pi. */
+static void files_of_two_azimuths_are_isotropic(void **state) {
+    (void)state;
+    for (uint64_t phis = 1; phis <= 2; phis++) {
+        tensor t = { 0 };
+        float *theta = add(&t, "theta_i", F32, SHAPE(3), 0)->values;
+        theta[1] = 0.75f, theta[2] = 1.5f;
+        float *phi = add(&t, "phi_i", F32, SHAPE(phis), -3.14159265f)->values;
+        phi[phis - 1] = phis == 2 ? 3.14159265f : 0;
+        add(&t, "ndf", F32, SHAPE(2, 2), 1);
+        add(&t, "sigma", F32, SHAPE(2, 2), 1);
+        add(&t, "vndf", F32, SHAPE(phis, 3, 2, 2), 1);
+        add(&t, "rgb", F32, SHAPE(phis, 3, 3, 4, 5), 1);
+        add(&t, "jacobian", U8, SHAPE(1), 1);
+        lmp_brdf *brdf = opened(t);
+        const lmp_brdf_info info = lmp_brdf_describe(brdf);
+        assert_false(info.anisotropic);
+        assert_int_equal(info.shape[0], phis);
+        assert_int_equal(info.shape[1], 3);
+        lmp_brdf_destroy(brdf);
+    }
+}
+
 static void negative_samples_reflect_nothing(void **state) {
     (void)state;
     tensor t = flat_rgb();
@@ -259,27 +282,39 @@ static void srgb_of(const double xyz[3], double rgb[3]) {
     multiply(primaries, adapted, rgb);
 }
 
-/* A line of the CIE's own table on a gray ground, which keeps negative colors in sight. */
+/* Lines of the CIE's own table, 20 nm apart, one by one on a gray ground, which keeps negative
+ * colors in sight. */
 static void spectral_lines_have_the_color_of_the_observer(void **state) {
     (void)state;
-    static const float nm[3] = { 450, 550, 600 };
-    static const double width[3] = { 50, 75, 25 };
-    static const double cie[3][3] = { { 0.33620, 0.03800, 1.77211 },
-                                      { 0.43345, 0.99495, 0.00875 },
-                                      { 1.06220, 0.63100, 0.00080 } };
-    for (int line = 0; line < 3; line++) {
-        double xyz[3], expected[3], rgb[3];
-        for (int c = 0; c < 3; c++) {
-            const double sum = width[0] * cie[0][c] + width[1] * cie[1][c] + width[2] * cie[2][c];
-            xyz[c] = width[line] * cie[line][c] / sum;
-        }
-        srgb_of(xyz, expected);
-        float spectrum[3] = { 1, 1, 1 };
-        spectrum[line] += 1;
-        spectral_color(3, nm, spectrum, rgb);
+    enum { LINES = 13 };
+    static const double cie[LINES][3] = {
+        { 0.13438, 0.00400, 0.64560 }, { 0.34828, 0.02300, 1.74706 }, { 0.29080, 0.06000, 1.66920 },
+        { 0.09564, 0.13902, 0.81295 }, { 0.00490, 0.32300, 0.27200 }, { 0.06327, 0.71000, 0.07825 },
+        { 0.29040, 0.95400, 0.02030 }, { 0.59450, 0.99500, 0.00390 }, { 0.91630, 0.87000, 0.00165 },
+        { 1.06220, 0.63100, 0.00080 }, { 0.85445, 0.38100, 0.00019 }, { 0.44790, 0.17500, 0.00002 },
+        { 0.16490, 0.06100, 0.00000 },
+    };
+    double sum[3] = { 0, 0, 0 }, worst = 0;
+    float nm[LINES];
+    for (int i = 0; i < LINES; i++) {
+        nm[i] = 420 + 20 * (float)i;
         for (int c = 0; c < 3; c++)
-            CHECK_WITHIN(fabs(rgb[c] - 1 - expected[c]), 0.03);
+            sum[c] += (i % (LINES - 1) ? 1 : 0.5) * cie[i][c];
     }
+    for (int line = 0; line < LINES; line++) {
+        double xyz[3], expected[3], rgb[3];
+        for (int c = 0; c < 3; c++)
+            xyz[c] = (line % (LINES - 1) ? 1 : 0.5) * cie[line][c] / sum[c];
+        srgb_of(xyz, expected);
+        float spectrum[LINES];
+        for (int i = 0; i < LINES; i++)
+            spectrum[i] = i == line ? 2 : 1;
+        spectral_color(LINES, nm, spectrum, rgb);
+        for (int c = 0; c < 3; c++)
+            worst = fmax(worst, fabs(rgb[c] - 1 - expected[c]));
+    }
+    print_message("colors of spectral lines: %.4f off the CIE's\n", worst);
+    CHECK_WITHIN(worst, 0.012);
 }
 
 /* --- folding -----------------------------------------------------------------------------------
@@ -651,6 +686,7 @@ static void every_failing_allocation_is_reported(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_scaled_by_the_model_and_the_cosine),
+        cmocka_unit_test(files_of_two_azimuths_are_isotropic),
         cmocka_unit_test(negative_samples_reflect_nothing),
         cmocka_unit_test(unknown_fields_are_skipped),
         cmocka_unit_test(flat_spectra_are_grey),

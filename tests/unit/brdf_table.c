@@ -107,6 +107,23 @@ static void white_furnace_lambert_reflects_all(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
+static void the_albedo_is_that_of_each_channel(void **state) {
+    (void)state;
+    lmp_brdf *brdf = lambert(0.9f, 0.5f, 0.2f);
+    lmp_brdf_table *table = NULL;
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, NULL, &table), LMP_OK);
+    lmp_rgb measured, series;
+    lmp_brdf_table_albedo(table, 3, 0, &measured, &series);
+    CHECK_WITHIN(fabsf(measured.r - 0.9f), 1e-6);
+    CHECK_WITHIN(fabsf(measured.g - 0.5f), 1e-6);
+    CHECK_WITHIN(fabsf(measured.b - 0.2f), 1e-6);
+    CHECK_WITHIN(fabsf(series.r - 0.9f), 0.9 * 2e-2);
+    CHECK_WITHIN(fabsf(series.g - 0.5f), 0.5 * 2e-2);
+    CHECK_WITHIN(fabsf(series.b - 0.2f), 0.2 * 2e-2);
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
 /* The window of the paper weakens each band as lmp_sh_window says. */
 static void windows_scale_the_bands(void **state) {
     (void)state;
@@ -444,6 +461,7 @@ int main(void) {
         cmocka_unit_test(phong_matches_the_vectors),
         cmocka_unit_test(tables_hold_the_projection_of_each_view),
         cmocka_unit_test(white_furnace_lambert_reflects_all),
+        cmocka_unit_test(the_albedo_is_that_of_each_channel),
         cmocka_unit_test(windows_scale_the_bands),
         cmocka_unit_test(views_between_nodes_are_smooth),
         cmocka_unit_test(anisotropic_tables_turn_with_the_view),
