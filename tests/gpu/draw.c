@@ -402,7 +402,6 @@ int main(void) {
     setenv("LAMPION_GL_DEBUG", "fatal", 1);
     const struct CMUnitTest alone[] = {
         cmocka_unit_test(complaints_of_opengl_are_fatal_here),
-        cmocka_unit_test(bands_up_to_the_limit_of_a_method_are_drawn),
         cmocka_unit_test(unknown_devices_are_refused_with_what_was_found)
     };
     const struct CMUnitTest tests[] = {
@@ -414,6 +413,7 @@ int main(void) {
         cmocka_unit_test(samples_cover_a_pixel_in_part),
         cmocka_unit_test(the_device_and_the_cpu_tone_map_alike),
         cmocka_unit_test(eight_bit_images_are_where_the_camera_says),
+        cmocka_unit_test(bands_up_to_the_limit_of_a_method_are_drawn),
         cmocka_unit_test(impossible_frames_are_refused_with_a_reason),
     };
     return cmocka_run_group_tests(alone, NULL, NULL) +

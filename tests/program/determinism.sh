@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+# The same bytes from run to run, from any number of threads, by every instruction set, and under
+# locales that write numbers (German) and letters (Turkish) another way.
+set -eu
+. tests/house/common.sh
+
+awk 'BEGIN {
+    print "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z"
+    for (i = 1; i <= 500; i++) print i % 7 - 3 ",3," i % 5 ",0." i ",0,0,0"
+}' >"$WORK/lights.csv"
+
+# outputs NAME [OPTION…]: what the commands write, in a folder of that name.
+outputs() {
+    folder=$WORK/$1
+    shift
+    mkdir "$folder"
+    export XDG_CACHE_HOME="$folder/cache"
+    set -- "$@" --bands 6
+    "$PROGRAM" render builtin:ball --device cpu --method zonal --size 96x54 -o "$folder/zonal.exr" "$@"
+    "$PROGRAM" render builtin:atrium --device cpu --size 96x54 --samples 2 -o "$folder/image.png" "$@"
+    "$PROGRAM" reference builtin:ball --size 48x27 --spp 4 --threads "${OMP_NUM_THREADS:-0}" \
+        -o "$folder/reference.exr" "$@"
+    "$PROGRAM" brdf bake sgd:white-fabric --views 8 -o "$folder/table.lmpt" "$@"
+    "$PROGRAM" project --batch "$WORK/lights.csv" "$@" >"$folder/project.csv"
+    rm -r "$folder/cache"
+}
+
+# same NAME [OPTION…]: those are the outputs of the first run.
+same() {
+    outputs "$@" >"$WORK/log" 2>&1 || fail "$1: $(cat "$WORK/log")"
+    diff -rq "$WORK/first" "$WORK/$1" || fail "$1: other bytes than the first run"
+}
+
+outputs first >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+[ "$(ls "$WORK/first" | wc -l)" = 5 ] || fail "not every command wrote its file"
+same again
+for threads in 1 2 7; do
+    export OMP_NUM_THREADS=$threads LP_NUM_THREADS=$threads
+    same "threads-$threads"
+done
+unset OMP_NUM_THREADS LP_NUM_THREADS
+for mask in 1 2 4 8; do
+    same "mask-$mask" --cpu-mask $mask
+done
+
+# the locales are made here, for few systems have them
+export LOCPATH="$WORK/locale"
+mkdir "$LOCPATH"
+for name in de_DE tr_TR; do
+    if ! localedef -i "$name" -f UTF-8 "$LOCPATH/$name.UTF-8" >"$WORK/log" 2>&1; then
+        echo "skipped: no locale $name (the package locales has it)"
+        continue
+    fi
+    LC_ALL=$name.UTF-8 same "$name"
+done
+
+# and a difference would be seen
+printf x >>"$WORK/first/project.csv"
+if (same planted) >/dev/null 2>&1; then fail "a difference goes unseen"; fi
