@@ -107,6 +107,21 @@ static void white_furnace_lambert_reflects_all(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
+static void level_views_read_the_last_row(void **state) {
+    (void)state;
+    lmp_brdf *brdf = phong(5);
+    lmp_brdf_table *table = NULL;
+    const lmp_brdf_table_desc desc = { .bands = 4, .views = 9 };
+    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    const size_t count = 3 * lmp_brdf_table_describe(table).count;
+    float rgb[3 * 10];
+    assert_int_equal(count, 3 * 10);
+    lmp_brdf_table_view(table, 0, 0, rgb);
+    assert_memory_equal(rgb, lmp_brdf_table_coefficients(table) + 8 * count, sizeof rgb);
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
 static void the_albedo_is_that_of_each_channel(void **state) {
     (void)state;
     lmp_brdf *brdf = lambert(0.9f, 0.5f, 0.2f);
@@ -461,6 +476,7 @@ int main(void) {
         cmocka_unit_test(phong_matches_the_vectors),
         cmocka_unit_test(tables_hold_the_projection_of_each_view),
         cmocka_unit_test(white_furnace_lambert_reflects_all),
+        cmocka_unit_test(level_views_read_the_last_row),
         cmocka_unit_test(the_albedo_is_that_of_each_channel),
         cmocka_unit_test(windows_scale_the_bands),
         cmocka_unit_test(views_between_nodes_are_smooth),
