@@ -400,10 +400,9 @@ static void complaints_of_opengl_are_fatal_here(void **state) {
 int main(void) {
     /* the forking test comes first, before this process has threads of a driver */
     setenv("LAMPION_GL_DEBUG", "fatal", 1);
-    const struct CMUnitTest alone[] = {
-        cmocka_unit_test(complaints_of_opengl_are_fatal_here),
-        cmocka_unit_test(unknown_devices_are_refused_with_what_was_found)
-    };
+    const struct CMUnitTest alone[] = { cmocka_unit_test(complaints_of_opengl_are_fatal_here),
+                                        cmocka_unit_test(
+                                            unknown_devices_are_refused_with_what_was_found) };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(positions_and_sides_are_where_the_camera_says),
         cmocka_unit_test(masks_cut_and_normal_maps_bend),
