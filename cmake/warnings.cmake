@@ -7,6 +7,18 @@ target_compile_options(lampion_flags INTERFACE
 if(LAMPION_WERROR)
   target_compile_options(lampion_flags INTERFACE -Werror)
 endif()
+# What Debian hardens its packages with (dpkg-buildflags, hardening=+all), and shadow stacks: the program
+# opens files that others made. Sanitizers and debuggers have their own ways.
+include(CheckCCompilerFlag)
+check_c_compiler_flag(-fcf-protection LAMPION_HAS_CF_PROTECTION)
+if(CMAKE_BUILD_TYPE STREQUAL Release AND NOT LAMPION_SANITIZE)
+  target_compile_options(lampion_flags INTERFACE
+    -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2 -fstack-protector-strong)
+  if(LAMPION_HAS_CF_PROTECTION)
+    target_compile_options(lampion_flags INTERFACE -fcf-protection)
+  endif()
+  target_link_options(lampion_flags INTERFACE LINKER:-z,relro,-z,now,-z,noexecstack)
+endif()
 if(LAMPION_SANITIZE)
   target_compile_options(lampion_flags INTERFACE
     -fsanitize=${LAMPION_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

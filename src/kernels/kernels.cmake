@@ -5,6 +5,8 @@ if(CMAKE_C_COMPILER_ID MATCHES Clang)
   # The loops to unroll have a run-time length in the kernels for any number of bands.
   set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize -Wno-pass-failed)
 endif()
+# Arrays whose length the bands decide, no foreign bytes: a guard of the stack would only cost.
+list(APPEND lampion_kernel_options -fno-stack-protector)
 if(LAMPION_FUZZ)
   # No foreign bytes here, and unrolled kernels take the instrumenting compiler minutes.
   list(APPEND lampion_kernel_options -O0)

@@ -29,7 +29,7 @@ static char *read_output(const char *name) {
     char *text = calloc(1 << 16, 1);
     assert_non_null(file);
     assert_non_null(text);
-    fread(text, 1, (1 << 16) - 1, file);
+    assert_true(fread(text, 1, (1 << 16) - 1, file) > 0);
     fclose(file);
     return text;
 }

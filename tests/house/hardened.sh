@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+# The program as it is built: what Debian hardens its packages with is in it.
+set -eu
+. tests/house/common.sh
+
+readelf -lWd "$PROGRAM" >"$WORK/layout"
+readelf -hW "$PROGRAM" >"$WORK/header"
+nm -D --undefined-only "$PROGRAM" >"$WORK/needed"
+
+grep -q 'Type: *DYN' "$WORK/header" || fail "has a fixed address"
+grep -q 'GNU_RELRO' "$WORK/layout" || fail "no read-only relocations"
+grep -q 'BIND_NOW' "$WORK/layout" || fail "binds functions late, so that their table stays writable"
+grep -q 'GNU_STACK.* RW ' "$WORK/layout" || fail "has an executable stack"
+grep -q ' RWE ' "$WORK/layout" && fail "has memory that is writable and executable"
+grep -q '__stack_chk_fail' "$WORK/needed" || fail "no guards of the stack"
+grep -q '__[a-z]*_chk' "$WORK/needed" || fail "sizes are not checked (-D_FORTIFY_SOURCE)"
+if [ "$(uname -m)" = x86_64 ]; then
+    objdump -d --disassemble=main "$PROGRAM" | grep -q endbr64 || fail "no -fcf-protection"
+fi
