@@ -26,6 +26,7 @@ layout(std430, binding = SHARED_PREINTEGRATED_LOBE) readonly buffer lobe_block {
 #define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
 #define LMP_PREINTEGRATED_LOBE_REMAP(i) remap[i]
 #define LMP_PREINTEGRATED_LOBE_SHAPE   shape
+#include "preintegrated_lookup.h"
 #include "preintegrated_lobe.glsl"
 #ifdef MEASURED
 layout(binding = SHARED_PREINTEGRATED_BRDF_TEXELS) uniform sampler2D brdf_texels;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* Responses of measured materials for shaders/preintegrated_brdf.glsl: all slices in one texture,
- * all numbers in one buffer. */
+/* Preintegrated BRDFs for shaders/preintegrated_brdf.glsl: all slices in one texture, all numbers
+ * in one buffer. */
 #include "app/gpu/internal.h"
+
+#include "shaders/preintegrated_lookup.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { ATLAS_WIDTH = 4096, HEADER = 10, SLICE = 8 }; /* numbers of preintegrated_brdf.glsl */
+enum { ATLAS_WIDTH = 4096 };
 
 bool gpu_has_preintegrated_brdf(const gpu_renderer *r) {
     for (int t = 0; t < r->table_count; t++)
@@ -24,19 +26,19 @@ void gpu_set_responses(gpu_renderer *r, const lmp_preintegrated_brdf *const *res
     r->brdf_block = r->brdf_texels = r->tables_buffer = 0;
 }
 
-/* --- places -------------------------------------------------------------------------------------
+/* --- the texture --------------------------------------------------------------------------------
  */
 
 /* A slice and where its first texel lies. */
-typedef struct place {
+typedef struct placement {
     const lmp_preintegrated_brdf_slice *slice;
     const int16_t *texels;
     GLint x, y;
     size_t number; /* of its numbers in the buffer */
-} place;
+} placement;
 
 static int taller_first(const void *a, const void *b) {
-    const place *p = a, *q = b;
+    const placement *p = a, *q = b;
     if (p->slice->rows != q->slice->rows)
         return p->slice->rows < q->slice->rows ? 1 : -1;
     return p->number > q->number ? 1 : -1;
@@ -44,17 +46,18 @@ static int taller_first(const void *a, const void *b) {
 
 /* From left to right, on shelves from the top, so that a shelf's slices are about as tall; returns
  * the height. */
-static GLsizei lay_out(place *places, size_t count) {
+static GLsizei lay_out(placement *placements, size_t count) {
     GLint x = 0, top = 0, bottom = 0;
-    qsort(places, count, sizeof *places, taller_first);
+    qsort(placements, count, sizeof *placements, taller_first);
     for (size_t i = 0; i < count; i++) {
-        const GLint columns = (GLint)places[i].slice->columns, rows = (GLint)places[i].slice->rows;
+        const GLint columns = (GLint)placements[i].slice->columns,
+                    rows = (GLint)placements[i].slice->rows;
         if (x + columns > ATLAS_WIDTH) {
             x = 0;
             top = bottom;
         }
-        places[i].x = x;
-        places[i].y = top;
+        placements[i].x = x;
+        placements[i].y = top;
         x += columns;
         bottom = top + rows > bottom ? top + rows : bottom;
     }
@@ -69,8 +72,8 @@ static size_t slice_count(const lmp_preintegrated_brdf_info *info) {
 }
 
 static size_t number_count(const lmp_preintegrated_brdf_info *info) {
-    return HEADER + info->view_steps + 1 + info->cap_steps + 1 + 3 * (size_t)info->view_count +
-           SLICE * slice_count(info);
+    return LMP_LOOKUP_HEADER + info->view_steps + 1 + info->cap_steps + 1 +
+           3 * (size_t)info->view_count + LMP_LOOKUP_SLICE * slice_count(info);
 }
 
 static float *append(float *to, const float *values, size_t count) {
@@ -78,45 +81,51 @@ static float *append(float *to, const float *values, size_t count) {
     return to + count;
 }
 
-/* All numbers but the slices'; returns the place of those. */
+/* All numbers but the slices'; returns the index of those. */
 static float *write_header(const lmp_preintegrated_brdf_info *info, float *to) {
-    const float header[HEADER] = { (float)info->view_count,
-                                   (float)info->cap_count,
-                                   (float)info->view_steps,
-                                   (float)info->cap_steps,
-                                   info->width,
-                                   info->radius,
-                                   info->reach,
-                                   info->slope,
-                                   info->lobe_angle,
-                                   info->mirrored };
-    to = append(to, header, HEADER);
+    const float header[] = { [LMP_LOOKUP_VIEW_COUNT] = (float)info->view_count,
+                             [LMP_LOOKUP_CAP_COUNT] = (float)info->cap_count,
+                             [LMP_LOOKUP_VIEW_STEPS] = (float)info->view_steps,
+                             [LMP_LOOKUP_CAP_STEPS] = (float)info->cap_steps,
+                             [LMP_LOOKUP_WIDTH] = info->width,
+                             [LMP_LOOKUP_RADIUS] = info->radius,
+                             [LMP_LOOKUP_REACH] = info->reach,
+                             [LMP_LOOKUP_SLOPE] = info->slope,
+                             [LMP_LOOKUP_LOBE_ANGLE] = info->lobe_angle,
+                             [LMP_LOOKUP_MIRRORED] = info->mirrored };
+    static_assert(sizeof header == LMP_LOOKUP_HEADER * sizeof(float), "the header is complete");
+    to = append(to, header, LMP_LOOKUP_HEADER);
     to = append(to, info->view_remap, info->view_steps + 1);
     to = append(to, info->cap_remap, info->cap_steps + 1);
     return append(to, &info->ambient->r, 3 * (size_t)info->view_count);
 }
 
-static void write_slices(const place *places, size_t count, float *numbers) {
+static void write_slices(const placement *placements, size_t count, float *numbers) {
     for (size_t i = 0; i < count; i++) {
-        const lmp_preintegrated_brdf_slice *s = places[i].slice;
-        /* the texture's values are -1 … 1 */
-        const float values[SLICE] = { (float)places[i].x, (float)places[i].y, (float)s->rows,
-                                      (float)s->columns,  s->row_density,     s->row_origin,
-                                      s->column_density,  s->unit * 32767 };
-        append(numbers + places[i].number, values, SLICE);
+        const lmp_preintegrated_brdf_slice *s = placements[i].slice;
+        const float values[] = { [LMP_LOOKUP_CORNER_X] = (float)placements[i].x,
+                                 [LMP_LOOKUP_CORNER_Y] = (float)placements[i].y,
+                                 [LMP_LOOKUP_ROWS] = (float)s->rows,
+                                 [LMP_LOOKUP_COLUMNS] = (float)s->columns,
+                                 [LMP_LOOKUP_ROW_DENSITY] = s->row_density,
+                                 [LMP_LOOKUP_ROW_ORIGIN] = s->row_origin,
+                                 [LMP_LOOKUP_COLUMN_DENSITY] = s->column_density,
+                                 [LMP_LOOKUP_VALUE_MAX] = s->unit * 32767 };
+        static_assert(sizeof values == LMP_LOOKUP_SLICE * sizeof(float), "a slice is complete");
+        append(numbers + placements[i].number, values, LMP_LOOKUP_SLICE);
     }
 }
 
 /* --- upload -------------------------------------------------------------------------------------
  */
 
-static bool upload_texels(gpu_renderer *r, const place *places, size_t count, GLsizei height,
-                          cli_error *error) {
+static bool upload_texels(gpu_renderer *r, const placement *placements, size_t count,
+                          GLsizei height, cli_error *error) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (height > largest)
         return cli_fail(error, NULL,
-                        "the responses of the materials are too large for the GPU "
+                        "the preintegrated materials are too large for the GPU "
                         "(fewer --bands, or --method coefficients)");
     glCreateTextures(GL_TEXTURE_2D, 1, &r->brdf_texels);
     glTextureStorage2D(r->brdf_texels, 1, GL_RGBA16_SNORM, ATLAS_WIDTH, height);
@@ -124,14 +133,15 @@ static bool upload_texels(gpu_renderer *r, const place *places, size_t count, GL
     glTextureParameteri(r->brdf_texels, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (size_t i = 0; i < count; i++)
-        glTextureSubImage2D(r->brdf_texels, 0, places[i].x, places[i].y,
-                            (GLsizei)places[i].slice->columns, (GLsizei)places[i].slice->rows,
-                            GL_RGB, GL_SHORT, places[i].texels);
+        glTextureSubImage2D(r->brdf_texels, 0, placements[i].x, placements[i].y,
+                            (GLsizei)placements[i].slice->columns,
+                            (GLsizei)placements[i].slice->rows, GL_RGB, GL_SHORT,
+                            placements[i].texels);
     return true;
 }
 
-/* Gathers every response's numbers and places. */
-static void gather(const gpu_renderer *r, place *places, float *numbers) {
+/* Every BRDF's numbers, and the slices that are to be placed. */
+static void gather(const gpu_renderer *r, placement *placements, float *numbers) {
     float *to = numbers + GPU_TABLES_MAX;
     for (int t = 0; t < r->table_count; t++) {
         if (!r->responses[t])
@@ -139,10 +149,10 @@ static void gather(const gpu_renderer *r, place *places, float *numbers) {
         const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->responses[t]);
         numbers[t] = (float)(to - numbers);
         to = write_header(&info, to);
-        for (size_t i = 0; i < slice_count(&info); i++, to += SLICE)
-            *places++ = (place) { .slice = &info.slices[i],
-                                  .texels = info.texels + 3 * (size_t)info.slices[i].first,
-                                  .number = (size_t)(to - numbers) };
+        for (size_t i = 0; i < slice_count(&info); i++, to += LMP_LOOKUP_SLICE)
+            *placements++ = (placement) { .slice = &info.slices[i],
+                                          .texels = info.texels + 3 * (size_t)info.slices[i].first,
+                                          .number = (size_t)(to - numbers) };
     }
 }
 
@@ -155,21 +165,21 @@ static bool upload(gpu_renderer *r, cli_error *error) {
             slices += slice_count(&info);
             count += number_count(&info);
         }
-    place *places = malloc(slices * sizeof *places);
+    placement *placements = malloc(slices * sizeof *placements);
     float *numbers = calloc(count, sizeof *numbers);
-    bool ok = places && numbers;
+    bool ok = placements && numbers;
     if (ok) {
-        gather(r, places, numbers);
-        const GLsizei height = lay_out(places, slices);
-        write_slices(places, slices, numbers);
-        ok = upload_texels(r, places, slices, height, error);
+        gather(r, placements, numbers);
+        const GLsizei height = lay_out(placements, slices);
+        write_slices(placements, slices, numbers);
+        ok = upload_texels(r, placements, slices, height, error);
     } else
         cli_fail(error, NULL, "out of memory");
     if (ok) {
         glCreateBuffers(1, &r->brdf_block);
         glNamedBufferStorage(r->brdf_block, (GLsizeiptr)(count * sizeof *numbers), numbers, 0);
     }
-    free(places);
+    free(placements);
     free(numbers);
     return ok;
 }

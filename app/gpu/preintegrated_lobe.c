@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* A response for shaders/preintegrated_lobe.glsl: its cells side by side in one texture. */
+/* A preintegrated lobe for shaders/preintegrated_lobe.glsl: its cells side by side in one texture.
+ */
 #include "app/gpu/internal.h"
+
+#include "shaders/preintegrated_lookup.h"
 
 #include <string.h>
 
 enum { ATLAS_WIDTH = 2048 };
+
+static_assert(SHARED_PREINTEGRATED_LOBE_REMAP == LMP_LOOKUP_REMAP_COUNT,
+              "the block holds the remap");
 
 /* Where a cell's first pair lies. */
 typedef struct corner {
@@ -57,19 +63,19 @@ static void upload_block(const lmp_preintegrated_lobe_info *info, const corner *
     glNamedBufferStorage(*buffer, sizeof block, &block, 0);
 }
 
-bool gpu_bind_preintegrated_lobe(gpu_renderer *r, const lmp_preintegrated_lobe *response,
+bool gpu_bind_preintegrated_lobe(gpu_renderer *r, const lmp_preintegrated_lobe *lobe,
                                  cli_error *error) {
-    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(response);
-    if (r->response != response || r->response_bands != info.bands ||
+    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
+    if (r->response != lobe || r->response_bands != info.bands ||
         r->response_window != info.window) {
         corner corners[SHARED_PREINTEGRATED_LOBE_CELLS];
         if (info.cell_count > SHARED_PREINTEGRATED_LOBE_CELLS)
-            return cli_fail(error, NULL, "a response of %u cells: the shaders take %d",
+            return cli_fail(error, NULL, "a preintegrated lobe of %u cells: the shaders take %d",
                             info.cell_count, SHARED_PREINTEGRATED_LOBE_CELLS);
         const GLsizei height = place_cells(&info, corners);
         upload_cells(&info, corners, height, &r->response_pairs);
         upload_block(&info, corners, height, &r->response_block);
-        r->response = response;
+        r->response = lobe;
         r->response_bands = info.bands;
         r->response_window = info.window;
     }

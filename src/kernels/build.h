@@ -32,6 +32,6 @@ const lmp_kernels LMP_KERNELS = {
     .gradient = kernel_gradient,
     .lobe = kernel_lobe,
     .shade_zonal = kernel_shade_zonal,
-    .shade_preintegrated_lobe = kernel_shade_response,
-    .shade_preintegrated_brdf = kernel_shade_measured,
+    .shade_preintegrated_lobe = kernel_shade_preintegrated_lobe,
+    .shade_preintegrated_brdf = kernel_shade_preintegrated_brdf,
 };

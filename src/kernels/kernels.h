@@ -45,18 +45,18 @@ typedef struct lmp_kernel_lights {
     size_t count;
 } lmp_kernel_lights;
 
-/* A response (lampion/preintegrated.h), and where lobes lie in it (src/preintegrated/lobe_eval.h):
- * an array a member, readable like planes. */
+/* A preintegrated lobe (lampion/preintegrated.h), and where lobes lie in it
+ * (src/preintegrated/lobe_eval.h): an array a member, readable like planes. */
 typedef struct lmp_kernel_preintegrated_lobe {
     const int16_t *pairs;
 } lmp_kernel_preintegrated_lobe;
 
 typedef struct lmp_kernel_lobe_positions {
     const uint32_t *first, *columns; /* of the cell, in pairs */
-    const float *share, *density, *lobe_angle;
+    const float *fraction, *density, *lobe_angle;
 } lmp_kernel_lobe_positions;
 
-/* A slice of a measured material's response, and the rest of it: members as in
+/* A slice of a preintegrated BRDF, and the rest of it: members as in
  * lampion/preintegrated.h, but that LMP_KERNEL_TEXELS_SPARE texels past the last one can be read,
  * too. */
 typedef struct lmp_kernel_slice {
@@ -133,23 +133,20 @@ typedef struct lmp_kernels {
     void (*shade_zonal)(int bands, const float *window, const float *diffuse,
                         const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                         size_t light_count, size_t count, const lmp_kernel_accumulated *gathered);
-    /* The same from a response; `diffuse` is one place, LMP_KERNEL_LANES_MAX times. */
-    void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *response,
+    /* The same from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX times. */
+    void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *lobe,
                                      const lmp_kernel_lobe_positions *diffuse,
                                      const lmp_kernel_lobe_positions *specular,
                                      const lmp_kernel_surfaces *surfaces,
                                      const lmp_kernel_light *lights, size_t light_count,
                                      size_t count, const lmp_kernel_accumulated *gathered);
-    /* Adds what a measured material reflects, in planes of red, green, blue, of the lights and of
-     * `ambient` from everywhere. Exponents are not read. */
+    /* Adds what a BRDF reflects, in planes of red, green, blue, of the lights and of
+     * ambient radiance. Exponents are not read. */
     void (*shade_preintegrated_brdf)(const lmp_kernel_preintegrated_brdf *material,
                                      const lmp_kernel_surfaces *surfaces,
                                      const lmp_kernel_light *lights, size_t light_count,
                                      lmp_rgb ambient, size_t count, float *const rgb[3]);
 } lmp_kernels;
-
-/* Unit of the coefficients of a response; lampion/preintegrated.h publishes it. */
-#define LMP_KERNEL_LOBE_UNIT (2.0f / 32767.0f)
 
 /* Fills the table with the best build among `cpu_flags` (lmp_cpu_flag, base.h) that this library
  * and machine have; scalar when there is none. Returns the flag of the build taken. */

@@ -29,21 +29,4 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
                                            const lmp_preintegrated_brdf *plan,
                                            lmp_preintegrated_brdf **brdf);
 
-/* Where the rim of a cap shows: at its half angle, but a cap smaller than the lobe moves nothing.
- */
-static inline float lmp_preintegrated_brdf_rim(float radius, float a) {
-    return a * a / (sqrtf(a * a + radius * radius) + radius);
-}
-
-/* The row coordinate of x, the angle from the rim, but for density and origin. */
-static inline float lmp_preintegrated_brdf_row(float width, float reach, float slope, float x) {
-    return x * (reach / (width * sqrtf(x * x + reach * reach)) + slope);
-}
-
-/* cap_remap's argument: finer steps for small lights. */
-static inline float lmp_preintegrated_brdf_cap(float a) {
-    const float quarter = (float)(LMP_PREINTEGRATED_PI / 2);
-    return a / (a + 0.5f) * ((quarter + 0.5f) / quarter);
-}
-
 #endif

@@ -56,8 +56,8 @@ static bool remap_valid(const lmp_preintegrated_lobe *plan) {
 static bool cells_valid(const lmp_preintegrated_lobe *plan) {
     for (uint32_t k = 0; k < plan->info.cell_count; k++)
         if (!(plan->cells[k].scale >= 0) || !(plan->cells[k].offset >= 0) ||
-            !(lmp_preintegrated_lobe_density(&plan->cells[k], plan->exponents[k + 1]) <=
-              DENSITY_MAX))
+            !(lmp_lookup_density(plan->cells[k].scale, plan->cells[k].offset,
+                                 plan->exponents[k + 1]) <= DENSITY_MAX))
             return false;
     return true;
 }

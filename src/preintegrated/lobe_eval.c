@@ -9,32 +9,26 @@
 
 void lmp_preintegrated_lobe_lookup(const lmp_preintegrated_lobe_info *info, float exponent,
                                    lmp_preintegrated_lobe_position *position) {
-    uint32_t bits, one;
     const float e = fminf(fmaxf(exponent, 0), LMP_PREINTEGRATED_LOBE_EXPONENT_MAX);
-    const float shifted = 1 + e, unit = 1;
-    memcpy(&bits, &shifted, sizeof bits);
-    memcpy(&one, &unit, sizeof one);
-    const float entry = (float)(bits - one) / (float)(1 << LMP_PREINTEGRATED_LOBE_REMAP_SHIFT);
-    const int i = (int)fminf(entry, (float)(LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 2));
-    const float slice = info->remap[i] + (entry - (float)i) * (info->remap[i + 1] - info->remap[i]);
-    const int k = (int)fminf(slice, (float)info->cell_count - 1);
+    const float entry = lmp_lookup_exponent(e);
+    const int i = lmp_lookup_first(entry, LMP_LOOKUP_REMAP_COUNT - 2);
+    const float slice = lmp_lookup_between(info->remap[i], info->remap[i + 1], entry - (float)i);
+    const int k = lmp_lookup_first(slice, (float)info->cell_count - 1);
     const lmp_preintegrated_lobe_cell *cell = &info->cells[k];
     *position = (lmp_preintegrated_lobe_position) {
         .first = cell->first,
         .columns = cell->columns,
         .fraction = slice - (float)k,
-        .density = lmp_preintegrated_lobe_density(cell, e),
-        .lobe_angle = lmp_preintegrated_lobe_solid_angle(info, e),
+        .density = lmp_lookup_density(cell->scale, cell->offset, e),
+        .lobe_angle = lmp_lookup_solid_angle(e, info->width2),
     };
 }
 
 float lmp_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
                                 const lmp_preintegrated_lobe_position *position,
                                 float one_minus_cos, float cosine) {
-    const float across = lmp_preintegrated_lobe_angle(1 - fabsf(cosine));
-    const float g = cosine < 0 ? (float)LMP_PREINTEGRATED_PI - across : across;
-    const float x = g * position->density,
-                y = lmp_preintegrated_lobe_angle(one_minus_cos) * position->density;
+    const float x = lmp_lookup_acos(cosine) * position->density;
+    const float y = lmp_lookup_arc(one_minus_cos) * position->density;
     const size_t column = (size_t)x, row = (size_t)y;
     float wx[4], wy[4], sum = 0;
     lmp_spline_weights(x - (float)column, wx);
@@ -48,7 +42,7 @@ float lmp_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
                     position->fraction * (float)pair[2 * j + 1]);
     }
     const float mean = sum * LMP_PREINTEGRATED_LOBE_UNIT /
-                       (2 * (float)LMP_PREINTEGRATED_PI * one_minus_cos + position->lobe_angle);
+                       (2 * LMP_LOOKUP_PI * one_minus_cos + position->lobe_angle);
     return 2 / (2 - one_minus_cos) * mean;
 }
 

@@ -4,15 +4,16 @@
 #ifndef LAMPION_PREINTEGRATED_LOBE_EVAL_H
 #define LAMPION_PREINTEGRATED_LOBE_EVAL_H
 
-#include "src/kernels/angle.h"
+#include "shaders/preintegrated_lookup.h"
 
+#include <assert.h>
 #include <lampion/preintegrated.h>
 
-#include <math.h>
-#include <string.h>
+#define LMP_PREINTEGRATED_PI 3.14159265358979323846
 
-#define LMP_PREINTEGRATED_PI               3.14159265358979323846
-#define LMP_PREINTEGRATED_LOBE_REMAP_SHIFT 19 /* of 23 bits of mantissa: 16 entries an octave */
+static_assert(LMP_LOOKUP_REMAP_COUNT == LMP_PREINTEGRATED_LOBE_REMAP_COUNT &&
+                  (int)LMP_LOOKUP_EXPONENT_MAX == (int)LMP_PREINTEGRATED_LOBE_EXPONENT_MAX,
+              "the remap is what the API says");
 
 /* Where an exponent lies. */
 typedef struct lmp_preintegrated_lobe_position {
@@ -29,16 +30,5 @@ void lmp_preintegrated_lobe_lookup(const lmp_preintegrated_lobe_info *info, floa
 float lmp_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
                                 const lmp_preintegrated_lobe_position *position,
                                 float one_minus_cos, float cosine);
-
-/* 1/step of a cell's grid at an exponent. */
-float lmp_preintegrated_lobe_density(const lmp_preintegrated_lobe_cell *cell, float exponent);
-
-/* The lobe's own solid angle, by which values are scaled. */
-float lmp_preintegrated_lobe_solid_angle(const lmp_preintegrated_lobe_info *info, float exponent);
-
-/* acos(1 - y), y in 0 … 1. */
-static inline float lmp_preintegrated_lobe_angle(float y) {
-    return sqrtf(y) * LMP_ANGLE(1 - y);
-}
 
 #endif

@@ -103,7 +103,8 @@ lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t ce
     slice_grid grid = { .bands = lobe->info.bands,
                         .rows = cell->rows + MARGIN,
                         .columns = cell->columns + MARGIN,
-                        .step = 1 / (double)lmp_preintegrated_lobe_density(cell, exponent) };
+                        .step =
+                            1 / (double)lmp_lookup_density(cell->scale, cell->offset, exponent) };
     const size_t bands = (size_t)grid.bands;
     float *memory =
         lmp_allocate(&lobe->allocator, sizeof(float) * (bands * grid.columns + grid.rows * bands +
@@ -116,7 +117,7 @@ lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t ce
 
     float series[LMP_BANDS_MAX];
     lobe_series(&lobe->info, exponent, series);
-    cap_weights(&grid, series, (double)lmp_preintegrated_lobe_solid_angle(&lobe->info, exponent));
+    cap_weights(&grid, series, (double)lmp_lookup_solid_angle(exponent, lobe->info.width2));
     legendre(&grid);
     sum_bands(&grid);
     for (size_t i = 0; i < grid.rows; i++)

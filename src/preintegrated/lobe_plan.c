@@ -115,7 +115,7 @@ void lmp_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan) {
         lmp_preintegrated_lobe_cell *cell = &plan->cells[k];
         /* A little finer than finest: no rounding of an angle leads outside. */
         const double finest =
-            (double)lmp_preintegrated_lobe_density(cell, plan->exponents[k + 1]) * 1.00001;
+            (double)lmp_lookup_density(cell->scale, cell->offset, plan->exponents[k + 1]) * 1.00001;
         cell->first = pairs;
         cell->rows = (uint32_t)(finest * LMP_PREINTEGRATED_PI / 2) + 4;
         cell->columns = (uint32_t)(finest * LMP_PREINTEGRATED_PI) + 4;
@@ -124,12 +124,4 @@ void lmp_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan) {
     info->pair_count = pairs;
     info->bytes = pairs * 2 * sizeof(int16_t) + sizeof plan->remap +
                   info->cell_count * sizeof(lmp_preintegrated_lobe_cell);
-}
-
-float lmp_preintegrated_lobe_density(const lmp_preintegrated_lobe_cell *cell, float exponent) {
-    return cell->scale * sqrtf(exponent + (float)WIDTH_OFFSET) + cell->offset;
-}
-
-float lmp_preintegrated_lobe_solid_angle(const lmp_preintegrated_lobe_info *info, float exponent) {
-    return (float)LMP_PREINTEGRATED_PI * (1 / (exponent + 1) + info->width2);
 }

@@ -3,6 +3,8 @@
 #ifndef LAMPION_PREINTEGRATED_SPLINE_H
 #define LAMPION_PREINTEGRATED_SPLINE_H
 
+#include "shaders/preintegrated_lookup.h"
+
 #include <stddef.h>
 
 /* In place, `count` values become the coefficients of the interpolating cubic B-spline, the series
@@ -12,11 +14,10 @@ void lmp_spline_coefficients(float *values, size_t count, size_t width);
 
 /* The weights of four neighbors, the point `x` past the second. */
 static inline void lmp_spline_weights(float x, float w[4]) {
-    const float y = 1 - x;
-    w[0] = y * y * y / 6;
-    w[1] = (4 + 3 * x * x * (x - 2)) / 6;
-    w[2] = (4 + 3 * y * y * (y - 2)) / 6;
-    w[3] = x * x * x / 6;
+    w[0] = lmp_lookup_outer(1 - x) / 6;
+    w[1] = lmp_lookup_inner(x) / 6;
+    w[2] = lmp_lookup_inner(1 - x) / 6;
+    w[3] = lmp_lookup_outer(x) / 6;
 }
 
 #endif

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# lampion.glsl, with preintegrated_lobe.glsl and preintegrated_brdf.glsl and without, is valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
+# lampion.glsl, preintegrated_lookup.h, preintegrated_lobe.glsl and preintegrated_brdf.glsl are valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
 # (glslang's judgement), in a compute shader that calls all of it and in the example's fragment shader.
 set -eu
 . tests/house/common.sh
@@ -22,10 +22,10 @@ layout(std430, binding = 0) buffer out_block { vec4 values[]; };
 #define LMP_LIGHT_SPHERE(i)   lights[2 * (i)]
 #define LMP_LIGHT_RADIANCE(i) lights[2 * (i) + 1].rgb
 GLSL
-    cat shaders/lampion.glsl
+    cat shaders/lampion.glsl shaders/preintegrated_lookup.h
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D pairs;
-layout(std430, binding = 2) readonly buffer lobe_block { vec4 shape; vec4 cells[64]; float remap[321]; };
+layout(std430, binding = 2) readonly buffer lobe_block { vec4 shape; vec4 cells[64]; float remap[LMP_LOOKUP_REMAP_COUNT]; };
 #define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(pairs, p / 2048.0, 0.0).rg
 #define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
 #define LMP_PREINTEGRATED_LOBE_REMAP(i) remap[i]

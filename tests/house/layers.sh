@@ -11,12 +11,12 @@ stdalign stdarg stdatomic stdbool stddef stdint stdlib stdnoreturn string tgmath
 may_include() {
     case $1 in
     base) echo base ;;
-    kernels) echo base kernels ;;
+    kernels) echo base kernels lookup ;;
     sh) echo base kernels sh ;;
     light) echo base kernels sh light ;;
     lobe | brdf) echo base kernels sh light "$1" ;;
     probe) echo base sh light lobe probe ;;
-    preintegrated) echo base kernels sh light lobe brdf preintegrated ;;
+    preintegrated) echo base kernels sh light lobe brdf preintegrated lookup ;;
     shade) echo base kernels sh light lobe brdf preintegrated shade ;;
     field) echo base kernels sh light lobe brdf preintegrated shade field ;;
     lampion) echo base sh light lobe probe brdf preintegrated shade field kernels ;;
@@ -33,7 +33,7 @@ may_include() {
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/material base sh brdf ;;
-    app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders LIBRARY ;;
+    app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders lookup LIBRARY ;;
     app/device) echo app/cli app/file app/scene app/material app/gpu app/device LIBRARY ;;
     app/view) echo app/cli app/file app/image app/scene app/animation app/material app/gpu app/device app/view LIBRARY ;;
     app/paper) echo app/cli app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
@@ -54,6 +54,7 @@ module_included() {
     case $1 in
     '"src/'*) echo "$1" | sed 's,"src/\([^/]*\)/.*,\1,' ;;
     '"app/'*) echo "$1" | sed 's,"\(app/[^/]*\)/.*,\1,' ;;
+    '"shaders/preintegrated_lookup.h"') echo lookup ;;
     '"shaders/'*) echo shaders ;;
     '"'*) echo "unrooted" ;;
     '<lampion/'*) echo "$1" | sed 's,<lampion/\(.*\)\.h>,\1,' ;;
