@@ -1,20 +1,59 @@
 /* SPDX-License-Identifier: MIT */
 /* accumulate.h - many RGB lights into each of many points: lanes are points, lights are broadcast.
  *
- * The sums lie in memory by columns m. Columns go by tiles that fit LMP_TILE planes; up to 31 bands
- * (15 with gradients) one tile holds all. Lights go some at a time, so that a sum is loaded
- * and stored once for all of them; each is still added on its own, in order. */
+ * The sums lie in memory by columns m, a tile of them at a time: no function of the library may
+ * need more than 64 KB of stack, and a tile that stays in the first cache costs least. Lights go
+ * some at a time, so that a sum is loaded and stored once for all of them; each is still added on
+ * its own, in order. */
 #ifndef LAMPION_KERNELS_ACCUMULATE_H
 #define LAMPION_KERNELS_ACCUMULATE_H
 
 #include "src/kernels/basis.h"
 #include "src/kernels/cap.h"
 
-/* Planes of a tile, enough for the longest column with gradients; 192 KiB of 16 lanes. */
-#define LMP_TILE (24 * LMP_BANDS_MAX)
+/* 45 KiB of sums, but no more than help: of 15 bands and more. */
+#define ACCUMULATE_SUMS (LMP_LANES > 4 ? 11520 / LMP_LANES : 2880)
 
-/* Lights a pass. */
+/* Bands of lights that wait, 8 KiB; then values on their way out. */
+#define ACCUMULATE_WAITING (LMP_LANES > 4 ? 2048 / LMP_LANES : 512)
+
+/* Lights a pass, where their bands fit. */
 #define ACCUMULATE_LIGHTS (LMP_LANES == 16 ? 4 : 2)
+
+/* Columns first … end-1 of bands low … high-1: either whole columns, which begin at their own band
+ * m, or a part of one. */
+typedef struct accumulate_tile {
+    int first, end, low, high;
+} accumulate_tile;
+
+/* The tile after this one, of at most `most` pairs (l, m); its first is `bands` when all are done.
+ */
+static inline accumulate_tile accumulate_next(int bands, accumulate_tile tile, int most) {
+    if (tile.high < bands) {
+        tile.low = tile.high;
+        tile.high = tile.low + most < bands ? tile.low + most : bands;
+        return tile;
+    }
+    const int first = tile.end;
+    int end = first + 1, high = bands;
+    if (bands - first > most)
+        high = first + most;
+    for (int left = most - (bands - first); end < bands && left >= bands - end; end++)
+        left -= bands - end;
+    return (accumulate_tile) { first, end, first, high };
+}
+
+static inline accumulate_tile accumulate_first(int bands, int most) {
+    return accumulate_next(bands, (accumulate_tile) { .high = bands }, most);
+}
+
+/* Pairs (l, m) of a tile. */
+static inline size_t accumulate_pairs(accumulate_tile tile) {
+    size_t pairs = 0;
+    for (int m = tile.first; m < tile.end; m++)
+        pairs += (size_t)(tile.high - (m > tile.low ? m : tile.low));
+    return pairs;
+}
 
 static inline float lights_at(const float *array, size_t stride, size_t i) {
     float value;
@@ -39,29 +78,31 @@ LMP_INLINE cap_lanes lights_cap(const lmp_kernel_lights *lights, size_t i, const
                     vf_set(lights_at(lights->radius.at, lights->radius.stride, i)), gradient);
 }
 
-/* Columns first … end-1 are summed: the sums of (l, m) at sums[6 * place], m > 0: red, green, blue
- * of +m, then of -m; places follow one another by m, then l. Monic recurrences leave the norm N_lm
- * to the end, and are for LMP_TABLE_MONIC_BANDS (tables.h). */
-LMP_INLINE void accumulate_lights(int bands, int first, int end, int monic, int at_once,
+/* Adds `at_once` lights to the sums of a tile: of a pair (l, m) six, red, green, blue of +m, then
+ * of -m; pairs follow one another by m, then l. Monic recurrences leave the norm N_lm to the end,
+ * and are for LMP_TABLE_MONIC_BANDS (tables.h). */
+LMP_INLINE void accumulate_lights(accumulate_tile tile, int monic, int at_once,
                                   const lmp_kernel_lights *lights, size_t light, const vf point[3],
                                   vf *sums) {
-    vf axis[ACCUMULATE_LIGHTS][3], radial[ACCUMULATE_LIGHTS][LMP_BANDS_MAX];
+    vf waiting[ACCUMULATE_WAITING], axis[ACCUMULATE_LIGHTS][3];
+    const vf *radial[ACCUMULATE_LIGHTS];
     vf c[ACCUMULATE_LIGHTS], s[ACCUMULATE_LIGHTS], q0[ACCUMULATE_LIGHTS], q1[ACCUMULATE_LIGHTS];
     lmp_rgb rgb[ACCUMULATE_LIGHTS];
     LMP_ROLLED for (int k = 0; k < at_once; k++) {
         cap_lanes cap = lights_cap(lights, light + (size_t)k, point, 0);
         cap_axis(&cap);
-        cap_radial(bands, &cap, vf_set(LMP_KERNEL_PI), radial[k]);
+        cap_radial(tile.high, &cap, vf_set(LMP_KERNEL_PI), waiting + k * tile.high);
+        radial[k] = waiting + k * tile.high;
         axis[k][0] = cap.x;
         axis[k][1] = cap.y;
         axis[k][2] = cap.z;
         rgb[k] = lights_radiance(lights, light + (size_t)k);
         c[k] = vf_set(1);
         s[k] = vf_set(0);
-        for (int m = 1; m < first; m++)
+        for (int m = 1; m < tile.first; m++)
             basis_turn(m, axis[k][0], axis[k][1], &c[k], &s[k]);
     }
-    for (int m = first; m < end; m++) {
+    for (int m = tile.first; m < tile.end; m++) {
         vf color[ACCUMULATE_LIGHTS][6];
         LMP_UNROLL for (int k = 0; k < at_once; k++) {
             if (m > 0)
@@ -76,19 +117,21 @@ LMP_INLINE void accumulate_lights(int bands, int first, int end, int monic, int 
             q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);
         }
         const size_t base = lmp_table_index(m, m);
-        LMP_ROLLED for (int l = m; l < bands; l++) {
-            vf value[ACCUMULATE_LIGHTS];
-            LMP_UNROLL for (int k = 0; k < at_once; k++) value[k] = q1[k] * radial[k][l];
-            LMP_UNROLL for (int i = 0; i < 6; i++) {
-                if (m == 0 && i == 3)
-                    break;
-                vf sum = sums[i];
-                LMP_UNROLL for (int k = 0; k < at_once; k++) sum = sum + color[k][i] * value[k];
-                sums[i] = sum;
+        LMP_ROLLED for (int l = m; l < tile.high; l++) {
+            if (l >= tile.low) {
+                vf value[ACCUMULATE_LIGHTS];
+                LMP_UNROLL for (int k = 0; k < at_once; k++) value[k] = q1[k] * radial[k][l];
+                LMP_UNROLL for (int i = 0; i < 6; i++) {
+                    if (m == 0 && i == 3)
+                        break;
+                    vf sum = sums[i];
+                    LMP_UNROLL for (int k = 0; k < at_once; k++) sum = sum + color[k][i] * value[k];
+                    sums[i] = sum;
+                }
+                sums += 6;
             }
-            sums += 6;
             const size_t next = base + (size_t)(l + 1 - m);
-            if (l + 1 == bands)
+            if (l + 1 == tile.high)
                 break;
             LMP_UNROLL for (int k = 0; k < at_once; k++) {
                 const vf z = axis[k][2];
@@ -107,108 +150,133 @@ typedef struct accumulate_sets {
     int planes, skip, sets;
 } accumulate_sets;
 
-/* One set in the order of the sums: columns first … end-1 of bands low … high-1, value l*l+l±m at
- * to + (l*l+l±m - from) * stride. */
-LMP_INLINE void accumulate_set(int bands, int first, int end, int low, int high, int monic,
-                               int planes, const vf *sums, float *to, int from, size_t stride) {
-    for (int m = first; m < end && m < high; m++) {
-        const float *norms = lmp_table_norm + lmp_table_index(m, m);
-        for (int l = m > low ? m : low; l < high; l++) {
-            const vf *sum = sums + (l - m) * 2 * planes;
-            const float norm = monic ? norms[l - m] : 1;
-            float *middle = to + (size_t)(l * l + l - from) * stride;
-            vf_store(middle + (size_t)m * stride, norm * sum[0]);
-            if (m > 0)
-                vf_store(middle - (size_t)m * stride, norm * sum[planes]);
-        }
-        sums += (bands - m) * 2 * planes;
+/* Band l of a set: value m at plus + m * stride, value -m at minus - m * stride. */
+LMP_INLINE void accumulate_band(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
+                                float *plus, float *minus, size_t stride) {
+    const vf *sum = sums + (l - tile.low) * 2 * planes;
+    for (int m = tile.first; m < tile.end && m <= l; m++) {
+        const float norm = monic ? lmp_table_norm[lmp_table_index(l, m)] : 1;
+        vf_store(plus + (size_t)m * stride, norm * sum[0]);
+        if (m > 0)
+            vf_store(minus - (size_t)m * stride, norm * sum[planes]);
+        sum += (tile.high - m - 1) * 2 * planes;
     }
 }
 
-/* Bands low … high-1 of a set, which lie in planes from value low*low on, as rows. */
-static inline void accumulate_rows(int first, int end, int low, int high, const float *planes,
-                                   size_t place, const lmp_kernel_out *out, size_t element,
-                                   size_t live) {
-    if (first == 0 && high <= end) {
-        layout_put(planes, place, (size_t)(high * high - low * low), out, element, live);
-        return;
-    }
+/* Band l of a set as rows, from `place` on: its values from -last to -first and from first to last,
+ * or all between. */
+LMP_INLINE void accumulate_runs(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
+                                float *block, size_t place, const lmp_kernel_out *out,
+                                size_t element, size_t live) {
+    const int last = l < tile.end ? l : tile.end - 1, middle = l * l + l;
+    const int wide = tile.first == 0 ? 2 * last + 1 : last - tile.first + 1;
+    float *minus = block + last * LMP_LANES;
+    float *plus = tile.first == 0 ? minus : block + (wide - tile.first) * LMP_LANES;
+    accumulate_band(tile, l, monic, planes, sums, plus, minus, LMP_LANES);
+    layout_put(block, place + (size_t)(middle - last), (size_t)wide, out, element, live);
+    if (tile.first > 0)
+        layout_put(block + wide * LMP_LANES, place + (size_t)(middle + tile.first), (size_t)wide,
+                   out, element, live);
+}
+
+/* Bands low … high-1 of a set, which are whole, as rows. */
+LMP_INLINE void accumulate_whole(accumulate_tile tile, int low, int high, int monic, int planes,
+                                 const vf *sums, float *block, size_t place,
+                                 const lmp_kernel_out *out, size_t element, size_t live) {
     for (int l = low; l < high; l++) {
-        const int middle = l * l + l - low * low, last = l < end ? l : end - 1;
-        const size_t run = (size_t)(first == 0 ? 2 * last + 1 : last - first + 1);
-        const int runs[] = { middle - last, middle + first };
-        for (int i = 0; i < (first == 0 ? 1 : 2); i++)
-            layout_put(planes + runs[i] * LMP_LANES, place + (size_t)runs[i], run, out, element,
-                       live);
+        float *middle = block + (l * l + l - low * low) * LMP_LANES;
+        accumulate_band(tile, l, monic, planes, sums, middle, middle, LMP_LANES);
     }
+    layout_put(block, place + (size_t)(low * low), (size_t)(high * high - low * low), out, element,
+               live);
 }
 
-/* Writes columns first … end-1. */
-LMP_INLINE void accumulate_put(int bands, int first, int end, int monic, accumulate_sets of,
+/* Writes a tile. */
+LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accumulate_sets of,
                                const vf *sums, const lmp_kernel_out *out, size_t element,
                                size_t live) {
     const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
     const size_t stride = out->planar ? out->stride : 1;
+    float *to = out->at + element * (out->planar ? 1 : out->stride);
+    float LMP_ALIGNED block[ACCUMULATE_WAITING * LMP_LANES];
     for (int p = 0; p < of.sets; p++) {
         const vf *set = sums + of.skip + p;
         const size_t place = (size_t)(p * bands * bands);
-        if (direct) {
-            float *to = out->at + element * (out->planar ? 1 : out->stride) + place * stride;
-            accumulate_set(bands, first, end, first, bands, monic, of.planes, set, to, 0, stride);
-            continue;
-        }
-        /* Some bands at a time. */
-        float LMP_ALIGNED block[BASIS_WAITING * LMP_LANES];
-        for (int low = first, high; low < bands; low = high) {
-            const int from = low * low;
+        int low = tile.low, high;
+        for (; low < tile.high; low = high) {
             high = low + 1;
-            while (high < bands && (high + 1) * (high + 1) - from <= BASIS_WAITING)
-                high++;
-            accumulate_set(bands, first, end, low, high, monic, of.planes, set, block, from,
-                           LMP_LANES);
-            accumulate_rows(first, end, low, high, block, place + (size_t)from, out, element, live);
+            float *middle = to + (place + (size_t)(low * low + low)) * stride;
+            if (direct) {
+                accumulate_band(tile, low, monic, of.planes, set, middle, middle, stride);
+            } else if (tile.first > 0 || low >= tile.end) {
+                accumulate_runs(tile, low, monic, of.planes, set, block, place, out, element, live);
+            } else {
+                while (high < tile.end && high < tile.high &&
+                       (high + 1) * (high + 1) - low * low <= ACCUMULATE_WAITING)
+                    high++;
+                accumulate_whole(tile, low, high, monic, of.planes, set, block, place, out, element,
+                                 live);
+            }
         }
     }
 }
 
-/* The end of the tile that begins with column `first`, its sums set to 0; a (l, m) takes `width`.
+/* Not inlined, like all that has arrays of its own: what waits in one gives its stack to the next.
  */
-static inline int accumulate_tile(int bands, int first, int width, vf *sums) {
-    int end = first, planes = 0;
-    while (end < bands && planes + (bands - end) * width <= LMP_TILE)
-        planes += (bands - end++) * width;
-    memset(sums, 0, (size_t)planes * sizeof *sums);
-    return end;
+static LMP_NOINLINE void accumulate_tile_put(int bands, accumulate_tile tile, int monic,
+                                             const vf *sums, const lmp_kernel_out *out,
+                                             size_t element, size_t live) {
+    if (monic)
+        accumulate_put(bands, tile, 1, (accumulate_sets) { 3, 0, 3 }, sums, out, element, live);
+    else
+        accumulate_put(bands, tile, 0, (accumulate_sets) { 3, 0, 3 }, sums, out, element, live);
 }
 
-LMP_INLINE void accumulate_points(int bands, int monic, const lmp_kernel_lights *lights,
-                                  const lmp_kernel_vec3 *points, size_t count,
-                                  const lmp_kernel_out *out) {
-    vf sums[LMP_TILE];
-    for (size_t e = 0; e < count; e += LMP_LANES) {
-        const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
-                              vf_load(points->z + e) };
-        for (int first = 0, end; first < bands; first = end) {
-            end = accumulate_tile(bands, first, 6, sums);
-            size_t light = 0;
-            for (; light + ACCUMULATE_LIGHTS <= lights->count; light += ACCUMULATE_LIGHTS)
-                accumulate_lights(bands, first, end, monic, ACCUMULATE_LIGHTS, lights, light, point,
-                                  sums);
-            for (; light < lights->count; light++)
-                accumulate_lights(bands, first, end, monic, 1, lights, light, point, sums);
-            accumulate_put(bands, first, end, monic, (accumulate_sets) { 3, 0, 3 }, sums, out, e,
-                           layout_live(count, e));
-        }
-    }
+LMP_INLINE void accumulate_all_lights(int bands, accumulate_tile tile, int monic,
+                                      const lmp_kernel_lights *lights, const vf point[3],
+                                      vf *sums) {
+    size_t light = 0;
+    if (bands <= ACCUMULATE_WAITING / ACCUMULATE_LIGHTS)
+        for (; light + ACCUMULATE_LIGHTS <= lights->count; light += ACCUMULATE_LIGHTS)
+            accumulate_lights(tile, monic, ACCUMULATE_LIGHTS, lights, light, point, sums);
+    else if (bands <= ACCUMULATE_WAITING / 2)
+        for (; light + 2 <= lights->count; light += 2)
+            accumulate_lights(tile, monic, 2, lights, light, point, sums);
+    for (; light < lights->count; light++)
+        accumulate_lights(tile, monic, 1, lights, light, point, sums);
+}
+
+static LMP_NOINLINE void accumulate_monic(int bands, accumulate_tile tile,
+                                          const lmp_kernel_lights *lights, const vf point[3],
+                                          vf *sums) {
+    accumulate_all_lights(bands, tile, 1, lights, point, sums);
+}
+
+static LMP_NOINLINE void accumulate_long(int bands, accumulate_tile tile,
+                                         const lmp_kernel_lights *lights, const vf point[3],
+                                         vf *sums) {
+    accumulate_all_lights(bands, tile, 0, lights, point, sums);
 }
 
 static void kernel_accumulate(int bands, const lmp_kernel_lights *lights,
                               const lmp_kernel_vec3 *points, size_t count,
                               const lmp_kernel_out *out) {
-    if (bands <= LMP_TABLE_MONIC_BANDS)
-        accumulate_points(bands, 1, lights, points, count, out);
-    else
-        accumulate_points(bands, 0, lights, points, count, out);
+    enum { MOST = ACCUMULATE_SUMS / 6 };
+    const int monic = bands <= LMP_TABLE_MONIC_BANDS;
+    vf sums[ACCUMULATE_SUMS];
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
+                              vf_load(points->z + e) };
+        for (accumulate_tile tile = accumulate_first(bands, MOST); tile.first < bands;
+             tile = accumulate_next(bands, tile, MOST)) {
+            memset(sums, 0, 6 * accumulate_pairs(tile) * sizeof *sums);
+            if (monic)
+                accumulate_monic(bands, tile, lights, point, sums);
+            else
+                accumulate_long(bands, tile, lights, point, sums);
+            accumulate_tile_put(bands, tile, monic, sums, out, e, layout_live(count, e));
+        }
+    }
 }
 
 #endif

@@ -16,8 +16,8 @@
 /* Blocks that run side by side: the recurrence of one waits for itself. */
 #define BASIS_BLOCKS (LMP_LANES == 16 ? 4 : 2)
 
-/* Values that wait in planes of lanes before they go out as rows; a band and 15 at least. */
-#define BASIS_WAITING 528
+/* Values that wait in planes of lanes before they go out as rows: a band and 15. */
+#define BASIS_WAITING (LMP_LANES == 16 ? 2 * LMP_BANDS_MAX + 14 : 528)
 
 /* Where a column stands. */
 typedef struct basis_column {
@@ -228,34 +228,29 @@ static inline void basis_bands(int bands, const vf axis[3], const vf *radial,
     }
 }
 
-/* The bands^2 values of `blocks` blocks. Bands from a constant make straight-line code. */
-LMP_INLINE void basis_put(int bands, int constant, int blocks, vf (*axis)[3],
-                          vf (*radial)[LMP_BANDS_MAX], const lmp_kernel_out *out, size_t element,
-                          size_t count) {
-    if (!constant && out->planar && element + BASIS_BLOCKS * LMP_LANES <= count) {
-        basis_columns_wide(bands, axis, radial, out->at + element, out->stride);
+/* The bands^2 values of one block. */
+static LMP_NOINLINE void basis_put(int bands, const vf axis[3], const vf *radial,
+                                   const lmp_kernel_out *out, size_t element, size_t count) {
+    const size_t live = layout_live(count, element);
+    if (LMP_LANES == 1 || (out->planar && live == LMP_LANES))
+        basis_columns(bands, axis, radial, out->at + element * (out->planar ? 1 : out->stride),
+                      out->planar ? out->stride : 1);
+    else
+        basis_bands(bands, axis, radial, out, element, live);
+}
+
+/* The same of a constant number of bands up to BASIS_STRAIGHT. */
+LMP_INLINE void basis_put_straight(int bands, const vf axis[3], const vf *radial,
+                                   const lmp_kernel_out *out, size_t element, size_t count) {
+    const size_t live = layout_live(count, element);
+    if (LMP_LANES == 1 || (out->planar && live == LMP_LANES)) {
+        basis_straight(bands, axis, radial, out->at + element * (out->planar ? 1 : out->stride),
+                       out->planar ? out->stride : 1);
         return;
     }
-    LMP_ROLLED for (int k = 0; k < blocks; k++, element += LMP_LANES) {
-        const size_t live = layout_live(count, element);
-        const vf *one = radial ? radial[k] : NULL;
-        const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
-        float *to = out->at + element * (out->planar ? 1 : out->stride);
-        size_t stride = out->planar ? out->stride : 1;
-        float LMP_ALIGNED block[BASIS_STRAIGHT * BASIS_STRAIGHT * LMP_LANES];
-        if (constant && !direct) {
-            to = block;
-            stride = LMP_LANES;
-        }
-        if (constant)
-            basis_straight(bands, axis[k], one, to, stride);
-        else if (direct)
-            basis_columns(bands, axis[k], one, to, stride);
-        else
-            basis_bands(bands, axis[k], one, out, element, live);
-        if (constant && !direct)
-            layout_put(block, 0, (size_t)(bands * bands), out, element, live);
-    }
+    float LMP_ALIGNED block[BASIS_STRAIGHT * BASIS_STRAIGHT * LMP_LANES];
+    basis_straight(bands, axis, radial, block, LMP_LANES);
+    layout_put(block, 0, (size_t)(bands * bands), out, element, live);
 }
 
 /* Calls body(BANDS, 1, …) with BANDS a constant from 1 to 10, else body(bands, 0, …). */

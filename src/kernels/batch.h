@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. */
-#define LMP_BATCH 256
+#define LMP_BATCH 128
 
 typedef struct lmp_batch_plane {
     float at[LMP_BATCH] __attribute__((aligned(64)));

@@ -18,27 +18,78 @@
 /* Planes of one (l, m): value, d/dx, d/dy, d/dz, each red, green, blue; of +m, then of -m. */
 #define GRADIENT_WIDTH 24
 
-/* What a band needs lies together: arrays of LMP_BANDS_MAX registers begin in one set of the first
- * cache, and there are more of them here than ways. */
+/* Pairs (l, m) of a tile, 36 KiB of sums and less; and the most columns that they make. */
+#define GRADIENT_PAIRS   (LMP_LANES > 2 ? 384 / LMP_LANES : LMP_BANDS_MAX)
+#define GRADIENT_COLUMNS 16
+
+/* Lights a pass. */
+#define GRADIENT_LIGHTS 2
+
+/* What a band needs lies together: arrays of as many registers begin in one set of the first cache,
+ * and there are more of them here than ways. */
 typedef struct gradient_band {
     vf value;  /* pi s2 R_l */
     vf across; /* (pi s2/d) R_l */
     vf along;  /* (pi s2/d) 2 P_l/alpha */
-    vf c, s;   /* C_m, S_m of m = l */
 } gradient_band;
 
+/* What of a light a tile needs: bands from its lowest on, and C_m, S_m from before its first. */
 typedef struct gradient_light {
     vf x, y, z;
     lmp_rgb rgb;
-    gradient_band band[LMP_BANDS_MAX];
+    gradient_band band[GRADIENT_PAIRS];
+    vf c[GRADIENT_COLUMNS + 1], s[GRADIENT_COLUMNS + 1];
 } gradient_light;
 
 /* q of one (l, m), and of (l, m + 1). */
 typedef struct gradient_pair {
-    vf q[2][ACCUMULATE_LIGHTS];
+    vf q[2][GRADIENT_LIGHTS];
 } gradient_pair;
 
-static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, size_t i,
+static inline void gradient_turns(accumulate_tile tile, gradient_light *light) {
+    vf c = vf_set(1), s = vf_set(0);
+    light->c[0] = light->s[0] = vf_set(0); /* of m = -1, multiplied by 0 */
+    for (int m = 0; m < tile.end; m++) {
+        if (m > 0)
+            basis_turn(m, light->x, light->y, &c, &s);
+        if (m + 1 >= tile.first) {
+            light->c[m + 1 - tile.first] = c;
+            light->s[m + 1 - tile.first] = s;
+        }
+    }
+}
+
+/* R_l twice, for its factor is in it from the start; all by differences (cap.h). Parity: R_l
+ * changes sign inside with even l, P_l with odd. */
+static inline void gradient_bands(accumulate_tile tile, const cap_lanes *cap, float cos_min,
+                                  gradient_band *bands) {
+    const vf per_distance = LMP_KERNEL_PI * cap->s2_per_d;
+    const vf outward = (per_distance + per_distance) / vf_max(cap->alpha, vf_set(cos_min));
+    vf value = vf_set(LMP_KERNEL_PI) * cap->s2, value_difference = vf_set(0);
+    vf r = per_distance, r_difference = vf_set(0), p = vf_set(1), p_difference = vf_set(0);
+    if (tile.low == 0) {
+        const vf pi = vf_set(LMP_KERNEL_PI);
+        bands[0] = (gradient_band) { (pi + pi) * cap->t_full, vf_set(0), outward };
+    }
+    for (int l = 1; l < tile.high; l++) {
+        if (l > 1) {
+            value_difference =
+                lmp_table_cap_d[l] * value_difference - lmp_table_cap_t[l] * cap->t * value;
+            value = value + value_difference;
+            r_difference = lmp_table_cap_d[l] * r_difference - lmp_table_cap_t[l] * cap->t * r;
+            r = r + r_difference;
+        }
+        p_difference =
+            lmp_table_legendre_d[l] * p_difference - lmp_table_legendre_t[l] * cap->t * p;
+        p = p + p_difference;
+        if (l >= tile.low)
+            bands[l - tile.low] =
+                l % 2 ? (gradient_band) { value, r, outward * (p * cap->even) }
+                      : (gradient_band) { value * cap->even, r * cap->even, outward * p };
+    }
+}
+
+static inline void gradient_prepare(accumulate_tile tile, const lmp_kernel_lights *lights, size_t i,
                                     const vf point[3], float cos_min, gradient_light *light) {
     cap_lanes cap = lights_cap(lights, i, point, 1);
     cap_axis(&cap);
@@ -46,47 +97,32 @@ static inline void gradient_prepare(int bands, const lmp_kernel_lights *lights, 
     light->y = cap.y;
     light->z = cap.z;
     light->rgb = lights_radiance(lights, i);
-    vf radial[LMP_BANDS_MAX];
-    cap_radial(bands, &cap, vf_set(LMP_KERNEL_PI), radial);
-    const vf per_distance = LMP_KERNEL_PI * cap.s2_per_d;
-    const vf outward = (per_distance + per_distance) / vf_max(cap.alpha, vf_set(cos_min));
-    vf r = per_distance, r_difference = vf_set(0), p = vf_set(1), p_difference = vf_set(0);
-    vf c = vf_set(1), s = vf_set(0);
-    light->band[0] = (gradient_band) { radial[0], vf_set(0), outward, c, s };
-    for (int l = 1; l < bands; l++) {
-        if (l > 1) {
-            r_difference = lmp_table_cap_d[l] * r_difference - lmp_table_cap_t[l] * cap.t * r;
-            r = r + r_difference;
-        }
-        p_difference = lmp_table_legendre_d[l] * p_difference - lmp_table_legendre_t[l] * cap.t * p;
-        p = p + p_difference;
-        /* Parity: R_l changes sign inside with even l, P_l with odd. */
-        basis_turn(l, cap.x, cap.y, &c, &s);
-        light->band[l] = (gradient_band) { radial[l], l % 2 ? r : r * cap.even,
-                                           outward * (l % 2 ? p * cap.even : p), c, s };
-    }
+    gradient_turns(tile, light);
+    gradient_bands(tile, &cap, cos_min, light->band);
 }
 
-/* Column m of light k, m <= l < bands. */
-static inline void gradient_column(int bands, int m, vf z, gradient_pair *pairs, int k) {
+/* Column m of light k in the tile's bands. */
+static inline void gradient_column(accumulate_tile tile, int m, vf z, gradient_pair *pairs, int k) {
     vf q0 = vf_set(0), q1 = vf_set(lmp_table_diagonal[m]);
-    pairs[m].q[m % 2][k] = q1;
-    for (int l = m + 1; l < bands; l++) {
+    if (m >= tile.low)
+        pairs[m - tile.low].q[m % 2][k] = q1;
+    for (int l = m + 1; l < tile.high; l++) {
         const vf q2 = basis_step(lmp_table_a, lmp_table_b, l, m, z, q1, q0);
         q0 = q1;
         q1 = q2;
-        pairs[l].q[m % 2][k] = q1;
+        if (l >= tile.low)
+            pairs[l - tile.low].q[m % 2][k] = q1;
     }
 }
 
 /* (l, m) for one light: of +m the value, d/dx, d/dy, d/dz, then of -m. */
-LMP_INLINE void gradient_entry(const gradient_light *light, int l, int m, vf q, vf slope,
-                               vf term[8]) {
-    const gradient_band *band = &light->band[l];
-    const vf c = light->band[m].c, s = light->band[m].s;
+LMP_INLINE void gradient_entry(accumulate_tile tile, const gradient_light *light, int l, int m,
+                               vf q, vf slope, vf term[8]) {
+    const gradient_band *band = &light->band[l - tile.low];
+    const int column = m - tile.first;
+    const vf c = light->c[column + 1], s = light->s[column + 1];
     const vf x = light->x, y = light->y, z = light->z;
-    const vf mc = m ? (float)m * light->band[m - 1].c : vf_set(0);
-    const vf ms = m ? (float)m * light->band[m - 1].s : vf_set(0);
+    const vf mc = (float)m * light->c[column], ms = (float)m * light->s[column];
     const vf across = band->across * q, tilt = band->across * slope;
     const vf along = band->along * q + (float)m * across + z * tilt;
     const vf value = band->value * q, up = z * along - tilt;
@@ -100,24 +136,25 @@ LMP_INLINE void gradient_entry(const gradient_light *light, int l, int m, vf q, 
     term[7] = s * up;
 }
 
-/* Columns first … end-1; the sums of a column follow those of the column below it. */
-LMP_INLINE void gradient_columns(int bands, int first, int end, int at_once,
+/* The sums of a column follow those of the column below it. */
+LMP_INLINE void gradient_columns(int bands, accumulate_tile tile, int at_once,
                                  const gradient_light *light, vf *sums) {
-    gradient_pair pairs[LMP_BANDS_MAX];
-    for (int k = 0; end < bands && k < at_once; k++)
-        gradient_column(bands, end, light[k].z, pairs, k);
-    for (int m = first; m < end; m++)
-        sums += (bands - m) * GRADIENT_WIDTH;
-    for (int m = end - 1; m >= first; m--) {
+    gradient_pair pairs[GRADIENT_PAIRS];
+    for (int k = 0; tile.end < bands && k < at_once; k++)
+        gradient_column(tile, tile.end, light[k].z, pairs, k);
+    sums += accumulate_pairs(tile) * GRADIENT_WIDTH;
+    for (int m = tile.end - 1; m >= tile.first; m--) {
         for (int k = 0; k < at_once; k++)
-            gradient_column(bands, m, light[k].z, pairs, k);
-        sums -= (bands - m) * GRADIENT_WIDTH;
+            gradient_column(tile, m, light[k].z, pairs, k);
+        const int low = m > tile.low ? m : tile.low;
+        sums -= (tile.high - low) * GRADIENT_WIDTH;
         const float *slopes = lmp_table_slope + lmp_table_index(m, m);
-        for (int l = m; l < bands; l++) {
-            vf *sum = sums + (l - m) * GRADIENT_WIDTH, term[ACCUMULATE_LIGHTS][8];
-            LMP_UNROLL for (int k = 0; k < at_once; k++) gradient_entry(
-                &light[k], l, m, pairs[l].q[m % 2][k],
-                l > m ? slopes[l - m] * pairs[l].q[1 - m % 2][k] : vf_set(0), term[k]);
+        for (int l = low; l < tile.high; l++) {
+            vf *sum = sums + (l - low) * GRADIENT_WIDTH, term[GRADIENT_LIGHTS][8];
+            const gradient_pair *pair = &pairs[l - tile.low];
+            LMP_UNROLL for (int k = 0; k < at_once; k++)
+                gradient_entry(tile, &light[k], l, m, pair->q[m % 2][k],
+                               l > m ? slopes[l - m] * pair->q[1 - m % 2][k] : vf_set(0), term[k]);
             LMP_UNROLL for (int i = 0; i < 8; i++) {
                 if (m == 0 && i == 4)
                     break;
@@ -131,31 +168,42 @@ LMP_INLINE void gradient_columns(int bands, int first, int end, int at_once,
     }
 }
 
+static LMP_NOINLINE void gradient_tile(int bands, accumulate_tile tile,
+                                       const lmp_kernel_lights *lights, const vf point[3],
+                                       float cos_min, vf *sums) {
+    gradient_light light[GRADIENT_LIGHTS];
+    size_t i = 0;
+    for (; i + GRADIENT_LIGHTS <= lights->count; i += GRADIENT_LIGHTS) {
+        for (size_t k = 0; k < GRADIENT_LIGHTS; k++)
+            gradient_prepare(tile, lights, i + k, point, cos_min, &light[k]);
+        gradient_columns(bands, tile, GRADIENT_LIGHTS, light, sums);
+    }
+    for (; i < lights->count; i++) {
+        gradient_prepare(tile, lights, i, point, cos_min, &light[0]);
+        gradient_columns(bands, tile, 1, light, sums);
+    }
+}
+
+static LMP_NOINLINE void gradient_put(int bands, accumulate_tile tile, const vf *sums,
+                                      const lmp_kernel_out *out, const lmp_kernel_out *gradient,
+                                      size_t element, size_t live) {
+    accumulate_put(bands, tile, 0, (accumulate_sets) { 12, 0, 3 }, sums, out, element, live);
+    accumulate_put(bands, tile, 0, (accumulate_sets) { 12, 3, 9 }, sums, gradient, element, live);
+}
+
 static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
                             const lmp_kernel_vec3 *points, float cos_min, size_t count,
                             const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    vf sums[LMP_TILE];
-    gradient_light light[ACCUMULATE_LIGHTS];
+    vf sums[GRADIENT_PAIRS * GRADIENT_WIDTH];
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
                               vf_load(points->z + e) };
         const size_t live = layout_live(count, e);
-        for (int first = 0, end; first < bands; first = end) {
-            end = accumulate_tile(bands, first, GRADIENT_WIDTH, sums);
-            size_t i = 0;
-            for (; i + ACCUMULATE_LIGHTS <= lights->count; i += ACCUMULATE_LIGHTS) {
-                for (size_t k = 0; k < ACCUMULATE_LIGHTS; k++)
-                    gradient_prepare(bands, lights, i + k, point, cos_min, &light[k]);
-                gradient_columns(bands, first, end, ACCUMULATE_LIGHTS, light, sums);
-            }
-            for (; i < lights->count; i++) {
-                gradient_prepare(bands, lights, i, point, cos_min, &light[0]);
-                gradient_columns(bands, first, end, 1, light, sums);
-            }
-            accumulate_put(bands, first, end, 0, (accumulate_sets) { 12, 0, 3 }, sums, out, e,
-                           live);
-            accumulate_put(bands, first, end, 0, (accumulate_sets) { 12, 3, 9 }, sums, gradient, e,
-                           live);
+        for (accumulate_tile tile = accumulate_first(bands, GRADIENT_PAIRS); tile.first < bands;
+             tile = accumulate_next(bands, tile, GRADIENT_PAIRS)) {
+            memset(sums, 0, accumulate_pairs(tile) * GRADIENT_WIDTH * sizeof *sums);
+            gradient_tile(bands, tile, lights, point, cos_min, sums);
+            gradient_put(bands, tile, sums, out, gradient, e, live);
         }
     }
 }

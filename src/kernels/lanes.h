@@ -15,7 +15,8 @@
 #include <math.h>
 #endif
 
-#define LMP_INLINE static inline __attribute__((always_inline))
+#define LMP_INLINE   static inline __attribute__((always_inline))
+#define LMP_NOINLINE __attribute__((noinline))
 
 /* Unrolls a loop of constant length whole; the specialized kernels are straight-line code. */
 #if !defined(__OPTIMIZE__)

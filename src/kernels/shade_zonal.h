@@ -9,15 +9,24 @@
  * two monic polynomials then stays a normal float. */
 #define ZONAL_MONIC_BANDS 48
 
-/* What is the same for every surface, by band, broadcast: as operands in memory they cost no
- * instruction. The factors of R_l P_l hold their norms, of l = 0 those of strength and solid angle,
- * which are pi (1 + |cos a|) and 2 pi times an aim's weight.
+/* A number that is the same for every surface, as an operand in memory that costs no instruction:
+ * AVX-512 broadcasts it as it is read, the others read it broadcast. */
+#if LMP_LANES == 16
+typedef float zonal_number;
+#define zonal_number_of(number) (number)
+#else
+typedef vf zonal_number;
+#define zonal_number_of(number) vf_set(number)
+#endif
+
+/* What is the same for every surface, by band. The factors of R_l P_l hold their norms, of l = 0
+ * those of strength and solid angle, which are pi (1 + |cos a|) and 2 pi times an aim's weight.
  * Even bands of the diffuse lobe take two steps at once:
  * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. */
 typedef struct zonal_tables {
-    vf diffuse[LMP_BANDS_MAX], phong[LMP_BANDS_MAX];
-    vf cap[LMP_BANDS_MAX], lobe[LMP_BANDS_MAX]; /* c_l; only in monic form */
-    vf even_a[LMP_BANDS_MAX], even_b[LMP_BANDS_MAX], even_c[LMP_BANDS_MAX];
+    zonal_number diffuse[LMP_BANDS_MAX], phong[LMP_BANDS_MAX];
+    zonal_number cap[LMP_BANDS_MAX], lobe[LMP_BANDS_MAX]; /* c_l; only in monic form */
+    zonal_number even_a[LMP_BANDS_MAX], even_b[LMP_BANDS_MAX], even_c[LMP_BANDS_MAX];
 } zonal_tables;
 
 /* Fewer bands are padded by some of weight 0. */
@@ -40,20 +49,22 @@ static inline void zonal_prepare(int bands, int monic, const float *window, cons
         if (monic && l >= 2) {
             /* R_l = (2l-1)/(l+1) alpha R_(l-1) - (l-2)/(l+1) R_(l-2) */
             norm_r *= (2 * l - 1) / (double)(l + 1);
-            tables->cap[l] = vf_set((float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3))));
-            tables->lobe[l] = vf_set((float)zonal_d(monic, l));
+            tables->cap[l] =
+                zonal_number_of((float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3))));
+            tables->lobe[l] = zonal_number_of((float)zonal_d(monic, l));
         }
         const double scale = (l == 0 ? 0.5 : (2 * l + 1) / 4.0) * norm_p * norm_r;
         const double factor = l < bands ? scale * (double)window[l] : 0;
-        tables->phong[l] = vf_set((float)factor);
-        tables->diffuse[l] = vf_set(l < bands ? (float)(factor * (double)diffuse[l]) : 0);
+        tables->phong[l] = zonal_number_of((float)factor);
+        tables->diffuse[l] = zonal_number_of(l < bands ? (float)(factor * (double)diffuse[l]) : 0);
         if (l >= 2) {
             const double t2 = zonal_t(monic, l), t1 = zonal_t(monic, l - 1);
             const double d2 = zonal_d(monic, l), d1 = zonal_d(monic, l - 1);
             const double down = l == 2 ? 0 : t2 * d1 / zonal_t(monic, l - 2);
-            tables->even_a[l] = vf_set((float)(t2 * t1));
-            tables->even_b[l] = vf_set((float)(down + d2));
-            tables->even_c[l] = vf_set(l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2)));
+            tables->even_a[l] = zonal_number_of((float)(t2 * t1));
+            tables->even_b[l] = zonal_number_of((float)(down + d2));
+            tables->even_c[l] =
+                zonal_number_of(l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2)));
         }
     }
 }
@@ -155,7 +166,7 @@ LMP_INLINE void zonal_light(int bands, int monic, const zonal_tables *tables, co
     vf diffuse = aim->weight * (rise * zonal.diffuse + tables->diffuse[0]);
     vf specular = aim->weight * (rise * zonal.specular + weights[0]);
     if (__builtin_expect(aim->everywhere, 0)) {
-        diffuse = diffuse + 2 * tables->diffuse[0] * aim->ambient;
+        diffuse = diffuse + (2 * tables->diffuse[0]) * aim->ambient;
         specular = specular + 2 * weights[0] * aim->ambient;
     }
     shade_gather(rgb, diffuse, specular, sums);
