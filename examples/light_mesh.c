@@ -30,20 +30,18 @@ static void make_sphere(vertex *vertices) {
 
 static void light(vertex *vertices, const lmp_light *lights, size_t light_count) {
     static const lmp_vec3 viewer = { 0, 0, 1 };
-    static const lmp_rgb clay = { 0.6f, 0.6f, 0.6f }, gloss = { 0.3f, 0.3f, 0.3f };
-    static const float exponent = 60;
+    static const lmp_material clay = { .diffuse = { 0.6f, 0.6f, 0.6f },
+                                       .specular = { 0.3f, 0.3f, 0.3f },
+                                       .exponent = 60 };
     const size_t stride = sizeof *vertices;
     const lmp_surfaces surfaces = {
         .position = { &vertices->position.x, &vertices->position.y, &vertices->position.z, stride },
         .normal = { &vertices->normal.x, &vertices->normal.y, &vertices->normal.z, stride },
         .view = lmp_vec3_array_same(&viewer),
-        .diffuse = { &clay.r, &clay.g, &clay.b, 0 }, /* stride 0: one value for all */
-        .specular = { &gloss.r, &gloss.g, &gloss.b, 0 },
-        .exponent = { &exponent, 0 },
+        .material = &clay, /* stride 0: one for all */
     };
     const lmp_shade_settings settings = { .bands = 16, .window = LMP_WINDOW_HANNING };
-    lmp_shade_n(&settings, &surfaces, VERTICES, lights, light_count, stride / sizeof(float),
-                &vertices->color.r);
+    lmp_shade_n(&settings, &surfaces, VERTICES, lights, light_count, stride, &vertices->color.r);
 }
 
 int main(void) {

@@ -14,12 +14,13 @@ static void use(const lmp_preintegrated_lobe *response) {
                                                       2 * places[i % 4] - 1)))
                 abort();
     /* The kernel has a reading of its own. */
+    const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = response };
     for (int e = 0; e < 6; e++) {
         const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { 0.6f, 0, 0.8f } };
         const lmp_material material = { .diffuse = { 1, 1, 1 },
                                         .specular = { 1, 1, 1 },
                                         .exponent = exponents[e] };
-        (void)lmp_shade_preintegrated(response, &material, &surface, fuzz_lights, FUZZ_LIGHTS);
+        (void)lmp_shade(&settings, &material, &surface, fuzz_lights, FUZZ_LIGHTS);
     }
 }
 

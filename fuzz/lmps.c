@@ -17,7 +17,9 @@ static void use(const lmp_preintegrated_brdf *response) {
     /* The kernel has a reading of its own. */
     for (int k = 0; k < 5; k++) {
         const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = axes[k] };
-        (void)lmp_shade_table_preintegrated(response, &surface, fuzz_lights, FUZZ_LIGHTS);
+        const lmp_material material = { .kind = LMP_MATERIAL_PREINTEGRATED,
+                                        .preintegrated = response };
+        (void)lmp_shade(NULL, &material, &surface, fuzz_lights, FUZZ_LIGHTS);
     }
 }
 

@@ -102,10 +102,11 @@ static void run_lobe(const bench_batch *b) {
 
 static void run_shade_zonal(const bench_batch *b) {
     const lmp_shade_settings settings = { .bands = b->bands };
-    lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, LIGHTS, 3, b->out);
+    lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, LIGHTS, 0, b->out);
 }
 static void run_shade_preintegrated(const bench_batch *b) {
-    lmp_shade_preintegrated_n(b->response, &b->surfaces, b->count, b->lights, LIGHTS, 3, b->out);
+    const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = b->response };
+    lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, LIGHTS, 0, b->out);
 }
 
 /* --- the paper, one by one ---------------------------------------------------------------------
@@ -193,7 +194,7 @@ static void paper_shade(const bench_batch *b, size_t i) {
     const lmp_vec3_array around[2] = { b->surfaces.normal, b->axes };
     float rgb[3] = { 0, 0, 0 };
     paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
-    for (int k = b->surfaces.table ? 1 : 0; k < 2; k++) {
+    for (int k = b->surfaces.material->kind == LMP_MATERIAL_TABLE ? 1 : 0; k < 2; k++) {
         lmp_lobe_project(b->bands, b->lambda, vector_at(&around[k], i), lobe);
         for (size_t c = 0; c < 3; c++)
             rgb[c] += lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
@@ -443,7 +444,8 @@ static double measure_paper(const bench_kernel *kernel, const bench_batch *b, in
 typedef struct bench_inputs {
     float center[3][ELEMENTS_MAX], point[3][ELEMENTS_MAX], axis[3][ELEMENTS_MAX];
     float radiance[3][ELEMENTS_MAX], radius[ELEMENTS_MAX], distance[ELEMENTS_MAX];
-    float normal[3][ELEMENTS_MAX], exponent[ELEMENTS_MAX];
+    float normal[3][ELEMENTS_MAX];
+    lmp_material material[ELEMENTS_MAX], tabulated;
     float lambda[LMP_BANDS_MAX];
     float *out, *vectors, *matrices;
     lmp_light lights[LIGHTS];
@@ -482,7 +484,8 @@ static bool inputs_create(bench_inputs *in) {
         in->normal[0][i] = x / length;
         in->normal[1][i] = y / length;
         in->normal[2][i] = z / length;
-        in->exponent[i] = 20;
+        const lmp_rgb color = { in->radiance[0][i], in->radiance[1][i], in->radiance[2][i] };
+        in->material[i] = (lmp_material) { .diffuse = color, .specular = color, .exponent = 20 };
     }
     for (int i = 0; i < LIGHTS; i++)
         in->lights[i] =
@@ -532,12 +535,14 @@ static bench_batch batch_of(bench_inputs *in, const bench_kernel *kernel, int ba
     b.surfaces = (lmp_surfaces) { .position = b.points,
                                   .normal = planes_of(in->normal),
                                   .view = b.axes,
-                                  .diffuse = planes_of(in->radiance),
-                                  .specular = planes_of(in->radiance),
-                                  .exponent = { in->exponent, sizeof(float) } };
+                                  .material = in->material,
+                                  .material_stride = sizeof *in->material };
     if (kernel->table == TABLE_MEASURED) {
-        b.surfaces.table = (const lmp_brdf_table *const *)&in->table;
-        b.surfaces.response = (const lmp_preintegrated_brdf *const *)&in->measured;
+        in->tabulated = (lmp_material) { .kind = LMP_MATERIAL_TABLE,
+                                         .table = in->table,
+                                         .preintegrated = in->measured };
+        b.surfaces.material = &in->tabulated;
+        b.surfaces.material_stride = 0;
     }
     return b;
 }

@@ -31,20 +31,16 @@ static void shade_run(const gpu_frame *frame, const lmp_light *lights, const gpu
         .position = vectors(row->position, first),
         .normal = vectors(row->normal, first),
         .view = vectors(row->view, first),
-        .diffuse = vectors(row->diffuse, first),
-        .specular = vectors(row->specular, first),
-        .exponent = { row->exponent + first, sizeof(float) },
-        .table = row->tables ? row->table + first : NULL,
-        .table_stride = sizeof *row->table,
-        .response = row->tables ? row->response + first : NULL,
-        .response_stride = sizeof *row->response,
+        .material = row->material + first,
+        .material_stride = sizeof *row->material,
     };
-    const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
-    if (frame->method == GPU_METHOD_PREINTEGRATED)
-        lmp_shade_preintegrated_n(frame->response, &surfaces, count, lights, frame->light_count, 4,
-                                  rgba);
-    else
-        lmp_shade_n(&settings, &surfaces, count, lights, frame->light_count, 4, rgba);
+    const lmp_shade_settings settings = { .method = frame->method == GPU_METHOD_PREINTEGRATED
+                                                        ? LMP_SHADE_PREINTEGRATED
+                                                        : LMP_SHADE_ZONAL,
+                                          .bands = frame->bands,
+                                          .window = frame->window,
+                                          .lobe = frame->response };
+    lmp_shade_n(&settings, &surfaces, count, lights, frame->light_count, 4 * sizeof(float), rgba);
 }
 
 static void shade_row(const gpu_frame *frame, const lmp_light *lights, const gpu_row *row,

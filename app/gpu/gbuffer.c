@@ -81,25 +81,21 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
 bool gpu_row_create(int width, gpu_row *row) {
     const size_t count = (size_t)width;
     memset(row, 0, sizeof *row);
-    float *memory =
-        malloc(count * (19 * sizeof(float) + sizeof *row->table + sizeof *row->response + 1));
+    float *memory = malloc(count * (sizeof *row->material + 12 * sizeof(float) + 1));
     if (!memory)
         return false;
-    row->table = (const lmp_brdf_table **)(void *)memory;
-    row->response = (const lmp_preintegrated_brdf **)(void *)(row->table + count);
-    memory = (float *)(void *)(row->response + count);
-    float **planes[] = { row->position, row->normal,   row->view,
-                         row->diffuse,  row->specular, row->emission };
+    row->material = (lmp_material *)(void *)memory;
+    memory = (float *)(void *)(row->material + count);
+    float **planes[] = { row->position, row->normal, row->view, row->emission };
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
         for (int c = 0; c < 3; c++, memory += count)
             planes[i][c] = memory;
-    row->exponent = memory;
-    row->kind = (unsigned char *)(memory + count);
+    row->kind = (unsigned char *)memory;
     return true;
 }
 
 void gpu_row_free(gpu_row *row) {
-    free(row->table);
+    free(row->material);
 }
 
 /* Unsigned floats of 5 bits of exponent, and 6 or 5 of mantissa. */
@@ -195,13 +191,7 @@ static void decode_materials(const gpu_gbuffer *g, int y, gpu_row *row) {
                 (float)base[3] / 255, (float)roughness / 255);
         held = bits;
         held_roughness = roughness;
-        row->diffuse[0][x] = m.diffuse.r;
-        row->diffuse[1][x] = m.diffuse.g;
-        row->diffuse[2][x] = m.diffuse.b;
-        row->specular[0][x] = m.specular.r;
-        row->specular[1][x] = m.specular.g;
-        row->specular[2][x] = m.specular.b;
-        row->exponent[x] = m.exponent;
+        row->material[x] = m;
     }
 }
 
@@ -210,14 +200,14 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
     decode_points(g, y, row);
     decode_normals(g, y, row);
     decode_materials(g, y, row);
-    row->tables = false;
     for (size_t x = 0; x < (size_t)g->width; x++) {
         const int kind = g->roughness_kind[first + x][1];
         row->kind[x] = (unsigned char)(kind >= SHARED_KIND_TABLE ? GPU_KIND_SURFACE : kind);
-        row->table[x] = kind >= SHARED_KIND_TABLE ? g->tables[kind - SHARED_KIND_TABLE] : NULL;
-        row->response[x] =
-            kind >= SHARED_KIND_TABLE ? g->responses[kind - SHARED_KIND_TABLE] : NULL;
-        row->tables |= kind >= SHARED_KIND_TABLE;
+        if (kind >= SHARED_KIND_TABLE)
+            row->material[x] =
+                (lmp_material) { .kind = LMP_MATERIAL_TABLE,
+                                 .table = g->tables[kind - SHARED_KIND_TABLE],
+                                 .preintegrated = g->responses[kind - SHARED_KIND_TABLE] };
         if (kind == SHARED_KIND_LIGHT) {
             decode_light(g, g->normal[first + x].u, x, row);
             continue;

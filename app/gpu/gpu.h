@@ -188,11 +188,8 @@ bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *erro
 typedef struct gpu_row {
     unsigned char *kind; /* gpu_kind */
     float *position[3], *normal[3], *view[3];
-    float *diffuse[3], *specular[3], *exponent;
     float *emission[3];
-    const lmp_brdf_table **table;
-    const lmp_preintegrated_brdf **response; /* of the table, or NULL */
-    bool tables;                             /* some pixel has one */
+    lmp_material *material;
 } gpu_row;
 bool gpu_row_create(int width, gpu_row *row);
 void gpu_row_free(gpu_row *row);

@@ -26,8 +26,10 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
             .material = { .diffuse = as_rgb(from[i].diffuse),
                           .specular = as_rgb(from[i].specular),
                           .exponent = from[i].normal_exponent[3],
+                          .kind = by_table ? LMP_MATERIAL_TABLE : LMP_MATERIAL_LOBES,
                           .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL,
-                          .response = by_table ? r->responses[kind - SHARED_KIND_TABLE] : NULL },
+                          .preintegrated =
+                              by_table ? r->responses[kind - SHARED_KIND_TABLE] : NULL },
             .emission = as_rgb(from[i].emission),
         };
     }

@@ -312,27 +312,41 @@ static void cubic_weights(float t, float weights[4]) {
     weights[3] = (t3 - t2) / 2;
 }
 
+/* Which coefficients of a view are read: bands low … high-1, `count` of each channel from `first`
+ * on. */
+typedef struct band_part {
+    int low, high;
+    size_t first, count;
+} band_part;
+
+static band_part part_of(const lmp_brdf_table_info *info, int low, int high) {
+    const size_t first = info->mirrored ? brdf_half_count(low) : LMP_SH_COUNT(low);
+    const size_t end = info->mirrored ? brdf_half_count(high) : LMP_SH_COUNT(high);
+    return (band_part) { low, high, first, end - first };
+}
+
 /* Adds weight * the row of a view to rgb, odd m negated if `turned`. */
-static void add_row(const lmp_brdf_table *table, int azimuth, int view, float weight, bool turned,
-                    float *rgb) {
+static void add_row(const lmp_brdf_table *table, band_part part, int azimuth, int view,
+                    float weight, bool turned, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
     const float *row = table->coefficients +
                        ((size_t)azimuth * (size_t)info->views + (size_t)view) * 3 * info->count;
-    if (!turned) {
-        for (size_t i = 0; i < 3 * info->count; i++)
-            rgb[i] += weight * row[i];
-        return;
+    for (size_t channel = 0; channel < 3; channel++) {
+        const float *from = row + channel * info->count + part.first;
+        if (!turned)
+            for (size_t i = 0; i < part.count; i++)
+                *rgb++ += weight * from[i];
+        else
+            for (int l = part.low; l < part.high; l++)
+                for (int m = info->mirrored ? 0 : -l; m <= l; m++)
+                    *rgb++ += (m & 1 ? -weight : weight) * *from++;
     }
-    for (int channel = 0; channel < 3; channel++)
-        for (int l = 0; l < info->bands; l++)
-            for (int m = info->mirrored ? 0 : -l; m <= l; m++)
-                *rgb++ += (m & 1 ? -weight : weight) * *row++;
 }
 
 /* One azimuth's share. Past the pole the view goes on at the opposite azimuth, in a frame turned by
  * pi; past the last view the table is continued linearly. */
-static void add_azimuth(const lmp_brdf_table *table, float theta, int azimuth, float weight,
-                        float *rgb) {
+static void add_azimuth(const lmp_brdf_table *table, band_part part, float theta, int azimuth,
+                        float weight, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
     const int last = info->views - 1;
     const float place = fminf(theta / info->theta_step, (float)last);
@@ -349,20 +363,22 @@ static void add_azimuth(const lmp_brdf_table *table, float theta, int azimuth, f
         if (weights[k] == 0)
             continue;
         if (view >= 0)
-            add_row(table, azimuth, view, weight * weights[k], false, rgb);
+            add_row(table, part, azimuth, view, weight * weights[k], false, rgb);
         else
-            add_row(table, (azimuth + info->azimuths / 2) % info->azimuths, 1, weight * weights[k],
-                    true, rgb);
+            add_row(table, part, (azimuth + info->azimuths / 2) % info->azimuths, 1,
+                    weight * weights[k], true, rgb);
     }
 }
 
-void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float phi_o, float *rgb) {
+size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, float phi_o, int low,
+                            int high, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
     const float theta = acosf(fminf(fmaxf(cos_theta_o, 0), 1));
-    memset(rgb, 0, 3 * info->count * sizeof *rgb);
+    const band_part part = part_of(info, low, high);
+    memset(rgb, 0, 3 * part.count * sizeof *rgb);
     if (info->azimuths == 1) {
-        add_azimuth(table, theta, 0, 1, rgb);
-        return;
+        add_azimuth(table, part, theta, 0, 1, rgb);
+        return part.count;
     }
     const float turns = phi_o / (float)(2 * BRDF_PI);
     const float place = (turns - floorf(turns)) * (float)info->azimuths;
@@ -370,8 +386,13 @@ void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float p
     float weights[4];
     cubic_weights(place - (float)first, weights);
     for (int k = 0; k < 4; k++)
-        add_azimuth(table, theta, (first - 1 + k + info->azimuths) % info->azimuths, weights[k],
-                    rgb);
+        add_azimuth(table, part, theta, (first - 1 + k + info->azimuths) % info->azimuths,
+                    weights[k], rgb);
+    return part.count;
+}
+
+void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float phi_o, float *rgb) {
+    lmp_brdf_table_bands(table, cos_theta_o, phi_o, 0, table->info.bands, rgb);
 }
 
 void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, lmp_rgb *measured,

@@ -18,4 +18,8 @@ struct lmp_brdf_table {
 lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_table_info *info,
                               lmp_brdf_table **table);
 
+/* lmp_brdf_table_view of bands low … high-1: returns how many coefficients a channel has there. */
+size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, float phi_o, int low,
+                            int high, float *rgb);
+
 #endif

@@ -5,6 +5,8 @@
 
 #include "src/base/tables.h"
 
+#include <lampion/light.h>
+
 #include <stdbool.h>
 
 /* A sphere from a point. Outside sin²a = r²/d², inside d²/r². */
@@ -17,6 +19,10 @@ typedef struct lmp_sight {
 
 void lmp_sight_distance(float radius, float distance, lmp_sight *sight);
 void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *sight);
+
+/* Adds the coefficients of bands low … high-1 to three planes, red, green, blue, of as many values.
+ */
+void lmp_cap_add(int low, int high, const lmp_cap *cap, float *sh);
 
 /* R_l(1 - one_minus_cos), l < bands, one_minus_cos in 0 … 1, by differences: cos a itself, rounded
  * near 1, would cost l² units. */

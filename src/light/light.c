@@ -112,19 +112,22 @@ void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *z
     *axis = away ? opposite(cap.axis) : cap.axis;
 }
 
-static void add_cap(int bands, const lmp_cap *cap, float *sh) {
-    float *red = sh, *green = red + LMP_SH_COUNT(bands), *blue = green + LMP_SH_COUNT(bands);
+void lmp_cap_add(int low, int high, const lmp_cap *cap, float *sh) {
+    const size_t first = LMP_SH_COUNT(low), plane = LMP_SH_COUNT(high) - first;
+    float *red = sh, *green = red + plane, *blue = green + plane;
     float r[LMP_BANDS_MAX], q[LMP_BANDS_MAX];
-    lmp_cap_polynomials(bands, cap->one_minus_cos, r);
-    red[0] += cap->ambient.r / lmp_table_pole[0];
-    green[0] += cap->ambient.g / lmp_table_pole[0];
-    blue[0] += cap->ambient.b / lmp_table_pole[0];
+    lmp_cap_polynomials(high, cap->one_minus_cos, r);
+    if (low == 0) {
+        red[0] += cap->ambient.r / lmp_table_pole[0];
+        green[0] += cap->ambient.g / lmp_table_pole[0];
+        blue[0] += cap->ambient.b / lmp_table_pole[0];
+    }
     lmp_azimuth a = { 1, 0 };
-    for (int m = 0; m < bands; m++) {
-        lmp_sh_column(bands, m, cap->axis.z, q);
-        for (int l = m; l < bands; l++) {
+    for (int m = 0; m < high; m++) {
+        lmp_sh_column(high, m, cap->axis.z, q);
+        for (int l = m > low ? m : low; l < high; l++) {
             const float cosine = q[l] * r[l] * a.c, sine = q[l] * r[l] * a.s;
-            const size_t plus = LMP_SH_INDEX(l, m), minus = LMP_SH_INDEX(l, -m);
+            const size_t plus = LMP_SH_INDEX(l, m) - first, minus = LMP_SH_INDEX(l, -m) - first;
             red[plus] += cap->strength.r * cosine;
             green[plus] += cap->strength.g * cosine;
             blue[plus] += cap->strength.b * cosine;
@@ -145,6 +148,6 @@ void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, in
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], point, &cap);
-        add_cap(bands, &cap, sh);
+        lmp_cap_add(0, bands, &cap, sh);
     }
 }

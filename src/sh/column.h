@@ -30,4 +30,7 @@ static inline void lmp_sh_column(int bands, int m, float z, float *q) {
 /* Σ_l factors[l] Σ_m sh_lm Y_lm(direction); factors NULL means 1. */
 float lmp_sh_filtered(int bands, const float *sh, const float *factors, lmp_vec3 direction);
 
+/* factors[l] Y_lm(axis) of bands low … high-1. */
+void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, float *sh);
+
 #endif

@@ -20,6 +20,20 @@ void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {
     }
 }
 
+void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, float *sh) {
+    const size_t first = LMP_SH_COUNT(low);
+    float q[LMP_BANDS_MAX];
+    lmp_azimuth a = { 1, 0 };
+    for (int m = 0; m < high; m++) {
+        lmp_sh_column(high, m, axis.z, q);
+        for (int l = m > low ? m : low; l < high; l++) {
+            sh[LMP_SH_INDEX(l, -m) - first] = factors[l] * q[l] * a.s;
+            sh[LMP_SH_INDEX(l, m) - first] = factors[l] * q[l] * a.c;
+        }
+        a = lmp_azimuth_next(a, axis);
+    }
+}
+
 float lmp_sh_dot(int bands, const float *a, const float *b) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     float sum = 0;

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.c - shading many surfaces: chunks of planes, every light as a sphere or a fixed cap. */
+/* shade_n.c - shading many surfaces: chunks of planes, every light as a sphere or a fixed cap. */
 #include "src/base/tables.h"
 #include "src/kernels/batch.h"
 #include "src/preintegrated/lobe_eval.h"
-
-#include <lampion/shade.h>
+#include "src/shade/material.h"
 
 #include <assert.h>
 #include <math.h>
@@ -19,43 +18,38 @@ static const float pi = 3.14159265f;
 
 /* --- a chunk ---------------------------------------------------------------------------------- */
 
-/* Surfaces near each other that are shaded alike: by `response`, else by `table`, else by lobes. */
+/* Spots that one call of a kernel takes at most: each needs a plane of its own. */
+enum { SPOTS_MAX = 4 };
+
+/* Surfaces near each other that are shaded from the same. */
 typedef struct chunk {
-    const lmp_brdf_table *table;
-    const lmp_preintegrated_brdf *response;
+    shade_source source;
     size_t count;
     size_t at[LMP_BATCH]; /* among the caller's; rising */
     lmp_batch_vec3 point, normal, view, diffuse, specular;
     lmp_batch_plane exponent;
-    lmp_batch_plane gathered[6];
+    lmp_batch_plane accumulated[6];
     float ambient[3];
     lmp_kernel_surfaces surfaces;
     lmp_kernel_accumulated sums;
 } chunk_planes;
 
-/* Surface i's pointer, at a stride. */
-static const void *pointer_at(const void *first, size_t stride, size_t i) {
-    const void *at = NULL;
-    if (first)
-        memcpy(&at, (const char *)first + i * stride, sizeof at);
-    return at;
+static const lmp_material *material_at(const lmp_surfaces *surfaces, size_t i) {
+    const char *first = (const char *)surfaces->material;
+    return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
 }
 
 /* Moves from `left` what is like its first; returns how many stay. */
-static size_t take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
+static size_t take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
                          size_t count, chunk_planes *chunk) {
     size_t others = 0;
     chunk->count = 0;
     for (size_t i = 0; i < count; i++) {
-        const lmp_brdf_table *table = pointer_at(surfaces->table, surfaces->table_stride, left[i]);
-        const lmp_preintegrated_brdf *response =
-            preintegrated ? pointer_at(surfaces->response, surfaces->response_stride, left[i])
-                          : NULL;
-        if (i == 0) {
-            chunk->table = table;
-            chunk->response = response;
-        }
-        if (table == chunk->table && response == chunk->response)
+        const shade_source source = lmp_shade_source(material_at(surfaces, left[i]), method);
+        if (i == 0)
+            chunk->source = source;
+        if (source.table == chunk->source.table &&
+            source.preintegrated == chunk->source.preintegrated)
             chunk->at[chunk->count++] = left[i];
         else
             left[others++] = left[i];
@@ -84,21 +78,39 @@ static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const chunk_pla
                                load_floats(array->z, array->stride, chunk, &planes->z) };
 }
 
+/* Neighbors are often of one material. */
+static void load_lobes(const lmp_surfaces *surfaces, chunk_planes *chunk) {
+    const lmp_material *before = NULL;
+    lmp_material phong = { 0 };
+    for (size_t i = 0; i < chunk->count; i++) {
+        const lmp_material *material = material_at(surfaces, chunk->at[i]);
+        if (material != before)
+            phong = lmp_shade_phong(material);
+        before = material;
+        chunk->diffuse.x.at[i] = phong.diffuse.r;
+        chunk->diffuse.y.at[i] = phong.diffuse.g;
+        chunk->diffuse.z.at[i] = phong.diffuse.b;
+        chunk->specular.x.at[i] = phong.specular.r;
+        chunk->specular.y.at[i] = phong.specular.g;
+        chunk->specular.z.at[i] = phong.specular.b;
+        chunk->exponent.at[i] = phong.exponent;
+    }
+    for (size_t i = chunk->count; i % LMP_KERNEL_LANES_MAX; i++)
+        chunk->exponent.at[i] = 0;
+    chunk->surfaces.exponent = chunk->exponent.at;
+}
+
 static void load_chunk(const lmp_surfaces *surfaces, chunk_planes *chunk) {
     chunk->surfaces.point = load_vectors(&surfaces->position, chunk, &chunk->point);
     chunk->surfaces.normal = load_vectors(&surfaces->normal, chunk, &chunk->normal);
     chunk->surfaces.view = load_vectors(&surfaces->view, chunk, &chunk->view);
-    if (!chunk->response) {
-        load_vectors(&surfaces->diffuse, chunk, &chunk->diffuse);
-        load_vectors(&surfaces->specular, chunk, &chunk->specular);
-        chunk->surfaces.exponent =
-            load_floats(surfaces->exponent.at, surfaces->exponent.stride, chunk, &chunk->exponent);
-    }
-    memset(chunk->gathered, 0, sizeof chunk->gathered);
+    if (!chunk->source.preintegrated)
+        load_lobes(surfaces, chunk);
+    memset(chunk->accumulated, 0, sizeof chunk->accumulated);
     memset(chunk->ambient, 0, sizeof chunk->ambient);
     for (int c = 0; c < 3; c++) {
-        chunk->sums.diffuse[c] = chunk->gathered[c].at;
-        chunk->sums.specular[c] = chunk->gathered[3 + c].at;
+        chunk->sums.diffuse[c] = chunk->accumulated[c].at;
+        chunk->sums.specular[c] = chunk->accumulated[3 + c].at;
     }
 }
 
@@ -107,34 +119,39 @@ static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
     const float *specular[3] = { chunk->specular.x.at, chunk->specular.y.at, chunk->specular.z.at };
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < chunk->count; i++) {
-            const float broad = chunk->gathered[c].at[i], ambient = chunk->ambient[c];
-            const float sum = chunk->response
-                                  ? broad
-                                  : diffuse[c][i] * (broad + ambient) +
-                                        specular[c][i] * (chunk->gathered[3 + c].at[i] + ambient);
-            rgb[chunk->at[i] * stride + c] = sum > 0 ? sum : 0;
+            const float first = chunk->accumulated[c].at[i], ambient = chunk->ambient[c];
+            const float sum =
+                chunk->source.preintegrated
+                    ? first
+                    : diffuse[c][i] * (first + ambient) +
+                          specular[c][i] * (chunk->accumulated[3 + c].at[i] + ambient);
+            const float color = sum > 0 ? sum : 0;
+            memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
         }
 }
 
 static lmp_vec3 vector_at(const lmp_vec3_array *array, size_t i) {
-    lmp_vec3 v;
-    memcpy(&v.x, (const char *)array->x + i * array->stride, sizeof v.x);
-    memcpy(&v.y, (const char *)array->y + i * array->stride, sizeof v.y);
-    memcpy(&v.z, (const char *)array->z + i * array->stride, sizeof v.z);
+    lmp_vec3 v = { 0, 0, 0 };
+    if (array->x) {
+        memcpy(&v.x, (const char *)array->x + i * array->stride, sizeof v.x);
+        memcpy(&v.y, (const char *)array->y + i * array->stride, sizeof v.y);
+        memcpy(&v.z, (const char *)array->z + i * array->stride, sizeof v.z);
+    }
     return v;
 }
 
-/* A table without a response: surface by surface. */
-static void shade_tables(const lmp_surfaces *surfaces, const chunk_planes *chunk,
-                         const lmp_light *lights, size_t light_count, size_t stride, float *rgb) {
-    for (size_t i = 0; i < chunk->count; i++) {
-        const size_t at = chunk->at[i];
-        const lmp_surface surface = { vector_at(&surfaces->position, at),
-                                      vector_at(&surfaces->normal, at),
-                                      vector_at(&surfaces->view, at) };
+/* Sums of coefficients: surface by surface. */
+static void shade_each(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                       const size_t *at, size_t count, const lmp_light *lights, size_t light_count,
+                       size_t stride, float *rgb) {
+    for (size_t i = 0; i < count; i++) {
+        const lmp_surface surface = { vector_at(&surfaces->position, at[i]),
+                                      vector_at(&surfaces->normal, at[i]),
+                                      vector_at(&surfaces->view, at[i]),
+                                      vector_at(&surfaces->tangent, at[i]) };
         const lmp_rgb color =
-            lmp_shade_table(chunk->table, &surface, (lmp_vec3) { 0, 0, 0 }, lights, light_count);
-        memcpy(rgb + at * stride, &color, sizeof color);
+            lmp_shade(settings, material_at(surfaces, at[i]), &surface, lights, light_count);
+        memcpy((char *)rgb + at[i] * stride, &color, sizeof color);
     }
 }
 
@@ -196,15 +213,14 @@ static lmp_kernel_light take_light(const lmp_light *light, const chunk_planes *c
 
 /* --- methods ---------------------------------------------------------------------------------- */
 
-/* How the lobes are known: by bands, or by a response. */
+/* How lobes are shaded: by bands, or from a preintegrated lobe. */
 typedef struct method {
-    int bands;
+    const lmp_shade_settings *settings;
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
-    const lmp_preintegrated_lobe *response;
     lmp_preintegrated_lobe_info info;
-    uint32_t broad_first[LMP_KERNEL_LANES_MAX], broad_columns[LMP_KERNEL_LANES_MAX];
-    float broad[3][LMP_KERNEL_LANES_MAX];
-    lmp_kernel_lobe_positions diffuse_place;
+    uint32_t diffuse_first[LMP_KERNEL_LANES_MAX], diffuse_columns[LMP_KERNEL_LANES_MAX];
+    float diffuse_numbers[3][LMP_KERNEL_LANES_MAX];
+    lmp_kernel_lobe_positions diffuse_position;
 } shade_method;
 
 /* Where each surface's lobe lies. */
@@ -235,18 +251,18 @@ static lmp_kernel_lobe_positions find_places(const lmp_preintegrated_lobe_info *
                                          places->density.at, places->lobe_angle.at };
 }
 
-static void gather_lobes(const shade_method *method, const chunk_planes *chunk,
-                         const lmp_kernel_light *lights, size_t count) {
+static void shade_lobe_planes(const shade_method *method, const chunk_planes *chunk,
+                              const lmp_kernel_light *lights, size_t count) {
     const lmp_kernels *kernels = lmp_kernels_get();
-    if (!method->response) {
-        kernels->shade_zonal(method->bands, method->window, method->diffuse, &chunk->surfaces,
-                             lights, count, chunk->count, &chunk->sums);
+    if (method->settings->method != LMP_SHADE_PREINTEGRATED) {
+        kernels->shade_zonal(method->settings->bands, method->window, method->diffuse,
+                             &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
         return;
     }
     chunk_places places;
     const lmp_kernel_preintegrated_lobe response = { method->info.coefficients };
     const lmp_kernel_lobe_positions specular = find_places(&method->info, chunk, &places);
-    kernels->shade_preintegrated_lobe(&response, &method->diffuse_place, &specular,
+    kernels->shade_preintegrated_lobe(&response, &method->diffuse_position, &specular,
                                       &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
 }
 
@@ -254,9 +270,10 @@ static_assert(sizeof(lmp_kernel_slice) == sizeof(lmp_preintegrated_brdf_slice) &
                   offsetof(lmp_kernel_slice, unit) == offsetof(lmp_preintegrated_brdf_slice, unit),
               "the kernels' slices are the responses'");
 
-static void gather_measured(const chunk_planes *chunk, const lmp_kernel_light *lights, size_t count,
-                            lmp_rgb ambient) {
-    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(chunk->response);
+static void shade_brdf_planes(const chunk_planes *chunk, const lmp_kernel_light *lights,
+                              size_t count, lmp_rgb ambient) {
+    const lmp_preintegrated_brdf_info info =
+        lmp_preintegrated_brdf_describe(chunk->source.preintegrated);
     const lmp_kernel_preintegrated_brdf material = { .mirrored = info.mirrored,
                                                      .width = info.width,
                                                      .radius = info.radius,
@@ -276,23 +293,34 @@ static void gather_measured(const chunk_planes *chunk, const lmp_kernel_light *l
                                                 chunk->count, chunk->sums.diffuse);
 }
 
-/* By the kernels. `method` is that of lobes, and else not read. */
+/* Takes lights until one more would be too many; returns how many. */
+static size_t take_lights(const lmp_light *lights, size_t count, const chunk_planes *chunk,
+                          lmp_batch_plane *scales, lmp_kernel_light *taken, lmp_rgb *ambient) {
+    size_t n = 0, spots = 0;
+    for (; n < count && n < LMP_KERNEL_LIGHTS_MAX; n++) {
+        const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
+        if (spot && spots == SPOTS_MAX)
+            break;
+        taken[n] = take_light(&lights[n], chunk, &scales[spots], ambient);
+        spots += spot;
+    }
+    return n;
+}
+
+/* By the kernels. */
 static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces,
                         chunk_planes *chunk, const lmp_light *lights, size_t light_count,
                         size_t stride, float *rgb) {
-    lmp_batch_plane scales[LMP_KERNEL_LIGHTS_MAX];
+    lmp_batch_plane scales[SPOTS_MAX + 1];
     load_chunk(surfaces, chunk);
-    for (size_t light = 0; light < light_count; light += LMP_KERNEL_LIGHTS_MAX) {
+    for (size_t light = 0, taken; light < light_count; light += taken) {
         lmp_kernel_light some[LMP_KERNEL_LIGHTS_MAX];
         lmp_rgb ambient = { 0, 0, 0 };
-        const size_t left = light_count - light;
-        const size_t taken = left < LMP_KERNEL_LIGHTS_MAX ? left : LMP_KERNEL_LIGHTS_MAX;
-        for (size_t i = 0; i < taken; i++)
-            some[i] = take_light(&lights[light + i], chunk, &scales[i], &ambient);
-        if (chunk->response)
-            gather_measured(chunk, some, taken, ambient);
+        taken = take_lights(lights + light, light_count - light, chunk, scales, some, &ambient);
+        if (chunk->source.preintegrated)
+            shade_brdf_planes(chunk, some, taken, ambient);
         else
-            gather_lobes(method, chunk, some, taken);
+            shade_lobe_planes(method, chunk, some, taken);
         chunk->ambient[0] += ambient.r;
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
@@ -300,93 +328,53 @@ static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces
     store_chunk(chunk, stride, rgb);
 }
 
-static void shade_surfaces(const shade_method *method, const lmp_surfaces *surfaces, size_t count,
-                           const lmp_light *lights, size_t light_count, size_t rgb_stride,
-                           float *rgb) {
+static void prepare_zonal(const lmp_shade_settings *settings, shade_method *method) {
+    lmp_sh_window(settings->window, settings->bands, settings->window_size, method->window);
+    lmp_lobe_diffuse(settings->bands, method->diffuse);
+    for (int l = 0; l < settings->bands; l++)
+        method->diffuse[l] /= pi;
+}
+
+static void prepare_preintegrated(const lmp_shade_settings *settings, shade_method *method) {
+    lmp_preintegrated_lobe_position position;
+    method->info = lmp_preintegrated_lobe_describe(settings->lobe);
+    lmp_preintegrated_lobe_lookup(&method->info, 1, &position);
+    for (int i = 0; i < LMP_KERNEL_LANES_MAX; i++) {
+        method->diffuse_first[i] = position.first;
+        method->diffuse_columns[i] = position.columns;
+        method->diffuse_numbers[0][i] = position.fraction;
+        method->diffuse_numbers[1][i] = position.density;
+        method->diffuse_numbers[2][i] = position.lobe_angle;
+    }
+    method->diffuse_position =
+        (lmp_kernel_lobe_positions) { method->diffuse_first, method->diffuse_columns,
+                                      method->diffuse_numbers[0], method->diffuse_numbers[1],
+                                      method->diffuse_numbers[2] };
+}
+
+void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces, size_t count,
+                 const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
+    const lmp_shade_settings resolved = lmp_shade_resolve(settings);
+    const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
+    shade_method method = { .settings = &resolved };
     chunk_planes chunk;
-    const size_t stride = rgb_stride ? rgb_stride : 3;
+    if (resolved.method != LMP_SHADE_PREINTEGRATED)
+        prepare_zonal(&resolved, &method);
+    else if (resolved.lobe)
+        prepare_preintegrated(&resolved, &method);
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         size_t left[LMP_BATCH], left_count = lmp_batch_count(count, first);
         for (size_t i = 0; i < left_count; i++)
             left[i] = first + i;
         while (left_count > 0) {
-            left_count = take_alike(surfaces, method->response != NULL, left, left_count, &chunk);
-            if (chunk.table && !chunk.response)
-                shade_tables(surfaces, &chunk, lights, light_count, stride, rgb);
+            left_count = take_alike(surfaces, resolved.method, left, left_count, &chunk);
+            const bool lobes = !chunk.source.table && !chunk.source.preintegrated;
+            assert(!lobes || resolved.method != LMP_SHADE_PREINTEGRATED || resolved.lobe);
+            if (chunk.source.table || (lobes && resolved.method == LMP_SHADE_COEFFICIENTS))
+                shade_each(settings, surfaces, chunk.at, chunk.count, lights, light_count, stride,
+                           rgb);
             else
-                shade_chunk(method, surfaces, &chunk, lights, light_count, stride, rgb);
+                shade_chunk(&method, surfaces, &chunk, lights, light_count, stride, rgb);
         }
     }
-}
-
-void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces, size_t count,
-                 const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
-    const lmp_shade_settings chosen = settings ? *settings : (lmp_shade_settings) { 0 };
-    shade_method method = { .bands = chosen.bands ? chosen.bands : LMP_SHADE_BANDS_DEFAULT };
-    assert(method.bands >= 1 && method.bands <= LMP_BANDS_MAX);
-    lmp_sh_window(chosen.window, method.bands, chosen.window_size, method.window);
-    lmp_lobe_diffuse(method.bands, method.diffuse);
-    for (int l = 0; l < method.bands; l++)
-        method.diffuse[l] /= pi;
-    shade_surfaces(&method, surfaces, count, lights, light_count, rgb_stride, rgb);
-}
-
-void lmp_shade_preintegrated_n(const lmp_preintegrated_lobe *response, const lmp_surfaces *surfaces,
-                               size_t count, const lmp_light *lights, size_t light_count,
-                               size_t rgb_stride, float *rgb) {
-    shade_method method = { .response = response,
-                            .info = lmp_preintegrated_lobe_describe(response) };
-    lmp_preintegrated_lobe_position place;
-    lmp_preintegrated_lobe_lookup(&method.info, 1, &place);
-    for (int i = 0; i < LMP_KERNEL_LANES_MAX; i++) {
-        method.broad_first[i] = place.first;
-        method.broad_columns[i] = place.columns;
-        method.broad[0][i] = place.fraction;
-        method.broad[1][i] = place.density;
-        method.broad[2][i] = place.lobe_angle;
-    }
-    method.diffuse_place =
-        (lmp_kernel_lobe_positions) { method.broad_first, method.broad_columns, method.broad[0],
-                                      method.broad[1], method.broad[2] };
-    shade_surfaces(&method, surfaces, count, lights, light_count, rgb_stride, rgb);
-}
-
-/* --- one surface ------------------------------------------------------------------------------ */
-
-lmp_rgb lmp_shade_table_preintegrated(const lmp_preintegrated_brdf *response,
-                                      const lmp_surface *surface, const lmp_light *lights,
-                                      size_t count) {
-    const lmp_surfaces one = {
-        .position = lmp_vec3_array_same(&surface->position),
-        .normal = lmp_vec3_array_same(&surface->normal),
-        .view = lmp_vec3_array_same(&surface->view),
-    };
-    chunk_planes chunk;
-    float rgb[3];
-    chunk.table = NULL;
-    chunk.response = response;
-    chunk.count = 1;
-    chunk.at[0] = 0;
-    shade_chunk(NULL, &one, &chunk, lights, count, 3, rgb);
-    return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
-}
-
-lmp_rgb lmp_shade_preintegrated(const lmp_preintegrated_lobe *response,
-                                const lmp_material *material, const lmp_surface *surface,
-                                const lmp_light *lights, size_t count) {
-    const lmp_surfaces one = {
-        .position = lmp_vec3_array_same(&surface->position),
-        .normal = lmp_vec3_array_same(&surface->normal),
-        .view = lmp_vec3_array_same(&surface->view),
-        .diffuse = { &material->diffuse.r, &material->diffuse.g, &material->diffuse.b, 0 },
-        .specular = { &material->specular.r, &material->specular.g, &material->specular.b, 0 },
-        .exponent = { &material->exponent, 0 },
-    };
-    float rgb[3];
-    if (material->response)
-        return lmp_shade_table_preintegrated(material->response, surface, lights, count);
-    if (material->table)
-        return lmp_shade_table(material->table, surface, (lmp_vec3) { 0, 0, 0 }, lights, count);
-    lmp_shade_preintegrated_n(response, &one, 1, lights, count, 3, rgb);
-    return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
 }

@@ -32,7 +32,7 @@ static double difference(gpu_renderer *renderer, const gpu_frame *frame, int *by
         const gpu_pixel *p = &pixels[i];
         if (p->kind != GPU_KIND_SURFACE)
             continue;
-        *by_table += p->material.table != NULL;
+        *by_table += p->material.kind == LMP_MATERIAL_TABLE;
         const lmp_rgb c =
             lmp_shade(&settings, &p->material, &p->surface, lights, frame->light_count);
         const float expected[3] = { c.r + p->emission.r, c.g + p->emission.g, c.b + p->emission.b };

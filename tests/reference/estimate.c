@@ -351,13 +351,15 @@ static void tables_reflect_as_the_library_shades_them(void **state) {
     for (int i = 0; i < 6; i++) {
         const reference_vec view = unit(0.4 * i - 1, 1, 0.3 * i);
         const lmp_surface surface = { .normal = { 0, 1, 0 },
-                                      .view = { (float)view.x, (float)view.y, (float)view.z } };
+                                      .view = { (float)view.x, (float)view.y, (float)view.z },
+                                      .tangent = { 1, 0, 0 } };
+        const lmp_material by_table = { .kind = LMP_MATERIAL_TABLE, .table = table };
         scene_light lights[4];
         lmp_light spheres[4];
         random_lights(lights, 4);
         for (int k = 0; k < 4; k++)
             spheres[k] = lights[k].emitter;
-        const lmp_rgb c = lmp_shade_table(table, &surface, (lmp_vec3) { 1, 0, 0 }, spheres, 4);
+        const lmp_rgb c = lmp_shade(NULL, &by_table, &surface, spheres, 4);
         const reference_material_source source = { .coefficients =
                                                        lmp_brdf_table_coefficients(table),
                                                    .table = lmp_brdf_table_describe(table) };

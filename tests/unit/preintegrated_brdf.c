@@ -69,10 +69,11 @@ static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_preintegrated_brdf 
     const lmp_light light = { .position = direction, .radius = p->radius, .radiance = { 1, 1, 1 } };
     const lmp_surface surface = { .normal = { 0, 0, 1 },
                                   .view = { (float)sin(p->theta), 0, (float)cos(p->theta) } };
-    const lmp_material material = { .table = table, .response = response };
-    if (!response)
-        return lmp_shade(NULL, &material, &surface, &light, 1);
-    return lmp_shade_preintegrated(NULL, &material, &surface, &light, 1);
+    const lmp_material material = { .kind = LMP_MATERIAL_TABLE,
+                                    .table = table,
+                                    .preintegrated = response };
+    const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED };
+    return lmp_shade(response ? &settings : NULL, &material, &surface, &light, 1);
 }
 
 static float largest_of(lmp_rgb c) {
@@ -297,14 +298,18 @@ static crowd *crowd_create(void) {
     for (int i = 0; i < SURFACES; i++) {
         const int which = (int)(check_random() * MATERIALS);
         c->materials[i] = (lmp_material) {
+            .kind = which == 0   ? LMP_MATERIAL_LOBES
+                    : which == 3 ? LMP_MATERIAL_PREINTEGRATED
+                                 : LMP_MATERIAL_TABLE,
             .diffuse = random_color(),
             .specular = random_color(),
             .exponent = (float)check_random_between(1, 100),
             .table = which == 0 || which == 3 ? NULL : c->tables[which % 2],
-            .response = which == 0 || which == 4 ? NULL : c->responses[which % 2],
+            .preintegrated = which == 0 || which == 4 ? NULL : c->responses[which % 2],
         };
         const lmp_vec3 n = check_random_direction(), v = check_random_direction();
-        c->surfaces[i] = (lmp_surface) { random_point(1), n, i % 16 ? v : n };
+        c->surfaces[i] =
+            (lmp_surface) { .position = random_point(1), .normal = n, .view = i % 16 ? v : n };
         if (i % 32 == 0)
             c->surfaces[i].normal = c->surfaces[i].view = (lmp_vec3) { 0, 1, 0 };
     }
@@ -321,22 +326,21 @@ static void crowd_free(crowd *c) {
     free(c);
 }
 
+static lmp_shade_settings by_readings(const crowd *c) {
+    return (lmp_shade_settings) { .method = LMP_SHADE_PREINTEGRATED, .lobe = c->lobes };
+}
+
 static void shade_crowd(const crowd *c, size_t count, float *rgb) {
     const lmp_surface *s = c->surfaces;
-    const lmp_material *m = c->materials;
     const lmp_surfaces surfaces = {
         .position = { &s->position.x, &s->position.y, &s->position.z, sizeof *s },
         .normal = { &s->normal.x, &s->normal.y, &s->normal.z, sizeof *s },
         .view = { &s->view.x, &s->view.y, &s->view.z, sizeof *s },
-        .diffuse = { &m->diffuse.r, &m->diffuse.g, &m->diffuse.b, sizeof *m },
-        .specular = { &m->specular.r, &m->specular.g, &m->specular.b, sizeof *m },
-        .exponent = { &m->exponent, sizeof *m },
-        .table = &m->table,
-        .table_stride = sizeof *m,
-        .response = &m->response,
-        .response_stride = sizeof *m,
+        .material = c->materials,
+        .material_stride = sizeof *c->materials,
     };
-    lmp_shade_preintegrated_n(c->lobes, &surfaces, count, c->lights, LIGHTS, 4, rgb);
+    const lmp_shade_settings settings = by_readings(c);
+    lmp_shade_n(&settings, &surfaces, count, c->lights, LIGHTS, 4 * sizeof *rgb, rgb);
 }
 
 static double dot3(lmp_vec3 a, lmp_vec3 b) {
@@ -381,12 +385,13 @@ static void many_surfaces_are_shaded_like_one(void **state) {
     double error = 0, largest = 0;
     shade_crowd(c, SURFACES, rgb);
     for (int i = 0; i < SURFACES; i++) {
+        const lmp_shade_settings settings = by_readings(c);
         const lmp_rgb one =
-            lmp_shade_preintegrated(c->lobes, &c->materials[i], &c->surfaces[i], c->lights, LIGHTS);
+            lmp_shade(&settings, &c->materials[i], &c->surfaces[i], c->lights, LIGHTS);
         assert_memory_equal(&one, rgb + 4 * i, sizeof one);
-        if (!c->materials[i].response || i % 16 == 0)
+        if (!c->materials[i].preintegrated || i % 16 == 0)
             continue;
-        const lmp_rgb read = read_one(c->materials[i].response, &c->surfaces[i], c->lights);
+        const lmp_rgb read = read_one(c->materials[i].preintegrated, &c->surfaces[i], c->lights);
         const double off =
             fmax(fabs((double)(read.r - one.r)),
                  fmax(fabs((double)(read.g - one.g)), fabs((double)(read.b - one.b))));

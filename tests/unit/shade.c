@@ -18,6 +18,18 @@ static lmp_rgb random_color(void) {
     return (lmp_rgb) { (float)check_random(), (float)check_random(), (float)check_random() };
 }
 
+static lmp_material two_lobes(float exponent) {
+    return (lmp_material) { .diffuse = random_color(),
+                            .specular = random_color(),
+                            .exponent = exponent };
+}
+
+static lmp_shade_settings by_coefficients(const lmp_shade_settings *settings) {
+    lmp_shade_settings by = settings ? *settings : (lmp_shade_settings) { 0 };
+    by.method = LMP_SHADE_COEFFICIENTS;
+    return by;
+}
+
 static void random_spheres(int count, lmp_light *lights) {
     for (int i = 0; i < count; i++)
         lights[i] = (lmp_light) { .position = { (float)check_random_between(-3, 3),
@@ -94,8 +106,7 @@ static void both_methods_agree_with_the_definition(void **state) {
             lmp_light lights[6];
             random_spheres(6, lights);
             const lmp_surface surface = random_surface();
-            const lmp_material material = { random_color(), random_color(), exponents[j], NULL,
-                                            NULL };
+            const lmp_material material = two_lobes(exponents[j]);
             const lmp_shade_settings settings = { .bands = counts[i],
                                                   .window = j % 2 ? LMP_WINDOW_HANNING
                                                                   : LMP_WINDOW_NONE };
@@ -104,9 +115,8 @@ static void both_methods_agree_with_the_definition(void **state) {
                 window[l] = j % 2 ? (1 + cos(ORACLE_PI * l / counts[i])) / 2 : 1;
             shade_by_definition(counts[i], window, &material, &surface, lights, 6, expected);
             float channels[3];
-            to_array(lmp_shade_zonal(&settings, &material, &surface, lights, 6), channels);
-            CHECK_WITHIN(difference(expected, channels), 1e-5);
-            to_array(lmp_shade_coefficients(&settings, &material, &surface, lights, 6), channels);
+            const lmp_shade_settings coefficients = by_coefficients(&settings);
+            to_array(lmp_shade(&coefficients, &material, &surface, lights, 6), channels);
             CHECK_WITHIN(difference(expected, channels), 1e-5);
             to_array(lmp_shade(&settings, &material, &surface, lights, 6), channels);
             CHECK_WITHIN(difference(expected, channels), 1e-5);
@@ -128,12 +138,12 @@ static void both_methods_agree_for_every_kind_of_light(void **state) {
             lights[i].ground = random_color();
         }
         const lmp_surface surface = random_surface();
-        const lmp_material material = { random_color(), random_color(), (float)(trial * trial),
-                                        NULL, NULL };
+        const lmp_material material = two_lobes((float)(trial * trial));
         float zonal[3], coefficients[3];
         double expected[3];
-        to_array(lmp_shade_zonal(NULL, &material, &surface, lights, 6), zonal);
-        to_array(lmp_shade_coefficients(NULL, &material, &surface, lights, 6), coefficients);
+        const lmp_shade_settings settings = by_coefficients(NULL);
+        to_array(lmp_shade(NULL, &material, &surface, lights, 6), zonal);
+        to_array(lmp_shade(&settings, &material, &surface, lights, 6), coefficients);
         for (int c = 0; c < 3; c++)
             expected[c] = (double)zonal[c];
         CHECK_WITHIN(difference(expected, coefficients), 1e-5);
@@ -145,7 +155,7 @@ static void defaults_are_ten_bands_and_no_window(void **state) {
     lmp_light light;
     random_spheres(1, &light);
     const lmp_surface surface = random_surface();
-    const lmp_material material = { random_color(), random_color(), 50, NULL, NULL };
+    const lmp_material material = two_lobes(50);
     const lmp_shade_settings ten = { .bands = 10 }, zero = { 0 };
     float expected[3], channels[3];
     to_array(lmp_shade(&ten, &material, &surface, &light, 1), expected);
@@ -162,7 +172,7 @@ static void never_goes_below_zero(void **state) {
         lmp_light light;
         random_spheres(1, &light);
         const lmp_surface surface = random_surface();
-        const lmp_material material = { { 0, 0, 0 }, { 1, 1, 1 }, 200, NULL, NULL };
+        const lmp_material material = { .specular = { 1, 1, 1 }, .exponent = 200 };
         float channels[3];
         to_array(lmp_shade(NULL, &material, &surface, &light, 1), channels);
         for (int c = 0; c < 3; c++)
@@ -227,6 +237,34 @@ static void metallic_roughness_becomes_two_lobes(void **state) {
     assert_true(smooth.diffuse.r == 0);
 }
 
+/* A material of that kind is shaded as the lobes that stand for it, by every way to shade. */
+static void metallic_roughness_is_shaded_as_its_lobes(void **state) {
+    (void)state;
+    const lmp_material kind = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                .base_color = { 0.5f, 0.25f, 1 },
+                                .metallic = 0.3f,
+                                .roughness = 0.4f };
+    const lmp_material lobes =
+        lmp_material_from_metallic_roughness(kind.base_color, kind.metallic, kind.roughness);
+    for (int method = 0; method < 2; method++) {
+        const lmp_shade_settings settings = { .method = (lmp_shade_method)method };
+        const lmp_surface surface = random_surface();
+        lmp_light lights[3];
+        float expected[3], channels[3];
+        random_spheres(3, lights);
+        to_array(lmp_shade(&settings, &lobes, &surface, lights, 3), expected);
+        to_array(lmp_shade(&settings, &kind, &surface, lights, 3), channels);
+        assert_memory_equal(expected, channels, sizeof expected);
+        const lmp_surfaces one = { .position = lmp_vec3_array_same(&surface.position),
+                                   .normal = lmp_vec3_array_same(&surface.normal),
+                                   .view = lmp_vec3_array_same(&surface.view),
+                                   .material = &kind };
+        lmp_shade_n(&settings, &one, 1, lights, 3, 0, channels);
+        for (int c = 0; c < 3; c++)
+            CHECK_WITHIN(fabsf(channels[c] - expected[c]), 1e-4f * fmaxf(expected[c], 1));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_methods_agree_with_the_definition),
@@ -236,6 +274,7 @@ int main(void) {
         cmocka_unit_test(a_white_surface_in_uniform_light_returns_it),
         cmocka_unit_test(windows_dim_the_highlight_and_calm_the_ringing),
         cmocka_unit_test(metallic_roughness_becomes_two_lobes),
+        cmocka_unit_test(metallic_roughness_is_shaded_as_its_lobes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,8 +34,9 @@ static lmp_vec3 place(float size) {
 /* Spheres alone, or lights of all kinds; some spheres hold some of the surfaces. */
 static void scatter(bool all_kinds) {
     for (int i = 0; i < COUNT; i++) {
-        vertices[i].surface =
-            (lmp_surface) { place(1), check_random_direction(), check_random_direction() };
+        vertices[i].surface = (lmp_surface) { .position = place(1),
+                                              .normal = check_random_direction(),
+                                              .view = check_random_direction() };
         vertices[i].material = (lmp_material) { .diffuse = color(),
                                                 .specular = color(),
                                                 .exponent = powf(10, between(0, 3.5)) };
@@ -54,16 +55,18 @@ static void scatter(bool all_kinds) {
     }
 }
 
+static lmp_shade_settings by_readings(const lmp_preintegrated_lobe *lobe) {
+    return (lmp_shade_settings) { .method = LMP_SHADE_PREINTEGRATED, .lobe = lobe };
+}
+
 static lmp_surfaces interleaved(void) {
-    const lmp_material *m = &vertices[0].material;
     const lmp_surface *s = &vertices[0].surface;
     return (lmp_surfaces) {
         .position = { &s->position.x, &s->position.y, &s->position.z, sizeof(vertex) },
         .normal = { &s->normal.x, &s->normal.y, &s->normal.z, sizeof(vertex) },
         .view = { &s->view.x, &s->view.y, &s->view.z, sizeof(vertex) },
-        .diffuse = { &m->diffuse.r, &m->diffuse.g, &m->diffuse.b, sizeof(vertex) },
-        .specular = { &m->specular.r, &m->specular.g, &m->specular.b, sizeof(vertex) },
-        .exponent = { &m->exponent, sizeof(vertex) },
+        .material = &vertices[0].material,
+        .material_stride = sizeof(vertex),
     };
 }
 
@@ -195,12 +198,12 @@ static void many_surfaces_are_shaded_as_one_is(void **state) {
             scatter(kinds != 0);
             const lmp_shade_settings settings = { .bands = bands[b],
                                                   .window = (lmp_window)(b % 3) };
-            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 4, rgb);
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 4 * sizeof *rgb, rgb);
             CHECK_WITHIN(share_of_bound(&settings, lights, LIGHTS, rgb, 4), 1);
             for (int i = 0; i < 6; i++) {
                 lights[i].radius *= i % 2 ? 0.01f : 1;
                 aim(&lights[i], 4.0f / (float)bands[b]);
-                lmp_shade_n(&settings, &surfaces, COUNT, &lights[i], 1, 4, rgb);
+                lmp_shade_n(&settings, &surfaces, COUNT, &lights[i], 1, 4 * sizeof *rgb, rgb);
                 CHECK_WITHIN(share_of_bound(&settings, &lights[i], 1, rgb, 4), 1);
             }
         }
@@ -244,7 +247,8 @@ static void many_surfaces_are_read_from_a_response_as_one_is(void **state) {
         assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
         for (int kinds = 0; kinds < 2; kinds++) {
             scatter(kinds != 0);
-            lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+            const lmp_shade_settings readings = by_readings(response);
+            lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
             CHECK_WITHIN(difference(rgb, 3, by_response, response), kinds ? 5e-4 : 1e-4);
             /* Its own largest value may miss the peak of a light, which the error is a part of. */
             CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 2e-2);
@@ -264,7 +268,8 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
         if (lmp_cpu_mask(flag) != flag)
             continue;
         lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, 0, rgb[0]);
-        lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb[1]);
+        const lmp_shade_settings readings = by_readings(response);
+        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb[1]);
         if (flag == LMP_CPU_SCALAR)
             memcpy(first, rgb, sizeof rgb);
         assert_memory_equal(first, rgb, sizeof rgb);
@@ -282,7 +287,7 @@ static void any_count_and_any_stride_writes_only_its_own(void **state) {
     for (size_t count = 0; count < 40; count++) {
         for (size_t i = 0; i < COUNT * 5; i++)
             some[i] = -7;
-        lmp_shade_n(NULL, &surfaces, count, lights, LIGHTS, 5, some);
+        lmp_shade_n(NULL, &surfaces, count, lights, LIGHTS, 5 * sizeof *some, some);
         for (size_t i = 0; i < COUNT * 5; i++)
             if (i / 5 < count && i % 5 < 3)
                 assert_memory_equal(&some[i], &whole[i / 5 * 3 + i % 5], sizeof(float));
@@ -304,6 +309,7 @@ static void not_a_number_stays_with_its_surface(void **state) {
         const lmp_shade_settings settings = { .bands = bands };
         lmp_preintegrated_lobe *response;
         assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
+        const lmp_shade_settings readings = by_readings(response);
         for (int method = 0; method < 2; method++) {
             scatter(true);
             /* A debug build asserts that a spot's cone is seen from somewhere. */
@@ -312,11 +318,8 @@ static void not_a_number_stays_with_its_surface(void **state) {
                     lights[i].kind = LMP_LIGHT_POINT;
             float *const to[2] = { whole, rgb };
             for (int pass = 0; pass < 2; pass++) {
-                if (method == 0)
-                    lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, to[pass]);
-                else
-                    lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0,
-                                              to[pass]);
+                lmp_shade_n(method ? &readings : &settings, &surfaces, COUNT, lights, LIGHTS, 0,
+                            to[pass]);
                 vertices[3].surface.position.y = NAN;
                 vertices[40].surface.normal.x = NAN;
                 vertices[77].surface.view.z = NAN;
@@ -327,7 +330,7 @@ static void not_a_number_stays_with_its_surface(void **state) {
         }
         scatter(true);
         lights[0].radius = lights[6].position.x = NAN;
-        lmp_shade_preintegrated_n(response, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
         lmp_preintegrated_lobe_destroy(response);
     }
 }

@@ -8,9 +8,9 @@
 #include <math.h>
 
 static lmp_surface random_surface(void) {
-    lmp_surface surface = { { 0.3f, -0.2f, 1 },
-                            check_random_direction(),
-                            check_random_direction() };
+    lmp_surface surface = { .position = { 0.3f, -0.2f, 1 },
+                            .normal = check_random_direction(),
+                            .view = check_random_direction() };
     const lmp_vec3 n = surface.normal, v = surface.view;
     if (n.x * v.x + n.y * v.y + n.z * v.z < 0)
         surface.view = (lmp_vec3) { -v.x, -v.y, -v.z };
@@ -40,7 +40,7 @@ static void lambert_tables_shade_as_the_diffuse_lobe(void **state) {
     lmp_brdf *brdf = NULL;
     assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 0.8f, 0.5f, 0.2f }, &brdf), LMP_OK);
     lmp_brdf_table *table = table_of(brdf, 10, 0);
-    const lmp_material by_table = { .table = table };
+    const lmp_material by_table = { .kind = LMP_MATERIAL_TABLE, .table = table };
     const lmp_material by_lobe = { .diffuse = { 0.8f, 0.5f, 0.2f } };
     for (int n = 0; n < 200; n++) {
         const lmp_surface surface = random_surface();
@@ -49,7 +49,8 @@ static void lambert_tables_shade_as_the_diffuse_lobe(void **state) {
         const lmp_rgb b = lmp_shade(NULL, &by_lobe, &surface, lights, 2);
         CHECK_WITHIN(fabsf(a.r - b.r), 2e-5f);
         CHECK_WITHIN(fabsf(a.b - b.b), 2e-5f);
-        const lmp_rgb c = lmp_shade_coefficients(NULL, &by_table, &surface, lights, 2);
+        const lmp_shade_settings settings = { .method = LMP_SHADE_COEFFICIENTS };
+        const lmp_rgb c = lmp_shade(&settings, &by_table, &surface, lights, 2);
         assert_true(a.r == c.r && a.g == c.g && a.b == c.b);
     }
     lmp_brdf_table_destroy(table);
@@ -101,6 +102,19 @@ static lmp_vec3 cross(lmp_vec3 a, lmp_vec3 b) {
     return (lmp_vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
 }
 
+/* Many surfaces read the tangent, too. */
+static void check_batch_of_one(const lmp_material *material, const lmp_surface *surface,
+                               const lmp_light *light, lmp_rgb expected) {
+    const lmp_surfaces one = { .position = lmp_vec3_array_same(&surface->position),
+                               .normal = lmp_vec3_array_same(&surface->normal),
+                               .view = lmp_vec3_array_same(&surface->view),
+                               .tangent = lmp_vec3_array_same(&surface->tangent),
+                               .material = material };
+    lmp_rgb color;
+    lmp_shade_n(NULL, &one, 1, light, 1, 0, &color.r);
+    assert_memory_equal(&color, &expected, sizeof color);
+}
+
 /* A brushed metal wide enough for 16 bands, its tangent anywhere. */
 static void anisotropic_tables_shade_by_the_tangent(void **state) {
     (void)state;
@@ -109,9 +123,10 @@ static void anisotropic_tables_shade_by_the_tangent(void **state) {
     assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
     assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &same), LMP_OK);
     lmp_brdf_table *table = table_of(same, 16, 32);
+    const lmp_material material = { .kind = LMP_MATERIAL_TABLE, .table = table };
     double worst = 0, largest = 0;
     for (int trial = 0; trial < 100; trial++) {
-        const lmp_surface surface = random_surface();
+        lmp_surface surface = random_surface();
         lmp_light light = random_sphere();
         const lmp_vec3 n = surface.normal, v = surface.view;
         const float cosine = n.x * v.x + n.y * v.y + n.z * v.z;
@@ -124,7 +139,9 @@ static void anisotropic_tables_shade_by_the_tangent(void **state) {
         const float scale = 1 / sqrtf(y.x * y.x + y.y * y.y + y.z * y.z);
         y = (lmp_vec3) { y.x * scale, y.y * scale, y.z * scale };
         const double expected = by_definition(brdf, &surface, cross(y, n), y, &light);
-        const lmp_rgb got = lmp_shade_table(table, &surface, tangent, &light, 1);
+        surface.tangent = tangent;
+        const lmp_rgb got = lmp_shade(NULL, &material, &surface, &light, 1);
+        check_batch_of_one(&material, &surface, &light, got);
         worst = fmax(worst, fabs((double)got.g - expected));
         largest = fmax(largest, expected);
     }
@@ -142,10 +159,15 @@ static void odd_views_give_finite_colors(void **state) {
     const lmp_light light = random_sphere();
     const lmp_vec3 views[] = { { 0, 0, 1 }, { 1, 0, 0 }, { 0.6f, 0, -0.8f }, { 0, 0, -1 } };
     for (int i = 0; i < 4; i++) {
-        const lmp_surface surface = { { 0.3f, -0.2f, 1 }, { 0, 0, 1 }, views[i] };
-        const lmp_rgb c = lmp_shade_table(table, &surface, (lmp_vec3) { 0, 0, 1 }, &light, 1);
+        const lmp_material material = { .kind = LMP_MATERIAL_TABLE, .table = table };
+        lmp_surface surface = { .position = { 0.3f, -0.2f, 1 },
+                                .normal = { 0, 0, 1 },
+                                .view = views[i],
+                                .tangent = { 0, 0, 1 } };
+        const lmp_rgb c = lmp_shade(NULL, &material, &surface, &light, 1);
         assert_true(isfinite(c.r) && c.r >= 0);
-        const lmp_rgb none = lmp_shade_table(table, &surface, (lmp_vec3) { 0, 0, 0 }, NULL, 0);
+        surface.tangent = (lmp_vec3) { 0, 0, 0 };
+        const lmp_rgb none = lmp_shade(NULL, &material, &surface, NULL, 0);
         assert_true(none.r == 0);
     }
     lmp_brdf_table_destroy(table);

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+/* Sums of n² coefficients, the light's with the material's, some bands at a time: all of them at
+ * once would take more stack than a function may (base.h). */
+#include "src/brdf/table.h"
+#include "src/light/cap.h"
+#include "src/sh/column.h"
+#include "src/shade/material.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Coefficients of a channel that wait: any band's and more. */
+enum { WAITING = 1024 };
+
+/* Bands low … high-1, of the light and of what they are multiplied with: planes of `count`. */
+typedef struct band_range {
+    int low, high;
+    size_t count;
+} band_range;
+
+static band_range bands_after(int bands, band_range range) {
+    band_range next = { range.high, range.high + 1, 0 };
+    while (next.high < bands &&
+           LMP_SH_COUNT(next.high + 1) - LMP_SH_COUNT(next.low) <= (size_t)WAITING)
+        next.high++;
+    next.count = LMP_SH_COUNT(next.high) - LMP_SH_COUNT(next.low);
+    return next;
+}
+
+/* --- lobes ------------------------------------------------------------------------------------ */
+
+static void add_light_bands(band_range range, const lmp_light *lights, size_t count, lmp_vec3 point,
+                            float *sh) {
+    memset(sh, 0, 3 * range.count * sizeof *sh);
+    for (size_t i = 0; i < count; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], point, &cap);
+        lmp_cap_add(range.low, range.high, &cap, sh);
+    }
+}
+
+static float dot(size_t count, const float *a, const float *b) {
+    float sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+lmp_rgb lmp_shade_lobes_coefficients(const shade_lobes *lobes, lmp_vec3 point,
+                                     const lmp_light *lights, size_t count) {
+    float light[3 * WAITING], lobe[WAITING];
+    lmp_rgb color = { 0, 0, 0 };
+    for (band_range range = bands_after(lobes->bands, (band_range) { 0 }); range.low < lobes->bands;
+         range = bands_after(lobes->bands, range)) {
+        add_light_bands(range, lights, count, point, light);
+        for (int k = 0; k < lobes->count; k++) {
+            const shade_lobe *from = &lobes->lobe[k];
+            lmp_sh_zonal_bands(range.low, range.high, from->lambda, from->axis, lobe);
+            color.r += from->weight.r * dot(range.count, light, lobe);
+            color.g += from->weight.g * dot(range.count, light + range.count, lobe);
+            color.b += from->weight.b * dot(range.count, light + 2 * range.count, lobe);
+        }
+    }
+    return color;
+}
+
+/* --- tables ----------------------------------------------------------------------------------- */
+
+typedef struct frame {
+    lmp_vec3 x, y, z;
+} frame;
+
+static float scalar(lmp_vec3 a, lmp_vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static lmp_vec3 cross(lmp_vec3 a, lmp_vec3 b) {
+    return (lmp_vec3) { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+/* v without its part along the unit n, made unit; false where nothing is left. */
+static bool flatten(lmp_vec3 v, lmp_vec3 n, lmp_vec3 *flat) {
+    const float along = scalar(v, n);
+    const lmp_vec3 rest = { v.x - along * n.x, v.y - along * n.y, v.z - along * n.z };
+    const float length2 = scalar(rest, rest);
+    if (!(length2 > 1e-12f * scalar(v, v)))
+        return false;
+    const float scale = 1 / sqrtf(length2);
+    *flat = (lmp_vec3) { rest.x * scale, rest.y * scale, rest.z * scale };
+    return true;
+}
+
+/* The material's x axis: the tangent, or the horizontal direction across the normal. */
+static lmp_vec3 across(lmp_vec3 tangent, lmp_vec3 n) {
+    lmp_vec3 x = { 1, 0, 0 };
+    if (flatten(tangent, n, &x))
+        return x;
+    const lmp_vec3 up = { 0, 1, 0 }, side = x;
+    if (!flatten(cross(up, n), n, &x))
+        flatten(side, n, &x);
+    return x;
+}
+
+static lmp_vec3 into(const frame *f, lmp_vec3 v) {
+    return (lmp_vec3) { scalar(v, f->x), scalar(v, f->y), scalar(v, f->z) };
+}
+
+static void add_light_in_frame(band_range range, const frame *view, lmp_vec3 point,
+                               const lmp_light *from, float *sh) {
+    lmp_light light = *from;
+    lmp_cap cap;
+    const lmp_vec3 offset = { light.position.x - point.x, light.position.y - point.y,
+                              light.position.z - point.z };
+    light.position = into(view, offset);
+    light.direction = into(view, light.direction);
+    lmp_light_cap(&light, (lmp_vec3) { 0, 0, 0 }, &cap);
+    lmp_cap_add(range.low, range.high, &cap, sh);
+}
+
+/* Adds what the light's coefficients give with the table's, m >= 0 alone if mirrored. */
+static void add_products(band_range range, bool mirrored, const float *light, const float *table,
+                         float *sum) {
+    for (int l = range.low; l < range.high; l++)
+        for (int m = mirrored ? 0 : -l; m <= l; m++)
+            *sum += light[LMP_SH_INDEX(l, m) - LMP_SH_COUNT(range.low)] * *table++;
+}
+
+lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
+                        const lmp_light *lights, size_t count) {
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    const lmp_vec3 n = surface->normal, material_x = across(surface->tangent, n);
+    frame view = { .x = material_x, .z = n };
+    flatten(surface->view, n, &view.x);
+    view.y = cross(n, view.x);
+    const float phi = atan2f(scalar(view.x, cross(n, material_x)), scalar(view.x, material_x));
+
+    float light[3 * WAITING], row[3 * WAITING], rgb[3] = { 0, 0, 0 };
+    for (band_range range = bands_after(info.bands, (band_range) { 0 }); range.low < info.bands;
+         range = bands_after(info.bands, range)) {
+        memset(light, 0, 3 * range.count * sizeof *light);
+        for (size_t i = 0; i < count; i++)
+            add_light_in_frame(range, &view, surface->position, &lights[i], light);
+        const size_t each =
+            lmp_brdf_table_bands(table, scalar(surface->view, n), phi, range.low, range.high, row);
+        for (size_t c = 0; c < 3; c++)
+            add_products(range, info.mirrored, light + c * range.count, row + c * each, &rgb[c]);
+    }
+    return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/* material.h - what a material is to a kernel: for one surface a short list of zonal lobes, or one
+ * row of a table. A new kind of material is a case of lmp_shade_source and of lmp_shade_lobes. */
+#ifndef LAMPION_SHADE_MATERIAL_H
+#define LAMPION_SHADE_MATERIAL_H
+
+#include <lampion/shade.h>
+
+#define SHADE_LOBES_MAX 2
+
+/* weight times the kernel around `axis` of Funk-Hecke factors lambda (lobe.h). */
+typedef struct shade_lobe {
+    lmp_vec3 axis;
+    lmp_rgb weight;
+    float lambda[LMP_BANDS_MAX]; /* windowed */
+} shade_lobe;
+
+typedef struct shade_lobes {
+    int bands, count;
+    shade_lobe lobe[SHADE_LOBES_MAX];
+} shade_lobes;
+
+/* What a surface is shaded from under one method: at most one of the two, else lobes. */
+typedef struct shade_source {
+    const lmp_brdf_table *table;
+    const lmp_preintegrated_brdf *preintegrated;
+} shade_source;
+
+static inline shade_source lmp_shade_source(const lmp_material *material, lmp_shade_method method) {
+    shade_source source = { NULL, NULL };
+    if (material->kind == LMP_MATERIAL_PREINTEGRATED)
+        source.preintegrated = material->preintegrated;
+    else if (material->kind == LMP_MATERIAL_TABLE && method == LMP_SHADE_PREINTEGRATED &&
+             material->preintegrated)
+        source.preintegrated = material->preintegrated;
+    else if (material->kind == LMP_MATERIAL_TABLE)
+        source.table = material->table;
+    return source;
+}
+
+/* The settings with every default filled in. */
+lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings);
+
+/* A diffuse and a Phong lobe, for a material of any kind that has lobes. */
+lmp_material lmp_shade_phong(const lmp_material *material);
+
+/* The lobes of one surface. */
+void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
+                     const lmp_surface *surface, shade_lobes *lobes);
+
+/* Not clamped. */
+lmp_rgb lmp_shade_lobes_coefficients(const shade_lobes *lobes, lmp_vec3 point,
+                                     const lmp_light *lights, size_t count);
+lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
+                        const lmp_light *lights, size_t count);
+
+#endif
