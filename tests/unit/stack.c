@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: MIT */
+/* No function needs more than the 64 KB of stack that base.h promises: each is called with all the
+ * bands it takes on a thread whose stack is painted, and ends at a page that cannot be written. */
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+
+enum {
+    N = LMP_BANDS_MAX,
+    COUNT = 17,
+    LIGHTS = 9,
+    BOUND = 65536,
+    STACK = BOUND + 65536,
+    PAGE = 4096
+};
+
+/* --- arguments -------------------------------------------------------------------------------- */
+
+static const lmp_vec3 up = { 0, 0, 1 }, at = { 0.1f, 0.2f, 0.3f };
+static const lmp_quat turned = { 0.1f, 0.2f, 0.3f, 0.9f };
+static const float unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+static float sh[COUNT * 3 * N * N], out[COUNT * 3 * N * N], slopes[COUNT * 9 * N * N];
+static float matrices[LMP_SH_ROTATION_COUNT(N)], weights[N], lambda[N], rgb[3 * COUNT];
+static float numbers[COUNT], texels[6 * 3 * 4 * 4];
+static lmp_vec3 vectors[COUNT];
+static lmp_light lights[LIGHTS];
+static lmp_cap cap;
+static lmp_spheres spheres;
+static lmp_vec3_array points;
+static lmp_float_array floats;
+static lmp_zonal_table *zonal;
+static lmp_sh_product *product;
+static lmp_brdf *brdf, *read_brdf;
+static lmp_sgd sgd;
+static lmp_brdf_table *table, *read_table;
+static lmp_preintegrated_lobe *lobe, *read_lobe;
+static lmp_preintegrated_brdf *preintegrated, *read_preintegrated;
+static lmp_probe_constants constants;
+static lmp_probe_convention convention;
+static lmp_parse_error wrong;
+static double doubles[3] = { 0.6, 0, 0.8 };
+static void *bytes, *merl, *rgl;
+static size_t bytes_size = 1 << 24, merl_size, rgl_size;
+static const lmp_brdf_table_desc small_table = { .bands = 4, .views = 2, .rings_max = 16 };
+static const lmp_preintegrated_brdf_desc coarse = { .error = 0.1f };
+static lmp_material material;
+static lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { 0.6f, 0, 0.8f } };
+static lmp_surfaces surfaces;
+static lmp_shade_settings settings;
+
+static float ramp(lmp_vec3 direction, void *user) {
+    (void)user;
+    return direction.z;
+}
+
+static void shade_all_ways(void) {
+    for (int method = 0; method < 3; method++)
+        for (int kind = 0; kind < 4; kind++) {
+            settings = (lmp_shade_settings) { .method = (lmp_shade_method)method,
+                                              .bands = N,
+                                              .lobe = lobe };
+            material = (lmp_material) { .kind = (lmp_material_kind)kind,
+                                        .diffuse = { 1, 1, 1 },
+                                        .specular = { 1, 1, 1 },
+                                        .exponent = 20,
+                                        .roughness = 0.4f,
+                                        .table = table,
+                                        .preintegrated = preintegrated };
+            (void)lmp_shade(&settings, &material, &surface, lights, LIGHTS);
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        }
+}
+
+/* --- every function --------------------------------------------------------------------------- */
+
+/* Objects are made before they are used, and made anew when they are. */
+#define MAKE(destroy, object, ...) (destroy(object), (object) = NULL, (void)(__VA_ARGS__))
+
+#define LAYOUTS(...)                                                                               \
+    for (lmp_sh_layout layout = LMP_SH_INTERLEAVED; layout <= LMP_SH_PLANAR; layout++)             \
+    __VA_ARGS__
+
+/* clang-format off */
+#define CALLS(X) \
+    X(lmp_version, lmp_version()) \
+    X(lmp_result_text, lmp_result_text(LMP_OK)) \
+    X(lmp_cpu_flags, lmp_cpu_flags()) \
+    X(lmp_cpu_name, lmp_cpu_name()) \
+    X(lmp_sh_eval, lmp_sh_eval(N, up, sh)) \
+    X(lmp_sh_eval_gradient, lmp_sh_eval_gradient(N, up, out, slopes)) \
+    X(lmp_sh_combine, lmp_sh_combine(N, 1, sh, 2, sh, out)) \
+    X(lmp_sh_dot, lmp_sh_dot(N, sh, sh)) \
+    X(lmp_sh_reconstruct, lmp_sh_reconstruct(N, sh, up)) \
+    X(lmp_sh_from_zonal, lmp_sh_from_zonal(N, lambda, up, out)) \
+    X(lmp_sh_rotation, lmp_sh_rotation(N, turned, matrices)) \
+    X(lmp_sh_rotation_from_matrix, lmp_sh_rotation_from_matrix(N, unturned, matrices)) \
+    X(lmp_sh_rotate_z, lmp_sh_rotate_z(N, 0.5f, sh, out)) \
+    X(lmp_sh_rotate, lmp_sh_rotate(N, matrices, sh, out)) \
+    X(lmp_sh_window, lmp_sh_window(LMP_WINDOW_HANNING, N, 0, weights)) \
+    X(lmp_sh_window_laplacian, lmp_sh_window_laplacian(N, sh, 0.5f, weights)) \
+    X(lmp_sh_window_apply, lmp_sh_window_apply(N, weights, sh, out)) \
+    X(lmp_sh_project_function, lmp_sh_project_function(N, ramp, NULL, 4, out)) \
+    X(lmp_sh_project_latlong, lmp_sh_project_latlong(N, &(lmp_latlong) { .pixels = texels, .width = 4, .height = 4, .channels = 3 }, out)) \
+    X(lmp_sh_project_cubemap, lmp_sh_project_cubemap(N, &(lmp_cubemap) { .faces = { texels, texels, texels, texels, texels, texels }, .size = 4, .channels = 3 }, out)) \
+    X(lmp_sh_product_create, MAKE(lmp_sh_product_destroy, product, lmp_sh_product_create(NULL, N, &product))) \
+    X(lmp_sh_multiply, lmp_sh_multiply(product, sh, sh, out)) \
+    X(lmp_sh_product_destroy, lmp_sh_product_destroy(product), product = NULL) \
+    X(lmp_sh_eval_n, LAYOUTS(lmp_sh_eval_n(N, points, COUNT, layout, 0, out))) \
+    X(lmp_sh_dot_n, LAYOUTS(lmp_sh_dot_n(N, sh, sh, COUNT, layout, 0, rgb))) \
+    X(lmp_sh_rotate_n, LAYOUTS(lmp_sh_rotate_n(N, matrices, sh, COUNT, layout, 0, out))) \
+    X(lmp_light_cap, lmp_light_cap(lights, at, &cap)) \
+    X(lmp_light_zonal, lmp_light_zonal(lights, at, N, lambda, &vectors[0])) \
+    X(lmp_light_project, lmp_light_project(lights, LIGHTS, at, N, out)) \
+    X(lmp_sphere_zonal, lmp_sphere_zonal(N, 0.5f, 1, lambda)) \
+    X(lmp_sphere_project, lmp_sphere_project(N, up, 0.5f, at, out)) \
+    X(lmp_sphere_project_gradient, lmp_sphere_project_gradient(N, up, 0.5f, at, out, slopes)) \
+    X(lmp_sphere_zonal_n, LAYOUTS(lmp_sphere_zonal_n(N, floats, floats, COUNT, layout, 0, out))) \
+    X(lmp_sphere_project_n, LAYOUTS(lmp_sphere_project_n(N, &spheres, points, LIGHTS, layout, 0, out))) \
+    X(lmp_sphere_project_all, LAYOUTS(lmp_sphere_project_all(N, &spheres, LIGHTS, points, 5, layout, 0, out))) \
+    X(lmp_sphere_accumulate_n, LAYOUTS(lmp_sphere_accumulate_n(N, &spheres, LIGHTS, points, COUNT, layout, 0, out))) \
+    X(lmp_sphere_accumulate_gradient_n, LAYOUTS(lmp_sphere_accumulate_gradient_n(N, &spheres, LIGHTS, points, COUNT, layout, 0, out, 0, slopes))) \
+    X(lmp_sphere_power_from_radiance, lmp_sphere_power_from_radiance(1, 1)) \
+    X(lmp_sphere_radiance_from_power, lmp_sphere_radiance_from_power(1, 1)) \
+    X(lmp_sphere_intensity_from_radiance, lmp_sphere_intensity_from_radiance(1, 1)) \
+    X(lmp_sphere_radiance_from_intensity, lmp_sphere_radiance_from_intensity(1, 1)) \
+    X(lmp_cap_irradiance_from_radiance, lmp_cap_irradiance_from_radiance(1, 1)) \
+    X(lmp_cap_radiance_from_irradiance, lmp_cap_radiance_from_irradiance(1, 1)) \
+    X(lmp_zonal_printed, lmp_zonal_printed(N, 0.5f, lambda)) \
+    X(lmp_zonal_sloan, lmp_zonal_sloan(LMP_ZONAL_SLOAN_BANDS, 0.5f, lambda)) \
+    X(lmp_zonal_table_create, MAKE(lmp_zonal_table_destroy, zonal, lmp_zonal_table_create(NULL, N, 4, &zonal))) \
+    X(lmp_zonal_table_eval, lmp_zonal_table_eval(zonal, 0.5f, lambda)) \
+    X(lmp_zonal_table_destroy, lmp_zonal_table_destroy(zonal), zonal = NULL) \
+    X(lmp_lobe_diffuse, lmp_lobe_diffuse(N, lambda)) \
+    X(lmp_lobe_phong, lmp_lobe_phong(N, 20, lambda)) \
+    X(lmp_lobe_vmf, lmp_lobe_vmf(N, 20, lambda)) \
+    X(lmp_lobe_project, lmp_lobe_project(N, lambda, up, out)) \
+    X(lmp_lobe_response, lmp_lobe_response(N, lambda, up, lights, LIGHTS, at)) \
+    X(lmp_lobe_response_n, LAYOUTS(lmp_lobe_response_n(N, lambda, points, &spheres, LIGHTS, points, COUNT, layout, 0, rgb))) \
+    X(lmp_probe_irradiance, lmp_probe_irradiance(N, sh, up)) \
+    X(lmp_probe_irradiance_n, lmp_probe_irradiance_n(N, sh, points, COUNT, (lmp_rgb *)(void *)rgb)) \
+    X(lmp_probe_constants_of, lmp_probe_constants_of(N, sh, 1, &constants)) \
+    X(lmp_probe_fit, lmp_probe_fit(NULL, 3, &(lmp_probe_samples) { points, floats, { 0 }, COUNT }, 1, out)) \
+    X(lmp_probe_window_positive, lmp_probe_window_positive(LMP_PROBE_POSITIVE_BANDS_MAX, sh, 3, weights)) \
+    X(lmp_probe_minimum, lmp_probe_minimum(3, sh)) \
+    X(lmp_probe_convert, lmp_probe_convert(N, &convention, &convention, sh, out)) \
+    X(lmp_probe_recognize, lmp_probe_recognize(N, sh, sh, 0.1f, &convention)) \
+    X(lmp_brdf_create_lambert, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_lambert(NULL, (lmp_rgb) { 1, 1, 1 }, &brdf))) \
+    X(lmp_brdf_create_phong, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 1, 1 }, 20, &brdf))) \
+    X(lmp_sgd_name, lmp_sgd_name(0)) \
+    X(lmp_sgd_find, lmp_sgd_find("chrome", &sgd)) \
+    X(lmp_brdf_create_sgd, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_sgd(NULL, &sgd, &brdf))) \
+    X(lmp_brdf_create_ggx, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_ggx(NULL, &(lmp_ggx) { 0.5f, 0, { 1, 1, 1 }, { 0, 0, 0 } }, &brdf))) \
+    X(lmp_brdf_describe, lmp_brdf_describe(brdf)) \
+    X(lmp_brdf_eval, lmp_brdf_eval(brdf, up, up)) \
+    X(lmp_brdf_eval_double, lmp_brdf_eval_double(brdf, doubles, doubles, (double[3]) { 0 })) \
+    X(lmp_brdf_write_merl, free(merl), (void)lmp_brdf_write_merl(brdf, NULL, &merl, &merl_size)) \
+    X(lmp_brdf_read_merl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_merl(NULL, merl, merl_size, &wrong, &read_brdf))) \
+    X(lmp_brdf_write_rgl, free(rgl), (void)lmp_brdf_write_rgl(brdf, NULL, &rgl, &rgl_size)) \
+    X(lmp_brdf_read_rgl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_rgl(NULL, rgl, rgl_size, &wrong, &read_brdf))) \
+    X(lmp_brdf_destroy, lmp_brdf_destroy(read_brdf), read_brdf = NULL) \
+    X(lmp_brdf_project, lmp_brdf_project(NULL, brdf, up, N, 2, out)) \
+    X(lmp_brdf_table_create, MAKE(lmp_brdf_table_destroy, table, lmp_brdf_table_create(NULL, brdf, &small_table, &table))) \
+    X(lmp_brdf_table_describe, lmp_brdf_table_describe(table)) \
+    X(lmp_brdf_table_coefficients, lmp_brdf_table_coefficients(table)) \
+    X(lmp_brdf_table_view, lmp_brdf_table_view(table, 0.5f, 0, out)) \
+    X(lmp_brdf_table_albedo, lmp_brdf_table_albedo(table, 0, 0, (lmp_rgb *)(void *)rgb, (lmp_rgb *)(void *)rgb + 1)) \
+    X(lmp_brdf_table_size, lmp_brdf_table_size(table)) \
+    X(lmp_brdf_table_write, lmp_brdf_table_write(table, bytes)) \
+    X(lmp_brdf_table_read, MAKE(lmp_brdf_table_destroy, read_table, lmp_brdf_table_read(NULL, bytes, lmp_brdf_table_size(table), &wrong, &read_table))) \
+    X(lmp_brdf_table_destroy, lmp_brdf_table_destroy(read_table), read_table = NULL) \
+    X(lmp_preintegrated_lobe_create, MAKE(lmp_preintegrated_lobe_destroy, lobe, lmp_preintegrated_lobe_create(NULL, &(lmp_preintegrated_lobe_desc) { .bands = N, .error = 0.1f }, &lobe))) \
+    X(lmp_preintegrated_lobe_describe, lmp_preintegrated_lobe_describe(lobe)) \
+    X(lmp_preintegrated_lobe_eval, lmp_preintegrated_lobe_eval(lobe, 20, 0.5f, 0.5f)) \
+    X(lmp_preintegrated_lobe_size, lmp_preintegrated_lobe_size(lobe)) \
+    X(lmp_preintegrated_lobe_write, lmp_preintegrated_lobe_write(lobe, bytes)) \
+    X(lmp_preintegrated_lobe_read, MAKE(lmp_preintegrated_lobe_destroy, read_lobe, lmp_preintegrated_lobe_read(NULL, bytes, lmp_preintegrated_lobe_size(lobe), &read_lobe))) \
+    X(lmp_preintegrated_lobe_destroy, lmp_preintegrated_lobe_destroy(read_lobe), read_lobe = NULL) \
+    X(lmp_preintegrated_brdf_create, MAKE(lmp_preintegrated_brdf_destroy, preintegrated, lmp_preintegrated_brdf_create(NULL, table, &coarse, &preintegrated))) \
+    X(lmp_preintegrated_brdf_describe, lmp_preintegrated_brdf_describe(preintegrated)) \
+    X(lmp_preintegrated_brdf_eval, lmp_preintegrated_brdf_eval(preintegrated, 0.5f, up, 0.5f)) \
+    X(lmp_preintegrated_brdf_ambient, lmp_preintegrated_brdf_ambient(preintegrated, 0.5f)) \
+    X(lmp_preintegrated_brdf_size, lmp_preintegrated_brdf_size(preintegrated)) \
+    X(lmp_preintegrated_brdf_write, lmp_preintegrated_brdf_write(preintegrated, bytes)) \
+    X(lmp_preintegrated_brdf_read, MAKE(lmp_preintegrated_brdf_destroy, read_preintegrated, lmp_preintegrated_brdf_read(NULL, bytes, lmp_preintegrated_brdf_size(preintegrated), &read_preintegrated))) \
+    X(lmp_preintegrated_brdf_destroy, lmp_preintegrated_brdf_destroy(read_preintegrated), read_preintegrated = NULL) \
+    X(lmp_material_from_metallic_roughness, lmp_material_from_metallic_roughness((lmp_rgb) { 1, 1, 1 }, 0, 0.5f)) \
+    X(lmp_shade, shade_all_ways()) \
+    X(lmp_shade_n, shade_all_ways())
+/* clang-format on */
+
+#define DEFINE(name, ...)                                                                          \
+    static void call_##name(void) {                                                                \
+        __VA_ARGS__;                                                                               \
+    }
+CALLS(DEFINE)
+
+typedef struct call {
+    const char *name;
+    void (*run)(void);
+} call;
+
+#define ENTRY(name, ...) { #name, call_##name },
+static const call calls[] = { CALLS(ENTRY) };
+enum { CALLED = sizeof calls / sizeof *calls };
+
+/* lmp_cpu_mask chooses the instruction set of the other calls. */
+static const char *const uncalled[] = { "lmp_cpu_mask" };
+
+/* --- the stack -------------------------------------------------------------------------------- */
+
+enum { PAINT = 0xa5 };
+
+static void *run_call(void *run) {
+    ((const call *)run)->run();
+    return NULL;
+}
+
+static void do_nothing(void) {}
+
+/* Bytes of stack that a thread takes to make one call, from its highest to the lowest it wrote. */
+static size_t stack_of(const call *c, unsigned char *memory) {
+    pthread_attr_t attributes;
+    pthread_t thread;
+    size_t untouched = 0;
+    unsigned char *stack = memory + PAGE;
+    memset(stack, PAINT, STACK);
+    assert_int_equal(pthread_attr_init(&attributes), 0);
+    assert_int_equal(pthread_attr_setstack(&attributes, stack, STACK), 0);
+    assert_int_equal(pthread_create(&thread, &attributes, run_call, (void *)(uintptr_t)c), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    pthread_attr_destroy(&attributes);
+    while (untouched < STACK && stack[untouched] == PAINT)
+        untouched++;
+    return STACK - untouched;
+}
+
+static void prepare(void) {
+    for (int i = 0; i < COUNT; i++) {
+        vectors[i] = check_random_direction();
+        numbers[i] = 0.5f + (float)i;
+    }
+    for (int i = 0; i < LIGHTS; i++)
+        lights[i] = (lmp_light) { .kind = (lmp_light_kind)(i % 6),
+                                  .position = { 0, 1, (float)i + 2 },
+                                  .direction = up,
+                                  .radius = 0.5f,
+                                  .angle = 0.3f,
+                                  .inner = 0.3f,
+                                  .outer = 3,
+                                  .radiance = { 1, 1, 1 } };
+    points = lmp_vec3_array_of(vectors);
+    floats = (lmp_float_array) { numbers, sizeof *numbers };
+    spheres = lmp_spheres_of(lights);
+    surfaces = (lmp_surfaces) {
+        .position = points, .normal = points, .view = points, .material = &material
+    };
+    lmp_lobe_diffuse(N, lambda);
+    bytes = malloc(bytes_size);
+    assert_non_null(bytes);
+}
+
+/* Only optimized code shares the stack of what does not live at the same time. */
+static bool promised(void) {
+#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return false;
+#else
+    return true;
+#endif
+}
+
+static void no_function_needs_more_stack_than_base_promises(void **state) {
+    (void)state;
+    if (!promised()) {
+        print_message("skipped: not an optimized build without sanitizers\n");
+        return;
+    }
+    unsigned char *memory =
+        mmap(NULL, PAGE + STACK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    assert_true(memory != MAP_FAILED);
+    assert_int_equal(mprotect(memory, PAGE, PROT_NONE), 0);
+    prepare();
+    const call nothing = { "nothing", do_nothing };
+    const size_t thread = stack_of(&nothing, memory);
+    for (unsigned flag = LMP_CPU_SCALAR; flag < LMP_CPU_ALL; flag *= 2) {
+        size_t most = 0;
+        const char *name = "";
+        if (lmp_cpu_mask(flag) != flag)
+            continue;
+        for (size_t i = 0; i < CALLED; i++) {
+            /* The first call binds the functions of libm, on the same stack. */
+            stack_of(&calls[i], memory);
+            const size_t taken = stack_of(&calls[i], memory) - thread;
+            if (taken > most) {
+                most = taken;
+                name = calls[i].name;
+            }
+            if (taken > BOUND)
+                fail_msg("%s takes %zu bytes of stack (%s)", calls[i].name, taken, lmp_cpu_name());
+        }
+        print_message("%s: at most %zu bytes, by %s\n", lmp_cpu_name(), most, name);
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+    munmap(memory, PAGE + STACK);
+}
+
+static bool is_called(const char *name, size_t length) {
+    for (size_t i = 0; i < CALLED; i++)
+        if (strlen(calls[i].name) == length && strncmp(calls[i].name, name, length) == 0)
+            return true;
+    for (size_t i = 0; i < sizeof uncalled / sizeof *uncalled; i++)
+        if (strlen(uncalled[i]) == length && strncmp(uncalled[i], name, length) == 0)
+            return true;
+    return false;
+}
+
+static void every_function_of_the_headers_is_called(void **state) {
+    (void)state;
+    static char text[1 << 20];
+    FILE *headers = popen("cat include/lampion/*.h", "r");
+    assert_non_null(headers);
+    text[fread(text, 1, sizeof text - 1, headers)] = '\0';
+    assert_int_equal(pclose(headers), 0);
+    int declared = 0;
+    for (const char *p = text; (p = strstr(p, "\nLMP_API ")); declared++) {
+        const char *end = strchr(p, '('), *name = end;
+        while (name[-1] == '_' || (name[-1] >= 'a' && name[-1] <= 'z'))
+            name--;
+        if (!is_called(name, (size_t)(end - name)))
+            fail_msg("%.*s is not in this test", (int)(end - name), name);
+        p = end;
+    }
+    assert_true(declared > 90);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_function_of_the_headers_is_called),
+        cmocka_unit_test(no_function_needs_more_stack_than_base_promises),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
