@@ -57,23 +57,30 @@ static double bounce_period(const animation *all, const scene_light *light) {
     return PERIOD / (count < 1.0 ? 1.0 : count > 64.0 ? 64.0 : count);
 }
 
-/* Round the axis through a circle's center, counter-clockwise as seen from its tip (Rodrigues). */
-static void circle(const path *p, double seconds, scene_light *light) {
-    const double angle = 2.0 * (double)PI * fmod(seconds, p->period) / p->period;
-    const double c = cos(angle), s = sin(angle), *a = p->axis;
-    float center[3];
-    double from[3], along = 0.0;
-    vec_store(light->emitter.position, center);
-    for (int k = 0; k < 3; k++) {
-        from[k] = (double)center[k] - p->center[k];
-        along += from[k] * a[k];
-    }
+/* v around the axis through `center`, counter-clockwise as seen from its tip (Rodrigues). */
+static lmp_vec3 rotate(const double axis[3], const double center[3], double angle, lmp_vec3 v) {
+    const double c = cos(angle), s = sin(angle);
+    const double from[3] = { (double)v.x - center[0], (double)v.y - center[1],
+                             (double)v.z - center[2] };
+    const double along = from[0] * axis[0] + from[1] * axis[1] + from[2] * axis[2];
+    float to[3];
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        const double across = a[i] * from[j] - a[j] * from[i];
-        center[k] = (float)(p->center[k] + from[k] * c + across * s + a[k] * along * (1.0 - c));
+        const double across = axis[i] * from[j] - axis[j] * from[i];
+        to[k] = (float)(center[k] + from[k] * c + across * s + axis[k] * along * (1.0 - c));
     }
-    light->emitter.position = vec_load(center);
+    return vec_load(to);
+}
+
+/* A light's direction rotates with it; a sun's goes around the sky. */
+static void circle(const path *p, double seconds, scene_light *light) {
+    static const double origin[3] = { 0.0, 0.0, 0.0 };
+    const double angle = 2.0 * (double)PI * fmod(seconds, p->period) / p->period;
+    lmp_light *e = &light->emitter;
+    if (scene_light_has(light, SCENE_LIGHT_POSITION))
+        e->position = rotate(p->axis, p->center, angle, e->position);
+    if (scene_light_has(light, SCENE_LIGHT_DIRECTION))
+        e->direction = rotate(p->axis, origin, angle, e->direction);
 }
 
 /* The speed at a key: that of the way from its neighbor before to the one after. */
@@ -108,6 +115,8 @@ static void follow_keys(const path *p, double seconds, scene_light *light) {
 
 void animation_move(const animation *all, size_t number, double seconds, scene_light *light) {
     const path *p = number < all->path_count ? &all->paths[number] : &all->rest;
+    if (p->kind != PATH_CIRCLE && !scene_light_has(light, SCENE_LIGHT_POSITION))
+        return;
     switch (p->kind) {
     case PATH_REST:
         break;

@@ -10,11 +10,12 @@ typedef struct animation animation;
 
 /* Opens a path by name:
  *
- *     orbit       each light on its own small closed orbit around its place, 8 s
+ *     orbit       each light on its own small closed orbit around where it rests, 8 s
  *     bounce      each light falls to the bottom of the scene and comes back, 8 s / a whole number
  *     scene       as the scene file's own animation moves its lights
  *     FILE.json   what the file says
  *
+ * A light without a position stays as it is, but that a circle of a file rotates its direction.
  * NULL means scene if the file moves its lights, else orbit. What is needed of the scene is copied.
  * *path is NULL on failure. */
 bool animation_open(const char *name, const scene *scene, animation **path, cli_error *error);

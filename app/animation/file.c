@@ -100,41 +100,55 @@ static bool read_keys(const path_reader *reader, const cJSON *array, const scene
     return true;
 }
 
+/* The light that an entry names, which must take this path: *index is its number; all but those
+ * with a path of their own if there is none. */
+static bool read_light(const path_reader *reader, const cJSON *light, bool circle,
+                       const scene *world, const animation *all, size_t *index) {
+    double number = 0;
+    if (light && (!file_json_number(light, 0, (double)world->light_count - 1, &number) ||
+                  number != floor(number)))
+        return cli_fail(reader->error, reader->file,
+                        "paths[%d] names none of the %zu lights, from 0", reader->number,
+                        world->light_count);
+    *index = (size_t)number;
+    if (light && all->paths[*index].kind != PATH_REST)
+        return fail_path(reader, "is the second path of its light");
+    if (light && !circle && !scene_light_has(&world->lights[*index], SCENE_LIGHT_POSITION))
+        return cli_fail(reader->error, reader->file,
+                        "paths[%d] moves a %s light, which has no position (circle rotates it)",
+                        reader->number, scene_light_kinds[world->lights[*index].emitter.kind].name);
+    return true;
+}
+
 /* Fills the path of the lights that an entry names. */
 static bool read_path(const path_reader *reader, const cJSON *entry, const scene *world,
                       animation *all) {
     static const char *const known[] = { "light", "keys", "smooth", "circle", "bounce", NULL };
     const cJSON *light = file_json_member(entry, "light"), *keys = file_json_member(entry, "keys"),
                 *smooth = file_json_member(entry, "smooth"),
-                *round = file_json_member(entry, "circle"),
+                *circle = file_json_member(entry, "circle"),
                 *fall = file_json_member(entry, "bounce");
     if (!cJSON_IsObject(entry))
         return fail_path(reader, "is no object");
     if (!only_keys(reader, entry, known))
         return false;
-    if (!!keys + !!round + !!fall != 1)
+    if (!!keys + !!circle + !!fall != 1)
         return fail_path(reader, "needs one of keys, circle and bounce");
-    if (!keys && !cJSON_IsObject(round ? round : fall))
-        return fail_path(reader, round ? "has a circle that is no object"
-                                       : "has a bounce that is no object");
-    if (light && (!cJSON_IsNumber(light) || !(light->valuedouble >= 0) ||
-                  !(light->valuedouble < (double)world->light_count) ||
-                  light->valuedouble != floor(light->valuedouble)))
-        return cli_fail(reader->error, reader->file,
-                        "paths[%d] names none of the %zu lights, from 0", reader->number,
-                        world->light_count);
+    if (!keys && !cJSON_IsObject(circle ? circle : fall))
+        return fail_path(reader, circle ? "has a circle that is no object"
+                                        : "has a bounce that is no object");
+    size_t index = 0;
+    if (!read_light(reader, light, circle, world, all, &index))
+        return false;
     if (smooth && !cJSON_IsBool(smooth))
         return fail_path(reader, "has a smooth that is neither true nor false");
     if (keys && !light)
         return fail_path(reader, "has keys, but no light that follows them");
-    const size_t index = light ? (size_t)light->valuedouble : 0;
-    if (light && all->paths[index].kind != PATH_REST)
-        return fail_path(reader, "is the second path of its light");
     path own = { .smooth = cJSON_IsTrue(smooth) };
     path *p = light ? &all->paths[index] : &own;
     *p = own;
     if (keys ? !read_keys(reader, keys, &world->lights[index], p)
-             : !(round ? read_circle(reader, round, p) : read_bounce(reader, fall, p)))
+             : !(circle ? read_circle(reader, circle, p) : read_bounce(reader, fall, p)))
         return false;
     for (size_t i = 0; !light && i < all->path_count; i++)
         if (all->paths[i].kind == PATH_REST)

@@ -9,7 +9,7 @@ typedef enum path_kind { PATH_REST, PATH_ORBIT, PATH_BOUNCE, PATH_CIRCLE, PATH_K
 
 typedef struct path_key {
     double time;
-    double offset[3]; /* from the light's place */
+    double offset[3]; /* from where the light rests */
 } path_key;
 
 /* How one light moves. */

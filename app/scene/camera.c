@@ -49,6 +49,10 @@ bool scene_place_camera(const scene *world, const scene_camera_options *o, const
         if (memcmp(camera->eye, camera->target, sizeof camera->eye) == 0)
             return cli_fail(error, "camera", "--eye and --target are the same point");
     }
+    for (int k = 0; k < 3; k++)
+        if (!(fabsf(camera->eye[k]) <= LMP_LENGTH_MAX &&
+              fabsf(camera->target[k]) <= LMP_LENGTH_MAX))
+            return cli_fail(error, world->origin, "has a camera beyond 1e17 (--eye and --target)");
     keep_upright(camera);
     return true;
 }

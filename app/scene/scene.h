@@ -68,8 +68,8 @@ typedef struct scene_camera {
     float aspect; /* the image it was framed for, width / height; 0: any */
 } scene_camera;
 
-/* How the scene file moves a light: its offset from its place at even steps of time, from 0 to the
- * period, after which it begins anew. */
+/* How the scene file moves a light: its offset from where it rests at even steps of time, from 0 to
+ * the period, after which it begins anew. */
 typedef struct scene_motion {
     uint32_t light;
     uint32_t first, count; /* of the scene's offsets; count >= 2 */

@@ -216,11 +216,44 @@ static void bad_paths_are_refused_in_one_line(void **state) {
     scene_free(&s);
 }
 
+/* A sun goes around the axis of a circle and stays a unit vector; a spot turns on its way; what has
+ * no position does not bounce or orbit. */
+static void circles_rotate_directions(void **state) {
+    (void)state;
+    scene s = load("builtin:ball");
+    const lmp_vec3 east = { 0.6f, 0.8f, 0 };
+    s.lights[0].emitter = (lmp_light) { .kind = LMP_LIGHT_CAP, .direction = east, .angle = 0.1f };
+    s.lights[1].emitter = (lmp_light) {
+        .kind = LMP_LIGHT_SPOT, .position = { 2, 1, 0 }, .direction = { -1, 0, 0 }, .outer = 1
+    };
+    const char *file =
+        write_file(".json", "{\"paths\":[{\"circle\":{\"center\":[0,5,0],\"period\":4}}]}");
+    animation *path = open_path(file, &s);
+    unlink(file);
+    const scene_light sun = at(path, &s, 0, 1.0), spot = at(path, &s, 1, 1.0);
+    CHECK_NEAR(0.8, sun.emitter.direction.y, 1e-6);
+    CHECK_NEAR(-0.6, sun.emitter.direction.z, 1e-6);
+    check_place(&spot, 0, 1, -2);
+    CHECK_NEAR(1, spot.emitter.direction.z, 1e-6);
+    animation_close(path);
+    path = open_path("bounce", &s);
+    const scene_light still = at(path, &s, 0, 1.0);
+    assert_memory_equal(&still, &s.lights[0], sizeof still);
+    animation_close(path);
+    file = write_file(".json", "{\"paths\":[{\"light\":0,\"keys\":[[0,0,0,0],[1,1,1,1]]}]}");
+    cli_error error;
+    assert_false(animation_open(file, &s, &path, &error));
+    assert_non_null(strstr(error.text, "paths[0] moves a cap light, which has no position"));
+    unlink(file);
+    scene_free(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(orbits_close_inside_the_scene),
         cmocka_unit_test(bounces_touch_the_ground_and_come_back),
         cmocka_unit_test(files_say_how_lights_move),
+        cmocka_unit_test(circles_rotate_directions),
         cmocka_unit_test(scenes_move_their_own_lights),
         cmocka_unit_test(bad_paths_are_refused_in_one_line),
     };

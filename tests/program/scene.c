@@ -348,6 +348,18 @@ static void a_scene_without_lights_gets_hidden_studio_lights(void **state) {
     scene_free(&s);
 }
 
+static void cameras_out_of_reach_are_refused(void **state) {
+    (void)state;
+    scene s = load("builtin:ball", true);
+    const scene_camera_options options = { .eye = { 1e30f, 0, 0 }, .eye_given = true };
+    const int size[2] = { 16, 9 };
+    scene_camera camera;
+    cli_error error = { 0 };
+    assert_false(scene_place_camera(&s, &options, size, &camera, &error));
+    assert_non_null(strstr(error.text, "has a camera beyond 1e17"));
+    scene_free(&s);
+}
+
 /* The largest coordinate in the image, 1 at its edges, of what the camera sees. */
 static double filled(const scene *s, const scene_camera *camera, double aspect) {
     double f[3], r[3], u[3], length = 0, largest = 0;
@@ -421,6 +433,7 @@ int main(void) {
         cmocka_unit_test(the_atrium_is_the_same_for_a_seed_and_another_for_another),
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
+        cmocka_unit_test(cameras_out_of_reach_are_refused),
         cmocka_unit_test(a_scene_without_lights_gets_hidden_studio_lights),
         cmocka_unit_test(a_scene_without_cameras_fills_nine_tenths_of_the_image),
         cmocka_unit_test(a_narrow_image_widens_the_camera_s_view),

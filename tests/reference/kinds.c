@@ -110,6 +110,37 @@ static void a_tilted_surface_sees_sky_and_ground(void **state) {
     }
 }
 
+/* A lobe of exponent 0 is 1/(2 pi) over the hemisphere around the mirror direction. Of a sky it
+ * sees the part that their hemispheres share, 1 - t/pi; of a cap inside it the solid angle over 2
+ * pi. */
+static void a_lobe_of_exponent_0_is_flat(void **state) {
+    (void)state;
+    const reference_cut whole = { .bands = 0 };
+    const reference_material flat = { .specular = { 1, 1, 1 }, .exponent = 0 };
+    const scene_light sky = { .emitter = { .kind = LMP_LIGHT_HEMISPHERE,
+                                           .direction = { 0, 1, 0 },
+                                           .radiance = { 1, 1, 1 } } };
+    const scene_light sun = { .emitter = { .kind = LMP_LIGHT_CAP,
+                                           .direction = { 0, 1, 0 },
+                                           .angle = 0.25f,
+                                           .radiance = { 1, 1, 1 } } };
+    for (double tilt = 0; tilt < 3; tilt += 0.4) {
+        const reference_vec normal = { sin(tilt), cos(tilt), 0 };
+        reference_surface surface;
+        double of_sky[3], of_sun[3];
+        reference_surface_set(&surface, &whole, &flat, origin, normal, normal);
+        reference_quadrature(&surface, &sky, 1, of_sky);
+        reference_quadrature(&surface, &sun, 1, of_sun);
+        CHECK_WITHIN(fabs(of_sky[0] - (1 - tilt / REFERENCE_PI)), 1e-6);
+        const reference_result sampled = estimate(&surface, &sky.emitter, NULL);
+        CHECK_WITHIN(fabs(sampled.mean[0] - of_sky[0]), 4 * sampled.standard_error[0] + 1e-6);
+        if (tilt < REFERENCE_PI / 2 - 0.25)
+            CHECK_WITHIN(fabs(of_sun[0] - (1 - cos(0.25))), 1e-6);
+        if (tilt > REFERENCE_PI / 2 + 0.25)
+            CHECK_WITHIN(of_sun[0], 1e-12);
+    }
+}
+
 static double wall_at_one(reference_vec point, reference_vec direction, void *user) {
     (void)point;
     (void)direction;
@@ -141,6 +172,7 @@ int main(void) {
         cmocka_unit_test(a_directional_light_gives_its_irradiance_times_the_cosine),
         cmocka_unit_test(a_cap_gives_the_irradiance_of_a_sphere_as_wide),
         cmocka_unit_test(a_tilted_surface_sees_sky_and_ground),
+        cmocka_unit_test(a_lobe_of_exponent_0_is_flat),
         cmocka_unit_test(walls_hide_what_is_behind_them_and_nothing_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
