@@ -20,7 +20,7 @@ static kind kind_of(const char *name, size_t length) {
         kind kind;
     } known[] = {
         { "FILE", FILES },      { "DIR", FOLDERS },        { "SCENE", SCENES },
-        { "PICTURE", FILES },   { "REFERENCE", FILES },    { "MATERIAL", FILES },
+        { "IMAGE", FILES },     { "REFERENCE", FILES },    { "MATERIAL", FILES },
         { "MATERIAL…", FILES }, { "[COMMAND]", COMMANDS },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)

@@ -165,7 +165,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (count != 2)
-        return cli_usage(command, "expected two images, PICTURE and REFERENCE");
+        return cli_usage(command, "expected two images, IMAGE and REFERENCE");
     for (int i = 0; i < a.limits.count; i++)
         if (!parse_limit(command, a.limits.items[i], &limits[i]))
             return CLI_USAGE;
@@ -185,7 +185,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 
 const cli_command command_compare = {
     .name = "compare",
-    .operands = "PICTURE REFERENCE",
+    .operands = "IMAGE REFERENCE",
     .summary = "say how far an image is from a reference",
     .examples = "lampion compare atrium.exr truth.exr\n"
                 "lampion compare a.png b.png --heatmap difference.png --fail-above max=0.01\n",

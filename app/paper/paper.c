@@ -100,7 +100,7 @@ static void introduce(paper *p) {
     name_processor(processor);
     page_begin(&p->page, "Efficient projection of sphere lights on spherical harmonics, reproduced",
                "Figures, tables and claims of P. Mézières and M. Paulin, <em>Projection efficace "
-               "de lumières sphériques sur les harmoniques sphériques</em> (JFIG 2020), made anew "
+               "de lumières sphériques sur les harmoniques sphériques</em> (JFIG 2020), reproduced "
                "by <code>lampion paper</code>. Every number on this page was computed in this run; "
                "each section begins with the command that makes it alone.");
     page_text(&p->page,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* paper.h - the figures, tables and claims of Mézières and Paulin 2020, made anew and put beside
+/* paper.h - the figures, tables and claims of Mézières and Paulin 2020, reproduced and put beside
  * what the paper says: one HTML page. */
 #ifndef LAMPION_PAPER_H
 #define LAMPION_PAPER_H

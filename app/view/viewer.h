@@ -15,7 +15,7 @@ typedef struct version {
     long long seconds, nanoseconds, size;
 } version;
 
-/* A drawing on the screen, made anew when what it says changes. */
+/* A drawing on the screen, drawn again when what it says changes. */
 typedef struct label {
     char text[VIEW_MESSAGE_SIZE];
     double scale;
