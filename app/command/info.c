@@ -71,13 +71,13 @@ static cJSON *describe(const scene *s) {
 }
 
 static int print_json(const scene *s) {
-    cJSON *root = describe(s);
-    char *text = cJSON_Print(root);
-    cJSON_Delete(root);
-    if (text)
-        puts(text);
+    cli_error error;
+    char *text = file_json_text(describe(s), true, s->origin, &error);
+    if (!text)
+        return cli_report(&error);
+    puts(text);
     free(text);
-    return text ? CLI_OK : CLI_FAILURE;
+    return CLI_OK;
 }
 
 static void print_names(const char *what, const char *name, size_t size, size_t count) {

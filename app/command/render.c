@@ -3,6 +3,7 @@
 #include "app/command/command.h"
 #include "app/device/device.h"
 #include "app/device/materials.h"
+#include "app/file/file.h"
 #include "app/view/view.h"
 
 #include <cjson/cJSON.h>
@@ -165,10 +166,10 @@ static double median(double *values, int count) {
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-/* Medians over the repetitions of one method, after a frame that warms it up. */
-static cJSON *measure(job *j, gpu_method method, cli_error *error) {
-    enum { PASSES = 5 };
-    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade", "tonemap", "total" };
+enum { SHADE = 2, PASSES = 5 };
+
+/* The median of each pass over the repetitions of one method, after a frame that warms it up. */
+static bool measure(job *j, gpu_method method, double medians[PASSES], cli_error *error) {
     static double samples[PASSES][REPEAT_MAX];
     gpu_frame frame = j->frame;
     frame.method = method;
@@ -188,12 +189,9 @@ static cJSON *measure(job *j, gpu_method method, cli_error *error) {
         }
     }
     free(rgb8);
-    if (!ok)
-        return NULL;
-    cJSON *milliseconds = cJSON_CreateObject();
-    for (int p = 0; p < PASSES; p++)
-        cJSON_AddNumberToObject(milliseconds, names[p], median(samples[p], j->options->repeat));
-    return milliseconds;
+    for (int p = 0; p < PASSES && ok; p++)
+        medians[p] = median(samples[p], j->options->repeat);
+    return ok;
 }
 
 /* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
@@ -204,16 +202,18 @@ static bool compared(const job *j, gpu_method method) {
 }
 
 static bool add_timings(job *j, cJSON *stats, cli_error *error) {
+    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade", "tonemap", "total" };
     cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
-    double shade[GPU_METHODS] = { 0 };
+    double medians[PASSES], shade[GPU_METHODS] = { 0 };
     for (int m = 0; m < GPU_METHODS; m++) {
         if (!compared(j, (gpu_method)m))
             continue;
-        cJSON *passes = measure(j, (gpu_method)m, error);
-        if (!passes)
+        if (!measure(j, (gpu_method)m, medians, error))
             return false;
-        shade[m] = cJSON_GetObjectItem(passes, "shade")->valuedouble;
-        cJSON_AddItemToObject(timings, gpu_method_names[m], passes);
+        cJSON *passes = cJSON_AddObjectToObject(timings, gpu_method_names[m]);
+        for (int p = 0; p < PASSES; p++)
+            cJSON_AddNumberToObject(passes, names[p], medians[p]);
+        shade[m] = medians[SHADE];
     }
     if (shade[GPU_METHOD_COEFFICIENTS] > 0 && shade[GPU_METHOD_ZONAL] > 0)
         cJSON_AddNumberToObject(stats, "zonal_speedup",
@@ -241,13 +241,15 @@ static bool print_stats(job *j, cli_error *error) {
     if (j->response)
         cJSON_AddNumberToObject(stats, "response_bytes",
                                 (double)lmp_preintegrated_lobe_describe(j->response).bytes);
-    const bool ok = add_timings(j, stats, error);
-    char *text = ok ? cJSON_Print(stats) : NULL;
+    if (!add_timings(j, stats, error)) {
+        cJSON_Delete(stats);
+        return false;
+    }
+    char *text = file_json_text(stats, true, NULL, error);
     if (text)
         puts(text);
-    cJSON_free(text);
-    cJSON_Delete(stats);
-    return ok;
+    free(text);
+    return text != NULL;
 }
 
 /* --- the command --------------------------------------------------------------------------------

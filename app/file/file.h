@@ -29,6 +29,10 @@ const char *file_json_fault(const char *text, size_t size);
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error);
 struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error);
 
+/* The text of a JSON value, in lines or in one, to be freed; deletes the value. NULL if memory ran
+ * out for any part of it, also while it was made: whoever makes JSON prints it by this. */
+char *file_json_text(struct cJSON *root, bool lines, const char *subject, cli_error *error);
+
 /* Its values, strictly: what has another type, count or range is not read. An item may be NULL. */
 const struct cJSON *file_json_member(const struct cJSON *object, const char *name);
 bool file_json_number(const struct cJSON *item, double minimum, double maximum, double *number);

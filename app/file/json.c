@@ -6,6 +6,36 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* cJSON goes on without what it has no memory for, and says nothing: its allocator remembers. */
+static _Thread_local bool out_of_memory;
+
+static void *allocate(size_t size) {
+    void *const memory = malloc(size);
+    out_of_memory = out_of_memory || !memory;
+    return memory;
+}
+
+__attribute__((constructor)) static void watch_memory(void) {
+    cJSON_InitHooks(&(cJSON_Hooks) { allocate, free });
+}
+
+/* Whether memory ran out since the last call. */
+static bool ran_out(void) {
+    const bool failed = out_of_memory;
+    out_of_memory = false;
+    return failed;
+}
+
+char *file_json_text(struct cJSON *root, bool lines, const char *subject, cli_error *error) {
+    char *text = lines ? cJSON_Print(root) : cJSON_PrintUnformatted(root);
+    cJSON_Delete(root);
+    if (!ran_out() && text)
+        return text;
+    free(text);
+    cli_fail(error, subject, "out of memory");
+    return NULL;
+}
+
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error) {
     const char *fault = file_json_fault(text, size);
     if (fault) {
@@ -16,9 +46,11 @@ struct cJSON *file_parse_json(const char *path, const char *text, size_t size, c
         return NULL;
     }
     cJSON *root = cJSON_ParseWithLength(text, size);
-    if (!root)
-        cli_fail(error, path, "is JSON that does not fit into memory");
-    return root;
+    if (!ran_out() && root)
+        return root;
+    cJSON_Delete(root);
+    cli_fail(error, path, "is JSON that does not fit into memory");
+    return NULL;
 }
 
 struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error) {

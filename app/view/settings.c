@@ -238,14 +238,12 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
 
 bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const char *path,
                      cli_error *error) {
-    cJSON *root = view_settings_to_json(s);
-    char *text = cJSON_PrintUnformatted(root);
-    cJSON_Delete(root);
+    char *text = file_json_text(view_settings_to_json(s), false, path, error);
     if (!text)
-        return cli_fail(error, path, "out of memory");
+        return false;
     const image_text chunk = { SHOT_KEY, text };
     const bool ok = image_write_png8_text(rgb8, s->width, s->height, &chunk, path, error);
-    cJSON_free(text);
+    free(text);
     return ok;
 }
 

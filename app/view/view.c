@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* view.c - the viewer's loop: events, time, wishes. */
 #include "app/view/view.h"
+
+#include "app/file/file.h"
 #include "app/view/viewer.h"
 
 #include <errno.h>

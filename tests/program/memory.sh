@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+# Memory that runs out: for every command, each request of the program's own for memory is refused once. It
+# ends well and prints what it always prints, or fails with one line; it neither crashes nor leaves a part
+# of a file. LAMPION_LONG=1 refuses every request, otherwise a dozen spread over each run.
+set -eu
+. tests/house/common.sh
+
+if nm -D "$PROGRAM" | grep -q '__[at]san_init'; then
+    echo "skipped: sanitizers have an allocator of their own"
+    exit 0
+fi
+scarce=$BUILD/tests/program/libscarce.so
+export XDG_CACHE_HOME="$WORK/cache" LC_ALL=C
+cd "$WORK"
+own_scene scene.gltf
+printf 'light_x,light_y,light_z,radius,recv_x,recv_y,recv_z\n0,3,0,1,0,0,0\n1,3,0,1,0,0,0\n' >lights.csv
+
+# run REFUSED COMMAND…: into out, err and image.*; prints the status.
+run() {
+    refused=$1
+    shift
+    rm -rf image.* cache
+    status=0
+    LD_PRELOAD=$scarce LAMPION_REFUSE=$refused "$PROGRAM" "$@" >out 2>err </dev/null || status=$?
+}
+
+# What a run printed, without the times in it, and the image or table that it wrote, if it did.
+printed() {
+    sed 's/[0-9.e+-]*[0-9]//g' out | cksum
+}
+
+written() {
+    cat image.* 2>/dev/null | cksum
+}
+
+# sweep COMMAND…
+sweep() {
+    rm -f requests
+    LAMPION_REQUESTS=$PWD/requests run 0 "$@"
+    [ "$status" = 0 ] || fail "$*: $(cat err)"
+    text=$(printed) file=$(written) requests=$(cat requests) step=1 refusals=0
+    [ -n "${LAMPION_LONG:-}" ] || step=$((requests / 12 + 1))
+    for k in $(seq 1 $step "$requests"); do
+        run "$k" "$@"
+        case $status in
+        0) [ "$(printed) $(written)" = "$text $file" ] || fail "$*: refusal $k of $requests: a wrong result, and no error" ;;
+        1)
+            refusals=$((refusals + 1))
+            [ "$(wc -l <err)" = 1 ] && grep -q '^lampion: ' err || fail "$*: refusal $k of $requests: said $(cat err)"
+            ! ls image.* >/dev/null 2>&1 || [ "$(written)" = "$file" ] || fail "$*: refusal $k of $requests: a part of a file"
+            ;;
+        *) fail "$*: refusal $k of $requests: status $status: $(cat err)" ;;
+        esac
+        [ "$(find . -name '.lampion-*' | wc -l)" = 0 ] || fail "$*: refusal $k of $requests: left a temporary"
+    done
+    echo "$*: $requests requests, $refusals of those refused were errors"
+}
+
+sweep info scene.gltf
+sweep info --json scene.gltf
+sweep info --json builtin:balls
+sweep basis --bands 2 --size 64x64 -o image.png
+sweep basis --bands 2 --size 64x64 -o image.exr
+sweep brdf bake ggx:0.5 --bands 3 --views 8 -o image.lmpt
+sweep project --light 0,3,0 --radius 0.5 --bands 4
+sweep project --batch lights.csv --bands 3
+sweep reference scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --spp 1 --threads 1 -o image.exr
+sweep render scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --bands 3 --stats --repeat 1 -o image.png
