@@ -67,6 +67,12 @@ static cJSON *describe(const scene *s) {
         cJSON_AddItemToArray(cameras, entry);
     }
     add_lights(root, s);
+    cJSON *left_out = cJSON_AddArrayToObject(root, "left_out");
+    for (size_t i = 0; i < s->left_out_count; i++) {
+        char text[2 * SCENE_NAME_SIZE + 32];
+        scene_left_out_text(&s->left_out[i], text, sizeof text);
+        cJSON_AddItemToArray(left_out, cJSON_CreateString(text));
+    }
     return root;
 }
 
@@ -103,6 +109,11 @@ static void print_lights(const scene *s) {
             separator = ", ";
         }
     printf(hidden ? " (%zu of them emissive meshes)\n" : "\n", hidden);
+    for (size_t i = 0; i < s->left_out_count; i++) {
+        char text[2 * SCENE_NAME_SIZE + 32];
+        scene_left_out_text(&s->left_out[i], text, sizeof text);
+        printf("%-10s %s\n", i ? "" : "left out", text);
+    }
 }
 
 static void print_text(const scene *s) {
@@ -129,6 +140,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_FLAG,
           .target = &load.no_cache,
           .help = "import the file anew" },
+        SCENE_STRICT_OPTION_ROW(load),
         { 0 },
     };
     int operand_count, status;

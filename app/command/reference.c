@@ -23,6 +23,7 @@ typedef struct reference_arguments {
     bool point_given;
     float point[3], normal[3], view[3], diffuse[3], specular[3], exponent;
     cli_list point_lights;
+    scene_options load;
 } reference_arguments;
 
 /* A linear image carries its standard error as a second layer. */
@@ -68,7 +69,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     reference_settings *settings = &a->settings;
     reference_material_source *sources = NULL;
     device_materials all = { .count = 0 };
-    if (!scene_load(name, NULL, &world, error))
+    if (!scene_load(name, &a->load, &world, error))
         return false;
     settings->width = a->size[0];
     settings->height = a->size[1];
@@ -180,6 +181,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "threads", 0, CLI_INT, &a.settings.threads, "N",
           "0 means all processors; the result is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),
+        SCENE_STRICT_OPTION_ROW(a.load),
         { "point", 0, CLI_VEC3, a.point, "X,Y,Z",
           "no image: print the radiance that one point reflects, by quadrature", 0, 0, NULL,
           &a.point_given },

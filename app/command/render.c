@@ -24,6 +24,7 @@ typedef struct render_options {
     scene_camera_options camera;
     scene_lights_options lights;
     cli_list materials;
+    scene_options load;
 } render_options;
 
 /* Everything that is open while rendering. */
@@ -277,8 +278,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     const render_options *o = j->options;
     char path[PATH_SIZE];
     name_frame(o, 0, path);
-    if (!image_check_path(path, error) ||
-        !scene_load(name, &(scene_options) { 0 }, &j->world, error) ||
+    if (!image_check_path(path, error) || !scene_load(name, &o->load, &j->world, error) ||
         !scene_apply_lights(&j->world, &o->lights, error) ||
         !animation_open(o->animate, &j->world, &j->path, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
@@ -391,6 +391,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           device_window_names, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
+        SCENE_STRICT_OPTION_ROW(o.load),
         MATERIALS_OPTION_ROW(o.materials),
         { "exposure", 0, CLI_FLOAT, &o.exposure, "FACTOR", "of radiance; without it, automatic",
           1e-12, 1e12, NULL, &o.exposure_given },

@@ -88,6 +88,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           device_window_names, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         SCENE_CAMERA_OPTION_ROWS(o->camera),
+        SCENE_STRICT_OPTION_ROW(o->load),
         MATERIALS_OPTION_ROW(a.materials),
         { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR", "of radiance; without it, automatic",
           1e-12, 1e12, NULL, &a.exposure_given },

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/assimp.h"
 
+#include "app/scene/assimp_material.h"
 #include "app/scene/mesh.h"
-#include "app/scene/mtl.h"
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -240,7 +240,7 @@ bool assimp_add(const char *name, const void *data, size_t size, source_set *sou
     if (!imported)
         return false;
     const bool ok = add_node(&job, imported, imported->mRootNode, &identity, 0, error) &&
-                    mtl_add_materials(imported, sources, builder, error);
+                    assimp_add_materials(imported, sources, builder, error);
     aiReleaseImport(imported);
     return ok;
 }

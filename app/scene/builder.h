@@ -33,6 +33,7 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
 
 /* Notes that `count` of `noun` (in the singular) are read without something that they have, or,
  * with `what` NULL, not at all. */
+#define BUILDER_MISSING_FILE "missing file"
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count);
 
 /* Fills the header of the packed blob; with `checksum` its content hash too. */

@@ -7,6 +7,7 @@
 #include "app/scene/cache.h"
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
+#include "app/scene/obj.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -45,6 +46,10 @@ static bool add_gltf(import_job *job, scene_builder *builder, cli_error *error) 
                     gltf_add_views(&document, builder, error);
     gltf_close(&document);
     return ok;
+}
+
+static bool add_obj(import_job *job, scene_builder *builder, cli_error *error) {
+    return obj_add(job->data, job->size, &job->sources, builder, error);
 }
 
 static bool add_other(import_job *job, scene_builder *builder, cli_error *error) {
@@ -141,6 +146,8 @@ static import_reader reader_of(const char *path, const void *data, size_t size) 
         return add_gltf;
     if (dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0))
         return add_gltf;
+    if (dot && strcasecmp(dot, ".obj") == 0)
+        return add_obj;
     return dot && assimp_knows(dot) ? add_other : NULL;
 }
 
@@ -195,6 +202,17 @@ static bool import_fresh(import_job *job, void **block, size_t *size, cli_error 
     return false;
 }
 
+/* Whether the scene would be another one if files appeared that are not there: the cache, which
+ * looks at those that are, would not notice. */
+static bool lacks_files(const void *block) {
+    const scene_left_out *items = blob_items(block, BLOB_LEFT_OUT);
+    const blob_header *header = block;
+    for (uint64_t i = 0; i < header->sections[BLOB_LEFT_OUT].count; i++)
+        if (strcmp(items[i].noun, BUILDER_MISSING_FILE) == 0)
+            return true;
+    return false;
+}
+
 bool import_scene(const char *path, bool no_cache, scene *s, cli_error *error) {
     import_job job;
     void *block = NULL;
@@ -205,7 +223,7 @@ bool import_scene(const char *path, bool no_cache, scene *s, cli_error *error) {
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
         free_sources(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);
-        if (ok && !cached && !no_cache)
+        if (ok && !cached && !no_cache && !lacks_files(block))
             cache_store(&key, block, size);
     }
     free(job.data);

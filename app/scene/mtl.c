@@ -1,125 +1,254 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/mtl.h"
 
-#include "app/scene/texture.h"
+#include "app/scene/phong.h"
+#include "app/scene/words.h"
 
-#include <assimp/cimport.h>
-#include <assimp/material.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-#define METAL_KS_MIN   0.25f /* Ks of a metal, at least, */
-#define METAL_KS_TO_KD 2.0f  /* and at least this many times Kd */
+/* The material whose statements are read. */
+typedef struct mtl_reader {
+    texture_files *files;
+    mtl_names *names;
+    word_reader words;
+    bool open; /* a newmtl has been */
+    phong factors;
+    int illumination;
+    float roughness, metallic; /* below 0: not said */
+    size_t material;
+    cli_error *error;
+} mtl_reader;
 
-static float brightest(const struct aiColor4D *color) {
-    return fmaxf(color->r, fmaxf(color->g, color->b));
+static bool fail(const mtl_reader *r, const char *wrong) {
+    return cli_fail(r->error, r->files->sources->subject, "has an MTL file whose line %zu %s",
+                    r->words.line, wrong);
 }
 
-static struct aiColor4D color_of(const struct aiMaterial *from, const char *key, float fallback) {
-    struct aiColor4D color = { fallback, fallback, fallback, 1.0f };
-    aiGetMaterialColor(from, key, 0, 0, &color);
-    return color;
+static scene_material *material_of(const mtl_reader *r) {
+    return (scene_material *)builder_items(r->files->builder, BLOB_MATERIALS) + r->material;
 }
 
-static float number_of(const struct aiMaterial *from, const char *key, float fallback) {
-    float number = fallback;
-    unsigned count = 1;
-    return aiGetMaterialFloatArray(from, key, 0, 0, &number, &count) == aiReturn_SUCCESS &&
-                   isfinite(number)
-               ? number
-               : fallback;
+static void finish_material(mtl_reader *r) {
+    if (!r->open)
+        return;
+    if (r->illumination < 2)
+        memset(r->factors.specular, 0, sizeof r->factors.specular);
+    scene_material *material = material_of(r);
+    phong_apply(&r->factors, material);
+    if (r->roughness >= 0.0f)
+        material->roughness = fminf(r->roughness, 1.0f);
+    if (r->metallic >= 0.0f)
+        material->metallic = fminf(r->metallic, 1.0f);
 }
 
-static void read_factors(const struct aiMaterial *from, scene_material *to) {
-    const struct aiColor4D kd = color_of(from, "$clr.diffuse", 0.6f);
-    const struct aiColor4D ks = color_of(from, "$clr.specular", 0.0f);
-    const struct aiColor4D ke = color_of(from, "$clr.emissive", 0.0f);
-    const float exponent = number_of(from, "$mat.shininess", 0.0f);
-    const bool metal =
-        brightest(&ks) >= METAL_KS_MIN && brightest(&ks) > METAL_KS_TO_KD * brightest(&kd);
-    const struct aiColor4D *base = metal ? &ks : &kd;
-    to->base_color[0] = fminf(fmaxf(base->r, 0.0f), 1.0f);
-    to->base_color[1] = fminf(fmaxf(base->g, 0.0f), 1.0f);
-    to->base_color[2] = fminf(fmaxf(base->b, 0.0f), 1.0f);
-    to->base_color[3] = fminf(fmaxf(number_of(from, "$mat.opacity", 1.0f), 0.0f), 1.0f);
-    to->emission[0] = fmaxf(ke.r, 0.0f);
-    to->emission[1] = fmaxf(ke.g, 0.0f);
-    to->emission[2] = fmaxf(ke.b, 0.0f);
-    to->metallic = metal ? 1.0f : 0.0f;
-    to->roughness = 1.0f;
-    if (brightest(&ks) > 0.0f && exponent > 0.0f)
-        to->roughness = fminf(1.0f, sqrtf(sqrtf(2.0f / (exponent + 2.0f))));
-    if (to->base_color[3] < 1.0f)
-        to->flags |= SCENE_ALPHA_MASK;
-}
-
-/* Textures made so far, by name and color space. */
-typedef struct texture_name {
-    char path[512];
-    uint32_t srgb;
-} texture_name;
-
-static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uint32_t srgb,
-                     texture_name **names, source_set *sources, scene_builder *builder,
-                     scene_texture_use *use, cli_error *error) {
-    struct aiString path;
-    enum aiTextureMapMode modes[2] = { aiTextureMapMode_Wrap, aiTextureMapMode_Wrap };
-    if (aiGetMaterialTexture(from, type, 0, &path, NULL, NULL, NULL, NULL, modes, NULL) !=
-            aiReturn_SUCCESS ||
-        path.length == 0)
-        return true;
-    const size_t count = builder_count(builder, BLOB_TEXTURES);
-    for (size_t i = 0; i < count; i++)
-        if ((*names)[i].srgb == srgb && strcmp((*names)[i].path, path.data) == 0) {
-            use->texture = (int32_t)i;
-            return true;
-        }
-    const source *found;
-    scene_texture decoded = { .srgb = srgb };
-    if (strlen(path.data) >= sizeof(*names)->path)
-        return cli_fail(error, sources->subject, "has a texture with too long a name");
-    if (!sources_read(sources, path.data, &found, error) ||
-        !texture_decode(builder, found->data, found->size, TEXTURE_ANY, sources->subject,
-                        found->path, &decoded, error))
-        return false;
-    texture_name *larger = realloc(*names, (count + 1) * sizeof *larger);
-    if (larger)
-        *names = larger;
-    scene_texture *texture = larger ? builder_append(builder, BLOB_TEXTURES, 1) : NULL;
-    if (!texture)
-        return cli_fail(error, sources->subject, "does not fit into memory");
-    strcpy(larger[count].path, path.data);
-    larger[count].srgb = srgb;
-    *texture = decoded;
-    texture->wrap_u = modes[0] == aiTextureMapMode_Clamp ? SCENE_WRAP_CLAMP : SCENE_WRAP_REPEAT;
-    texture->wrap_v = modes[1] == aiTextureMapMode_Clamp ? SCENE_WRAP_CLAMP : SCENE_WRAP_REPEAT;
-    scene_clean_name(texture->name, found->path);
-    use->texture = (int32_t)count;
+static bool new_material(mtl_reader *r) {
+    finish_material(r);
+    const char *name = words_rest(&r->words);
+    if (r->names->count == r->names->capacity) {
+        const size_t capacity = r->names->capacity ? 2 * r->names->capacity : 16;
+        mtl_name *items = realloc(r->names->items, capacity * sizeof *items);
+        if (!items)
+            return cli_fail(r->error, r->files->sources->subject, "does not fit into memory");
+        r->names->items = items;
+        r->names->capacity = capacity;
+    }
+    r->material = builder_count(r->files->builder, BLOB_MATERIALS);
+    mtl_name *own = &r->names->items[r->names->count];
+    *own = (mtl_name) { .name = strdup(name), .material = (uint32_t)r->material };
+    if (!own->name || !builder_material(r->files->builder, name)) {
+        free(own->name);
+        return cli_fail(r->error, r->files->sources->subject, "does not fit into memory");
+    }
+    r->names->count++;
+    r->open = true;
+    r->factors = (phong) { .diffuse = { 0.6f, 0.6f, 0.6f }, .opacity = 1.0f };
+    r->illumination = 2;
+    r->roughness = r->metallic = -1.0f;
     return true;
 }
 
-bool mtl_add_materials(const struct aiScene *imported, source_set *sources, scene_builder *builder,
-                       cli_error *error) {
-    texture_name *names = NULL;
-    bool ok = true;
-    for (unsigned i = 0; ok && i < imported->mNumMaterials; i++) {
-        const struct aiMaterial *from = imported->mMaterials[i];
-        struct aiString name = { 0 };
-        aiGetMaterialString(from, "?mat.name", 0, 0, &name);
-        scene_material *to = builder_material(builder, name.data);
-        if (!to) {
-            ok = cli_fail(error, sources->subject, "does not fit into memory");
-            break;
-        }
-        read_factors(from, to);
-        ok = read_map(from, aiTextureType_DIFFUSE, 1, &names, sources, builder, &to->base_color_map,
-                      error) &&
-             read_map(from, aiTextureType_NORMALS, 0, &names, sources, builder, &to->normal_map,
-                      error) &&
-             read_map(from, aiTextureType_EMISSIVE, 1, &names, sources, builder, &to->emission_map,
-                      error);
+/* --- factors ------------------------------------------------------------------------------------
+ */
+
+static bool read_number(mtl_reader *r, float *number) {
+    return words_number(words_next(&r->words), number) ||
+           fail(r, "has no number where one belongs");
+}
+
+/* One number stands for three. */
+static bool read_color(mtl_reader *r, float color[3]) {
+    if (!read_number(r, &color[0]))
+        return false;
+    for (int k = 1; k < 3; k++) {
+        const char *word = words_next(&r->words);
+        color[k] = color[0];
+        if (word && !words_number(word, &color[k]))
+            return fail(r, "has no number where one belongs");
     }
-    free(names);
+    return true;
+}
+
+static bool read_factor(mtl_reader *r, const char *keyword, bool *known) {
+    float number = 0.0f;
+    bool ok = true;
+    *known = true;
+    if (strcasecmp(keyword, "Kd") == 0) {
+        ok = read_color(r, r->factors.diffuse);
+    } else if (strcasecmp(keyword, "Ks") == 0) {
+        ok = read_color(r, r->factors.specular);
+    } else if (strcasecmp(keyword, "Ke") == 0) {
+        ok = read_color(r, r->factors.emission);
+    } else if (strcasecmp(keyword, "Ns") == 0) {
+        ok = read_number(r, &r->factors.exponent);
+    } else if (strcasecmp(keyword, "Pr") == 0) {
+        ok = read_number(r, &r->roughness);
+    } else if (strcasecmp(keyword, "Pm") == 0) {
+        ok = read_number(r, &r->metallic);
+    } else if (strcasecmp(keyword, "illum") == 0) {
+        ok = read_number(r, &number);
+        r->illumination = number < 2.0f ? 0 : 2;
+    } else if (strcasecmp(keyword, "d") == 0) {
+        ok = read_number(r, &r->factors.opacity);
+    } else if (strcasecmp(keyword, "Tr") == 0) {
+        ok = read_number(r, &number);
+        r->factors.opacity = 1.0f - number;
+    } else {
+        *known = false;
+    }
     return ok;
+}
+
+/* --- maps ---------------------------------------------------------------------------------------
+ */
+
+/* Skips the options before the name of a map's file; -clamp is heeded, and those that would move
+ * or recolor it are noted. */
+static void skip_options(mtl_reader *r, scene_wrap *wrap) {
+    static const struct {
+        const char *name;
+        int arguments;
+        bool changes;
+    } options[] = { { "-blendu", 1, false }, { "-blendv", 1, false }, { "-cc", 1, false },
+                    { "-clamp", 1, false },  { "-bm", 1, false },     { "-boost", 1, false },
+                    { "-texres", 1, false }, { "-imfchan", 1, true }, { "-type", 1, true },
+                    { "-mm", 2, true },      { "-o", 3, true },       { "-s", 3, true },
+                    { "-t", 3, true } };
+    for (;;) {
+        char *start = r->words.words + strspn(r->words.words, " \t");
+        const size_t length = strcspn(start, " \t");
+        size_t i = 0;
+        while (i < sizeof options / sizeof *options &&
+               (strlen(options[i].name) != length || strncmp(options[i].name, start, length) != 0))
+            i++;
+        if (i == sizeof options / sizeof *options)
+            return;
+        words_next(&r->words);
+        if (options[i].changes)
+            builder_left_out(r->files->builder, options[i].name, "map", 1);
+        for (int k = 0; k < options[i].arguments; k++) {
+            /* Three numbers, of which the last two may be missing. */
+            char *at = r->words.words + strspn(r->words.words, " \t");
+            if (k > 0 && options[i].arguments == 3 && !strchr("0123456789+-.", *at))
+                break;
+            const char *argument = words_next(&r->words);
+            if (strcmp(options[i].name, "-clamp") == 0 && argument && strcmp(argument, "on") == 0)
+                *wrap = SCENE_WRAP_CLAMP;
+        }
+    }
+}
+
+static bool read_map(mtl_reader *r, const char *keyword) {
+    static const struct {
+        const char *keyword;
+        size_t use;
+        uint32_t srgb;
+    } maps[] = { { "map_Kd", offsetof(scene_material, base_color_map), 1 },
+                 { "map_Ke", offsetof(scene_material, emission_map), 1 },
+                 { "map_emissive", offsetof(scene_material, emission_map), 1 },
+                 { "norm", offsetof(scene_material, normal_map), 0 },
+                 { "map_Kn", offsetof(scene_material, normal_map), 0 } };
+    size_t i = 0;
+    while (i < sizeof maps / sizeof *maps && strcasecmp(maps[i].keyword, keyword) != 0)
+        i++;
+    if (i == sizeof maps / sizeof *maps) {
+        builder_left_out(r->files->builder, keyword, "material", 1);
+        return true;
+    }
+    scene_wrap wrap = SCENE_WRAP_REPEAT;
+    skip_options(r, &wrap);
+    const char *path = words_rest(&r->words);
+    scene_texture_use *use = (scene_texture_use *)(void *)((char *)material_of(r) + maps[i].use);
+    return !*path ? fail(r, "names no file")
+                  : texture_file_use(r->files, path, maps[i].srgb, wrap, wrap, use, r->error);
+}
+
+/* --- statements ---------------------------------------------------------------------------------
+ */
+
+/* What says nothing about how a surface looks by these lights. */
+static bool is_ignored(const char *keyword) {
+    static const char *const ignored[] = { "Ka", "map_Ka", "Ni", "sharpness", "map_aat", NULL };
+    size_t i = 0;
+    while (ignored[i] && strcasecmp(ignored[i], keyword) != 0)
+        i++;
+    return ignored[i] != NULL;
+}
+
+static bool read_statement(mtl_reader *r) {
+    const char *keyword = words_next(&r->words);
+    bool known;
+    if (!keyword)
+        return true;
+    if (strcasecmp(keyword, "newmtl") == 0)
+        return new_material(r);
+    if (!r->open || is_ignored(keyword))
+        return true;
+    return read_factor(r, keyword, &known) && (known || read_map(r, keyword));
+}
+
+bool mtl_add(const char *text, size_t size, texture_files *files, mtl_names *names,
+             cli_error *error) {
+    mtl_reader r = {
+        .files = files, .names = names, .words = { .at = text, .end = text + size }, .error = error
+    };
+    bool ok = true;
+    error->text[0] = 0;
+    while (ok && words_next_line(&r.words, files->sources->subject, error))
+        ok = read_statement(&r);
+    finish_material(&r);
+    free(r.words.buffer);
+    return ok && !error->text[0];
+}
+
+static int compare_names(const void *a, const void *b) {
+    const mtl_name *x = a, *y = b;
+    const int order = strcmp(x->name, y->name);
+    return order ? order : (x->material > y->material) - (x->material < y->material);
+}
+
+void mtl_sort(mtl_names *names) {
+    if (names->count > 0)
+        qsort(names->items, names->count, sizeof *names->items, compare_names);
+}
+
+const mtl_name *mtl_find(const mtl_names *names, const char *name) {
+    size_t low = 0, high = names->count;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        if (strcmp(names->items[middle].name, name) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < names->count && strcmp(names->items[low].name, name) == 0 ? &names->items[low]
+                                                                           : NULL;
+}
+
+void mtl_names_free(mtl_names *names) {
+    for (size_t i = 0; i < names->count; i++)
+        free(names->items[i].name);
+    free(names->items);
 }

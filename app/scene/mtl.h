@@ -1,18 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* mtl.h - materials of an OBJ's MTL file as metallic-roughness. */
+/* mtl.h - the materials of an OBJ's MTL files as metallic-roughness. */
 #ifndef LAMPION_SCENE_MTL_H
 #define LAMPION_SCENE_MTL_H
 
-#include "app/scene/builder.h"
-#include "app/scene/sources.h"
+#include "app/scene/texture_file.h"
 
-#include <assimp/scene.h>
+typedef struct mtl_name {
+    char *name; /* owned */
+    uint32_t material;
+} mtl_name;
 
-/* Appends all materials with their textures. Kd is the base color, times map_Kd; the Phong
- * exponent Ns becomes the roughness whose lobe has that exponent, Ns = 2/α² - 2 with α =
- * roughness²; without Ks, or with illum 0 or 1, it is matte. A Ks much brighter than Kd means metal
- * of that color. Ke is the emission; d below 1 cuts by alpha. */
-bool mtl_add_materials(const struct aiScene *imported, source_set *sources, scene_builder *builder,
-                       cli_error *error);
+typedef struct mtl_names {
+    mtl_name *items;
+    size_t count, capacity;
+} mtl_names;
+
+/* Appends the materials of a file with their textures, and their names to `names`. */
+bool mtl_add(const char *text, size_t size, texture_files *files, mtl_names *names,
+             cli_error *error);
+
+/* Sorts the names for mtl_find. */
+void mtl_sort(mtl_names *names);
+
+/* The first material of that name; NULL if there is none. */
+const mtl_name *mtl_find(const mtl_names *names, const char *name);
+
+void mtl_names_free(mtl_names *names);
 
 #endif

@@ -6,6 +6,7 @@
 #include "app/scene/import.h"
 #include "app/scene/vector.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -42,11 +43,46 @@ static bool hint_builtin(const char *name, cli_error *error) {
     return false;
 }
 
+void scene_left_out_text(const scene_left_out *item, char *text, size_t size) {
+    const char last = item->noun[0] ? item->noun[strlen(item->noun) - 1] : 0;
+    const char *ending = item->count == 1 ? "" : last == 'h' ? "es" : "s"; /* mesh, meshes */
+    if (item->what[0])
+        snprintf(text, size, "%s (%u %s%s)", item->what, item->count, item->noun, ending);
+    else
+        snprintf(text, size, "%u %s%s", item->count, item->noun, ending);
+}
+
+/* What is left out, in one line: on stderr, or as the error of a strict reading. */
+static bool tell_left_out(const scene *s, bool strict, cli_error *error) {
+    char line[sizeof error->text] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < s->left_out_count; i++) {
+        char text[2 * SCENE_NAME_SIZE + 32];
+        scene_left_out_text(&s->left_out[i], text, sizeof text);
+        const int length =
+            snprintf(line + used, sizeof line - used, "%s%s", used ? ", " : "", text);
+        if ((size_t)length >= sizeof line - used)
+            break;
+        used += (size_t)length;
+    }
+    if (!used)
+        return true;
+    if (strict)
+        return cli_fail(error, s->origin, "left out: %s (not allowed by --strict)", line);
+    fprintf(stderr, "lampion: %s: left out: %s\n", s->origin, line);
+    return true;
+}
+
 bool scene_load(const char *name, const scene_options *options, scene *s, cli_error *error) {
     memset(s, 0, sizeof *s);
     if (strncmp(name, BUILTIN_PREFIX, strlen(BUILTIN_PREFIX)) == 0)
         return load_builtin(name, s, error);
-    return import_scene(name, options && options->no_cache, s, error) || hint_builtin(name, error);
+    if (!import_scene(name, options && options->no_cache, s, error))
+        return hint_builtin(name, error);
+    if (tell_left_out(s, options && options->strict, error))
+        return true;
+    scene_free(s);
+    return false;
 }
 
 void scene_free(scene *s) {

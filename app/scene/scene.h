@@ -113,6 +113,7 @@ typedef struct scene {
 
 typedef struct scene_options {
     bool no_cache; /* neither read nor write the cache */
+    bool strict;   /* a file of which something is left out is an error */
 } scene_options;
 
 /* The names of the built-in scenes, i = 0, 1, …; NULL past the last. */
@@ -122,6 +123,16 @@ const char *scene_builtin_name(size_t i);
  * and cached by content. False with one line in *error; *scene is then zero. */
 bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);
 void scene_free(scene *scene);
+
+/* The row of a command's option table for scene_options.strict. */
+#define SCENE_STRICT_OPTION_ROW(variable)                                                          \
+    {                                                                                              \
+        .name = "strict", .kind = CLI_FLAG, .target = &(variable).strict,                          \
+        .help = "refuse a scene of which something would be left out"                              \
+    }
+
+/* One thing that is left out, as "clearcoat (2 materials)" or "1 skin". */
+void scene_left_out_text(const scene_left_out *item, char *text, size_t size);
 
 /* And with them their motions. */
 void scene_clear_lights(scene *scene);

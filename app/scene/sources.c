@@ -3,10 +3,13 @@
 
 #include "app/sandbox/sandbox.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static int hex_digit(char c) {
@@ -49,6 +52,36 @@ static bool has_scheme(const char *path) {
     return length > 0 && path[length] == ':';
 }
 
+/* Replaces each part of the name behind `folder` that is not there by one that differs in case
+ * alone, if there is one: files that come from where case says nothing. */
+static void match_case(char *full, size_t folder) {
+    for (char *part = full + folder, *end; *part; part = end) {
+        part += *part == '/';
+        end = part + strcspn(part, "/");
+        const char after = *end, before = part[-1];
+        struct stat status;
+        DIR *listing = NULL;
+        *end = 0;
+        if (lstat(full, &status) != 0) {
+            part[-1] = 0;
+            listing = opendir(full);
+            part[-1] = before;
+        }
+        for (const struct dirent *entry; listing && (entry = readdir(listing));)
+            if (strcasecmp(entry->d_name, part) == 0) {
+                memcpy(part, entry->d_name, strlen(part));
+                break;
+            }
+        if (listing)
+            closedir(listing);
+        *end = after;
+    }
+}
+
+static bool fail_absent(const source_set *set, const char *name, cli_error *error) {
+    return cli_fail(error, set->subject, "refers to \"%.200s\", which does not exist", name);
+}
+
 /* `real` receives the full name of the file. */
 static bool resolve(const source_set *set, const char *uri, char real[PATH_MAX], cli_error *error) {
     char name[sizeof((source *)0)->path], full[PATH_MAX];
@@ -62,9 +95,12 @@ static bool resolve(const source_set *set, const char *uri, char real[PATH_MAX],
     const int length = snprintf(full, sizeof full, "%s/%s", set->folder, name);
     if (length < 0 || (size_t)length >= sizeof full)
         return cli_fail(error, set->subject, "refers to a file by too long a name");
+    if (!realpath(full, real) && errno == ENOENT)
+        match_case(full, strlen(set->folder));
     if (!realpath(full, real))
-        return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
-                        errno == ENOENT ? "does not exist" : "cannot be opened");
+        return errno == ENOENT ? fail_absent(set, name, error)
+                               : cli_fail(error, set->subject,
+                                          "refers to \"%.200s\", which cannot be opened", name);
     const size_t folder_length = strlen(set->folder);
     const bool at_root = folder_length == 1;
     if (strncmp(real, set->folder, folder_length) != 0 || (!at_root && real[folder_length] != '/'))
@@ -124,4 +160,19 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
     set->count++;
     *found = item;
     return true;
+}
+
+bool sources_read_if_there(source_set *set, const char *uri, const source **found,
+                           cli_error *error) {
+    char name[sizeof((source *)0)->path];
+    cli_error reason, absent;
+    *found = NULL;
+    if (sources_read(set, uri, found, &reason))
+        return true;
+    /* In the sandbox this line is all that is known of the parent's failure. */
+    fail_absent(set, decode_uri(uri, name, sizeof name) ? name : "", &absent);
+    if (strcmp(reason.text, absent.text) == 0)
+        return true;
+    *error = reason;
+    return false;
 }

@@ -23,10 +23,15 @@ typedef struct source_set {
 } source_set;
 
 /* Opens the file that `uri` names: relative, without "..", percent-escapes decoded, and after
- * following links still inside the folder. -1 on failure. */
+ * following links still inside the folder. Where no file has that name, one is found whose name
+ * differs in case alone. -1 on failure. */
 int sources_open(const source_set *set, const char *uri, cli_error *error);
 
 /* Reads that file, or gives it again. The set keeps it. */
 bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error);
+
+/* The same, but for a file that is not there: *found is then NULL. */
+bool sources_read_if_there(source_set *set, const char *uri, const source **found,
+                           cli_error *error);
 
 #endif

@@ -29,7 +29,7 @@ scene *view_load_scene(const view_options *o, cli_error *error) {
         cli_fail(error, NULL, "out of memory");
         return NULL;
     }
-    if (scene_load(o->settings.scene, &(scene_options) { 0 }, world, error) &&
+    if (scene_load(o->settings.scene, &o->load, world, error) &&
         scene_apply_lights(world, &o->lights, error))
         return world;
     scene_free(world);

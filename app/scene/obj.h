@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* obj.h - Wavefront OBJ: polygons as fans, with the materials of its MTL files. */
+#ifndef LAMPION_SCENE_OBJ_H
+#define LAMPION_SCENE_OBJ_H
+
+#include "app/scene/builder.h"
+#include "app/scene/sources.h"
+
+/* Appends the meshes and materials of an OBJ file. */
+bool obj_add(const char *text, size_t size, source_set *sources, scene_builder *builder,
+             cli_error *error);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* texture_file.h - textures that materials refer to by the names of files, each made once. */
+#ifndef LAMPION_SCENE_TEXTURE_FILE_H
+#define LAMPION_SCENE_TEXTURE_FILE_H
+
+#include "app/scene/builder.h"
+#include "app/scene/sources.h"
+
+typedef struct texture_name texture_name;
+
+/* Zero-initialize but for the first two; free() the names. */
+typedef struct texture_files {
+    source_set *sources;
+    scene_builder *builder;
+    texture_name *names; /* of the builder's textures */
+} texture_files;
+
+/* Finds or makes the texture of a file; one that is not there is noted as left out, and *use stays
+ * as it is. */
+bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
+                      scene_wrap wrap_v, scene_texture_use *use, cli_error *error);
+
+#endif

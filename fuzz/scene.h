@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* scene.h - for readers of scenes: what they made is sound. */
+#ifndef LAMPION_FUZZ_SCENE_H
+#define LAMPION_FUZZ_SCENE_H
+
+#include "app/scene/builder.h"
+#include "fuzz/file.h"
+
+#include <stdlib.h>
+
+/* Every index, count and number must be such that the program may use it; places alone may be too
+ * far away, and a material too few, which the importer checks by itself. */
+static inline void fuzz_scene_check(const scene_builder *builder) {
+    const size_t vertices = builder_count(builder, BLOB_VERTICES);
+    const uint32_t *indices = builder_items(builder, BLOB_INDICES);
+    const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
+    for (size_t i = 0; i < builder_count(builder, BLOB_INDICES); i++)
+        if (indices[i] >= vertices)
+            abort();
+    for (size_t i = 0; i < builder_count(builder, BLOB_MESHES); i++)
+        if (meshes[i].material >= builder_count(builder, BLOB_MATERIALS))
+            abort();
+}
+
+#endif

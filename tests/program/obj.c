@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/* OBJ and MTL: what the format allows is read, what it forbids is refused by its line. */
+#include "app/scene/obj.h"
+#include "app/scene/scene.h"
+
+#include "tests/program/folder.h"
+
+#include <math.h>
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+typedef struct verdict {
+    const char *text;
+    size_t triangles;
+    const char *said; /* the refusal, or with triangles what is left out; NULL: nothing */
+} verdict;
+
+/* Reads a text in this process. */
+static bool reads(const char *text, scene_builder *builder, cli_error *error) {
+    source_set sources = { .subject = "input", .folder = folder };
+    *builder = (scene_builder) { 0 };
+    *error = (cli_error) { .text = "" };
+    const bool ok = obj_add(text, strlen(text), &sources, builder, error);
+    for (size_t i = 0; i < sources.count; i++)
+        free(sources.items[i].data);
+    free(sources.items);
+    return ok;
+}
+
+static void expect(const verdict *v) {
+    scene_builder builder;
+    cli_error error;
+    char said[256] = "";
+    const bool ok = reads(v->text, &builder, &error);
+    if (builder_count(&builder, BLOB_LEFT_OUT) > 0)
+        scene_left_out_text(builder_items(&builder, BLOB_LEFT_OUT), said, sizeof said);
+    const char *found = ok ? said : error.text;
+    if (ok != (v->triangles > 0) ||
+        (ok && builder_count(&builder, BLOB_INDICES) != 3 * v->triangles) ||
+        (v->said ? !strstr(found, v->said) : found[0]))
+        fail_msg("\"%s\": \"%s\" instead of \"%s\"", v->text, found, v->said ? v->said : "");
+    builder_free(&builder);
+}
+
+static void the_grammar_is_read(void **state) {
+    (void)state;
+    static const verdict verdicts[] = {
+        { TRIANGLE "f 1 2 3\n", 1, NULL },
+        { TRIANGLE "f 1 2 3", 1, NULL },
+        { "v\t0  0\t0 \r\n v 1e0 +0. .0E-3\r\nv 0 1 0 1.0\r\n\tf\t1\t2 3 # face\r\n", 1, NULL },
+        { TRIANGLE "f 1 2 \\\n3\n", 1, NULL },
+        { TRIANGLE "f -3 -2 -1\n", 1, NULL },
+        { TRIANGLE "vt 0.5\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\nf 1/1 2/1 3/1\n", 3,
+          NULL },
+        { TRIANGLE "v 1 1 0\nf 1 2 4 3\n", 2, NULL },
+        { TRIANGLE "fo 1 2 3\n", 1, NULL },
+        { TRIANGLE "s off\ns 1\ng a b\ng\no x\nlod 3\nf 1 2 3\n", 1, NULL },
+        { TRIANGLE "f 1 2 3\np 1\nl 1 2\n", 1, "points and lines (2 elements)" },
+        { TRIANGLE "f 1 2 3\nvp 1 2\ncstype bspline\nsurf 0 1 0 1 1\nend\n", 1,
+          "1 free-form curve" },
+        { TRIANGLE "f 1 2 3\nfoo bar\nzzz\n", 1, "2 unknown statements" },
+        { "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n", 1, "3 vertex colors" },
+        { TRIANGLE "usemtl none\nf 1 2 3\n", 1, "none (1 missing material)" },
+        { TRIANGLE "mtllib gone.mtl\nf 1 2 3\n", 1, "gone.mtl (1 missing file)" },
+        { TRIANGLE "f 1 2 4\n", 0, "line 4 refers to a vertex that does not exist" },
+        { TRIANGLE "f 1 2 0\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 -4\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 65536\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 4294967297\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 99999999999999999999\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1/1 2/1 3/1\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 x\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 3x\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 3/1/1/1\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2 /1\n", 0, "line 4 refers" },
+        { TRIANGLE "f 1 2\n", 0, "line 4 has a face of fewer than 3" },
+        { TRIANGLE "f\n", 0, "line 4 has a face of fewer than 3" },
+        { "v 0 0\n", 0, "line 1 has too few numbers" },
+        { "v 0 0 nan\n", 0, "line 1 has no finite number" },
+        { "v 0 0 1e999\n", 0, "line 1 has no finite number" },
+        { "v 0 0 0x10\n", 0, "line 1 has no finite number" },
+        { "v 0 0 1,5\n", 0, "line 1 has no finite number" },
+        { "vn 0 0 1 1\n", 0, "line 1 has no finite number" },
+        { "mtllib\n", 0, "line 1 names no file" },
+        { "mtllib ../up.mtl\n", 0, "outside its folder" },
+    };
+    for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++)
+        expect(&verdicts[i]);
+}
+
+static void a_library_s_statements_are_read(void **state) {
+    (void)state;
+    static const verdict verdicts[] = {
+        { "newmtl a\nKd 1 0.5 0\nKs 0.5\nNs 10\n\nKe 0 0 1\nillum 2\n", 1, NULL },
+        { "newmtl a\n\tKd\t1e0 .5 0\r\n# no\nTr 0.5\n", 1, NULL },
+        { "newmtl a\nKa 1 1 1\nNi 1.5\nsharpness 60\n", 1, NULL },
+        { "newmtl a\nPr 0.5\nPm 1\n", 1, NULL },
+        { "newmtl a\nmap_Ns n.png\n", 1, "map_Ns (1 material)" },
+        { "newmtl a\nTf 1 1 1\n", 1, "Tf (1 material)" },
+        { "newmtl a\nmap_Kd -clamp on gone.png\n", 1, "gone.png (1 missing file)" },
+        { "newmtl a\nmap_Kd -s 2 2 -o 0.5 gone.png\n", 1, "-s (1 map)" },
+        { "newmtl a\nKd red\n", 0, "line 2 has no number" },
+        { "newmtl a\nNs\n", 0, "line 2 has no number" },
+        { "newmtl a\nmap_Kd\n", 0, "line 2 names no file" },
+        { "newmtl a\nmap_Kd ../gone.png\n", 0, "outside its folder" },
+        { "newmtl a\nmap_Kd a.mtl\n", 0, "no PNG, JPEG, TGA or BMP" },
+    };
+    for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++) {
+        verdict with = verdicts[i];
+        folder_write_text("a.mtl", with.text);
+        with.text = "mtllib a.mtl\nusemtl a\n" TRIANGLE "f 1 2 3\n";
+        expect(&with);
+    }
+}
+
+static void names_of_files_may_differ_in_case(void **state) {
+    (void)state;
+    scene_builder builder;
+    cli_error error;
+    folder_write_text("Two Words.MTL", "newmtl a\nKd 0.25 0.5 0.75\n");
+    assert_true(reads("mtllib two words.mtl\nusemtl a\n" TRIANGLE "f 1 2 3\n", &builder, &error));
+    const scene_material *materials = builder_items(&builder, BLOB_MATERIALS);
+    const scene_mesh *meshes = builder_items(&builder, BLOB_MESHES);
+    assert_int_equal(builder_count(&builder, BLOB_LEFT_OUT), 0);
+    CHECK_WITHIN(fabs((double)materials[meshes[0].material].base_color[2] - 0.75), 1e-7);
+    builder_free(&builder);
+}
+
+/* Every group is a mesh of its own, and their number alone costs nothing. */
+static void many_groups_are_many_meshes(void **state) {
+    (void)state;
+    enum { GROUPS = 40000 };
+    char *text = malloc(64 * GROUPS), *end = text;
+    assert_non_null(text);
+    end += sprintf(end, TRIANGLE);
+    for (int i = 0; i < GROUPS; i++)
+        end += sprintf(end, "g part%d\nf 1 2 3\n", i);
+    scene_builder builder;
+    cli_error error;
+    assert_true(reads(text, &builder, &error));
+    assert_int_equal(builder_count(&builder, BLOB_MESHES), GROUPS);
+    builder_free(&builder);
+    free(text);
+}
+
+/* The program reads what Assimp knows, in the same sandbox, and says in one line what it leaves
+ * out. */
+static void other_formats_are_read(void **state) {
+    (void)state;
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                              "property float y\nproperty float z\nelement face 1\n"
+                              "property list uchar int vertex_index\nend_header\n"
+                              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    static const char stl[] = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                              "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+    static const char off[] = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    static const struct {
+        const char *name, *text;
+    } files[] = { { "m.ply", ply }, { "m.stl", stl }, { "m.OFF", off } };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        scene s;
+        cli_error error = { "" };
+        folder_write_text(files[i].name, files[i].text);
+        if (!scene_load(in_folder(files[i].name), &(scene_options) { .no_cache = true }, &s,
+                        &error))
+            fail_msg("%s", error.text);
+        assert_int_equal(s.index_count, 3);
+        CHECK_WITHIN(fabs(s.area - 0.5), 1e-6);
+        scene_free(&s);
+    }
+}
+
+static void a_strict_reading_leaves_nothing_out(void **state) {
+    (void)state;
+    scene s;
+    cli_error error = { "" };
+    scene_options options = { .no_cache = true };
+    folder_write_text("lines.obj", TRIANGLE "f 1 2 3\nl 1 2\n");
+    assert_true(scene_load(in_folder("lines.obj"), &options, &s, &error));
+    assert_int_equal(s.left_out_count, 1);
+    scene_free(&s);
+    options.strict = true;
+    assert_false(scene_load(in_folder("lines.obj"), &options, &s, &error));
+    assert_non_null(strstr(error.text, "left out: points and lines (1 element)"));
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_grammar_is_read),
+        cmocka_unit_test(a_library_s_statements_are_read),
+        cmocka_unit_test(names_of_files_may_differ_in_case),
+        cmocka_unit_test(many_groups_are_many_meshes),
+        cmocka_unit_test(other_formats_are_read),
+        cmocka_unit_test(a_strict_reading_leaves_nothing_out),
+    };
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+}
