@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_mesh.c - the triangles of the scene's nodes, in world space. */
-#include "app/scene/gltf.h"
-#include "app/scene/mesh.h"
+#include "app/scene/gltf_deform.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -98,28 +97,29 @@ static bool is_drawn(const cJSON *primitive) {
            gltf_member(gltf_member(primitive, "attributes"), "POSITION");
 }
 
-static bool add_primitive(const gltf *document, const cJSON *primitive, const char *name,
-                          const double world[16], scene_builder *builder, cli_error *error) {
+static bool add_primitive(const gltf *document, const cJSON *node, const cJSON *primitive,
+                          const char *name, const double world[16], scene_builder *builder,
+                          cli_error *error) {
+    const cJSON *attributes = gltf_member(primitive, "attributes");
     const long material = gltf_index(primitive, "material");
-    const mesh_transform transform = mesh_transform_make(world);
     mesh_draft draft = { .subject = document->subject,
                          .name = name,
                          .material = material < 0 ? (uint32_t)gltf_count(document, GLTF_MATERIALS)
                                                   : (uint32_t)material,
                          .crease_cos = MESH_CREASE_FLAT };
-    bool ok = read_vertices(document, gltf_member(primitive, "attributes"), &draft, error) &&
-              read_corners(document, primitive, &draft, error);
-    for (size_t i = 0; ok && i < draft.vertex_count; i++)
-        mesh_transform_vertex(&transform, &draft.vertices[i]);
-    if (ok && transform.mirrors)
-        mesh_flip(&draft);
-    ok = ok && mesh_add(&draft, builder, error);
+    const bool ok = read_vertices(document, attributes, &draft, error) &&
+                    read_corners(document, primitive, &draft, error) &&
+                    gltf_morph(document, node, primitive, &draft, error) &&
+                    gltf_place(document, node, attributes, world, &draft, error) &&
+                    mesh_add(&draft, builder, error);
     mesh_free(&draft);
     return ok;
 }
 
-static bool add_mesh(const gltf *document, size_t mesh, const double world[16],
+/* The mesh of a node, once. */
+static bool add_mesh(const gltf *document, const cJSON *node, const double world[16],
                      scene_builder *builder, cli_error *error) {
+    const size_t mesh = (size_t)gltf_index(node, "mesh");
     const cJSON *entry = gltf_item(document, GLTF_MESHES, mesh);
     const cJSON *primitives = gltf_member(entry, "primitives"), *primitive;
     const bool several = cJSON_GetArraySize(primitives) > 1;
@@ -130,18 +130,60 @@ static bool add_mesh(const gltf *document, size_t mesh, const double world[16],
     int number = 0;
     cJSON_ArrayForEach(primitive, primitives) {
         snprintf(name, sizeof name, several ? "%s-%d" : "%s", own, number++);
-        if (is_drawn(primitive) && !add_primitive(document, primitive, name, world, builder, error))
+        if (is_drawn(primitive) &&
+            !add_primitive(document, node, primitive, name, world, builder, error))
             return false;
     }
     return true;
+}
+
+/* --- instances ----------------------------------------------------------------------------------
+ */
+
+/* The mesh of a node at every place that EXT_mesh_gpu_instancing gives it. */
+static bool add_instances(const gltf *document, const cJSON *node, const cJSON *attributes,
+                          const double world[16], scene_builder *builder, cli_error *error) {
+    static const struct {
+        const char *name;
+        int width;
+    } parts[3] = { { "TRANSLATION", 3 }, { "ROTATION", 4 }, { "SCALE", 3 } };
+    float *numbers[3] = { NULL, NULL, NULL };
+    size_t count = 0;
+    bool ok = true;
+    for (int i = 0; i < 3 && ok; i++) {
+        const long accessor = gltf_index(attributes, parts[i].name);
+        count = accessor < 0 ? count : document->accessors[accessor].count;
+        ok = read_attribute(document, attributes, parts[i].name, &numbers[i], error);
+    }
+    for (size_t k = 0; k < count && ok; k++) {
+        gltf_transform transform = { .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
+        double *const to[3] = { transform.translation, transform.rotation, transform.scale };
+        double local[16], place[16];
+        for (int i = 0; i < 3; i++)
+            for (int c = 0; numbers[i] && c < parts[i].width; c++)
+                to[i][c] = (double)numbers[i][k * (size_t)parts[i].width + (size_t)c];
+        gltf_transform_matrix(&transform, local);
+        gltf_multiply(world, local, place);
+        ok = add_mesh(document, node, place, builder, error);
+    }
+    for (int i = 0; i < 3; i++)
+        free(numbers[i]);
+    return ok;
 }
 
 static void note_undrawn(const gltf *document, scene_builder *builder) {
     for (size_t i = 0; i < gltf_count(document, GLTF_MESHES); i++) {
         const cJSON *mesh = gltf_item(document, GLTF_MESHES, i), *primitive;
         cJSON_ArrayForEach(primitive, gltf_member(mesh, "primitives")) {
+            const cJSON *target, *item;
             if (!is_drawn(primitive))
                 builder_left_out(builder, "points and lines", "primitive", 1);
+            cJSON_ArrayForEach(target, gltf_member(primitive, "targets"))
+                cJSON_ArrayForEach(item, target) {
+                if (strncmp(item->string, "COLOR_", 6) == 0 ||
+                    strncmp(item->string, "TEXCOORD_", 9) == 0)
+                    builder_left_out(builder, item->string, "morph target", 1);
+            }
         }
     }
 }
@@ -149,10 +191,14 @@ static void note_undrawn(const gltf *document, scene_builder *builder) {
 bool gltf_add_meshes(const gltf *document, scene_builder *builder, cli_error *error) {
     note_undrawn(document, builder);
     for (size_t i = 0; i < gltf_count(document, GLTF_NODES); i++) {
-        const size_t node = document->order[i];
-        const long mesh = gltf_index(gltf_item(document, GLTF_NODES, node), "mesh");
-        if (mesh >= 0 && document->nodes[node].shown &&
-            !add_mesh(document, (size_t)mesh, document->nodes[node].world, builder, error))
+        const gltf_node *place = &document->nodes[document->order[i]];
+        const cJSON *node = gltf_item(document, GLTF_NODES, document->order[i]);
+        const cJSON *instances =
+            gltf_member(gltf_extension(node, "EXT_mesh_gpu_instancing"), "attributes");
+        if (!place->shown || !gltf_member(node, "mesh"))
+            continue;
+        if (!(instances ? add_instances(document, node, instances, place->world, builder, error)
+                        : add_mesh(document, node, place->world, builder, error)))
             return false;
     }
     return true;
