@@ -104,7 +104,8 @@ SHARED_BLOCK(lights_block, shared_lights, SHARED_LIGHTS) {
 }
 SHARED_END(shared_lights);
 
-/* Of a map: matrix is KHR_texture_transform's, row-major. maps: 1 where a map is bound. */
+/* Of a map: matrix is KHR_texture_transform's, row-major; offset's z is the set of coordinates.
+ * maps: 1 where a map is bound. */
 SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 base_color;
     vec4 emission; /* w: kind */
@@ -112,6 +113,7 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 maps;     /* base color, metallic-roughness, normal, emission */
     vec4 matrix[4];
     vec4 offset[4];
+    vec4 vertex; /* x: 1 where the vertices' colors count */
 }
 SHARED_END(shared_material);
 
@@ -147,7 +149,7 @@ static_assert(sizeof(shared_light) == 48, "std140");
 static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
 static_assert(offsetof(shared_material, matrix) == 64, "std140");
 static_assert(offsetof(shared_material, offset) == 128, "std140");
-static_assert(sizeof(shared_material) == 192, "std140");
+static_assert(sizeof(shared_material) == 208, "std140");
 static_assert(sizeof(shared_pixel) == 96, "std430");
 #endif
 

@@ -5,8 +5,9 @@
 #include "shared.h"
 
 layout(location = 0) in vec3 world_normal;
-layout(location = 1) in vec2 world_uv;
+layout(location = 1) in vec4 world_uv;
 layout(location = 2) in vec4 world_tangent;
+layout(location = 3) in vec4 world_color;
 
 layout(location = 0) out vec4 out_base_metallic;
 layout(location = 1) out vec2 out_normal;
@@ -19,11 +20,12 @@ layout(binding = SHARED_NORMAL) uniform sampler2D normal_map;
 layout(binding = SHARED_EMISSION) uniform sampler2D emission_map;
 
 vec2 map_uv(int map) {
-    return vec2(dot(matrix[map].xy, world_uv), dot(matrix[map].zw, world_uv)) + offset[map].xy;
+    vec2 uv = offset[map].z > 0.0 ? world_uv.zw : world_uv.xy;
+    return vec2(dot(matrix[map].xy, uv), dot(matrix[map].zw, uv)) + offset[map].xy;
 }
 
 void main() {
-    vec4 base = base_color;
+    vec4 base = base_color * world_color;
     if (maps.x > 0.0)
         base *= texture(base_color_map, map_uv(SHARED_BASE_COLOR));
 #ifdef SURFACE_MASKED

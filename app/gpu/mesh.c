@@ -68,7 +68,9 @@ static void fill_material(const scene_material *source, const gpu_mesh *mesh,
         block->maps[i] = material->maps[i] ? 1 : 0;
         memcpy(block->matrix[i], uses[i]->matrix, sizeof uses[i]->matrix);
         memcpy(block->offset[i], uses[i]->offset, sizeof uses[i]->offset);
+        block->offset[i][2] = (float)uses[i]->set;
     }
+    block->vertex[0] = source->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     material->masked = source->flags & SCENE_ALPHA_MASK;
 }
@@ -111,18 +113,20 @@ void gpu_mesh_set_kind(const gpu_mesh *mesh, size_t material, int kind) {
 static GLuint create_vertex_array(GLuint vertices, GLuint indices) {
     static const struct {
         GLint size;
+        GLenum type;
         size_t offset;
-    } attributes[4] = { { 3, offsetof(scene_vertex, position) },
-                        { 3, offsetof(scene_vertex, normal) },
-                        { 2, offsetof(scene_vertex, uv) },
-                        { 4, offsetof(scene_vertex, tangent) } };
+    } attributes[] = { { 3, GL_FLOAT, offsetof(scene_vertex, position) },
+                       { 3, GL_FLOAT, offsetof(scene_vertex, normal) },
+                       { 4, GL_FLOAT, offsetof(scene_vertex, uv) },
+                       { 4, GL_FLOAT, offsetof(scene_vertex, tangent) },
+                       { 4, GL_UNSIGNED_SHORT, offsetof(scene_vertex, color) } };
     GLuint array = 0;
     glCreateVertexArrays(1, &array);
     glVertexArrayVertexBuffer(array, 0, vertices, 0, sizeof(scene_vertex));
     glVertexArrayElementBuffer(array, indices);
-    for (GLuint i = 0; i < 4; i++) {
+    for (GLuint i = 0; i < sizeof attributes / sizeof *attributes; i++) {
         glEnableVertexArrayAttrib(array, i);
-        glVertexArrayAttribFormat(array, i, attributes[i].size, GL_FLOAT, GL_FALSE,
+        glVertexArrayAttribFormat(array, i, attributes[i].size, attributes[i].type, GL_TRUE,
                                   (GLuint)attributes[i].offset);
         glVertexArrayAttribBinding(array, i, 0);
     }

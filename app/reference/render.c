@@ -83,7 +83,7 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     reference_texture_at(f->scene, &material->metallic_roughness_map, hit->uv, rough);
     reference_texture_at(f->scene, &material->emission_map, hit->uv, glow);
     for (int c = 0; c < 3; c++) {
-        base[c] = color[c] * (double)material->base_color[c];
+        base[c] = color[c] * hit->color[c] * (double)material->base_color[c];
         emission[c] = glow[c] * (double)material->emission[c];
     }
     const reference_material lobes = reference_material_from_metallic_roughness(

@@ -5,6 +5,7 @@
 
 #include <embree3/rtcore.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* One Embree geometry a mesh. */
 typedef struct tracer_mesh {
@@ -51,11 +52,19 @@ static reference_vec blend(const corner_weights *c, size_t offset) {
     return sum;
 }
 
-static void blend_uv(const corner_weights *c, double uv[2]) {
-    uv[0] = uv[1] = 0;
+static void blend_uv(const corner_weights *c, double uv[4]) {
+    memset(uv, 0, 4 * sizeof *uv);
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 2; k++)
-            uv[k] += c->weights[i] * (double)c->vertices[i]->uv[k];
+        for (int k = 0; k < 4; k++)
+            uv[k] += c->weights[i] * (double)c->vertices[i]->uv[k / 2][k % 2];
+}
+
+static void blend_color(const corner_weights *c, const scene_material *material, double color[4]) {
+    for (int k = 0; k < 4; k++)
+        color[k] = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
+    for (int i = 0; i < 3 && (material->flags & SCENE_VERTEX_COLORS); i++)
+        for (int k = 0; k < 4; k++)
+            color[k] += c->weights[i] * (double)c->vertices[i]->color[k] / 65535;
 }
 
 /* Normal of the face that is counter-clockwise to its viewer; not unit. */
@@ -67,12 +76,13 @@ static reference_vec face_normal(const corner_weights *c) {
 
 static bool cut_out(const tracer_mesh *mesh, const corner_weights *c) {
     const scene_material *material = mesh->material;
-    double uv[2], rgba[4];
+    double uv[4], rgba[4], color[4];
     if (!(material->flags & SCENE_ALPHA_MASK))
         return false;
     blend_uv(c, uv);
+    blend_color(c, material, color);
     reference_texture_at(mesh->scene, &material->base_color_map, uv, rgba);
-    return rgba[3] * (double)material->base_color[3] < (double)material->alpha_cutoff;
+    return rgba[3] * color[3] * (double)material->base_color[3] < (double)material->alpha_cutoff;
 }
 
 static void filter(const struct RTCFilterFunctionNArguments *arguments) {
@@ -188,6 +198,7 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
     hit.tangent = reference_normalize(blend(&c, offsetof(scene_vertex, tangent)));
     hit.handedness = (double)c.vertices[0]->tangent[3];
     blend_uv(&c, hit.uv);
+    blend_color(&c, mesh->material, hit.color);
     hit.material = mesh->mesh->material;
     return hit;
 }

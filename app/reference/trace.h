@@ -19,7 +19,8 @@ typedef struct reference_hit {
     reference_vec ray_origin;      /* position, lifted off the seen face */
     reference_vec normal, tangent; /* unit, normal on the side of the seen face */
     double handedness;             /* w of the tangent */
-    double uv[2];
+    double uv[4];                  /* two sets */
+    double color[4];               /* of the vertices; 1 where the material does not heed it */
     uint32_t material;
 } reference_hit;
 

@@ -165,8 +165,8 @@ static void copy_vector(struct aiVector3D from, float to[3]) {
 static void copy_vertex(const struct aiMesh *mesh, unsigned i, scene_vertex *vertex) {
     copy_vector(mesh->mVertices[i], vertex->position);
     if (mesh->mTextureCoords[0]) {
-        vertex->uv[0] = mesh->mTextureCoords[0][i].x;
-        vertex->uv[1] = 1.0f - mesh->mTextureCoords[0][i].y;
+        vertex->uv[0][0] = mesh->mTextureCoords[0][i].x;
+        vertex->uv[0][1] = 1.0f - mesh->mTextureCoords[0][i].y;
     }
     if (mesh->mNormals)
         copy_vector(mesh->mNormals[i], vertex->normal);
@@ -187,7 +187,6 @@ static bool add_mesh(const assimp_job *job, const struct aiMesh *mesh,
                          .material = mesh->mMaterialIndex,
                          .vertex_count = mesh->mNumVertices,
                          .has_normals = mesh->mNormals != NULL,
-                         .has_uvs = mesh->mTextureCoords[0] != NULL,
                          .weld = true,
                          .crease_cos = MESH_CREASE_60 };
     draft.vertices = calloc(draft.vertex_count + 1, sizeof *draft.vertices);

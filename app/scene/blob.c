@@ -80,8 +80,9 @@ static bool name_fits(const char name[SCENE_NAME_SIZE]) {
 static bool geometry_fits(const blob_header *header) {
     const scene_vertex *vertices = blob_items(header, BLOB_VERTICES);
     const uint64_t vertex_count = header->sections[BLOB_VERTICES].count;
-    if (!all_finite(&vertices->position[0], vertex_count * sizeof *vertices / sizeof(float)))
-        return false;
+    for (uint64_t i = 0; i < vertex_count; i++)
+        if (!all_finite(vertices[i].position, offsetof(scene_vertex, color) / sizeof(float)))
+            return false;
     const uint32_t *indices = blob_items(header, BLOB_INDICES);
     const uint64_t index_count = header->sections[BLOB_INDICES].count;
     for (uint64_t i = 0; i < index_count; i++)
@@ -99,7 +100,8 @@ static bool geometry_fits(const blob_header *header) {
 }
 
 static bool use_fits(const scene_texture_use *use, uint64_t texture_count) {
-    return use->texture >= -1 && (use->texture < 0 || (uint64_t)use->texture < texture_count) &&
+    return use->texture >= -1 && use->set <= 1 &&
+           (use->texture < 0 || (uint64_t)use->texture < texture_count) &&
            all_finite(use->matrix, 4) && all_finite(use->offset, 2);
 }
 

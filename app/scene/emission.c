@@ -32,7 +32,7 @@ bool emission_add_lights(scene_builder *builder, const char *subject, cli_error 
     for (size_t i = 0; i < builder_count(builder, BLOB_MESHES); i++) {
         const scene_material *material = &materials[meshes[i].material];
         const float *emission = material->emission;
-        if (material->emission_map.texture >= 0 ||
+        if (material->emission_map.texture >= 0 || (material->flags & SCENE_UNLIT) ||
             !(emission[0] + emission[1] + emission[2] > 0.0f))
             continue;
         double area;

@@ -97,6 +97,10 @@ bool gltf_add_meshes(const gltf *document, scene_builder *builder, cli_error *er
 /* Appends materials in the file's order, then glTF's default material; and the textures in use. */
 bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error *error);
 
+/* Which of a material's sets of texture coordinates become a vertex's two, -1: none. The first is
+ * that of the normal map, which tangents follow. */
+void gltf_material_sets(const cJSON *material, long sets[2]);
+
 /* Appends cameras and punctual lights; to be called when the geometry is there. */
 bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *error);
 

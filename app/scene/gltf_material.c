@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define FILTER_NEAREST 9728
+
 /* Textures already made: which image, sampler and color space became which texture. */
 typedef struct texture_pool {
     const gltf *document;
@@ -113,8 +115,38 @@ static void read_transform(const cJSON *info, scene_texture_use *use) {
     use->offset[1] = (float)offset[1];
 }
 
+/* --- sets of texture coordinates ----------------------------------------------------------------
+ */
+
+static long set_of(const cJSON *info) {
+    const cJSON *transform = gltf_extension(info, "KHR_texture_transform");
+    const double own = gltf_number(info, "texCoord", 0.0);
+    return (long)gltf_number(transform, "texCoord", own);
+}
+
+void gltf_material_sets(const cJSON *material, long sets[2]) {
+    const cJSON *pbr = gltf_member(material, "pbrMetallicRoughness");
+    const cJSON *infos[] = { gltf_member(material, "normalTexture"),
+                             gltf_member(pbr, "baseColorTexture"),
+                             gltf_member(pbr, "metallicRoughnessTexture"),
+                             gltf_member(material, "emissiveTexture") };
+    sets[0] = sets[1] = -1;
+    for (size_t i = 0; i < sizeof infos / sizeof *infos; i++) {
+        const long set = infos[i] ? set_of(infos[i]) : -1;
+        if (set < 0 || set == sets[0] || set == sets[1])
+            continue;
+        if (sets[0] < 0)
+            sets[0] = set;
+        else if (sets[1] < 0)
+            sets[1] = set;
+    }
+}
+
+/* --- materials ----------------------------------------------------------------------------------
+ */
+
 static bool read_texture(texture_pool *pool, const cJSON *holder, const char *name, uint32_t srgb,
-                         scene_texture_use *use) {
+                         const long sets[2], scene_texture_use *use) {
     const gltf *document = pool->document;
     const cJSON *info = gltf_member(holder, name);
     if (!info)
@@ -124,6 +156,12 @@ static bool read_texture(texture_pool *pool, const cJSON *holder, const char *na
     /* An image that only an extension names, which is then among what is left out. */
     if (image < 0)
         return true;
+    const long set = set_of(info);
+    if (set != sets[0] && set != sets[1]) {
+        builder_left_out(pool->builder, "map of a third set of coordinates", "material", 1);
+        return true;
+    }
+    use->set = set == sets[0] ? 0 : 1;
     read_transform(info, use);
     use->texture = find_texture(pool, image, gltf_index(entry, "sampler"), srgb);
     return use->texture >= 0;
@@ -131,6 +169,18 @@ static bool read_texture(texture_pool *pool, const cJSON *holder, const char *na
 
 static float clamp_unit(double x) {
     return x >= 0.0 ? (float)fmin(x, 1.0) : 0.0f;
+}
+
+/* What reflects nothing and glows by its base color; alpha stays where it was. */
+static void make_unlit(scene_material *material) {
+    material->flags |= SCENE_UNLIT;
+    material->emission_map = material->base_color_map;
+    material->metallic_roughness_map.texture = material->normal_map.texture = -1;
+    material->metallic = material->roughness = 1.0f;
+    for (int k = 0; k < 3; k++) {
+        material->emission[k] = material->base_color[k];
+        material->base_color[k] = 0.0f;
+    }
 }
 
 static bool read_material(texture_pool *pool, const cJSON *entry) {
@@ -161,11 +211,42 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
         builder_left_out(pool->builder, "blending", "material", 1);
     if (gltf_member(entry, "occlusionTexture"))
         builder_left_out(pool->builder, "occlusion map", "material", 1);
-    return read_texture(pool, pbr, "baseColorTexture", 1, &material->base_color_map) &&
-           read_texture(pool, pbr, "metallicRoughnessTexture", 0,
-                        &material->metallic_roughness_map) &&
-           read_texture(pool, entry, "normalTexture", 0, &material->normal_map) &&
-           read_texture(pool, entry, "emissiveTexture", 1, &material->emission_map);
+    long sets[2];
+    gltf_material_sets(entry, sets);
+    if (!read_texture(pool, pbr, "baseColorTexture", 1, sets, &material->base_color_map) ||
+        !read_texture(pool, pbr, "metallicRoughnessTexture", 0, sets,
+                      &material->metallic_roughness_map) ||
+        !read_texture(pool, entry, "normalTexture", 0, sets, &material->normal_map) ||
+        !read_texture(pool, entry, "emissiveTexture", 1, sets, &material->emission_map))
+        return false;
+    if (gltf_extension(entry, "KHR_materials_unlit"))
+        make_unlit(material);
+    return true;
+}
+
+/* The colors of vertices count for a material if one of its primitives has them; the others' are
+ * then white. */
+static void note_vertex_colors(const gltf *document, scene_builder *builder) {
+    scene_material *materials = builder_items(builder, BLOB_MATERIALS);
+    for (size_t i = 0; i < gltf_count(document, GLTF_MESHES); i++) {
+        const cJSON *mesh = gltf_item(document, GLTF_MESHES, i), *primitive;
+        cJSON_ArrayForEach(primitive, gltf_member(mesh, "primitives")) {
+            const long number = gltf_index(primitive, "material");
+            scene_material *material =
+                &materials[number < 0 ? gltf_count(document, GLTF_MATERIALS) : (size_t)number];
+            if (!gltf_member(gltf_member(primitive, "attributes"), "COLOR_0"))
+                continue;
+            if (material->flags & SCENE_UNLIT)
+                builder_left_out(builder, "vertex colors of an unlit material", "primitive", 1);
+            material->flags |= SCENE_VERTEX_COLORS;
+        }
+    }
+}
+
+static void note_filters(const gltf *document, scene_builder *builder) {
+    for (size_t i = 0; i < gltf_count(document, GLTF_SAMPLERS); i++)
+        if (gltf_number(gltf_item(document, GLTF_SAMPLERS, i), "magFilter", 0.0) == FILTER_NEAREST)
+            builder_left_out(builder, "nearest filter", "sampler", 1);
 }
 
 bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error *error) {
@@ -176,8 +257,13 @@ bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error 
         ok = read_material(&pool, gltf_item(document, GLTF_MATERIALS, i));
     if (ok) {
         scene_material *fallback = builder_material(builder, "default");
-        if (fallback)
+        ok = fallback || cli_fail(error, document->subject, "does not fit into memory");
+        if (ok)
             fallback->metallic = 1.0f;
+    }
+    if (ok) {
+        note_vertex_colors(document, builder);
+        note_filters(document, builder);
     }
     free(pool.decoded);
     free(pool.made);

@@ -2,6 +2,7 @@
 /* gltf_mesh.c - the triangles of the scene's nodes, in world space. */
 #include "app/scene/gltf_deform.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,35 +27,74 @@ static void fill(mesh_draft *draft, const float *numbers, int width, size_t offs
                (size_t)width * sizeof *numbers);
 }
 
-static bool read_vertices(const gltf *document, const cJSON *attributes, mesh_draft *draft,
+/* Reads `width` floats of an attribute, if it is there, into every vertex at `offset` bytes. */
+static bool fill_attribute(const gltf *document, const cJSON *attributes, const char *name,
+                           int width, size_t offset, mesh_draft *draft, cli_error *error) {
+    float *numbers;
+    const bool ok = read_attribute(document, attributes, name, &numbers, error);
+    if (ok)
+        fill(draft, numbers, width, offset);
+    free(numbers);
+    return ok;
+}
+
+static bool read_coordinates(const gltf *document, const cJSON *primitive, mesh_draft *draft,
+                             cli_error *error) {
+    const cJSON *attributes = gltf_member(primitive, "attributes");
+    const long material = gltf_index(primitive, "material");
+    long sets[2] = { -1, -1 };
+    if (material >= 0)
+        gltf_material_sets(gltf_item(document, GLTF_MATERIALS, (size_t)material), sets);
+    for (size_t k = 0; k < 2 && sets[k] >= 0; k++) {
+        char name[32];
+        snprintf(name, sizeof name, "TEXCOORD_%ld", sets[k]);
+        if (!gltf_member(attributes, name))
+            builder_left_out(document->builder, "missing texture coordinates", "primitive", 1);
+        if (!fill_attribute(document, attributes, name, 2,
+                            offsetof(scene_vertex, uv) + k * sizeof draft->vertices->uv[0], draft,
+                            error))
+            return false;
+    }
+    /* Without textures, coordinates still turn a material that has a direction. */
+    return sets[0] >= 0 || fill_attribute(document, attributes, "TEXCOORD_0", 2,
+                                          offsetof(scene_vertex, uv), draft, error);
+}
+
+static uint16_t as_color(float x) {
+    return (uint16_t)(65535.0f * fminf(fmaxf(x, 0.0f), 1.0f) + 0.5f);
+}
+
+static bool read_colors(const gltf *document, const cJSON *attributes, mesh_draft *draft,
+                        cli_error *error) {
+    const long accessor = gltf_index(attributes, "COLOR_0");
+    const int width = accessor < 0 ? 0 : document->accessors[accessor].width;
+    float *numbers;
+    const bool ok = read_attribute(document, attributes, "COLOR_0", &numbers, error);
+    for (size_t i = 0; ok && i < draft->vertex_count; i++)
+        for (int k = 0; k < 4; k++)
+            draft->vertices[i].color[k] =
+                k < width ? as_color(numbers[i * (size_t)width + (size_t)k]) : 65535;
+    free(numbers);
+    return ok;
+}
+
+static bool read_vertices(const gltf *document, const cJSON *primitive, mesh_draft *draft,
                           cli_error *error) {
-    static const struct {
-        const char *name;
-        int width;
-        size_t offset;
-    } parts[] = { { "POSITION", 3, offsetof(scene_vertex, position) },
-                  { "NORMAL", 3, offsetof(scene_vertex, normal) },
-                  { "TANGENT", 4, offsetof(scene_vertex, tangent) },
-                  { "TEXCOORD_0", 2, offsetof(scene_vertex, uv) } };
+    const cJSON *attributes = gltf_member(primitive, "attributes");
     draft->vertex_count = document->accessors[gltf_index(attributes, "POSITION")].count;
     draft->has_normals = gltf_member(attributes, "NORMAL") != NULL;
-    draft->has_uvs = gltf_member(attributes, "TEXCOORD_0") != NULL;
     draft->vertices = calloc(draft->vertex_count, sizeof *draft->vertices);
     if (!draft->vertices)
         return cli_fail(error, document->subject, "does not fit into memory");
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        float *numbers;
-        /* Tangents belong to the normals that they come with. */
-        if (i == 2 && !draft->has_normals)
-            continue;
-        const bool ok = read_attribute(document, attributes, parts[i].name, &numbers, error);
-        if (ok)
-            fill(draft, numbers, parts[i].width, parts[i].offset);
-        free(numbers);
-        if (!ok)
-            return false;
-    }
-    return true;
+    return fill_attribute(document, attributes, "POSITION", 3, offsetof(scene_vertex, position),
+                          draft, error) &&
+           fill_attribute(document, attributes, "NORMAL", 3, offsetof(scene_vertex, normal), draft,
+                          error) &&
+           /* Tangents belong to the normals that they come with. */
+           (!draft->has_normals || fill_attribute(document, attributes, "TANGENT", 4,
+                                                  offsetof(scene_vertex, tangent), draft, error)) &&
+           read_coordinates(document, primitive, draft, error) &&
+           read_colors(document, attributes, draft, error);
 }
 
 /* The vertices of triangle `i` of a strip or fan: every second of a strip is turned over. */
@@ -107,7 +147,7 @@ static bool add_primitive(const gltf *document, const cJSON *node, const cJSON *
                          .material = material < 0 ? (uint32_t)gltf_count(document, GLTF_MATERIALS)
                                                   : (uint32_t)material,
                          .crease_cos = MESH_CREASE_FLAT };
-    const bool ok = read_vertices(document, attributes, &draft, error) &&
+    const bool ok = read_vertices(document, primitive, &draft, error) &&
                     read_corners(document, primitive, &draft, error) &&
                     gltf_morph(document, node, primitive, &draft, error) &&
                     gltf_place(document, node, attributes, world, &draft, error) &&
@@ -178,6 +218,8 @@ static void note_undrawn(const gltf *document, scene_builder *builder) {
             const cJSON *target, *item;
             if (!is_drawn(primitive))
                 builder_left_out(builder, "points and lines", "primitive", 1);
+            if (gltf_member(gltf_member(primitive, "attributes"), "COLOR_1"))
+                builder_left_out(builder, "COLOR_1", "primitive", 1);
             cJSON_ArrayForEach(target, gltf_member(primitive, "targets"))
                 cJSON_ArrayForEach(item, target) {
                 if (strncmp(item->string, "COLOR_", 6) == 0 ||

@@ -168,8 +168,9 @@ static void add_triangle_tangent(const mesh_draft *f, size_t triangle, lmp_vec3 
     const scene_vertex *a = &f->vertices[c[0]], *b = &f->vertices[c[1]], *d = &f->vertices[c[2]];
     const lmp_vec3 e1 = vec_sub(vec_load(b->position), vec_load(a->position));
     const lmp_vec3 e2 = vec_sub(vec_load(d->position), vec_load(a->position));
-    const float u1 = b->uv[0] - a->uv[0], v1 = b->uv[1] - a->uv[1];
-    const float u2 = d->uv[0] - a->uv[0], v2 = d->uv[1] - a->uv[1];
+    const float *p = a->uv[0], *q = b->uv[0], *r = d->uv[0];
+    const float u1 = q[0] - p[0], v1 = q[1] - p[1];
+    const float u2 = r[0] - p[0], v2 = r[1] - p[1];
     const float area = u1 * v2 - u2 * v1;
     const float sign = area < 0.0f ? -1.0f : 1.0f;
     if (area == 0.0f || !isfinite(area))
@@ -187,7 +188,7 @@ static bool make_tangents(mesh_draft *f, cli_error *error) {
     if (!along)
         return cli_fail(error, f->subject, "does not fit into memory");
     lmp_vec3 *across = along + f->vertex_count;
-    for (size_t i = 0; f->has_uvs && i < f->corner_count / 3; i++)
+    for (size_t i = 0; i < f->corner_count / 3; i++)
         add_triangle_tangent(f, i, along, across);
     for (size_t i = 0; i < f->vertex_count; i++) {
         scene_vertex *vertex = &f->vertices[i];

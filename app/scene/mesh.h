@@ -18,7 +18,7 @@ typedef struct mesh_draft {
     size_t vertex_count;
     uint32_t *corners; /* 3 a triangle, below vertex_count */
     size_t corner_count;
-    bool has_normals, has_uvs;
+    bool has_normals;
     bool weld;        /* merge equal vertices: the source has them once a corner */
     float crease_cos; /* missing normals are smooth across edges flatter than this */
 } mesh_draft;

@@ -290,9 +290,8 @@ static bool add_run(const obj_reader *r, const run *from, size_t end) {
         memcpy(vertex->position, positions + 3 * (size_t)corners[i].position,
                sizeof vertex->position);
         if (corners[i].uv != NONE) {
-            vertex->uv[0] = uvs[2 * (size_t)corners[i].uv];
-            vertex->uv[1] = 1.0f - uvs[2 * (size_t)corners[i].uv + 1];
-            draft.has_uvs = true;
+            vertex->uv[0][0] = uvs[2 * (size_t)corners[i].uv];
+            vertex->uv[0][1] = 1.0f - uvs[2 * (size_t)corners[i].uv + 1];
         }
         if (corners[i].normal != NONE) {
             const float *n = normals + 3 * (size_t)corners[i].normal;

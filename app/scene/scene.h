@@ -12,12 +12,13 @@
 
 #define SCENE_LIGHTS_MAX 1024 /* from all sources together */
 
-/* 48 bytes, as the vertex shader reads them. */
+/* 64 bytes, as the vertex shader reads them. */
 typedef struct scene_vertex {
     float position[3]; /* world space, y up */
     float normal[3];   /* unit */
-    float uv[2];       /* glTF convention: v down */
+    float uv[2][2];    /* two sets; glTF convention: v down */
     float tangent[4];  /* unit; w = ±1, the sign of the bitangent */
+    uint16_t color[4]; /* linear, 65535 is 1; of materials with SCENE_VERTEX_COLORS */
 } scene_vertex;
 
 /* A run of triangles with one material. */
@@ -30,7 +31,9 @@ typedef struct scene_mesh {
 
 typedef enum scene_flags {
     SCENE_DOUBLE_SIDED = 1,
-    SCENE_ALPHA_MASK = 2, /* discard where alpha < alpha_cutoff */
+    SCENE_ALPHA_MASK = 2,    /* discard where alpha < alpha_cutoff */
+    SCENE_VERTEX_COLORS = 4, /* the base color is multiplied by that of the vertices */
+    SCENE_UNLIT = 8,         /* its emission is what one sees, and no light to others */
 } scene_flags;
 
 /* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */
@@ -38,6 +41,7 @@ typedef struct scene_texture_use {
     int32_t texture; /* index, or -1 */
     float matrix[4]; /* row-major 2x2 */
     float offset[2];
+    uint32_t set; /* of coordinates: 0 or 1 */
 } scene_texture_use;
 
 /* glTF metallic-roughness. */

@@ -66,8 +66,8 @@ static void put_vertex(const scene_shaper *shaper, scene_vertex *vertex, lmp_vec
     vec_store(n, vertex->normal);
     vec_store(vec_across(n), vertex->tangent);
     vertex->tangent[3] = 1.0f;
-    vertex->uv[0] = u;
-    vertex->uv[1] = v;
+    vertex->uv[0][0] = u;
+    vertex->uv[0][1] = v;
 }
 
 static void put_quad_indices(uint32_t *indices, uint32_t a, uint32_t b, uint32_t c, uint32_t d) {

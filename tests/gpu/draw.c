@@ -31,10 +31,10 @@ static void lay_sheet(int i) {
     static const uint32_t order[6] = { 0, 1, 2, 0, 2, 3 };
     for (int k = 0; k < 4; k++)
         sheet.vertices[4 * i + k] =
-            (scene_vertex) { { 10 * (float)i + corners[k][0], corners[k][1], 0 },
-                             { 0, 0, 1 },
-                             { 0.5f + 0.5f * corners[k][0], 0.5f - 0.5f * corners[k][1] },
-                             { 1, 0, 0, 1 } };
+            (scene_vertex) { .position = { 10 * (float)i + corners[k][0], corners[k][1], 0 },
+                             .normal = { 0, 0, 1 },
+                             .uv = { { 0.5f + 0.5f * corners[k][0], 0.5f - 0.5f * corners[k][1] } },
+                             .tangent = { 1, 0, 0, 1 } };
     for (int k = 0; k < 6; k++)
         sheet.indices[6 * i + k] = order[k] + 4 * (uint32_t)i;
     sheet.meshes[i] = (scene_mesh) { .first_index = 6 * (uint32_t)i,

@@ -99,7 +99,7 @@ static void an_obj_is_read_with_its_materials(void **state) {
     /* Ns = 2 / roughness⁴ - 2 */
     CHECK_NEAR(98.0, 2.0 / pow((double)material->roughness, 4.0) - 2.0, 0.01);
     /* The image's v is up, the scene's is down. */
-    CHECK_NEAR(1.0, s.vertices[0].uv[1], 1e-6);
+    CHECK_NEAR(1.0, s.vertices[0].uv[0][1], 1e-6);
     /* The emissive square is one light of the same power: area times pi times radiance. */
     assert_int_equal(s.light_count, 1);
     assert_int_equal(s.lights[0].hidden, 1);

@@ -50,7 +50,7 @@ static void build(stage *s) {
         const float x = i == 0 || i == 3 ? -1 : 1, z = i < 2 ? 1 : -1;
         s->vertices[i] = (scene_vertex) { .position = { 10 * x, 0, 10 * z },
                                           .normal = { 0, 1, 0 },
-                                          .uv = { (x + 1) / 2, (z + 1) / 2 },
+                                          .uv = { { (x + 1) / 2, (z + 1) / 2 } },
                                           .tangent = { 1, 0, 0, 1 } };
     }
     memcpy(s->indices, counter_clockwise, sizeof s->indices);
@@ -219,7 +219,7 @@ static void a_normal_map_tilts_the_normal(void **state) {
     s.material.roughness = 1;
     s.settings.samples = 4096;
     draw_plain(&s, &flat);
-    s.material.normal_map = (scene_texture_use) { 0, { 1, 0, 0, 1 }, { 0, 0 } };
+    s.material.normal_map = (scene_texture_use) { 0, { 1, 0, 0, 1 }, { 0, 0 }, 0 };
     for (int i = 0; i < 4; i++)
         memcpy(s.texels + 4 * i, (const unsigned char[4]) { 218, 128, 218, 255 }, 4);
     draw_plain(&s, &tilted);

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: MIT */
+/* What a glTF document looks like: skins, morph targets, instances, colors and coordinates of
+ * vertices, against what the specification says of them. */
+#include "tests/program/gltf_document.h"
+
+#include <math.h>
+
+/* The document's first vertex lies in the origin of its mesh, the second at x = 1. Its skin hangs
+ * on node 0, at (1, 2, 3). */
+static void assert_place(const scene_builder *builder, size_t vertex, double x, double y,
+                         double z) {
+    const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
+    assert_true(vertex < builder_count(builder, BLOB_VERTICES));
+    const double wanted[3] = { x, y, z };
+    for (int k = 0; k < 3; k++)
+        CHECK_WITHIN(fabs((double)vertices[vertex].position[k] - wanted[k]), 1e-6);
+}
+
+static void read_changed(const char *from, const char *to, scene_builder *builder) {
+    cli_error error;
+    char *text = changed(from, to);
+    if (!reads(text, builder, &error))
+        fail_msg("%s: %s", to, error.text);
+    free(text);
+}
+
+static void a_skin_follows_its_joints_alone(void **state) {
+    (void)state;
+    scene_builder builder;
+    /* The node's own place is of no account. */
+    read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"skin\":0,\"translation\":[9,9,9]}",
+                 &builder);
+    assert_place(&builder, 0, 1, 2, 3);
+    assert_place(&builder, 1, 2, 2, 3);
+    builder_free(&builder);
+    /* Without one it is. */
+    read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"translation\":[9,9,9]}", &builder);
+    assert_place(&builder, 0, 10, 11, 12);
+    builder_free(&builder);
+    /* A quarter turn of the joint about z, and an inverse bind matrix that moves by y. */
+    const float along = 1.0f;
+    memcpy(bytes + MATRIX + 13 * sizeof along, &along, sizeof along);
+    read_changed("\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0.70710678,0.70710678]", &builder);
+    assert_place(&builder, 0, 0, 2, 3);
+    assert_place(&builder, 1, 0, 3, 3);
+    builder_free(&builder);
+    fill_bytes();
+}
+
+static void joints_share_a_vertex_by_their_weights(void **state) {
+    (void)state;
+    scene_builder builder;
+    /* Half of the second vertex hangs on a second joint, node 3, in the world's origin. */
+    const float half = 0.5f;
+    memcpy(bytes + JOINTS + 4, "\0\1", 2);
+    memcpy(bytes + WEIGHTS + 16, &half, sizeof half);
+    memcpy(bytes + WEIGHTS + 20, &half, sizeof half);
+    read_changed("\"joints\":[0],\"inverseBindMatrices\":4", "\"joints\":[0,3]", &builder);
+    assert_place(&builder, 0, 1, 2, 3);
+    assert_place(&builder, 1, 1.5, 1, 1.5);
+    builder_free(&builder);
+    fill_bytes();
+    memcpy(bytes + JOINTS, "\1", 1);
+    expect(document, "an index past what it refers to", "a joint that the skin has not");
+    fill_bytes();
+}
+
+static void morph_targets_are_added_by_their_weights(void **state) {
+    (void)state;
+    scene_builder builder;
+    cli_error error;
+    char *text = changed("\"mode\":4", "\"targets\":[{\"POSITION\":0}]");
+    assert_true(reads(text, &builder, &error));
+    assert_place(&builder, 1, 2, 2, 3);
+    builder_free(&builder);
+    char *weighted = malloc(strlen(text) + 64),
+         *at = strstr(text, "{\"name\":\"m\",\"primitives\"");
+    assert_non_null(weighted);
+    assert_non_null(at);
+    sprintf(weighted, "%.*s{\"weights\":[0.5],%s", (int)(at - text), text, at + 1);
+    assert_true(reads(weighted, &builder, &error));
+    assert_place(&builder, 1, 2.5, 2, 3);
+    builder_free(&builder);
+    free(weighted);
+    free(text);
+}
+
+static void instances_are_meshes_each_in_its_place(void **state) {
+    (void)state;
+    scene_builder builder;
+    read_changed("{\"mesh\":0,\"skin\":0}",
+                 "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":"
+                 "{\"attributes\":{\"TRANSLATION\":6}}}}",
+                 &builder);
+    assert_int_equal(builder_count(&builder, BLOB_MESHES), 2);
+    assert_place(&builder, 0, 1, 2, 3);
+    assert_place(&builder, builder_count(&builder, BLOB_VERTICES) / 2, 2, 3, 4);
+    builder_free(&builder);
+}
+
+static void colors_of_vertices_are_read(void **state) {
+    (void)state;
+    scene_builder builder;
+    /* The weights, four floats of which the first is 1. */
+    read_changed("\"POSITION\":0", "\"POSITION\":0,\"COLOR_0\":8", &builder);
+    const scene_vertex *vertex = builder_items(&builder, BLOB_VERTICES);
+    const scene_material *material = builder_items(&builder, BLOB_MATERIALS);
+    assert_int_equal(vertex->color[0], 65535);
+    assert_int_equal(vertex->color[1], 0);
+    assert_true(material[0].flags & SCENE_VERTEX_COLORS);
+    builder_free(&builder);
+    /* Three components leave alpha 1. */
+    read_changed("\"POSITION\":0", "\"POSITION\":0,\"COLOR_0\":0", &builder);
+    vertex = builder_items(&builder, BLOB_VERTICES);
+    assert_int_equal(vertex[0].color[0], 0);
+    assert_int_equal(vertex[1].color[0], 65535);
+    assert_int_equal(vertex[1].color[3], 65535);
+    builder_free(&builder);
+}
+
+static void two_sets_of_coordinates_are_kept(void **state) {
+    (void)state;
+    scene_builder builder;
+    /* The base color by set 1, the normal map by set 0. */
+    read_changed("\"texCoord\":0", "\"texCoord\":1", &builder);
+    const scene_material *material = builder_items(&builder, BLOB_MATERIALS);
+    assert_int_equal(material->normal_map.set, 0);
+    assert_int_equal(material->base_color_map.set, 1);
+    assert_int_equal(material->metallic_roughness_map.set, 0);
+    builder_free(&builder);
+    /* Unless the transform says otherwise. */
+    read_changed("\"offset\":[0,0]", "\"offset\":[0,0],\"texCoord\":4", &builder);
+    material = builder_items(&builder, BLOB_MATERIALS);
+    assert_int_equal(material->base_color_map.set, 1);
+    builder_free(&builder);
+}
+
+static void unlit_materials_glow_and_reflect_nothing(void **state) {
+    (void)state;
+    scene_builder builder;
+    read_changed("\"doubleSided\":true", "\"extensions\":{\"KHR_materials_unlit\":{}}", &builder);
+    const scene_material *material = builder_items(&builder, BLOB_MATERIALS);
+    for (int k = 0; k < 3; k++) {
+        CHECK_WITHIN(fabs((double)material->base_color[k]), 0.0);
+        CHECK_WITHIN(fabs((double)material->emission[k] - 1.0), 0.0);
+    }
+    CHECK_WITHIN(fabs((double)material->metallic - 1.0), 0.0);
+    assert_int_equal(material->emission_map.texture, material->base_color_map.texture);
+    assert_true(material->flags & SCENE_UNLIT);
+    builder_free(&builder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_skin_follows_its_joints_alone),
+        cmocka_unit_test(joints_share_a_vertex_by_their_weights),
+        cmocka_unit_test(morph_targets_are_added_by_their_weights),
+        cmocka_unit_test(instances_are_meshes_each_in_its_place),
+        cmocka_unit_test(colors_of_vertices_are_read),
+        cmocka_unit_test(two_sets_of_coordinates_are_kept),
+        cmocka_unit_test(unlit_materials_glow_and_reflect_nothing),
+    };
+    fill_bytes();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
