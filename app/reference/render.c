@@ -52,12 +52,17 @@ static const scene_light *seen_light(const frame *f, reference_vec direction, do
     return nearest;
 }
 
+static void sample(const frame *f, const scene_texture_use *use, const reference_hit *hit,
+                   double rgba[4]) {
+    reference_texture_at(f->scene, use, hit->uv + 2 * use->set, rgba);
+}
+
 static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
                                    const scene_material *material) {
     double texel[4];
     if (material->normal_map.texture < 0)
         return hit->normal;
-    reference_texture_at(f->scene, &material->normal_map, hit->uv, texel);
+    sample(f, &material->normal_map, hit, texel);
     const double scale = (double)material->normal_scale;
     const reference_vec bitangent =
         reference_scale(hit->handedness, reference_cross(hit->normal, hit->tangent));
@@ -79,9 +84,9 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
                      reference_surface *surface, double emission[3]) {
     const scene_material *material = &f->scene->materials[hit->material];
     double color[4], rough[4], glow[4], base[3];
-    reference_texture_at(f->scene, &material->base_color_map, hit->uv, color);
-    reference_texture_at(f->scene, &material->metallic_roughness_map, hit->uv, rough);
-    reference_texture_at(f->scene, &material->emission_map, hit->uv, glow);
+    sample(f, &material->base_color_map, hit, color);
+    sample(f, &material->metallic_roughness_map, hit, rough);
+    sample(f, &material->emission_map, hit, glow);
     for (int c = 0; c < 3; c++) {
         base[c] = color[c] * hit->color[c] * (double)material->base_color[c];
         emission[c] = glow[c] * (double)material->emission[c];

@@ -33,7 +33,7 @@ static void add_texel(const scene *world, const scene_texture *texture, double x
     }
 }
 
-void reference_texture_at(const scene *world, const scene_texture_use *use, const double uv[4],
+void reference_texture_at(const scene *world, const scene_texture_use *use, const double uv[2],
                           double rgba[4]) {
     for (int c = 0; c < 4; c++)
         rgba[c] = use->texture < 0;
@@ -42,9 +42,8 @@ void reference_texture_at(const scene *world, const scene_texture_use *use, cons
     const scene_texture *texture = &world->textures[use->texture];
     double texel[2], fraction[2];
     for (int i = 0; i < 2; i++) {
-        const double at = (double)use->matrix[2 * i] * uv[2 * use->set] +
-                          (double)use->matrix[2 * i + 1] * uv[2 * use->set + 1] +
-                          (double)use->offset[i];
+        const double at = (double)use->matrix[2 * i] * uv[0] +
+                          (double)use->matrix[2 * i + 1] * uv[1] + (double)use->offset[i];
         const double scaled = at * (i == 0 ? texture->width : texture->height) - 0.5;
         texel[i] = floor(scaled);
         fraction[i] = scaled - texel[i];

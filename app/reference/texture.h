@@ -5,9 +5,8 @@
 
 #include "app/scene/scene.h"
 
-/* The RGBA value at those of the two pairs `uv` that the use names, colors linear; white where
- * there is no texture. */
-void reference_texture_at(const scene *scene, const scene_texture_use *use, const double uv[4],
+/* The RGBA value at `uv`, colors linear; white where there is no texture. */
+void reference_texture_at(const scene *scene, const scene_texture_use *use, const double uv[2],
                           double rgba[4]);
 
 #endif

@@ -81,7 +81,8 @@ static bool cut_out(const tracer_mesh *mesh, const corner_weights *c) {
         return false;
     blend_uv(c, uv);
     blend_color(c, material, color);
-    reference_texture_at(mesh->scene, &material->base_color_map, uv, rgba);
+    reference_texture_at(mesh->scene, &material->base_color_map,
+                         uv + 2 * material->base_color_map.set, rgba);
     return rgba[3] * color[3] * (double)material->base_color[3] < (double)material->alpha_cutoff;
 }
 

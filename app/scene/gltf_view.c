@@ -63,6 +63,8 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     vec_store(eye, camera->eye);
     vec_store(vec_add(eye, vec_scale(forward, reach)), camera->target);
     vec_store(up, camera->up);
+    if (gltf_member(entry, "orthographic"))
+        builder_left_out(builder, "parallel rays", "orthographic camera", 1);
     const double height = gltf_number(gltf_member(entry, "orthographic"), "ymag", 1.0);
     const double wide = 2.0 * atan(height / (double)reach);
     const double fov = strcmp(gltf_text(entry, "type"), "orthographic") == 0
@@ -86,6 +88,8 @@ static bool add_light(const gltf *document, size_t node, const scene_box *box,
     double radius =
         gltf_number(gltf_member(entry, "extras"), "radius", DEFAULT_RADIUS * box->diagonal);
     radius = gltf_number(gltf_member(holder, "extras"), "radius", radius);
+    if (gltf_member(entry, "spot"))
+        builder_left_out(builder, "cone", "spot light", 1);
     const bool far = strcmp(gltf_text(entry, "type"), "directional") == 0;
     if (far) {
         const lmp_vec3 back = axis_of(m, 2, 1.0f);

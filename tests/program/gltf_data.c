@@ -209,7 +209,8 @@ static void what_is_left_out_is_named(void **state) {
           "EXT_texture_webp (1 texture)" },
         { "\"alphaMode\":\"MASK\"", "\"alphaMode\":\"BLEND\"", "blending (1 material)" },
         { "\"normalTexture\"", "\"occlusionTexture\"", "occlusion map (1 material)" },
-        { "\"node\":3", "\"node\":2", NULL },
+        { "\"intensity\":4", "\"intensity\":5", "cone (1 spot light)" },
+        { "\"path\":\"translation\"", "\"path\":\"translation\"", NULL },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *text = changed(cases[i].from, cases[i].to), line[200] = "";

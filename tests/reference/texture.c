@@ -105,7 +105,7 @@ static void coordinates_are_transformed_first(void **state) {
     paint(0);
     const double uv[2] = { 0.3, 0.8 }, expected[2] = { -0.4 + 0.9, 0.15 + 0.25 };
     reference_texture_at(&world, &use, expected, plain);
-    use = (scene_texture_use) { 0, { 0, -0.5f, 0.5f, 0 }, { 0.9f, 0.25f } };
+    use = (scene_texture_use) { 0, { 0, -0.5f, 0.5f, 0 }, { 0.9f, 0.25f }, 0 };
     reference_texture_at(&world, &use, uv, moved);
     for (int c = 0; c < 4; c++)
         CHECK_WITHIN(fabs(moved[c] - plain[c]), 1e-6);
