@@ -10,7 +10,7 @@ install(TARGETS ${lampion_libraries} EXPORT lampionTargets
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion)
 install(FILES shaders/lampion.glsl shaders/preintegrated_lookup.h shaders/preintegrated_lobe.glsl shaders/preintegrated_brdf.glsl
-  shaders/probe.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
+  shaders/probe.glsl shaders/ggx.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lampion)

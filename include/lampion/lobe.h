@@ -46,6 +46,40 @@ LMP_API void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array 
                                  lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
                                  size_t stride, float *response);
 
+/* --- glTF's GGX ----------------------------------------------------------------------------------
+ * The specular reflection of glTF 2.0's metallic-roughness (appendix B: GGX, Smith's
+ * height-correlated masking, Schlick's Fresnel term), f_r cos seen from one direction, as a sum of
+ * Phong lobes fitted by least squares (src/lobe/generate/ggx.c):
+ *
+ *     f_r(v, w) (n·w) ~ Σ_k (f0_k F0 + f90_k F90) (e_k+1)/(2 pi) max(axis_k·w, 0)^e_k
+ *
+ * F0 and F90 are Fresnel's reflectances at normal incidence and at grazing, F = F0 (1-c) + F90 c
+ * with c = (1 - v·h)^5; glTF's core has F90 = 1. Its diffuse part, (1 - F) base/pi, is in all
+ * directions the fraction 1 - diffuse_f0 F0 - diffuse_f90 F90 of base/pi.
+ *
+ * Lobes reach a little below the horizon: docs/materials.md has the errors. */
+#define LMP_GGX_LOBES 3
+
+typedef struct lmp_ggx_lobe {
+    lmp_vec3 axis;  /* unit, in the plane of incidence */
+    float exponent; /* 0.02 … 1e7 */
+    float f0, f90;  /* f0 may be below 0, but f0 + f90 and f90 are not */
+} lmp_ggx_lobe;
+
+typedef struct lmp_ggx_lobes {
+    lmp_ggx_lobe lobe[LMP_GGX_LOBES];
+    float diffuse_f0, diffuse_f90; /* they sum to 1 */
+} lmp_ggx_lobes;
+
+/* normal and view must be unit; a view below the horizon counts as grazing. roughness is glTF's
+ * perceptual one, alpha = roughness², clamped to sqrt(0.001) … 1 */
+LMP_API void lmp_lobe_ggx(lmp_vec3 normal, lmp_vec3 view, float roughness, lmp_ggx_lobes *lobes);
+
+#define LMP_GGX_TEXELS (32 * 32 * LMP_GGX_LOBES + 32)
+
+/* The table of these lobes, which ggx.glsl looks up: LMP_GGX_TEXELS texels of 4 values, 50 KB. */
+LMP_API void lmp_lobe_ggx_texels(float *texels);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion.glsl and probe.glsl alone, as an engine includes them, against the library. */
+/* lampion.glsl, probe.glsl and ggx.glsl alone, as an engine includes them, against the library. */
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 
+#include <lampion/lobe.h>
 #include <lampion/probe.h>
 
 #include <epoxy/gl.h>
@@ -168,10 +169,80 @@ static void irradiance_agrees_with_the_library(void **state) {
     glDeleteProgram(program);
 }
 
+/* --- GGX --------------------------------------------------------------------------------------
+ */
+
+static const char ggx_head[] =
+    "#version 450 core\n"
+    "layout(std430, binding = 2) buffer texel_block { vec4 texels[]; };\n"
+    "#define LMP_GGX_TEXEL(i) texels[i]\n";
+
+/* One thread a view: (direction, roughness) round the normal z; out receives two vec4 a lobe. */
+static const char ggx_main[] =
+    "layout(local_size_x = 64) in;\n"
+    "layout(std430, binding = 0) buffer in_block { vec4 views[]; };\n"
+    "layout(std430, binding = 1) buffer out_block { vec4 values[]; };\n"
+    "void main() {\n"
+    "    uint i = gl_GlobalInvocationID.x;\n"
+    "    vec3 normal = vec3(0.0, 0.0, 1.0), view = views[i].xyz;\n"
+    "    lmp_ggx_place place = lmp_ggx_lookup(normal, view, views[i].w);\n"
+    "    for (int k = 0; k < LMP_GGX_LOBES; k++) {\n"
+    "        lmp_ggx_lobe lobe = lmp_ggx_lobe_at(place, normal, view, k);\n"
+    "        uint at = (i * LMP_GGX_LOBES + k) * 2;\n"
+    "        values[at] = vec4(lobe.axis, lobe.exponent);\n"
+    "        values[at + 1] = vec4(lobe.f0, lobe.f90, lmp_ggx_diffuse_f90(place), 0.0);\n"
+    "    }\n"
+    "}\n";
+
+static void check_ggx_lobes(const float view[4], const float (*values)[4]) {
+    lmp_ggx_lobes lobes;
+    lmp_lobe_ggx((lmp_vec3) { 0, 0, 1 }, (lmp_vec3) { view[0], view[1], view[2] }, view[3], &lobes);
+    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+        const lmp_ggx_lobe *lobe = &lobes.lobe[k];
+        const float *first = values[2 * k], *second = values[2 * k + 1];
+        CHECK_WITHIN(fabsf(first[0] - lobe->axis.x), 1e-5);
+        CHECK_WITHIN(fabsf(first[1] - lobe->axis.y), 1e-5);
+        CHECK_WITHIN(fabsf(first[2] - lobe->axis.z), 1e-5);
+        CHECK_WITHIN(fabsf(first[3] / lobe->exponent - 1), 1e-4);
+        CHECK_WITHIN(fabsf(second[0] - lobe->f0), 1e-5);
+        CHECK_WITHIN(fabsf(second[1] - lobe->f90), 1e-5);
+        CHECK_WITHIN(fabsf(second[2] - lobes.diffuse_f90), 1e-5);
+    }
+}
+
+static void ggx_lobes_agree_with_the_library(void **state) {
+    (void)state;
+    static float views[POINTS][4], texels[LMP_GGX_TEXELS][4];
+    const size_t size = POINTS * LMP_GGX_LOBES * 2 * 4 * sizeof(float);
+    for (int i = 0; i < POINTS; i++) {
+        const lmp_vec3 v = check_random_direction();
+        memcpy(views[i], (const float[4]) { v.x, v.y, fabsf(v.z) }, sizeof views[i]);
+        views[i][3] = (float)check_random_between(-0.1, 1.1);
+    }
+    lmp_lobe_ggx_texels(texels[0]);
+    const GLuint program = build(ggx_head, "ggx.glsl", ggx_main);
+    GLuint buffers[3];
+    glCreateBuffers(3, buffers);
+    glNamedBufferStorage(buffers[0], sizeof views, views, 0);
+    glNamedBufferStorage(buffers[1], (GLsizeiptr)size, NULL, GL_MAP_READ_BIT);
+    glNamedBufferStorage(buffers[2], sizeof texels, texels, 0);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, 3, buffers);
+    glUseProgram(program);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    const float(*values)[4] = glMapNamedBuffer(buffers[1], GL_READ_ONLY);
+    assert_non_null(values);
+    for (int i = 0; i < POINTS; i++)
+        check_ggx_lobes(views[i], values + (ptrdiff_t)2 * LMP_GGX_LOBES * i);
+    glDeleteBuffers(3, buffers);
+    glDeleteProgram(program);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients_agree_with_the_library),
         cmocka_unit_test(irradiance_agrees_with_the_library),
+        cmocka_unit_test(ggx_lobes_agree_with_the_library),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

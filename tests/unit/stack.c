@@ -27,6 +27,8 @@ static const float unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 static float sh[COUNT * 3 * N * N], out[COUNT * 3 * N * N], slopes[COUNT * 9 * N * N];
 static float matrices[LMP_SH_ROTATION_COUNT(N)], weights[N], lambda[N], rgb[3 * COUNT];
 static float numbers[COUNT], texels[6 * 3 * 4 * 4];
+static float ggx_texels[4 * LMP_GGX_TEXELS];
+static lmp_ggx_lobes ggx;
 static lmp_vec3 vectors[COUNT];
 static lmp_light lights[LIGHTS];
 static lmp_cap cap;
@@ -141,6 +143,8 @@ static void shade_all_ways(void) {
     X(lmp_lobe_project, lmp_lobe_project(N, lambda, up, out)) \
     X(lmp_lobe_response, lmp_lobe_response(N, lambda, up, lights, LIGHTS, at)) \
     X(lmp_lobe_response_n, LAYOUTS(lmp_lobe_response_n(N, lambda, points, &spheres, LIGHTS, points, COUNT, layout, 0, rgb))) \
+    X(lmp_lobe_ggx, lmp_lobe_ggx(up, up, 0.5f, &ggx)) \
+    X(lmp_lobe_ggx_texels, lmp_lobe_ggx_texels(ggx_texels)) \
     X(lmp_probe_irradiance, lmp_probe_irradiance(N, sh, up)) \
     X(lmp_probe_irradiance_n, lmp_probe_irradiance_n(N, sh, points, COUNT, (lmp_rgb *)(void *)rgb)) \
     X(lmp_probe_constants_of, lmp_probe_constants_of(N, sh, 1, &constants)) \
