@@ -10,10 +10,10 @@
 #include <stdatomic.h>
 
 #define TAIL_BANDS       0.06 /* of the error: what the bands left out may reach */
-#define TAIL_ORDERS      0.12
-#define TRUNCATION_VIEWS 32     /* that decide how many bands matter */
-#define STEPS_BANDS      40     /* up to which every step of the view is rotated */
-#define STEPS_FEW        256    /* about as many as are rotated of more bands, and */
+#define TAIL_ORDERS      0.12 /* the same of orders: 0.5 errs by 0.64 % at steel, not by 0.32 */
+#define TRUNCATION_VIEWS 32   /* that decide how many bands matter */
+#define STEPS_BANDS      40   /* up to which every step of the view is rotated */
+#define STEPS_FEW        256 /* about as many as are rotated of more bands (128: 1.5 % at steel), and */
 #define STEPS_LAST       0.9375 /* all of this fraction of the views on */
 #define SAMPLES_MIN      16     /* and two a band */
 #define WIDTH            1.2f   /* of the finest detail, times the bands */

@@ -11,7 +11,7 @@
  *   truncated     x < TRUNCATED: the series rings with the period of its last band, whatever e.
  * Steps are a fixed part of that period; slices follow exp(-x).
  *
- * The constants were chosen by measuring the error over random configurations (docs/shading.md).
+ * The constants were chosen by changing each and measuring the error (docs/preintegration.md).
  */
 #include "src/preintegrated/lobe.h"
 
@@ -27,7 +27,7 @@
 #define SLICES_FEW       16   /* more where few bands feel every exponent: 1 + this/bands² */
 #define TRUNCATED_KNEE   1.16
 #define SLICES           3.0   /* a unit of log e, of smooth lobes */
-#define SLICES_MIN       0.001 /* keeps the remap rising */
+#define SLICES_MIN       0.001 /* keeps the remap rising; 0.01 errs by 0.5 % at 10 bands */
 #define SLICES_CUSP      6.7   /* a unit of e at e = 1 */
 #define CUSP_FADE        1.2
 #define WIDTH_OFFSET     1.5
