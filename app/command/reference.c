@@ -39,7 +39,7 @@ static bool write_image(const reference_arguments *a, const image *radiance,
 /* The materials as the oracle takes them: cut ones as tables. The array is the caller's. */
 static bool choose_materials(reference_arguments *a, const scene *world, device_materials *all,
                              reference_material_source **sources, cli_error *error) {
-    const reference_cut *cut = &a->settings.cut;
+    const reference_band_limit *cut = &a->settings.band_limit;
     if (!device_materials_open(&a->materials, world, all, error) ||
         (cut->bands && !device_materials_bake(all, cut->bands, cut->window, error)))
         return false;
@@ -120,7 +120,8 @@ static bool solve_point(const reference_arguments *a, cli_error *error) {
         lobes.diffuse[c] = (double)a->diffuse[c];
         lobes.specular[c] = (double)a->specular[c];
     }
-    reference_surface_set(&surface, &a->settings.cut, &lobes, reference_from_floats(a->point),
+    reference_surface_set(&surface, &a->settings.band_limit, &lobes,
+                          reference_from_floats(a->point),
                           reference_normalize(reference_from_floats(a->normal)),
                           reference_normalize(reference_from_floats(a->view)));
     reference_quadrature(&surface, lights, (size_t)a->point_lights.count, radiance);
@@ -131,7 +132,8 @@ static bool solve_point(const reference_arguments *a, cli_error *error) {
 static int execute(const cli_command *command, reference_arguments *a, int count, char **operands) {
     cli_error error;
     a->settings.error = (double)a->error;
-    a->settings.cut = (reference_cut) { .bands = a->bands, .window = (lmp_window)a->window };
+    a->settings.band_limit =
+        (reference_band_limit) { .bands = a->bands, .window = (lmp_window)a->window };
     if (a->point_given) {
         if (count != 0)
             return cli_usage(command, "--point takes no scene: give its lights with --light");

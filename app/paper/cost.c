@@ -19,12 +19,12 @@ typedef struct setting {
 typedef struct outcome {
     double largest;  /* difference */
     double negative; /* depth of the ringing below 0 */
-    double peak;     /* of the cut response */
+    double peak;     /* of the truncated response */
     double grazing;  /* largest difference where the lobe's axis lies beside the light */
 } outcome;
 
 static double response(const setting *s, int bands, double angle) {
-    const reference_cut cut = { .bands = bands, .window = s->window };
+    const reference_band_limit limit = { .bands = bands, .window = s->window };
     const reference_material material = { .specular = { 1, 1, 1 }, .exponent = s->exponent };
     const scene_light light = {
         .emitter = { .position = { (float)sin(angle), (float)cos(angle), 0 },
@@ -34,7 +34,7 @@ static double response(const setting *s, int bands, double angle) {
     const reference_vec up = { 0, 1, 0 };
     reference_surface surface;
     double radiance[3];
-    reference_surface_set(&surface, &cut, &material, (reference_vec) { 0, 0, 0 }, up, up);
+    reference_surface_set(&surface, &limit, &material, (reference_vec) { 0, 0, 0 }, up, up);
     reference_quadrature(&surface, &light, 1, radiance);
     return radiance[0];
 }

@@ -34,11 +34,12 @@ void reference_estimator_free(reference_estimator *estimator) {
     *estimator = (reference_estimator) { .candidates = NULL };
 }
 
-/* An upper bound of the mean of the lobe over the cap; of a cut series a guess that is never 0. */
-static double lobe_bound(const reference_lobe *lobe, bool cut, const reference_source *cap) {
+/* An upper bound of the mean of the lobe over the cap; of a truncated series a guess that is never
+ * 0. */
+static double lobe_bound(const reference_lobe *lobe, bool truncated, const reference_source *cap) {
     const double nearest = fmax(reference_angle(lobe->axis, cap->axis) - cap->angle, 0);
     const double there = reference_lobe_at(lobe, nearest < REFERENCE_PI ? cos(nearest) : -1);
-    if (!cut)
+    if (!truncated)
         return there;
     return fabs(there) + 0.05 * fabs(reference_lobe_at(lobe, 1));
 }
@@ -49,12 +50,13 @@ static double mean_of_product(const double a[3], const double b[3]) {
 
 /* The fraction of the samples of a lobe and a light that the lobe should draw: it is the better
  * source where it is narrower than the light. One that is rarely drawn from would only add rare
- * values that the standard error does not know of, so it is left out. Of a cut series there is
- * nothing to sample. */
-static double lobe_fraction(const reference_lobe *lobe, bool cut, const reference_source *cap) {
+ * values that the standard error does not know of, so it is left out. Of a truncated series there
+ * is nothing to sample. */
+static double lobe_fraction(const reference_lobe *lobe, bool truncated,
+                            const reference_source *cap) {
     const double width = 2 * REFERENCE_PI / (lobe->exponent + 1);
     const double part = cap->solid_angle / (cap->solid_angle + width);
-    if (cut || part < 0.02)
+    if (truncated || part < 0.02)
         return 0;
     return part > 0.98 ? 1 : part;
 }
@@ -68,11 +70,11 @@ static double divide(const reference_surface *surface, const reference_source *c
     for (int k = 0; k < REFERENCE_LOBES; k++) {
         const reference_lobe *lobe = &surface->lobes[k];
         const double strength = mean_of_product(lobe->weight, cap->color);
-        const double fraction = lobe_fraction(lobe, surface->cut, cap);
+        const double fraction = lobe_fraction(lobe, surface->band_limited, cap);
         if (!(strength > 0))
             continue;
         const double most =
-            strength * fmin(cap->solid_angle * lobe_bound(lobe, surface->cut, cap), 1);
+            strength * fmin(cap->solid_angle * lobe_bound(lobe, surface->band_limited, cap), 1);
         by_source += most * (1 - fraction);
         by_lobe[k] += most * fraction;
         *any = *any || most > 0;
@@ -136,7 +138,8 @@ static void plan_samples(const reference_estimator *estimator, const reference_s
     for (size_t i = 0; i < estimator->light_count; i++) {
         const scene_light *light = &estimator->lights[i];
         reference_source sources[REFERENCE_SOURCES_MAX];
-        const int count = reference_light_sources(light, surface->position, surface->cut, sources);
+        const int count =
+            reference_light_sources(light, surface->position, surface->band_limited, sources);
         for (int k = 0; k < count; k++)
             if (sources[k].solid_angle > 0)
                 total += add_candidate(&sources[k], light, total, p);

@@ -36,7 +36,7 @@ typedef struct reference_result {
 
 /* Independent samples, numbered from the stream `key`: of the lights' solid angles and of the
  * lobes, weighted by the balance heuristic over all of them (Veach 1997); what lights of a single
- * direction give is added without sampling. Unbiased. Of cut lobes
+ * direction give is added without sampling. Unbiased. Of truncated lobes
  * the sum is the series' own: it may be negative. */
 reference_result reference_estimate(const reference_estimator *estimator,
                                     const reference_surface *surface, const reference_stop *stop,

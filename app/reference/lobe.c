@@ -16,31 +16,31 @@ reference_material reference_material_from_metallic_roughness(const double base[
     return material;
 }
 
-static double window_weight(const reference_cut *cut, int l) {
-    const double size = cut->window_size > 0 ? cut->window_size : cut->bands;
+static double window_weight(const reference_band_limit *limit, int l) {
+    const double size = limit->window_size > 0 ? limit->window_size : limit->bands;
     const double x = REFERENCE_PI * l / size;
-    if (cut->window == LMP_WINDOW_NONE || l == 0)
+    if (limit->window == LMP_WINDOW_NONE || l == 0)
         return 1;
     if (l >= size)
         return 0;
-    return cut->window == LMP_WINDOW_HANNING ? (1 + cos(x)) / 2 : sin(x) / x;
+    return limit->window == LMP_WINDOW_HANNING ? (1 + cos(x)) / 2 : sin(x) / x;
 }
 
 /* (2l+1)/(4 pi) w_l lambda_l with lambda_l = (e+1) ∫ t^e P_l(t) dt over 0 … 1. Integrating
  * Legendre's equation against t^e gives lambda_l (e+l+1) = lambda_(l-2) (e-l+2). */
-static void cut_lobe(reference_lobe *lobe, const reference_cut *cut) {
+static void limit_lobe(reference_lobe *lobe, const reference_band_limit *limit) {
     const double e = lobe->exponent;
     double before = 0, lambda = 1;
-    lobe->bands = cut->bands;
-    for (int l = 0; l < cut->bands; l++) {
+    lobe->bands = limit->bands;
+    for (int l = 0; l < limit->bands; l++) {
         const double next = l == 0 ? (e + 1) / (e + 2) : before * (e - l + 1) / (e + l + 2);
-        lobe->series[l] = (2 * l + 1) / (4 * REFERENCE_PI) * window_weight(cut, l) * lambda;
+        lobe->series[l] = (2 * l + 1) / (4 * REFERENCE_PI) * window_weight(limit, l) * lambda;
         before = lambda;
         lambda = next;
     }
 }
 
-void reference_surface_set(reference_surface *surface, const reference_cut *cut,
+void reference_surface_set(reference_surface *surface, const reference_band_limit *limit,
                            const reference_material *material, reference_vec position,
                            reference_vec normal, reference_vec view) {
     reference_lobe *diffuse = &surface->lobes[0], *specular = &surface->lobes[1];
@@ -54,26 +54,26 @@ void reference_surface_set(reference_surface *surface, const reference_cut *cut,
         specular->weight[c] = material->specular[c];
     }
     diffuse->bands = specular->bands = 0;
-    surface->cut = cut->bands > 0;
+    surface->band_limited = limit->bands > 0;
     surface->tabulated = NULL;
-    if (cut->bands) {
-        cut_lobe(diffuse, cut);
-        cut_lobe(specular, cut);
+    if (limit->bands) {
+        limit_lobe(diffuse, limit);
+        limit_lobe(specular, limit);
     }
 }
 
-/* Neither too broad nor too narrow for most materials; the samples are weighted for it. */
+/* Neither too wide nor too narrow for most materials; the samples are weighted for it. */
 #define GUIDE_EXPONENT 40
 
 void reference_surface_measure(reference_surface *surface, const reference_tabulated *tabulated,
                                reference_vec normal, reference_vec view) {
     const reference_material guide = { { 1, 1, 1 }, { 0.5, 0.5, 0.5 }, GUIDE_EXPONENT };
-    const reference_cut whole = { .bands = 0 };
+    const reference_band_limit whole = { .bands = 0 };
     const reference_vec ray_origin = surface->ray_origin;
     reference_surface_set(surface, &whole, &guide, surface->position, normal, view);
     surface->ray_origin = ray_origin;
     surface->tabulated = tabulated;
-    surface->cut = tabulated->source->coefficients != NULL;
+    surface->band_limited = tabulated->source->coefficients != NULL;
 }
 
 double reference_lobe_at(const reference_lobe *lobe, double cosine) {

@@ -19,17 +19,17 @@ reference_material reference_material_from_metallic_roughness(const double base[
                                                               double roughness);
 
 /* Band limit of the lobes. Zero: none, the lobes themselves. */
-typedef struct reference_cut {
+typedef struct reference_band_limit {
     int bands; /* 0, or 1 … LMP_BANDS_MAX */
     lmp_window window;
     double window_size; /* 0 means bands */
-} reference_cut;
+} reference_band_limit;
 
 typedef struct reference_lobe {
     reference_vec axis;
     double weight[3];
     double exponent;
-    int bands;                    /* of series; 0 = not cut */
+    int bands;                    /* of series; 0 = whole */
     double series[LMP_BANDS_MAX]; /* factors of P_l(q·w) */
 } reference_lobe;
 
@@ -39,17 +39,17 @@ typedef struct reference_surface {
     reference_vec position;
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
     reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular */
-    bool cut;                              /* they, or the measured material, are a cut series */
-    const reference_tabulated *tabulated;  /* reflects instead of the lobes, or NULL: the lobes then
-                                            only guide the samples */
+    bool band_limited; /* they, or the measured material, are a truncated series */
+    const reference_tabulated *tabulated; /* reflects instead of the lobes, or NULL: the lobes then
+                                           only guide the samples */
 } reference_surface;
 
 /* normal and view must be unit; ray_origin becomes the position. */
-void reference_surface_set(reference_surface *surface, const reference_cut *cut,
+void reference_surface_set(reference_surface *surface, const reference_band_limit *limit,
                            const reference_material *material, reference_vec position,
                            reference_vec normal, reference_vec view);
 
-/* Makes the surface reflect as `tabulated`, aimed already. */
+/* Makes the surface reflect as `tabulated`, oriented already. */
 void reference_surface_measure(reference_surface *surface, const reference_tabulated *tabulated,
                                reference_vec normal, reference_vec view);
 

@@ -110,7 +110,7 @@ void reference_quadrature(const reference_surface *surface, const scene_light *l
     for (size_t i = 0; i < count; i++) {
         reference_source sources[REFERENCE_SOURCES_MAX];
         const int parts =
-            reference_light_sources(&lights[i], surface->position, surface->cut, sources);
+            reference_light_sources(&lights[i], surface->position, surface->band_limited, sources);
         for (int k = 0; k < parts; k++)
             add_source(surface, &sources[k], radiance);
     }

@@ -7,7 +7,7 @@
 #include "app/reference/lobe.h"
 
 /* Of the lobes: the sum over the lights, without visibility, to about 12 digits of the lobe's peak
- * response. Of cut lobes the sum is the series' own: it may be negative. */
+ * response. Of truncated lobes the sum is the series' own: it may be negative. */
 void reference_quadrature(const reference_surface *surface, const scene_light *lights, size_t count,
                           double radiance[3]);
 

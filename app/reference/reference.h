@@ -18,7 +18,7 @@ typedef struct reference_settings {
     uint64_t seed; /* of the noise: the same seed gives the same bits on any thread count */
     int threads;   /* 0 means all processors */
     bool shadows;  /* whether triangles hide lights from each other */
-    reference_cut cut; /* band limit of the lobes, as render has it; zero: none */
+    reference_band_limit band_limit; /* band limit of the lobes, as render has it; zero: none */
     const reference_material_source *materials; /* instead of the scene's, one for each of them;
                                                    NULL: none */
 } reference_settings;

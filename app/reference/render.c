@@ -94,7 +94,7 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     const reference_material lobes = reference_material_from_metallic_roughness(
         base, rough[2] * (double)material->metallic, rough[1] * (double)material->roughness);
     const reference_vec normal = mapped_normal(f, hit, material);
-    reference_surface_set(surface, &f->settings->cut, &lobes, hit->position, normal, view);
+    reference_surface_set(surface, &f->settings->band_limit, &lobes, hit->position, normal, view);
     surface->ray_origin = hit->ray_origin;
     const reference_material_source *source =
         f->settings->materials ? &f->settings->materials[hit->material] : NULL;
@@ -125,7 +125,7 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
         const reference_stop stop = { settings->samples, settings->error };
         reference_surface surface;
         describe(f, own, &hit, reference_scale(-1, direction), &surface, emission);
-        clamped = surface.cut;
+        clamped = surface.band_limited;
         result = reference_estimate(&own->estimator, &surface, &stop,
                                     reference_hash(settings->seed, pixel));
     }

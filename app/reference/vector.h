@@ -62,14 +62,14 @@ static inline reference_vec reference_mirror(reference_vec v, reference_vec n) {
     return reference_subtract(reference_scale(2 * reference_dot(n, v), n), v);
 }
 
-/* The direction at `cosine` and `sine` from `axis`, at azimuth 2 pi turn: around an orthonormal
+/* The direction at `cosine` and `sine` from `axis`, at azimuth 2 pi u: around an orthonormal
  * basis without branches at the poles (Duff et al. 2017). */
 static inline reference_vec reference_around(reference_vec axis, double cosine, double sine,
-                                             double turn) {
+                                             double u) {
     const double sign = copysign(1, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
     const reference_vec s = { 1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x };
     const reference_vec t = { b, sign + axis.y * axis.y * a, -axis.y };
-    const double x = sine * cos(2 * REFERENCE_PI * turn), y = sine * sin(2 * REFERENCE_PI * turn);
+    const double x = sine * cos(2 * REFERENCE_PI * u), y = sine * sin(2 * REFERENCE_PI * u);
     return (reference_vec) { x * s.x + y * t.x + cosine * axis.x,
                              x * s.y + y * t.y + cosine * axis.y,
                              x * s.z + y * t.z + cosine * axis.z };

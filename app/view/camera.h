@@ -23,7 +23,7 @@ void view_fly(scene_camera *camera, float right, float up, float forward);
 /* Steps back, in the direction it looks from, until a sphere fits the image. */
 void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspect);
 
-/* The ray through a pixel's place: x to the right and y down from the upper left corner. */
+/* The ray through a position in the image: x to the right and y down from the upper left corner. */
 typedef struct view_ray {
     lmp_vec3 from, direction; /* unit */
 } view_ray;

@@ -107,8 +107,8 @@ static void change_material(view_state *s, int step) {
         view_say(s, "Point at an object to change its material");
         return;
     }
-    const char *slot = s->world->materials[s->world->meshes[hit.mesh].material].name;
-    const char *current = view_material_of(&s->now, slot);
+    const char *name = s->world->materials[s->world->meshes[hit.mesh].material].name;
+    const char *current = view_material_of(&s->now, name);
     const char *choices[sizeof materials / sizeof *materials + 2] = { NULL };
     int count = 1, at = 0;
     for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
@@ -119,10 +119,10 @@ static void change_material(view_state *s, int step) {
         if (current && strcmp(current, choices[i]) == 0)
             at = i;
     const char *next = choices[(at + step + count) % count];
-    if (view_set_material(&s->now, slot, next))
-        view_say(s, "%s is %s", slot, next ? next : "as the scene has it");
+    if (view_set_material(&s->now, name, next))
+        view_say(s, "%s is %s", name, next ? next : "as the scene has it");
     else
-        view_say(s, "%s cannot be replaced: too many materials, or too long a name", slot);
+        view_say(s, "%s cannot be replaced: too many materials, or too long a name", name);
 }
 
 /* --- camera and window --------------------------------------------------------------------------
@@ -229,7 +229,7 @@ const view_key view_keys[] = {
     { "H", NULL, NULL, view_recolor_lights, -1 },
     { "k", "K", "kind: sphere, point, spot, …", view_change_kind, 1 },
     { "K", NULL, NULL, view_change_kind, -1 },
-    { "l", "L", "turn towards what is pointed at", view_aim_light, 0 },
+    { "l", "L", "direction: to what is pointed at", view_direct_light, 0 },
     { "j", "J  Shift J", "paler, purer", view_fade_lights, 1 },
     { "J", NULL, NULL, view_fade_lights, -1 },
     { NULL, "", "none selected: all of them", NULL, 0 },
@@ -247,7 +247,7 @@ const view_key view_keys[] = {
     { "r", "R", "record an image sequence", wish, WISH_RECORD },
     { "i", "I", "statistics on, off", toggle_overlay, 0 },
     { "F5", "F5", "read the scene again", wish, WISH_RELOAD },
-    { "Shift+F5", "Shift F5", "start the graphics anew", wish, WISH_RESTART },
+    { "Shift+F5", "Shift F5", "start the graphics again", wish, WISH_RESTART },
     { "F11", "F11", "full screen", wish, WISH_FULLSCREEN },
     { "F1", "F1  ?", "this help", toggle_help, 0 },
     { "?", NULL, NULL, toggle_help, 0 },

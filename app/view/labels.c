@@ -70,7 +70,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
             v->sample < 0 ? 1 : d->samples);
     add_row(rows, &count, "Geometry", "%.1f ms", t->gbuffer);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
-            v->statistics.device == DEVICE_CPU ? "processor" : "GPU");
+            v->statistics.device == DEVICE_CPU ? "CPU" : "GPU");
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
     add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);
@@ -95,7 +95,7 @@ static void put(viewer *v, int index, int x, int y) {
     gpu_screen_draw(view_compositor_screen(v->compositor), &layout, index, x, y);
 }
 
-/* Whether a label has to be drawn anew to say this in that room. */
+/* Whether a label has to be drawn again to say this in that room. */
 static bool outdated(label *l, const char *text, double scale, int room) {
     if (l->width > 0 && strcmp(l->text, text) == 0 && l->scale == scale && l->room == room)
         return false;

@@ -217,7 +217,7 @@ void view_change_kind(view_state *s, int step) {
     view_say(s, "Light %d: %s", s->selected, scene_light_kinds[kind].name);
 }
 
-void view_aim_light(view_state *s, int unused) {
+void view_direct_light(view_state *s, int unused) {
     (void)unused;
     if (!is_selected(s))
         return;

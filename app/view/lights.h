@@ -19,7 +19,7 @@ void view_remove_light(view_state *state, int unused);
 void view_change_kind(view_state *state, int step);
 
 /* A spot turns to the point under the pointer, what shines from afar comes from there. */
-void view_aim_light(view_state *state, int unused);
+void view_direct_light(view_state *state, int unused);
 
 void view_frame_light(view_state *state, int unused);
 

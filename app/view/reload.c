@@ -46,13 +46,13 @@ void view_free_scene(scene *world) {
 /* Materials that the scene has not any more are not replaced any more. */
 static void drop_lost_materials(view_state *state) {
     for (int i = state->now.material_count - 1; i >= 0; i--) {
-        char slot[SCENE_NAME_SIZE] = "";
+        char name[SCENE_NAME_SIZE] = "";
         bool found = false;
-        memcpy(slot, state->now.materials[i], strcspn(state->now.materials[i], "=") % sizeof slot);
+        memcpy(name, state->now.materials[i], strcspn(state->now.materials[i], "=") % sizeof name);
         for (size_t m = 0; m < state->world->material_count; m++)
-            found = found || strcmp(state->world->materials[m].name, slot) == 0;
+            found = found || strcmp(state->world->materials[m].name, name) == 0;
         if (!found)
-            view_set_material(&state->now, slot, NULL);
+            view_set_material(&state->now, name, NULL);
     }
 }
 

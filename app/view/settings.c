@@ -20,22 +20,22 @@ int view_bands_max(gpu_method method) {
 /* --- materials ----------------------------------------------------------------------------------
  */
 
-static int find_slot(const view_settings *s, const char *slot) {
-    const size_t length = strlen(slot);
+static int find_material(const view_settings *s, const char *material_name) {
+    const size_t length = strlen(material_name);
     for (int i = 0; i < s->material_count; i++)
-        if (strncmp(s->materials[i], slot, length) == 0 && s->materials[i][length] == '=')
+        if (strncmp(s->materials[i], material_name, length) == 0 && s->materials[i][length] == '=')
             return i;
     return -1;
 }
 
-const char *view_material_of(const view_settings *s, const char *slot) {
-    const int index = find_slot(s, slot);
-    return index < 0 ? NULL : s->materials[index] + strlen(slot) + 1;
+const char *view_material_of(const view_settings *s, const char *material_name) {
+    const int index = find_material(s, material_name);
+    return index < 0 ? NULL : s->materials[index] + strlen(material_name) + 1;
 }
 
-bool view_set_material(view_settings *s, const char *slot, const char *name) {
-    int index = find_slot(s, slot);
-    if (!name) {
+bool view_set_material(view_settings *s, const char *material_name, const char *replacement) {
+    int index = find_material(s, material_name);
+    if (!replacement) {
         if (index >= 0) {
             s->material_count--;
             memmove(s->materials[index], s->materials[index + 1],
@@ -44,13 +44,14 @@ bool view_set_material(view_settings *s, const char *slot, const char *name) {
         }
         return true;
     }
-    if (strchr(slot, '=') || strlen(slot) + strlen(name) + 2 > sizeof s->materials[0] ||
+    if (strchr(material_name, '=') ||
+        strlen(material_name) + strlen(replacement) + 2 > sizeof s->materials[0] ||
         (index < 0 && s->material_count == GPU_TABLES_MAX))
         return false;
     if (index < 0)
         index = s->material_count++;
     memset(s->materials[index], 0, sizeof s->materials[0]);
-    snprintf(s->materials[index], sizeof s->materials[0], "%s=%s", slot, name);
+    snprintf(s->materials[index], sizeof s->materials[0], "%s=%s", material_name, replacement);
     return true;
 }
 
@@ -186,11 +187,11 @@ static bool read_materials(const cJSON *root, view_settings *s) {
     cJSON_ArrayForEach(item, array) {
         const char *text = cJSON_IsString(item) ? item->valuestring : "";
         const char *equals = strchr(text, '=');
-        char slot[SCENE_NAME_SIZE] = "";
-        if (!equals || (size_t)(equals - text) >= sizeof slot)
+        char material_name[SCENE_NAME_SIZE] = "";
+        if (!equals || (size_t)(equals - text) >= sizeof material_name)
             return false;
-        memcpy(slot, text, (size_t)(equals - text));
-        if (!view_set_material(s, slot, equals + 1))
+        memcpy(material_name, text, (size_t)(equals - text));
+        if (!view_set_material(s, material_name, equals + 1))
             return false;
     }
     return true;

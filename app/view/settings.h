@@ -28,7 +28,7 @@ typedef struct view_settings {
     gpu_split split;
     float divider; /* a part of the width */
     int material_count;
-    char materials[GPU_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* SLOT=MATERIAL */
+    char materials[GPU_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
     size_t light_count;
     scene_light lights[SCENE_LIGHTS_MAX];
 } view_settings;
@@ -38,12 +38,12 @@ extern const char *const view_split_names[GPU_SPLITS + 1]; /* NULL-terminated */
 /* Finds out whether a method takes so many bands where this machine shades it. */
 int view_bands_max(gpu_method method);
 
-/* Has materials named `slot` replaced by `name`, or with NULL by nothing. False if there is no room
- * or the names are too long. */
-bool view_set_material(view_settings *settings, const char *slot, const char *name);
+/* Has materials of that name replaced by another, as --material has it, or with NULL by nothing.
+ * False if there is no room or the names are too long. */
+bool view_set_material(view_settings *settings, const char *material_name, const char *replacement);
 
 /* What replaces it, or NULL. */
-const char *view_material_of(const view_settings *settings, const char *slot);
+const char *view_material_of(const view_settings *settings, const char *material_name);
 
 struct cJSON;
 struct cJSON *view_settings_to_json(const view_settings *settings);

@@ -99,7 +99,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, cli_error *erro
     s->path_count = s->path = 0;
     if (!open_paths(s, name, error)) {
         close_paths(s);
-        /* the new scene may have lost the motion that was playing: that is no fault of it */
+        /* the new scene may have lost the motion that was playing: the scene is fine without */
         if (!open_paths(s, NULL, error)) {
             close_paths(s);
             *s = before;
@@ -212,20 +212,20 @@ static void press(view_state *s, const view_event *event) {
 
 static void move(view_state *s, double x, double y) {
     const double right = (x - s->x) / s->now.height, down = (y - s->y) / s->now.height;
-    const float turn = (float)(RADIANS_A_HEIGHT * right), tilt = (float)(RADIANS_A_HEIGHT * down);
+    const float yaw = (float)(RADIANS_A_HEIGHT * right), pitch = (float)(RADIANS_A_HEIGHT * down);
     s->x = x;
     s->y = y;
     switch (s->drag) {
     case VIEW_DRAG_NONE:
         break;
     case VIEW_DRAG_ORBIT:
-        view_orbit(&s->now.camera, -turn, tilt);
+        view_orbit(&s->now.camera, -yaw, pitch);
         break;
     case VIEW_DRAG_PAN:
         view_pan(&s->now.camera, (float)-right, (float)down);
         break;
     case VIEW_DRAG_LOOK:
-        view_look_round(&s->now.camera, turn, -tilt);
+        view_look_round(&s->now.camera, yaw, -pitch);
         break;
     case VIEW_DRAG_LIGHT:
         if (s->selected >= 0)
@@ -280,18 +280,18 @@ static void drop(view_state *s, const char *file) {
         view_say(s, "Drop %s onto an object", base);
         return;
     }
-    const char *slot = s->world->materials[s->world->meshes[hit.mesh].material].name;
+    const char *replaced = s->world->materials[s->world->meshes[hit.mesh].material].name;
     if (!material_open(file, &opened, &error)) {
         view_say(s, "%s", error.text);
         return;
     }
     material_close(&opened);
-    if (!view_set_material(&s->now, slot, file)) {
-        view_say(s, "%s cannot be replaced: too many materials, or too long a name", slot);
+    if (!view_set_material(&s->now, replaced, file)) {
+        view_say(s, "%s cannot be replaced: too many materials, or too long a name", replaced);
         return;
     }
     snprintf(s->dropped, sizeof s->dropped, "%s", file);
-    view_say(s, "%s is now %s", slot, base);
+    view_say(s, "%s is now %s", replaced, base);
 }
 
 static void resize(view_state *s, int width, int height) {

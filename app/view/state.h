@@ -64,7 +64,7 @@ typedef struct view_state {
     bool lights_edited;
     int selected; /* a light, or -1 */
     view_drag drag;
-    lmp_vec3 grab;         /* from the dragged light's shown place to its place at rest */
+    lmp_vec3 grab;         /* from the dragged light's shown position to that at rest */
     float grab_depth;      /* of the dragged light's center */
     double grab_x, grab_y; /* from its center in the image to the pointer */
     double x, y;           /* the pointer */

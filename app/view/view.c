@@ -35,7 +35,7 @@ static bool restart(viewer *v, cli_error *error) {
     close_graphics(v);
     if (!open_graphics(v, error))
         return false;
-    view_say(&v->state, "The graphics were started anew");
+    view_say(&v->state, "The graphics were started again");
     return true;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The image that the GPU shades against the ground truth of the same cut lobes. */
+/* The image that the GPU shades against the ground truth of the same truncated lobes. */
 #include "app/gpu/gpu.h"
 #include "app/reference/light.h"
 #include "app/reference/reference.h"
@@ -20,8 +20,8 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
     const gpu_frame frame = { .width = WIDTH,
                               .height = HEIGHT,
                               .camera = settings->camera,
-                              .bands = settings->cut.bands,
-                              .window = settings->cut.window,
+                              .bands = settings->band_limit.bands,
+                              .window = settings->band_limit.window,
                               .lights = world->lights,
                               .light_count = world->light_count };
     assert_true(gpu_context_create("software", &context, &error));
@@ -105,13 +105,14 @@ static bool differs(const float *drawn, const float *truth, const float *standar
 }
 
 /* With `kinds`, a light of each kind instead. */
-static void check_scene(const char *name, int lights, bool kinds, const reference_cut *cut) {
+static void check_scene(const char *name, int lights, bool kinds,
+                        const reference_band_limit *limit) {
     scene world;
     cli_error error;
     image truth, standard_error;
     gpu_pixel *pixels;
     reference_settings settings = {
-        .width = WIDTH, .height = HEIGHT, .samples = 256, .seed = 1, .cut = *cut
+        .width = WIDTH, .height = HEIGHT, .samples = 256, .seed = 1, .band_limit = *limit
     };
     const scene_lights_options random = { .random_count = lights, .seed = 1 };
     int edges = 0, different = 0;
@@ -145,17 +146,17 @@ static void check_scene(const char *name, int lights, bool kinds, const referenc
 
 static void cut_lobes_render_as_the_ground_truth_of_balls(void **state) {
     (void)state;
-    check_scene("builtin:balls", 0, false, &(reference_cut) { 8, LMP_WINDOW_NONE, 0 });
+    check_scene("builtin:balls", 0, false, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
 }
 
 static void cut_lobes_render_as_the_ground_truth_of_the_atrium(void **state) {
     (void)state;
-    check_scene("builtin:atrium", 30, false, &(reference_cut) { 5, LMP_WINDOW_HANNING, 0 });
+    check_scene("builtin:atrium", 30, false, &(reference_band_limit) { 5, LMP_WINDOW_HANNING, 0 });
 }
 
 static void every_kind_of_light_renders_as_the_ground_truth(void **state) {
     (void)state;
-    check_scene("builtin:balls", 0, true, &(reference_cut) { 8, LMP_WINDOW_NONE, 0 });
+    check_scene("builtin:balls", 0, true, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
 }
 
 int main(void) {

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-static const reference_cut whole = { .bands = 0 };
+static const reference_band_limit whole = { .bands = 0 };
 static const reference_vec origin = { 0, 0, 0 }, up = { 0, 1, 0 };
 static const reference_material white = { .diffuse = { 1, 1, 1 }, .exponent = 1 };
 
@@ -24,10 +24,10 @@ static scene_light light_at(double x, double y, double z, double radius) {
     };
 }
 
-static reference_surface surface_of(const reference_cut *cut, const reference_material *material,
-                                    reference_vec view) {
+static reference_surface surface_of(const reference_band_limit *limit,
+                                    const reference_material *material, reference_vec view) {
     reference_surface surface;
-    reference_surface_set(&surface, cut, material, origin, up, view);
+    reference_surface_set(&surface, limit, material, origin, up, view);
     return surface;
 }
 
@@ -136,11 +136,12 @@ static void monte_carlo_equals_quadrature_for_many_lights(void **state) {
     (void)state;
     int outside = 0, values = 0;
     for (int i = 0; i < 60; i++) {
-        const reference_cut cut = { .bands = i % 3 ? 0 : 3 + i / 3, .window = (lmp_window)(i % 2) };
+        const reference_band_limit limit = { .bands = i % 3 ? 0 : 3 + i / 3,
+                                             .window = (lmp_window)(i % 2) };
         const reference_material material = { { 0.6, 0.3, 0.1 }, { 0.1, 0.4, 0.8 }, pow(1.2, i) };
         scene_light lights[12];
         random_lights(lights, 12);
-        const reference_surface surface = surface_of(&cut, &material, unit(-1, 0.1 * i, 0.5));
+        const reference_surface surface = surface_of(&limit, &material, unit(-1, 0.1 * i, 0.5));
         const reference_result result = estimate(&surface, lights, 12, 2048, (uint64_t)i);
         double exact[3];
         reference_quadrature(&surface, lights, 12, exact);
@@ -235,9 +236,9 @@ static void the_series_of_a_lobe_is_its_definition(void **state) {
     const double exponents[] = { 0.5, 1, 2, 7.3, 60, 1000 };
     for (size_t i = 0; i < sizeof exponents / sizeof *exponents; i++) {
         const reference_material material = { { 0 }, { 1, 1, 1 }, exponents[i] };
-        const reference_cut cut = { .bands = 30 };
+        const reference_band_limit limit = { .bands = 30 };
         const reference_surface full = surface_of(&whole, &material, up);
-        const reference_surface series = surface_of(&cut, &material, up);
+        const reference_surface series = surface_of(&limit, &material, up);
         for (int l = 0; l < 30; l++) {
             moment m = { &full.lobes[1], l };
             double lambda = 0;
@@ -253,21 +254,21 @@ static void the_series_of_a_lobe_is_its_definition(void **state) {
 static void the_series_comes_back_as_the_lobe(void **state) {
     (void)state;
     const reference_material material = { { 1, 1, 1 }, { 1, 1, 1 }, 20 };
-    const reference_cut cut = { .bands = 60 };
+    const reference_band_limit limit = { .bands = 60 };
     const reference_surface full = surface_of(&whole, &material, up);
-    const reference_surface series = surface_of(&cut, &material, up);
+    const reference_surface series = surface_of(&limit, &material, up);
     for (double u = -1; u <= 1; u += 0.01)
         CHECK_WITHIN(
             fabs(reference_lobe_at(&series.lobes[1], u) - reference_lobe_at(&full.lobes[1], u)),
             1e-9);
 }
 
-/* The largest difference of the cut series from the whole lobe, over angles and light sizes, in
- * parts of the response's peak. */
+/* The largest difference of the truncated series from the whole lobe, over angles and light sizes,
+ * in parts of the response's peak. */
 static double cost_of_cutting(double exponent, int bands) {
     const double sizes[] = { 0.9, 0.5, 0.1 };
     const reference_material material = { { 0 }, { 1, 1, 1 }, exponent };
-    const reference_cut cut = { .bands = bands };
+    const reference_band_limit limit = { .bands = bands };
     double worst = 0;
     for (int i = 0; i < 3; i++) {
         double peak = 0, largest = 0;
@@ -275,7 +276,7 @@ static double cost_of_cutting(double exponent, int bands) {
             const double angle = acos(1 - 1.6 * k / 200);
             const scene_light light = light_at(sin(angle), cos(angle), 0, sizes[i]);
             const reference_surface full = surface_of(&whole, &material, up);
-            const reference_surface series = surface_of(&cut, &material, up);
+            const reference_surface series = surface_of(&limit, &material, up);
             double exact[3], rung[3];
             reference_quadrature(&full, &light, 1, exact);
             reference_quadrature(&series, &light, 1, rung);
@@ -379,10 +380,11 @@ static void windows_have_the_documented_weights(void **state) {
     const double lanczos[] = { 1, .9836, .9355, .8584, .7568, .6366, .5046, .3679, .2339, .1093 };
     const reference_material material = { { 0 }, { 1, 1, 1 }, 7 };
     for (int kind = 0; kind < 2; kind++) {
-        const reference_cut plain = { .bands = 10 };
-        const reference_cut cut = { 10, kind ? LMP_WINDOW_LANCZOS : LMP_WINDOW_HANNING, 0 };
+        const reference_band_limit plain = { .bands = 10 };
+        const reference_band_limit limit = { 10, kind ? LMP_WINDOW_LANCZOS : LMP_WINDOW_HANNING,
+                                             0 };
         const reference_surface a = surface_of(&plain, &material, up);
-        const reference_surface b = surface_of(&cut, &material, up);
+        const reference_surface b = surface_of(&limit, &material, up);
         for (int l = 0; l < 9; l++)
             CHECK_WITHIN(fabs(b.lobes[1].series[l] / a.lobes[1].series[l] -
                               (kind ? lanczos[l] : hanning[l])),

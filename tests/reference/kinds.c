@@ -10,7 +10,7 @@ static const reference_vec origin = { 0, 0, 0 };
 
 /* A surface whose normal lies at `tilt` from y towards x. */
 static reference_surface white_surface(double tilt) {
-    const reference_cut whole = { .bands = 0 };
+    const reference_band_limit whole = { .bands = 0 };
     const reference_material white = { .diffuse = { 1, 1, 1 } };
     const reference_vec normal = { sin(tilt), cos(tilt), 0 };
     reference_surface surface;
@@ -115,7 +115,7 @@ static void a_tilted_surface_sees_sky_and_ground(void **state) {
  * pi. */
 static void a_lobe_of_exponent_0_is_flat(void **state) {
     (void)state;
-    const reference_cut whole = { .bands = 0 };
+    const reference_band_limit whole = { .bands = 0 };
     const reference_material flat = { .specular = { 1, 1, 1 }, .exponent = 0 };
     const scene_light sky = { .emitter = { .kind = LMP_LIGHT_HEMISPHERE,
                                            .direction = { 0, 1, 0 },

@@ -107,7 +107,7 @@ static void every_pixel_is_its_quadrature(void **state) {
         image radiance, standard_error;
         int outside = 0;
         build(&s);
-        s.settings.cut.bands = bands;
+        s.settings.band_limit.bands = bands;
         s.lights[0].hidden = s.lights[1].hidden = 1;
         draw(&s, &radiance, &standard_error);
         for (int y = 0; y < HEIGHT; y++)
@@ -120,7 +120,7 @@ static void every_pixel_is_its_quadrature(void **state) {
                     reference_subtract(reference_from_floats(s.settings.camera.eye), p));
                 reference_surface surface;
                 double exact[3];
-                reference_surface_set(&surface, &s.settings.cut, &material, p,
+                reference_surface_set(&surface, &s.settings.band_limit, &material, p,
                                       (reference_vec) { 0, 1, 0 }, view);
                 reference_quadrature(&surface, s.lights, 2, exact);
                 const size_t i = 3 * ((size_t)y * WIDTH + (size_t)x) + 1;
