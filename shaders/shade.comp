@@ -4,7 +4,7 @@
 #include "shared.h"
 
 #include "light.glsl"
-#ifdef SHADE_TABULATED
+#ifdef SHADE_TABULATED_Z
 layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
 /* entries from cos a = 0 to 1, at the centers of texels */
 #define LMP_CAP_TABLE(k, c)                                                                        \
@@ -15,7 +15,7 @@ layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
 #endif
 #include "lampion.glsl"
 
-#ifdef SHADE_PREINTEGRATED_LOBE
+#ifdef SHADE_PREINTEGRATED
 layout(binding = SHARED_PREINTEGRATED_LOBE_PAIRS) uniform sampler2D lobe_pairs;
 layout(std430, binding = SHARED_PREINTEGRATED_LOBE) readonly buffer lobe_block {
     vec4 shape;
@@ -28,7 +28,7 @@ layout(std430, binding = SHARED_PREINTEGRATED_LOBE) readonly buffer lobe_block {
 #define LMP_PREINTEGRATED_LOBE_SHAPE   shape
 #include "preintegrated_lookup.h"
 #include "preintegrated_lobe.glsl"
-#ifdef MEASURED
+#ifdef SHADE_PREINTEGRATED_BRDF
 layout(binding = SHARED_PREINTEGRATED_BRDF_TEXELS) uniform sampler2D brdf_texels;
 /* first, for every table, the index of its preintegrated BRDF's numbers, or 0 */
 layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
@@ -45,9 +45,9 @@ layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
 #include "table.glsl"
 #endif
 
-#if defined(TABLE_FULL) || defined(MEASURED)
+#if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
 vec3 shade_by_table(lmp_surface surface, int table) {
-#ifdef MEASURED
+#ifdef SHADE_PREINTEGRATED_BRDF
     int first = int(brdf_values[table]);
 #ifdef TABLE_FULL
     if (first == 0)
@@ -75,7 +75,7 @@ void main() {
         pixel p = pixel_read(at);
         radiance = SHADE(p.surface, p.material) + pixel_emission(at);
     }
-#if defined(TABLE_FULL) || defined(MEASURED)
+#if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
     if (kind >= SHARED_KIND_TABLE)
         radiance = shade_by_table(pixel_read(at).surface, kind - SHARED_KIND_TABLE) + pixel_emission(at);
 #endif

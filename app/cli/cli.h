@@ -95,6 +95,10 @@ bool cli_fail_word(cli_error *error, const char *subject, const char *word,
 bool cli_fail_member(cli_error *error, const char *subject, const char *kind, const char *word,
                      const char *first, size_t stride, size_t count);
 
+/* The names of a table's rows, NULL-terminated, for the choices of an option: `first` is that of
+ * the first row, stride the bytes from one row to the next; names receives count + 1 entries. */
+void cli_row_names(const char *const *first, size_t stride, int count, const char **names);
+
 /* The same as cli_usage of an operand, which is none of what the command's operands begin with. */
 int cli_usage_operand(const cli_command *command, const char *word);
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/cli/cli.h"
+#include "app/timing/timing.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #define BAR_WIDTH   30
@@ -23,12 +23,6 @@ static double first_time, first_done, last_done = 1.0;
 static bool is_terminal(void) {
     const char *const kind = getenv("TERM");
     return isatty(STDERR_FILENO) && kind && strcmp(kind, "dumb") != 0;
-}
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* Writes how long the rest takes at the pace so far, or nothing while that cannot be known. */
@@ -58,7 +52,7 @@ static void draw(const char *what, double time, double done) {
 void cli_progress(const char *what, double done) {
     if (atomic_flag_test_and_set(&drawing))
         return;
-    const double time = now();
+    const double time = timing_now();
     if (done < last_done) {
         first_time = time;
         first_done = done;

@@ -66,6 +66,12 @@ bool cli_fail_member(cli_error *error, const char *subject, const char *kind, co
                  : cli_fail(error, place, "\"%s\", for there is none", word);
 }
 
+void cli_row_names(const char *const *first, size_t stride, int count, const char **names) {
+    for (int i = 0; i < count; i++)
+        names[i] = *(const char *const *)(const void *)((const char *)first + (size_t)i * stride);
+    names[count] = NULL;
+}
+
 int cli_report(const cli_error *error) {
     cli_progress_end();
     fprintf(stderr, "lampion: %s\n", error->text);

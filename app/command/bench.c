@@ -2,7 +2,8 @@
 /* lampion bench - what the batch kernels cost (docs/benchmarks.md). */
 #include "app/command/bench.h"
 #include "app/command/command.h"
-#include "app/device/materials.h"
+#include "app/override/override.h"
+#include "app/timing/timing.h"
 
 #include <lampion/lampion.h>
 
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -37,13 +37,9 @@ typedef struct bench_batch {
     float *out;
 } bench_batch;
 
-typedef struct quartiles {
-    double lower, median, upper;
-} quartiles;
-
 typedef struct measurement {
     const char *isa;
-    quartiles ns; /* a light-point pair */
+    timing_quartiles ns; /* a light-point pair */
     double peak_fraction, vs_paper;
     double vs_scalar; /* 0: scalar was not measured */
 } measurement;
@@ -315,9 +311,7 @@ static bool wanted(const bench_options *o, int kernel) {
  */
 
 static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e9 + (double)t.tv_nsec;
+    return 1e9 * timing_now();
 }
 
 /* ns a slot: independent multiply-adds on the units that also multiply, add, divide and take roots
@@ -382,16 +376,6 @@ static double bench_peak(unsigned flag) {
 }
 #endif
 
-static int compare_doubles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static quartiles quartiles_of(double *samples, int count) {
-    qsort(samples, (size_t)count, sizeof *samples, compare_doubles);
-    return (quartiles) { samples[count / 4], samples[count / 2], samples[3 * count / 4] };
-}
-
 static double time_calls(const bench_kernel *kernel, const bench_batch *b, int calls) {
     const double start = now();
     for (int i = 0; i < calls; i++)
@@ -422,8 +406,8 @@ static measurement measure(const bench_kernel *kernel, const bench_batch *b, uns
         const double after = bench_peak(flag), peak = before < after ? before : after;
         fraction[i] = kernel->slots(b->bands) / lanes / ns[i] * peak;
     }
-    measurement m = { .ns = quartiles_of(ns, runs) };
-    m.peak_fraction = quartiles_of(fraction, runs).median;
+    measurement m = { .ns = timing_of(ns, runs) };
+    m.peak_fraction = timing_of(fraction, runs).median;
     return m;
 }
 
@@ -435,7 +419,7 @@ static double measure_paper(const bench_kernel *kernel, const bench_batch *b, in
             kernel->paper(b, e);
         ns[i] = (now() - start) / 16 / kernel->lights;
     }
-    return quartiles_of(ns, runs).median;
+    return timing_of(ns, runs).median;
 }
 
 /* --- inputs ------------------------------------------------------------------------------------
@@ -666,7 +650,7 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
                 }
                 ns[r] = (now() - start) / ((double)calls * (double)b.count * kernels[k].lights);
             }
-            const double median = quartiles_of(ns, runs).median;
+            const double median = timing_of(ns, runs).median;
             alone = threads == 1 ? median : alone;
             if (o->json)
                 printf(
@@ -689,7 +673,7 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
 
 static void print_header(const bench_options *o) {
     char name[160];
-    command_processor(name, sizeof name);
+    timing_cpu_name(name, sizeof name);
     if (o->json) {
         printf("{\n  \"cpu\": \"%s\",\n  \"compiler\": \"%s\",\n  \"flags\": \"%s\",\n"
                "  \"commit\": \"%s\",\n  \"rows\": [\n",
@@ -766,13 +750,13 @@ static int run(const cli_command *command, int argc, char **argv) {
           .target = &o.device,
           .argument = "DEVICE",
           .help = "gpu: the rows of one device",
-          .choices = bench_devices },
+          .choices = bench_devices() },
         { .name = "method",
           .kind = CLI_CHOICE,
           .target = &o.method,
           .argument = "METHOD",
           .help = "gpu: the rows of one method; paper is the paper's fragment shader",
-          .choices = bench_methods },
+          .choices = bench_methods() },
         { .name = "scene",
           .kind = CLI_TEXT,
           .target = &o.scene,
@@ -801,7 +785,7 @@ static int run(const cli_command *command, int argc, char **argv) {
                   "as long as they take",
           .minimum = 0,
           .maximum = 86400 },
-        MATERIALS_OPTION_ROW(o.materials),
+        OVERRIDE_OPTION_ROW(o.materials),
         { .name = "gl-device",
           .kind = CLI_TEXT,
           .target = &o.gl_device,

@@ -19,7 +19,8 @@ typedef struct bench_options {
 } bench_options;
 
 /* What `lampion bench gpu` times; the first of each is all. */
-extern const char *const bench_devices[], *const bench_methods[];
+const char *const *bench_devices(void);
+const char *const *bench_methods(void);
 
 /* `lampion bench gpu`; returns the exit status. */
 int bench_gpu(const cli_command *command, const bench_options *options);

@@ -1,43 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion bench gpu - what a frame costs by device, method, bands and lights (docs/benchmarks.md).
  */
+#include "app/bake/bake.h"
 #include "app/command/bench.h"
-#include "app/device/device.h"
-#include "app/device/materials.h"
+#include "app/override/override.h"
+#include "app/shade/shade.h"
+#include "app/timing/timing.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { FRAMES = 9, SECONDS = 180, SEED = 7 };
 
-const char *const bench_devices[] = { "all", "gpu", "cpu", NULL };
-const char *const bench_methods[] = { "all",         "paper", "coefficients",
-                                      "tabulated-z", "zonal", "preintegrated",
-                                      NULL };
-
-/* What shades; `materials`: measured ones, too. */
+/* What shades. */
 typedef struct bench_case {
-    const char *name;
+    method_kind method;
     device_kind device;
-    gpu_method method;
-    int bands_max;
-    bool materials;
 } bench_case;
 
-static const bench_case cases[] = {
-    { "paper", DEVICE_GPU, GPU_METHOD_PAPER, 20, false },
-    { "coefficients", DEVICE_GPU, GPU_METHOD_COEFFICIENTS, GPU_COEFFICIENTS_MAX, true },
-    { "tabulated-z", DEVICE_GPU, GPU_METHOD_TABULATED, GPU_COEFFICIENTS_MAX, false },
-    { "zonal", DEVICE_GPU, GPU_METHOD_ZONAL, GPU_BANDS_MAX, true },
-    { "preintegrated", DEVICE_GPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX, true },
-    { "zonal", DEVICE_CPU, GPU_METHOD_ZONAL, LMP_BANDS_MAX, true },
-    { "preintegrated", DEVICE_CPU, GPU_METHOD_PREINTEGRATED, LMP_BANDS_MAX, true },
-};
-enum { CASES = sizeof cases / sizeof *cases };
 enum { SCENES = 2, SIZES = 3, BANDS = 6, LIGHTS = 6, SETTINGS_MAX = SIZES * BANDS * LIGHTS };
 
 /* A row's frame, and what shades it. */
@@ -66,10 +49,13 @@ typedef struct bench_setting {
 
 /* The settings in the order of what they tell, and the time for them all. */
 typedef struct bench_plan {
+    bench_case cases[METHODS_TIMED * DEVICES];
+    int case_count;
+    unsigned reads; /* what their methods read: METHOD_READS_… */
     bench_setting settings[SETTINGS_MAX];
     int setting_count;
     int rows_ahead, rows_left_out;
-    double end_ms; /* of wall_ms */
+    double end_ms; /* of now_ms */
 } bench_plan;
 
 /* A scene open on the device, with as many lights as any row asks for. */
@@ -80,23 +66,16 @@ typedef struct bench_stage {
     scene world;
     gpu_context context;
     gpu_renderer *renderer;
-    lmp_preintegrated_lobe *responses[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
+    lmp_preintegrated_lobe *lobes[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
     double build_ms[LMP_BANDS_MAX + 1];
-    device_materials materials; /* of material_bands */
-    int material_bands;         /* 0: none yet */
-    double bake_ms, respond_ms;
+    override_set materials; /* of material_bands */
+    int material_bands;     /* 0: none yet */
+    double bake_ms, integrate_ms;
     bool first;
 } bench_stage;
 
-static double wall_ms(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+static double now_ms(void) {
+    return 1e3 * timing_now();
 }
 
 /* --- which rows ---------------------------------------------------------------------------------
@@ -109,15 +88,41 @@ static const int all_sizes[SIZES][2] = { { 1980, 995 }, { 600, 816 }, { 3400, 90
 static const int all_bands[BANDS + 1] = { 8, 5, 20, 10, 50, 100, 0 };
 static const int all_lights[LIGHTS + 1] = { 30, 100, 10, 300, 1, 1000, 0 };
 
-static bool is_method(const bench_options *o, const char *name) {
-    return o->method == 0 || strcmp(bench_methods[o->method], name) == 0;
+const char *const *bench_methods(void) {
+    static const char *names[METHODS_TIMED + 2] = { "all" };
+    cli_row_names(&method_table[0].name, sizeof *method_table, METHODS_TIMED, names + 1);
+    return names;
 }
 
-/* Whether there is a row of it; bands 0: of any number. */
+const char *const *bench_devices(void) {
+    static const char *names[DEVICES + 1] = { "all" };
+    cli_row_names(&device_table[DEVICE_GPU].name, sizeof *device_table, DEVICES - DEVICE_GPU,
+                  names + 1);
+    return names;
+}
+
+/* Whether there is a row of it; bands 0: of any number. Without batch kernels the CPU takes minutes
+ * a frame, which has to be asked for. */
 static bool is_chosen(const bench_options *o, const bench_case *c, int bands) {
-    return bands <= c->bands_max && (c->materials || o->materials.count == 0) &&
-           (o->device == 0 || strcmp(bench_devices[o->device], device_names[c->device]) == 0) &&
-           is_method(o, c->name);
+    const method_row *method = &method_table[c->method];
+    return method->bands_max[c->device] > 0 && bands <= method->bands_max[c->device] &&
+           (o->method == 0 || o->method == (int)c->method + 1) &&
+           (o->device == 0 || o->device == (int)c->device) &&
+           (method->tabulated || o->materials.count == 0) &&
+           (c->device != DEVICE_CPU || method->batched || o->method != 0);
+}
+
+/* On each device the paper's own methods first, which the others are told against. */
+static void plan_cases(bench_plan *plan, const bench_options *o) {
+    for (int device = DEVICE_GPU; device < DEVICES; device++)
+        for (int i = 0; i < METHODS_TIMED; i++) {
+            const int method = (METHODS + i) % METHODS_TIMED;
+            const bench_case one = { (method_kind)method, (device_kind)device };
+            if (is_chosen(o, &one, o->bands)) {
+                plan->cases[plan->case_count++] = one;
+                plan->reads |= method_table[method].reads;
+            }
+        }
 }
 
 /* The paper's 30 lights over the bands, its 8 bands over the lights; whatever is fixed; or all. */
@@ -129,8 +134,8 @@ static void plan_setting(bench_plan *plan, const bench_options *o, const bench_s
     if (!is_setting(o, setting->bands, setting->lights))
         return;
     plan->settings[plan->setting_count++] = *setting;
-    for (int i = 0; i < CASES; i++)
-        plan->rows_ahead += is_chosen(o, &cases[i], setting->bands);
+    for (int i = 0; i < plan->case_count; i++)
+        plan->rows_ahead += is_chosen(o, &plan->cases[i], setting->bands);
 }
 
 /* Of one scene: all bands with the first number of lights, then the other lights. */
@@ -152,58 +157,60 @@ static void plan_rows(bench_plan *plan, const bench_options *o) {
 /* --- one row ------------------------------------------------------------------------------------
  */
 
-static bool find_response(bench_stage *stage, int bands, cli_error *error) {
-    if (stage->responses[bands])
+static bool find_lobes(bench_stage *stage, int bands, cli_error *error) {
+    if (stage->lobes[bands])
         return true;
-    const double start = wall_ms();
-    if (!device_preintegrated_lobe(bands, LMP_WINDOW_HANNING, &stage->responses[bands], error))
+    const double start = now_ms();
+    if (!bake_lobes(bands, LMP_WINDOW_HANNING, &stage->lobes[bands], error))
         return false;
-    stage->build_ms[bands] = wall_ms() - start;
+    stage->build_ms[bands] = now_ms() - start;
     return true;
 }
 
 /* The materials asked for, with so many bands, in place of the scene's. */
 static bool find_materials(bench_stage *stage, int bands, cli_error *error) {
-    device_materials *all = &stage->materials;
+    override_set *all = &stage->materials;
     const bench_options *o = stage->options;
     const cli_list *list = &o->materials;
     if (list->count == 0 || stage->material_bands == bands)
         return true;
-    device_materials_free(all);
+    override_free(all);
     stage->material_bands = bands;
-    bool ok = device_materials_open(list, &stage->world, all, error);
-    const double start = wall_ms();
-    ok = ok && device_materials_bake(all, bands, LMP_WINDOW_HANNING, error);
-    const double baked = wall_ms();
-    if (ok && is_method(o, gpu_method_names[GPU_METHOD_PREINTEGRATED]))
-        ok = device_materials_respond(all, error);
+    bool ok = override_open(list, &stage->world, all, error);
+    const double start = now_ms();
+    ok = ok && override_bake(all, bands, LMP_WINDOW_HANNING, error);
+    const double baked = now_ms();
+    if (ok && stage->plan->reads & METHOD_READS_PREINTEGRATED)
+        ok = override_preintegrate(all, error);
     stage->bake_ms = baked - start;
-    stage->respond_ms = wall_ms() - baked;
-    return ok && device_materials_give(all, &stage->world, stage->renderer, error);
+    stage->integrate_ms = now_ms() - baked;
+    return ok && override_apply(all, &stage->world, stage->renderer, error);
 }
 
 /* A shader that sums a material by its bands takes fewer. */
 static int bands_max(const bench_stage *stage, const bench_case *c) {
+    const int most = method_table[c->method].bands_max[c->device];
     for (int i = 0; i < stage->materials.count && c->device == DEVICE_GPU; i++)
-        if (!stage->materials.responses[i] && c->bands_max > GPU_BANDS_MAX)
-            return GPU_BANDS_MAX;
-    return c->bands_max;
+        if (!stage->materials.preintegrated[i] && most > METHOD_GPU_BANDS_MAX)
+            return METHOD_GPU_BANDS_MAX;
+    return most;
 }
 
 static bench_tables tables_of(const bench_stage *stage, const bench_row *c) {
-    const bool preintegrated = c->by->method == GPU_METHOD_PREINTEGRATED;
-    const device_materials *all = &stage->materials;
+    const unsigned reads = method_table[c->by->method].reads;
+    const bool preintegrated = reads & METHOD_READS_PREINTEGRATED;
+    const override_set *all = &stage->materials;
     bench_tables sum = { .ms = stage->bake_ms };
-    if (c->by->method == GPU_METHOD_TABULATED)
+    if (reads & METHOD_READS_TABULATED_Z)
         sum.bytes = gpu_zonal_bytes(c->bands);
     if (preintegrated) {
-        sum.bytes = lmp_preintegrated_lobe_describe(stage->responses[c->bands]).bytes;
+        sum.bytes = lmp_preintegrated_lobe_describe(stage->lobes[c->bands]).bytes;
         sum.lobes_ms = stage->build_ms[c->bands];
-        sum.responses_ms = stage->respond_ms;
+        sum.responses_ms = stage->integrate_ms;
     }
     for (int i = 0; i < all->count; i++)
-        sum.bytes += preintegrated && all->responses[i]
-                         ? lmp_preintegrated_brdf_describe(all->responses[i]).bytes
+        sum.bytes += preintegrated && all->preintegrated[i]
+                         ? lmp_preintegrated_brdf_describe(all->preintegrated[i]).bytes
                          : lmp_brdf_table_size(all->tables[i]);
     return sum;
 }
@@ -220,28 +227,27 @@ static bool time_row(bench_stage *stage, const bench_row *c, bench_result *resul
         .window = LMP_WINDOW_HANNING,
         .lights = stage->world.lights,
         .light_count = (size_t)c->lights,
-        .host = c->by->device == DEVICE_CPU ? device_shade : NULL,
+        .host = c->by->device == DEVICE_CPU ? shade_frame : NULL,
     };
-    if (c->by->method == GPU_METHOD_PREINTEGRATED) {
-        if (!find_response(stage, c->bands, error))
+    if (method_table[c->by->method].reads & METHOD_READS_PREINTEGRATED) {
+        if (!find_lobes(stage, c->bands, error))
             return false;
-        frame.response = stage->responses[c->bands];
+        frame.lobes = stage->lobes[c->bands];
     }
     double samples[FRAMES];
     int count = 0;
     gpu_times times;
-    const double start = wall_ms(),
+    const double start = now_ms(),
                  end = start + (stage->plan->end_ms - start) / stage->plan->rows_ahead;
     if (!gpu_render(stage->renderer, &frame, &times, error))
         return false;
-    result->compile_ms = wall_ms() - start - times.total;
+    result->compile_ms = now_ms() - start - times.total;
     do {
         if (!gpu_render(stage->renderer, &frame, &times, error))
             return false;
         samples[count++] = times.shade + times.transfer;
-    } while (count < FRAMES && wall_ms() < end);
-    qsort(samples, (size_t)count, sizeof *samples, by_value);
-    result->ms = samples[count / 2];
+    } while (count < FRAMES && now_ms() < end);
+    result->ms = timing_of(samples, count).median;
     result->frames = count;
     return true;
 }
@@ -261,8 +267,8 @@ static void print_json(const bench_stage *stage, const bench_row *c, const bench
     const bench_tables tables = tables_of(stage, c);
     cJSON *row = cJSON_CreateObject();
     cJSON_AddStringToObject(row, "scene", stage->name);
-    cJSON_AddStringToObject(row, "device", device_names[c->by->device]);
-    cJSON_AddStringToObject(row, "method", c->by->name);
+    cJSON_AddStringToObject(row, "device", device_table[c->by->device].name);
+    cJSON_AddStringToObject(row, "method", method_table[c->by->method].name);
     cJSON_AddNumberToObject(row, "bands", c->bands);
     cJSON_AddNumberToObject(row, "lights", c->lights);
     cJSON_AddNumberToObject(row, "width", c->width);
@@ -297,9 +303,10 @@ static void print_row(bench_stage *stage, const bench_row *c, const bench_result
             snprintf(ratio, sizeof ratio, "%.2f", paper / result->ms);
         printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %6d %9.3f %9s %9.0f %9zu %8.0f %8.0f "
                "%8.0f\n",
-               stage->name, device_names[c->by->device], c->by->name, c->bands, c->lights, c->width,
-               c->height, result->ms, result->frames, ns, ratio, result->compile_ms,
-               tables.bytes / 1024, tables.ms, tables.lobes_ms, tables.responses_ms);
+               stage->name, device_table[c->by->device].name, method_table[c->by->method].name,
+               c->bands, c->lights, c->width, c->height, result->ms, result->frames, ns, ratio,
+               result->compile_ms, tables.bytes / 1024, tables.ms, tables.lobes_ms,
+               tables.responses_ms);
     }
     stage->first = false;
     fflush(stdout);
@@ -350,13 +357,13 @@ static void print_header(const bench_stage *stage) {
 static bool time_setting(bench_stage *stage, const bench_setting *setting, cli_error *error) {
     bench_plan *plan = stage->plan;
     double paper = 0;
-    for (int i = 0; i < CASES; i++) {
-        const bench_row row = { &cases[i], setting->bands, setting->lights, setting->size[0],
+    for (int i = 0; i < plan->case_count; i++) {
+        const bench_row row = { &plan->cases[i], setting->bands, setting->lights, setting->size[0],
                                 setting->size[1] };
         bench_result result;
         if (!is_chosen(stage->options, row.by, row.bands))
             continue;
-        if (wall_ms() > plan->end_ms) {
+        if (now_ms() > plan->end_ms) {
             plan->rows_left_out++;
             continue;
         }
@@ -365,7 +372,7 @@ static bool time_setting(bench_stage *stage, const bench_setting *setting, cli_e
         if (row.bands <= bands_max(stage, row.by)) {
             if (!time_row(stage, &row, &result, error))
                 return false;
-            paper = row.by->method == GPU_METHOD_PAPER ? result.ms : paper;
+            paper = method_table[row.by->method].baseline ? result.ms : paper;
             print_row(stage, &row, &result, paper);
         }
         plan->rows_ahead--;
@@ -384,29 +391,26 @@ static bool open_stage(bench_stage *stage, cli_error *error) {
     return scene_load(stage->name, &(scene_options) { 0 }, &stage->world, error) &&
            scene_add_random_lights(&stage->world, SCENE_LIGHTS_MAX - (int)stage->world.light_count,
                                    SEED, error) &&
-           device_materials_open(&stage->options->materials, &stage->world, &stage->materials,
-                                 error) &&
+           override_open(&stage->options->materials, &stage->world, &stage->materials, error) &&
            gpu_context_create(stage->options->gl_device, &stage->context, error) &&
            (stage->renderer = gpu_renderer_create(&stage->context, &stage->world, error));
 }
 
 static void close_stage(bench_stage *stage) {
     gpu_renderer_destroy(stage->renderer);
-    device_materials_free(&stage->materials);
+    override_free(&stage->materials);
     gpu_context_destroy(&stage->context);
     scene_free(&stage->world);
     for (int n = 0; n <= LMP_BANDS_MAX; n++)
-        lmp_preintegrated_lobe_destroy(stage->responses[n]);
+        lmp_preintegrated_lobe_destroy(stage->lobes[n]);
 }
 
 /* What the table of options cannot say. */
-static int check_options(const cli_command *command, const bench_options *o) {
-    bool any = false;
-    for (int i = 0; i < CASES; i++)
-        any = any || is_chosen(o, &cases[i], o->bands);
-    if (!any)
+static int check_options(const cli_command *command, const bench_options *o,
+                         const bench_plan *plan) {
+    if (plan->case_count == 0)
         return cli_usage(command, "nothing runs by --method %s --device %s --bands %d%s",
-                         bench_methods[o->method], bench_devices[o->device], o->bands,
+                         bench_methods()[o->method], bench_devices()[o->device], o->bands,
                          o->materials.count ? " with --material" : "");
     if (o->materials.count && o->full && !o->scene)
         return cli_usage(command, "--material is of one scene: name it by --scene");
@@ -415,14 +419,16 @@ static int check_options(const cli_command *command, const bench_options *o) {
 
 int bench_gpu(const cli_command *command, const bench_options *o) {
     cli_error error = { "" };
-    const int status = check_options(command, o), scenes = o->full && !o->scene ? SCENES : 1;
+    const int scenes = o->full && !o->scene ? SCENES : 1;
+    bench_plan plan = { .end_ms = INFINITY };
+    plan_cases(&plan, o);
+    const int status = check_options(command, o, &plan);
     if (status != CLI_OK)
         return status;
-    bench_plan plan = { .end_ms = INFINITY };
     plan_rows(&plan, o);
     plan.rows_ahead *= scenes;
     if (o->seconds || !o->full)
-        plan.end_ms = wall_ms() + 1e3 * (o->seconds ? o->seconds : SECONDS);
+        plan.end_ms = now_ms() + 1e3 * (o->seconds ? o->seconds : SECONDS);
     bool ok = true, first = true;
     for (int i = 0; i < scenes && ok; i++) {
         bench_stage stage = {

@@ -2,7 +2,7 @@
 /* lampion brdf - what is in a material, its values, its table, its image, its other formats. */
 #include "app/command/brdf.h"
 #include "app/csv/csv.h"
-#include "app/device/device.h"
+#include "app/method/method.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void print_table_info(const lmp_brdf_table *table) {
     printf("bands      %d\n", info.bands);
     printf("views      %d x %d azimuths%s\n", info.views, info.azimuths,
            info.mirrored ? ", mirrored (m >= 0)" : "");
-    printf("window     %s of %g bands\n", device_window_names[info.window],
+    printf("window     %s of %g bands\n", method_window_names[info.window],
            (double)info.window_size);
     printf("quadrature %d rings, last doubling changed a view by %.2g of its largest\n", info.rings,
            (double)info.change);
@@ -285,7 +285,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "azimuths", 0, CLI_INT, &o.table.azimuths, "N", "view azimuths of an anisotropic table",
           4, 256, NULL, NULL },
         { "window", 0, CLI_CHOICE, &window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          device_window_names, NULL },
+          method_window_names, NULL },
         { "window-size", 0, CLI_FLOAT, &o.table.window_size, "BANDS",
           "where the window falls to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
         { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },

@@ -19,7 +19,4 @@ int command_unknown(const char *name);
  * completion`. Returns the exit status. */
 int command_print_help(const cli_command *command, const char *word);
 
-/* The processor as it calls itself. */
-void command_processor(char *name, size_t size);
-
 #endif

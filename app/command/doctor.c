@@ -3,6 +3,7 @@
 #include "app/command/command.h"
 #include "app/file/file.h"
 #include "app/gpu/gpu.h"
+#include "app/timing/timing.h"
 
 #include <lampion/base.h>
 
@@ -111,7 +112,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         file_cache_clear();
     const uint32_t version = lmp_version();
     char processor[160];
-    command_processor(processor, sizeof processor);
+    timing_cpu_name(processor, sizeof processor);
     printf(LABEL "%u.%u.%u\n", "lampion", version >> 16, version >> 8 & 0xFF, version & 0xFF);
     printf(LABEL "%s, %d threads\n", "processor", processor, omp_get_max_threads());
     print_kernels(mask);

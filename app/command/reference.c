@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/reference.h"
 #include "app/command/command.h"
-#include "app/device/device.h"
-#include "app/device/materials.h"
+#include "app/method/method.h"
+#include "app/override/override.h"
 #include "app/reference/quadrature.h"
 
 #include <stdio.h>
@@ -37,11 +37,11 @@ static bool write_image(const reference_arguments *a, const image *radiance,
 }
 
 /* The materials as the oracle takes them: cut ones as tables. The array is the caller's. */
-static bool choose_materials(reference_arguments *a, const scene *world, device_materials *all,
+static bool choose_materials(reference_arguments *a, const scene *world, override_set *all,
                              reference_material_source **sources, cli_error *error) {
     const reference_band_limit *cut = &a->settings.band_limit;
-    if (!device_materials_open(&a->materials, world, all, error) ||
-        (cut->bands && !device_materials_bake(all, cut->bands, cut->window, error)))
+    if (!override_open(&a->materials, world, all, error) ||
+        (cut->bands && !override_bake(all, cut->bands, cut->window, error)))
         return false;
     if (all->count == 0)
         return true;
@@ -68,7 +68,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     image radiance = { .rgb = NULL }, standard_error = { .rgb = NULL };
     reference_settings *settings = &a->settings;
     reference_material_source *sources = NULL;
-    device_materials all = { .count = 0 };
+    override_set all = { .count = 0 };
     if (!scene_load(name, &a->load, &world, error))
         return false;
     settings->width = a->size[0];
@@ -81,7 +81,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
     image_free(&radiance);
     image_free(&standard_error);
     free(sources);
-    device_materials_free(&all);
+    override_free(&all);
     scene_free(&world);
     return ok;
 }
@@ -161,7 +161,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL },
         { "size", 's', CLI_SIZE, a.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         SCENE_CAMERA_OPTION_ROWS(a.camera),
-        MATERIALS_OPTION_ROW(a.materials),
+        OVERRIDE_OPTION_ROW(a.materials),
         { "spp", 0, CLI_INT, &a.settings.samples, "N",
           "light samples a pixel; with --error the most", 1, 1000000, NULL, NULL },
         { "error", 0, CLI_FLOAT, &a.error, "E",
@@ -175,7 +175,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "cut the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX, NULL,
           NULL },
         { "window", 0, CLI_CHOICE, &a.window, "KIND", "window of lobes cut by --bands", 0, 0,
-          device_window_names, NULL },
+          method_window_names, NULL },
         { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR",
           "of radiance in a .png; without it, automatic", 1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,

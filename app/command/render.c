@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/animation/animation.h"
+#include "app/bake/bake.h"
 #include "app/command/command.h"
-#include "app/device/device.h"
-#include "app/device/materials.h"
 #include "app/file/file.h"
+#include "app/override/override.h"
+#include "app/shade/shade.h"
+#include "app/timing/timing.h"
 #include "app/view/view.h"
 
 #include <cjson/cJSON.h>
@@ -35,10 +37,10 @@ typedef struct job {
     gpu_renderer *renderer;
     gpu_frame frame;
     device_kind shading;
-    lmp_preintegrated_lobe *response; /* of the preintegrated method */
-    animation *path;                  /* of the lights */
+    lmp_preintegrated_lobe *lobes; /* of methods that read them */
+    animation *path;               /* of the lights */
     scene_light *moved;
-    device_materials materials;
+    override_set materials;
     float exposure;
 } job;
 
@@ -157,20 +159,10 @@ static bool render_frames(job *j, cli_error *error) {
 /* --- statistics ---------------------------------------------------------------------------------
  */
 
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, int count) {
-    qsort(values, (size_t)count, sizeof *values, by_value);
-    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
-}
-
 enum { SHADE = 2, PASSES = 5 };
 
 /* The median of each pass over the repetitions of one method, after a frame that warms it up. */
-static bool measure(job *j, gpu_method method, double medians[PASSES], cli_error *error) {
+static bool measure(job *j, method_kind method, double medians[PASSES], cli_error *error) {
     static double samples[PASSES][REPEAT_MAX];
     gpu_frame frame = j->frame;
     frame.method = method;
@@ -191,34 +183,34 @@ static bool measure(job *j, gpu_method method, double medians[PASSES], cli_error
     }
     free(rgb8);
     for (int p = 0; p < PASSES && ok; p++)
-        medians[p] = median(samples[p], j->options->repeat);
+        medians[p] = timing_of(samples[p], j->options->repeat).median;
     return ok;
 }
 
 /* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
-static bool compared(const job *j, gpu_method method) {
-    if (method == (gpu_method)j->options->method)
+static bool compared(const job *j, method_kind method) {
+    if (method == (method_kind)j->options->method)
         return true;
-    return j->options->compare && device_bands_max(j->shading, method) >= j->options->bands;
+    return j->options->compare && method_table[method].bands_max[j->shading] >= j->options->bands;
 }
 
 static bool add_timings(job *j, cJSON *stats, cli_error *error) {
     static const char *const names[PASSES] = { "gbuffer", "transfer", "shade", "tonemap", "total" };
     cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
-    double medians[PASSES], shade[GPU_METHODS] = { 0 };
-    for (int m = 0; m < GPU_METHODS; m++) {
-        if (!compared(j, (gpu_method)m))
+    double medians[PASSES], shade[METHODS] = { 0 };
+    for (int m = 0; m < METHODS; m++) {
+        if (!compared(j, (method_kind)m))
             continue;
-        if (!measure(j, (gpu_method)m, medians, error))
+        if (!measure(j, (method_kind)m, medians, error))
             return false;
-        cJSON *passes = cJSON_AddObjectToObject(timings, gpu_method_names[m]);
+        cJSON *passes = cJSON_AddObjectToObject(timings, method_table[m].name);
         for (int p = 0; p < PASSES; p++)
             cJSON_AddNumberToObject(passes, names[p], medians[p]);
         shade[m] = medians[SHADE];
     }
-    if (shade[GPU_METHOD_COEFFICIENTS] > 0 && shade[GPU_METHOD_ZONAL] > 0)
+    if (shade[METHOD_COEFFICIENTS] > 0 && shade[METHOD_ZONAL] > 0)
         cJSON_AddNumberToObject(stats, "zonal_speedup",
-                                shade[GPU_METHOD_COEFFICIENTS] / shade[GPU_METHOD_ZONAL]);
+                                shade[METHOD_COEFFICIENTS] / shade[METHOD_ZONAL]);
     return true;
 }
 
@@ -229,8 +221,8 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "triangles", (double)(j->world.index_count / 3));
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
-    cJSON_AddStringToObject(stats, "method", gpu_method_names[o->method]);
-    cJSON_AddStringToObject(stats, "window", device_window_names[o->window]);
+    cJSON_AddStringToObject(stats, "method", method_table[o->method].name);
+    cJSON_AddStringToObject(stats, "window", method_window_names[o->window]);
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
     cJSON_AddNumberToObject(stats, "exposure", (double)j->exposure);
@@ -238,10 +230,10 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddStringToObject(stats, "driver", j->context.driver);
     cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
     cJSON_AddNumberToObject(stats, "repeat", o->repeat);
-    cJSON_AddStringToObject(stats, "shading", device_names[j->shading]);
-    if (j->response)
+    cJSON_AddStringToObject(stats, "shading", device_table[j->shading].name);
+    if (j->lobes)
         cJSON_AddNumberToObject(stats, "response_bytes",
-                                (double)lmp_preintegrated_lobe_describe(j->response).bytes);
+                                (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
     if (!add_timings(j, stats, error)) {
         cJSON_Delete(stats);
         return false;
@@ -256,21 +248,22 @@ static bool print_stats(job *j, cli_error *error) {
 /* --- the command --------------------------------------------------------------------------------
  */
 
-/* Chooses where to shade, and has the response ready that the preintegrated method reads. */
+/* Chooses where to shade, and has the lobes ready that a preintegrated method reads. */
 static bool settle_shading(job *j, cli_error *error) {
     const render_options *o = j->options;
-    const gpu_method method = (gpu_method)o->method;
+    const method_kind method = (method_kind)o->method;
     const bool chosen = o->device_kind != DEVICE_AUTO || !o->compare;
-    j->shading = chosen ? device_choose((device_kind)o->device_kind, &j->context, method, o->bands)
-                        : DEVICE_GPU;
-    if (o->bands > device_bands_max(j->shading, method))
+    j->shading =
+        chosen ? method_device(method, (device_kind)o->device_kind, j->context.software, o->bands)
+               : DEVICE_GPU;
+    if (o->bands > method_table[method].bands_max[j->shading])
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
-                        o->bands, gpu_method_names[method]);
-    j->frame.host = j->shading == DEVICE_CPU ? device_shade : NULL;
-    if (method != GPU_METHOD_PREINTEGRATED && !o->compare)
+                        o->bands, method_table[method].name);
+    j->frame.host = j->shading == DEVICE_CPU ? shade_frame : NULL;
+    if (!(method_table[method].reads & METHOD_READS_PREINTEGRATED) && !o->compare)
         return true;
-    const bool ok = device_preintegrated_lobe(o->bands, (lmp_window)o->window, &j->response, error);
-    j->frame.response = j->response;
+    const bool ok = bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error);
+    j->frame.lobes = j->lobes;
     return ok;
 }
 
@@ -288,7 +281,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
     j->frame.width = o->size[0];
     j->frame.height = o->size[1];
-    j->frame.method = (gpu_method)o->method;
+    j->frame.method = (method_kind)o->method;
     j->frame.bands = o->bands;
     j->frame.window = (lmp_window)o->window;
     j->frame.samples = o->samples;
@@ -297,26 +290,24 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return cli_fail(error, NULL, "out of memory");
-    return j->renderer && device_materials_apply(&o->materials, &j->world, &j->frame, j->renderer,
-                                                 &j->materials, error);
+    return j->renderer &&
+           override_prepare(&o->materials, &j->world, &j->frame, j->renderer, &j->materials, error);
 }
 
 static void close_job(job *j) {
     gpu_renderer_destroy(j->renderer);
-    device_materials_free(&j->materials);
+    override_free(&j->materials);
     gpu_context_destroy(&j->context);
     scene_free(&j->world);
-    lmp_preintegrated_lobe_destroy(j->response);
+    lmp_preintegrated_lobe_destroy(j->lobes);
     free(j->moved);
     animation_close(j->path);
 }
 
 /* What the table of options cannot say. */
 static int check_options(const cli_command *command, const render_options *o, int operand_count) {
-    const gpu_method method = (gpu_method)o->method;
-    const device_kind widest = device_bands_max(DEVICE_CPU, method) ? DEVICE_CPU : DEVICE_GPU;
-    const device_kind device = o->device_kind == DEVICE_AUTO ? widest : (device_kind)o->device_kind;
-    const int bands_max = device_bands_max(device, method);
+    const method_row *method = &method_table[o->method];
+    const int bands_max = method->bands_max[o->device_kind];
     if (operand_count != 1 && !(o->from && operand_count == 0))
         return cli_usage(command, "one SCENE is needed, %d given", operand_count);
     if (!o->output)
@@ -332,14 +323,11 @@ static int check_options(const cli_command *command, const render_options *o, in
                          IMAGE_PIXELS_MAX);
     if (o->from && image_format_of(o->output) != IMAGE_PNG)
         return cli_usage(command, "%s: --from makes a .png, as the screenshot is", o->output);
-    if (bands_max == 0)
-        return cli_usage(command, "--device cpu runs zonal and preintegrated, not %s",
-                         gpu_method_names[method]);
     if (o->animate && !o->frames_given)
         return cli_usage(command, "--animate moves lights from frame to frame: it needs --frames");
     if (o->bands > bands_max)
-        return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands,
-                         gpu_method_names[o->method], bands_max);
+        return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands, method->name,
+                         bands_max);
     return CLI_OK;
 }
 
@@ -381,18 +369,15 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "size", 's', CLI_SIZE, o.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         { "bands", 'n', CLI_INT, &o.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
           NULL, NULL },
-        { "method", 0, CLI_CHOICE, &o.method, "METHOD",
-          "how to shade: zonal is fast, preintegrated costs the same at any number of bands, "
-          "coefficients is the paper's",
-          0, 0, gpu_method_names, NULL },
-        { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE",
-          "where to shade: auto is the CPU where OpenGL is software", 0, 0, device_names, NULL },
+        { "method", 0, CLI_CHOICE, &o.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
+        { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE", device_help(), 0, 0, device_names(),
+          NULL },
         { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          device_window_names, NULL },
+          method_window_names, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
         SCENE_STRICT_OPTION_ROW(o.load),
-        MATERIALS_OPTION_ROW(o.materials),
+        OVERRIDE_OPTION_ROW(o.materials),
         { "exposure", 0, CLI_FLOAT, &o.exposure, "FACTOR", "of radiance; without it, automatic",
           1e-12, 1e12, NULL, &o.exposure_given },
         { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,

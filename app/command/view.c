@@ -2,7 +2,7 @@
 #include "app/view/view.h"
 #include "app/animation/animation.h"
 #include "app/command/command.h"
-#include "app/device/materials.h"
+#include "app/override/override.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,7 +49,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         s->width = a->size[0];
         s->height = a->size[1];
         s->divider = 0.5f;
-        s->looks[0] = (view_look) { (gpu_method)a->method, a->bands, (lmp_window)a->window };
+        s->looks[0] = (view_look) { (method_kind)a->method, a->bands, (lmp_window)a->window };
         s->looks[1] = s->looks[0];
     }
     if (name) {
@@ -68,7 +68,7 @@ static int view(const view_arguments *a, const char *name, view_options *o) {
 static int run(const cli_command *command, int argc, char **argv) {
     view_arguments a = { .size = { 1280, 720 },
                          .bands = LMP_SHADE_BANDS_DEFAULT,
-                         .method = GPU_METHOD_PREINTEGRATED,
+                         .method = METHOD_PREINTEGRATED,
                          .window = LMP_WINDOW_HANNING };
     view_options *o = calloc(1, sizeof *o);
     if (!o) {
@@ -82,14 +82,13 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "size", 's', CLI_SIZE, a.size, "WxH", "of the window", 1, 8192, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
           NULL, NULL },
-        { "method", 0, CLI_CHOICE, &a.method, "METHOD", "how to shade", 0, 0, gpu_method_names,
-          NULL },
+        { "method", 0, CLI_CHOICE, &a.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
         { "window", 0, CLI_CHOICE, &a.window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          device_window_names, NULL },
+          method_window_names, NULL },
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         SCENE_CAMERA_OPTION_ROWS(o->camera),
         SCENE_STRICT_OPTION_ROW(o->load),
-        MATERIALS_OPTION_ROW(a.materials),
+        OVERRIDE_OPTION_ROW(a.materials),
         { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR", "of radiance; without it, automatic",
           1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
@@ -117,12 +116,12 @@ static int run(const cli_command *command, int argc, char **argv) {
     int operand_count, status;
     char **operands;
     if (cli_parse(command, options, argc, argv, &operand_count, &operands, &status)) {
-        const int most = view_bands_max((gpu_method)a.method);
+        const int most = method_table[a.method].bands_max[DEVICE_AUTO];
         if (operand_count > 1 || (operand_count == 0 && !a.from))
             status = cli_usage(command, "one SCENE is needed, %d given", operand_count);
         else if (a.bands > most)
             status = cli_usage(command, "--bands %d: %s takes 1 to %d", a.bands,
-                               gpu_method_names[a.method], most);
+                               method_table[a.method].name, most);
         else
             status = view(&a, operand_count ? operands[0] : NULL, o);
     }

@@ -8,11 +8,10 @@
 #define LAMPION_GPU_H
 
 #include "app/image/image.h"
+#include "app/method/method.h"
 #include "app/scene/scene.h"
 
-#define GPU_BANDS_MAX        32    /* LMP_BANDS_GLSL_MAX of lampion.glsl */
-#define GPU_COEFFICIENTS_MAX 20    /* bands of coefficients: a driver takes minutes for more */
-#define GPU_SIZE_MAX         16384 /* pixels a side */
+#define GPU_SIZE_MAX 16384 /* pixels a side */
 
 /* --- the device --------------------------------------------------------------------------------
  */
@@ -38,17 +37,6 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error);
 /* --- a scene on the device ---------------------------------------------------------------------
  */
 
-typedef enum gpu_method {
-    GPU_METHOD_ZONAL,
-    GPU_METHOD_COEFFICIENTS,
-    GPU_METHOD_PREINTEGRATED,
-    GPU_METHODS,
-    /* without names, to be timed: 1 … GPU_COEFFICIENTS_MAX bands */
-    GPU_METHOD_PAPER = GPU_METHODS, /* the paper's fragment shader */
-    GPU_METHOD_TABULATED            /* coefficients with the paper's tabulated Z_l (§4.2) */
-} gpu_method;
-extern const char *const gpu_method_names[GPU_METHODS + 1]; /* NULL-terminated */
-
 struct gpu_frame;
 typedef struct gpu_gbuffer gpu_gbuffer;
 
@@ -61,22 +49,20 @@ typedef bool (*gpu_host_shader)(const struct gpu_frame *frame, const gpu_gbuffer
 typedef struct gpu_frame {
     int width, height;
     scene_camera camera;
-    gpu_method method;
-    int bands; /* 1 … gpu_bands_max(method) */
+    method_kind method;
+    int bands; /* 1 … those of the method on its device */
     lmp_window window;
     const scene_light *lights;
     size_t light_count; /* <= SCENE_LIGHTS_MAX */
     float background[3];
-    int samples;                            /* a pixel, spread over it; 0 means 1, in its middle */
-    const lmp_preintegrated_lobe *response; /* of GPU_METHOD_PREINTEGRATED, its bands and window */
-    gpu_host_shader host;                   /* instead of the compute pass, or NULL */
+    int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
+    const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
+    gpu_host_shader host;                /* instead of the compute pass, or NULL */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
     float samples_exposure; /* the mean suits an image of this exposure; 0: the plain mean */
 } gpu_frame;
 
-int gpu_bands_max(gpu_method method);
-
-/* Memory of the table of GPU_METHOD_TABULATED. */
+/* Bytes of the table of METHOD_READS_TABULATED_Z. */
 size_t gpu_zonal_bytes(int bands);
 
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
@@ -98,7 +84,7 @@ void gpu_renderer_destroy(gpu_renderer *renderer);
 bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables, int count,
                     const int *uses, size_t material_count, cli_error *error);
 
-/* After gpu_set_tables: responses[i] of table i, or NULL, for frames of GPU_METHOD_PREINTEGRATED.
+/* After gpu_set_tables: responses[i] of table i, or NULL, for methods that read them.
  * They must outlive the renderer. */
 void gpu_set_responses(gpu_renderer *renderer, const lmp_preintegrated_brdf *const *responses);
 

@@ -59,11 +59,11 @@ enum { GPU_ATTACHMENTS = 4, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
 
 /* A compiled shading pass. */
 typedef struct gpu_variant {
-    gpu_method method;
+    method_kind method;
     int bands;
     lmp_window window;
-    int tables;    /* summed by bands: 0 none, 1 mirrored ones, 2 any */
-    bool measured; /* some are read from responses */
+    int tables;               /* summed by bands: 0 none, 1 mirrored ones, 2 any */
+    bool preintegrated_brdfs; /* some tables are read preintegrated */
     GLuint program;
 } gpu_variant;
 
@@ -78,10 +78,10 @@ bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated
  */
 
 /* Which tables a frame sums by bands: as in gpu_variant. */
-int gpu_tables_by_bands(const gpu_renderer *renderer, gpu_method method);
+int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
 
 /* Uploads the tables that a frame sums by bands, once. */
-bool gpu_bind_tables(gpu_renderer *renderer, gpu_method method, cli_error *error);
+bool gpu_bind_tables(gpu_renderer *renderer, method_kind method, cli_error *error);
 
 /* --- measured.c ---------------------------------------------------------------------------------
  */
@@ -157,8 +157,8 @@ struct gpu_renderer {
     double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
     const lmp_brdf_table *tables[GPU_TABLES_MAX]; /* not owned */
     int table_count, table_bands;
-    GLuint tables_buffer;     /* of the tables summed by bands, or 0 */
-    gpu_method tables_method; /* that it was made for */
+    GLuint tables_buffer;      /* of the tables summed by bands, or 0 */
+    method_kind tables_method; /* that it was made for */
     const lmp_preintegrated_brdf *responses[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
     GLuint brdf_texels, brdf_block;                          /* texture, buffer; or 0 */
     float near;                                              /* distance of the near plane */

@@ -1,31 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/gpu/internal.h"
+#include "app/timing/timing.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-const char *const gpu_method_names[GPU_METHODS + 1] = { "zonal", "coefficients", "preintegrated",
-                                                        NULL };
-/* What shade.comp calls, and what it is told besides. */
-static const struct {
-    const char *function, *define;
-} method_shaders[] = {
-    [GPU_METHOD_ZONAL] = { "lmp_shade_zonal", "" },
-    [GPU_METHOD_COEFFICIENTS] = { "lmp_shade_coefficients", "" },
-    [GPU_METHOD_PREINTEGRATED] = { "lmp_shade_preintegrated",
-                                   "#define SHADE_PREINTEGRATED_LOBE\n" },
-    [GPU_METHOD_PAPER] = { "paper", "" },
-    [GPU_METHOD_TABULATED] = { "lmp_shade_coefficients", "#define SHADE_TABULATED\n" },
-};
-
-int gpu_bands_max(gpu_method method) {
-    return method == GPU_METHOD_PREINTEGRATED ? LMP_BANDS_MAX
-           : method == GPU_METHOD_ZONAL       ? GPU_BANDS_MAX
-                                              : GPU_COEFFICIENTS_MAX;
-}
 
 /* The near plane's distance as a part of the scene's extent. Depth is reversed and in float32, so
  * that a small one costs no precision; there is no far plane. */
@@ -255,52 +235,81 @@ static void upload_lights(gpu_renderer *r, const gpu_frame *frame) {
 /* --- passes -------------------------------------------------------------------------------------
  */
 
-static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
-    const bool preintegrated = frame->method == GPU_METHOD_PREINTEGRATED;
+/* The most bands of a variant: tables of materials are summed by bands whatever the method is. */
+static int variant_bands_max(const gpu_variant *v) {
+    const int most = method_table[v->method].bands_max[DEVICE_GPU];
+    return v->tables && most > METHOD_GPU_BANDS_MAX ? METHOD_GPU_BANDS_MAX : most;
+}
+
+/* What a frame asks of the shading pass. A shader that sums nothing by bands is the same for all.
+ */
+static gpu_variant variant_of(const gpu_renderer *r, const gpu_frame *frame) {
+    const bool preintegrated = method_table[frame->method].reads & METHOD_READS_PREINTEGRATED;
     const int tables = gpu_tables_by_bands(r, frame->method);
-    const bool measured = preintegrated && gpu_has_preintegrated_brdf(r);
+    const bool by_bands = !preintegrated || tables;
+    return (gpu_variant) { .method = frame->method,
+                           .bands = by_bands ? frame->bands : 1,
+                           .window = by_bands ? frame->window : LMP_WINDOW_NONE,
+                           .tables = tables,
+                           .preintegrated_brdfs = preintegrated && gpu_has_preintegrated_brdf(r) };
+}
+
+static GLuint compile_variant(const gpu_variant *v, cli_error *error) {
+    static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
+                                                 "#define TABLE_FULL 1\n" };
+    const method_row *row = &method_table[v->method];
+    char defines[256];
+    snprintf(defines, sizeof defines,
+             "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
+             "#define LMP_ALPHA_MIN %.9g\n%s%s",
+             row->defines, row->function, v->bands, (int)v->window, (double)LMP_ALPHA_MIN,
+             table_defines[v->tables],
+             v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "");
+    const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };
+    const gpu_stage screen[] = { { GL_VERTEX_SHADER, "screen.vert" },
+                                 { GL_FRAGMENT_SHADER, row->shader } };
+    return row->fragment ? gpu_program(screen, 2, defines, error)
+                         : gpu_program(&compute, 1, defines, error);
+}
+
+static GLuint find_variant(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
+    gpu_variant wanted = variant_of(r, frame);
+    const int bands_max = variant_bands_max(&wanted);
     if (r->table_count && r->table_bands != frame->bands) {
         cli_fail(error, NULL, "the tables of the materials have %d bands, the image %d",
                  r->table_bands, frame->bands);
         return 0;
     }
-    for (int i = 0; i < r->variant_count; i++) {
-        const gpu_variant *v = &r->variants[i];
-        const bool same = v->bands == frame->bands && v->window == frame->window;
-        if (v->method == frame->method && v->tables == tables && v->measured == measured &&
-            (same || (preintegrated && !tables)))
-            return v->program;
-    }
-    const int bands_max = tables && preintegrated
-                              ? GPU_BANDS_MAX /* the tables are summed by bands */
-                              : gpu_bands_max(frame->method);
     if (frame->bands < 1 || frame->bands > bands_max) {
         cli_fail(error, NULL, "%d bands: the method's shader takes 1 to %d", frame->bands,
                  bands_max);
         return 0;
     }
-    static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
-                                                 "#define TABLE_FULL 1\n" };
-    char defines[256];
-    snprintf(defines, sizeof defines,
-             "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
-             "#define LMP_ALPHA_MIN %.9g\n%s%s",
-             method_shaders[frame->method].define, method_shaders[frame->method].function,
-             preintegrated && !tables ? 1 : frame->bands, (int)frame->window, (double)LMP_ALPHA_MIN,
-             table_defines[tables], measured ? "#define MEASURED\n" : "");
-    const gpu_stage compute = { GL_COMPUTE_SHADER, "shade.comp" };
-    const gpu_stage paper[] = { { GL_VERTEX_SHADER, "screen.vert" },
-                                { GL_FRAGMENT_SHADER, "paper.frag" } };
-    const GLuint program = frame->method == GPU_METHOD_PAPER
-                               ? gpu_program(paper, 2, defines, error)
-                               : gpu_program(&compute, 1, defines, error);
-    if (!program)
+    for (int i = 0; i < r->variant_count; i++) {
+        const gpu_variant *v = &r->variants[i];
+        if (v->method == wanted.method && v->bands == wanted.bands && v->window == wanted.window &&
+            v->tables == wanted.tables && v->preintegrated_brdfs == wanted.preintegrated_brdfs)
+            return v->program;
+    }
+    wanted.program = compile_variant(&wanted, error);
+    if (!wanted.program)
         return 0;
     if (r->variant_count == GPU_VARIANTS)
         glDeleteProgram(r->variants[--r->variant_count].program);
-    r->variants[r->variant_count++] =
-        (gpu_variant) { frame->method, frame->bands, frame->window, tables, measured, program };
-    return program;
+    r->variants[r->variant_count++] = wanted;
+    return wanted.program;
+}
+
+/* Uploads and binds what the frame's method reads. */
+static bool bind_tables(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
+    const unsigned reads = method_table[frame->method].reads;
+    if (reads & METHOD_READS_PREINTEGRATED &&
+        (!gpu_bind_preintegrated_lobe(r, frame->lobes, error) ||
+         !gpu_bind_preintegrated_brdf(r, error)))
+        return false;
+    if (reads & METHOD_READS_TABULATED_Z && !gpu_bind_zonal(r, frame->bands, error))
+        return false;
+    return !gpu_tables_by_bands(r, frame->method) || gpu_bind_tables(r, frame->method, error);
 }
 
 /* Copies the G-buffer to what is kept, or back. */
@@ -374,7 +383,7 @@ static GLuint groups(int pixels) {
 static void shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
     gpu_bind_gbuffer(r);
     glUseProgram(program);
-    if (frame->method == GPU_METHOD_PAPER) {
+    if (method_table[frame->method].fragment) {
         glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->hdr, 0);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, r->ldr_framebuffer);
         glViewport(0, 0, r->width, r->height);
@@ -391,12 +400,6 @@ static void shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
 /* --- timing -------------------------------------------------------------------------------------
  */
 
-static double wall_clock(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
-}
-
 /* Marks an instant of the frame: a query on hardware, a finished wait on software. */
 static void mark(gpu_renderer *r, int index) {
     if (!r->context.software) {
@@ -404,7 +407,7 @@ static void mark(gpu_renderer *r, int index) {
         return;
     }
     glFinish();
-    r->marks[index] = wall_clock();
+    r->marks[index] = 1e3 * timing_now();
 }
 
 static double marked(const gpu_renderer *r, int index) {
@@ -418,18 +421,18 @@ static double marked(const gpu_renderer *r, int index) {
 /* The G-buffer goes to the host and comes back as radiance. */
 static bool shade_host(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block,
                        gpu_times *times, cli_error *error) {
-    const double start = wall_clock();
+    const double start = 1e3 * timing_now();
     if (!gpu_gbuffer_read(r, block, frame, &r->gbuffer, error))
         return false;
-    const double read = wall_clock();
+    const double read = 1e3 * timing_now();
     if (!frame->host(frame, &r->gbuffer, &r->gbuffer.rgba[0][0], error))
         return false;
-    const double shaded = wall_clock();
+    const double shaded = 1e3 * timing_now();
     glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGBA, GL_FLOAT, r->gbuffer.rgba);
     if (times) {
         glFinish();
         times->shade += shaded - read;
-        times->transfer += read - start + wall_clock() - shaded;
+        times->transfer += read - start + 1e3 * timing_now() - shaded;
     }
     return true;
 }
@@ -480,19 +483,12 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
     if (frame->light_count > SCENE_LIGHTS_MAX)
         return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
                         SCENE_LIGHTS_MAX);
-    if (frame->method == GPU_METHOD_PREINTEGRATED && !frame->response)
-        return cli_fail(error, NULL, "preintegrated shading without a response");
+    if (method_table[frame->method].reads & METHOD_READS_PREINTEGRATED && !frame->lobes)
+        return cli_fail(error, NULL, "preintegrated shading without its lobes");
     const GLuint program = frame->host ? 0 : find_variant(r, frame, error);
     if ((!frame->host && !program) || !create_targets(r, frame->width, frame->height, error))
         return false;
-    if (!frame->host && frame->method == GPU_METHOD_PREINTEGRATED &&
-        (!gpu_bind_preintegrated_lobe(r, frame->response, error) ||
-         !gpu_bind_preintegrated_brdf(r, error)))
-        return false;
-    if (!frame->host && gpu_tables_by_bands(r, frame->method) &&
-        !gpu_bind_tables(r, frame->method, error))
-        return false;
-    if (frame->method == GPU_METHOD_TABULATED && !gpu_bind_zonal(r, frame->bands, error))
+    if (!frame->host && !bind_tables(r, frame, error))
         return false;
     upload_lights(r, frame);
     if (times)

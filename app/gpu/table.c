@@ -47,11 +47,11 @@ static bool fill_table(const lmp_brdf_table *table, bool full, size_t stride, ve
 }
 
 /* Whether frames of a method sum table t by its bands. */
-static bool by_bands(const gpu_renderer *r, gpu_method method, int t) {
-    return method != GPU_METHOD_PREINTEGRATED || !r->responses[t];
+static bool by_bands(const gpu_renderer *r, method_kind method, int t) {
+    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->responses[t];
 }
 
-int gpu_tables_by_bands(const gpu_renderer *r, gpu_method method) {
+int gpu_tables_by_bands(const gpu_renderer *r, method_kind method) {
     int tables = 0;
     for (int t = 0; t < r->table_count; t++)
         if (by_bands(r, method, t)) {
@@ -62,7 +62,7 @@ int gpu_tables_by_bands(const gpu_renderer *r, gpu_method method) {
 }
 
 /* Vectors of the buffer: one a table, then the values of those summed by bands. */
-static size_t count_values(const gpu_renderer *r, gpu_method method, size_t stride) {
+static size_t count_values(const gpu_renderer *r, method_kind method, size_t stride) {
     size_t total = (size_t)r->table_count;
     for (int t = 0; t < r->table_count; t++) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
@@ -72,7 +72,7 @@ static size_t count_values(const gpu_renderer *r, gpu_method method, size_t stri
     return total;
 }
 
-static bool fill_tables(const gpu_renderer *r, gpu_method method, bool full, size_t stride,
+static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, size_t stride,
                         vec4 *values) {
     size_t first = (size_t)r->table_count;
     for (int t = 0; t < r->table_count; t++) {
@@ -90,7 +90,7 @@ static bool fill_tables(const gpu_renderer *r, gpu_method method, bool full, siz
     return true;
 }
 
-bool gpu_bind_tables(gpu_renderer *r, gpu_method method, cli_error *error) {
+bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
     const int tables = gpu_tables_by_bands(r, method);
     if (!r->tables_buffer || r->tables_method != method) {
         const size_t n = (size_t)r->table_bands, stride = tables == 2 ? n * n : n * (n + 1) / 2;

@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)1 << 30)
-/* Goes into the keys of the cache: raise it when tables of the same material come out different. */
-#define CACHE_EPOCH 2
 
 void material_close(material *m) {
     lmp_brdf_destroy(m->brdf);
@@ -235,102 +233,5 @@ bool material_open(const char *name, material *m, cli_error *error) {
         ok = open_file(name, m, error) || hint_kind(name, error);
     if (!ok)
         material_close(m);
-    return ok;
-}
-
-/* --- tables -------------------------------------------------------------------------------------
- */
-
-static void run_parallel(void *user, size_t count, void (*task)(size_t index, void *data),
-                         void *data) {
-    (void)user;
-#pragma omp parallel for schedule(dynamic)
-    for (size_t i = 0; i < count; i++)
-        task(i, data);
-}
-
-static void show_progress(void *user, double done) {
-    cli_progress((const char *)user, done);
-}
-
-typedef char entry_name[64];
-
-/* The entry of a table in the cache. */
-static const char *name_entry(const material *m, const lmp_brdf_table_desc *desc, entry_name name) {
-    char key[33];
-    const struct {
-        int numbers[7];
-        float reals[2];
-    } parts = { { CACHE_EPOCH, desc->bands, desc->views, desc->azimuths, (int)desc->window,
-                  (int)desc->symmetry, desc->rings_max },
-                { desc->window_size, desc->tolerance } };
-    file_hash hash = m->hash;
-    file_hash_add(&hash, &parts, sizeof parts);
-    file_hash_text(&hash, key);
-    snprintf(name, sizeof(entry_name), "%s.lmpt", key);
-    return name;
-}
-
-static lmp_brdf_table *read_cached(const char *name) {
-    size_t size;
-    lmp_brdf_table *table = NULL;
-    const void *const data = file_cache_map(name, &size);
-    if (data)
-        lmp_brdf_table_read(NULL, data, size, NULL, &table);
-    file_cache_unmap(data, size);
-    return table;
-}
-
-/* The bytes of a table file; free() them. NULL: no memory. */
-static void *bytes_of(const lmp_brdf_table *table, size_t *size) {
-    *size = lmp_brdf_table_size(table);
-    void *bytes = malloc(*size);
-    if (bytes)
-        lmp_brdf_table_write(table, bytes);
-    return bytes;
-}
-
-static void write_bytes(const void *table, void *bytes) {
-    lmp_brdf_table_write(table, bytes);
-}
-
-static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_error *error) {
-    size_t size;
-    void *const bytes = bytes_of(from, &size);
-    if (!bytes)
-        return cli_fail(error, NULL, "out of memory");
-    const lmp_result result = lmp_brdf_table_read(NULL, bytes, size, NULL, table);
-    free(bytes);
-    return result == LMP_OK || cli_fail(error, NULL, "%s", lmp_result_text(result));
-}
-
-bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_table **table,
-                   cli_error *error) {
-    entry_name name;
-    *table = NULL;
-    if (m->table)
-        return copy_table(m->table, table, error);
-    if ((*table = read_cached(name_entry(m, desc, name))))
-        return true;
-    static char what[] = "projecting the BRDF";
-    lmp_brdf_table_desc own = *desc;
-    own.parallel = run_parallel;
-    own.progress = show_progress;
-    own.user = what;
-    const lmp_result result = lmp_brdf_table_create(NULL, m->brdf, &own, table);
-    cli_progress_end();
-    if (result != LMP_OK)
-        return cli_fail(error, m->name, "%s", lmp_result_text(result));
-    file_cache_store_object(name, lmp_brdf_table_size(*table), write_bytes, *table);
-    return true;
-}
-
-bool material_write_table(const lmp_brdf_table *table, const char *path, cli_error *error) {
-    size_t size;
-    void *const bytes = bytes_of(table, &size);
-    if (!bytes)
-        return cli_fail(error, path, "out of memory");
-    const bool ok = file_write_whole(path, bytes, size, error);
-    free(bytes);
     return ok;
 }

@@ -14,7 +14,7 @@
 #include "app/cli/cli.h"
 #include "app/file/file.h"
 
-#include <lampion/brdf.h>
+#include <lampion/preintegrated.h>
 
 #define MATERIAL_NAMES                                                                             \
     "FILE.binary, FILE.bsdf, FILE.lmpt, sgd:NAME, lambert:COLOR, phong:EXPONENT or ggx:ALPHA"
@@ -36,6 +36,11 @@ void material_close(material *material);
  * are then its own. */
 bool material_bake(const material *material, const lmp_brdf_table_desc *desc,
                    lmp_brdf_table **table, cli_error *error);
+
+/* The same of a material's table, preintegrated: NULL where there is none that fits (an anisotropic
+ * one has a dimension more), which it says on stderr. Free with lmp_preintegrated_brdf_destroy. */
+bool material_preintegrate(const material *material, const lmp_brdf_table *table,
+                           lmp_preintegrated_brdf **brdf, cli_error *error);
 
 /* Writes a table to a file. */
 bool material_write_table(const lmp_brdf_table *table, const char *path, cli_error *error);

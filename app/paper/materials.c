@@ -64,7 +64,7 @@ static bool time_rows(paper *p, const gpu_context *context, const scene *world, 
             paper_times ms;
             const gpu_frame frame = { .width = size_of(p)[0],
                                       .height = size_of(p)[1],
-                                      .method = GPU_METHOD_COEFFICIENTS,
+                                      .method = METHOD_COEFFICIENTS,
                                       .bands = cuts[c],
                                       .window = LMP_WINDOW_HANNING };
             snprintf(assignment, sizeof assignment, "test_material=sgd:%s", materials[i].ours);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/paper.h"
+#include "app/timing/timing.h"
 
 #include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 static const paper_step steps[] = {
@@ -75,37 +75,16 @@ bool paper_compare(const char *pixels, const char *truth, compare_result *result
     return ok;
 }
 
-double paper_now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void name_processor(char name[128]) {
-    char line[256];
-    FILE *info = fopen("/proc/cpuinfo", "r");
-    snprintf(name, 128, "unknown processor");
-    while (info && fgets(line, sizeof line, info))
-        if (strncmp(line, "model name", 10) == 0 && strchr(line, ':')) {
-            line[strcspn(line, "\n")] = '\0';
-            snprintf(name, 128, "%.120s", strchr(line, ':') + 2);
-            break;
-        }
-    if (info)
-        fclose(info);
-}
-
 static void introduce(paper *p) {
-    char processor[128];
-    name_processor(processor);
+    char cpu[128];
+    timing_cpu_name(cpu, sizeof cpu);
     page_begin(&p->page, "Efficient projection of sphere lights on spherical harmonics, reproduced",
                "Figures, tables and claims of P. Mézières and M. Paulin, <em>Projection efficace "
                "de lumières sphériques sur les harmoniques sphériques</em> (JFIG 2020), reproduced "
                "by <code>lampion paper</code>. Every number on this page was computed in this run; "
                "each section begins with the command that makes it alone.");
-    page_text(&p->page,
-              "Machine: %s, %ld processors. The paper's: Intel Xeon 2.10 GHz, RTX 2080. %s",
-              processor, sysconf(_SC_NPROCESSORS_ONLN),
+    page_text(&p->page, "Machine: %s, %ld CPUs. The paper's: Intel Xeon 2.10 GHz, RTX 2080. %s",
+              cpu, sysconf(_SC_NPROCESSORS_ONLN),
               p->options->full ? "Sizes are the paper's (<code>--full</code>)."
                                : "Images are smaller than the paper's, to end within minutes; "
                                  "<code>--full</code> makes them as large.");
@@ -115,7 +94,7 @@ static void run_steps(paper *p, int *failures) {
     for (int i = 0; i < STEPS; i++) {
         cli_error error = { "" };
         char again[64];
-        const double start = paper_now();
+        const double start = timing_now();
         if (!wanted(p, i))
             continue;
         cli_progress(steps[i].name, (double)i / STEPS);
@@ -129,10 +108,10 @@ static void run_steps(paper *p, int *failures) {
             ++*failures;
         }
         page_text(&p->page, "<small>Step <code>%s</code>: %.1f s.</small>", steps[i].name,
-                  paper_now() - start);
+                  timing_now() - start);
         if (isatty(STDERR_FILENO))
             fprintf(stderr, "%d of %d, %s: %.1f s\n", i + 1, STEPS, steps[i].name,
-                    paper_now() - start);
+                    timing_now() - start);
     }
     cli_progress_end();
 }

@@ -73,7 +73,4 @@ bool paper_time_frame(const gpu_context *context, const scene *world, const gpu_
 /* A paragraph that names the device. */
 void paper_name_device(paper *p, const gpu_context *context, int width, int height);
 
-/* Seconds of a steady clock. */
-double paper_now(void);
-
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* What preintegrated lobes cost in memory and in error (docs/shading.md). */
 #include "app/paper/paper.h"
+#include "app/timing/timing.h"
 
 #include <math.h>
 
@@ -46,12 +47,12 @@ static void add_angles(const lmp_preintegrated_lobe *response, double exponent, 
 /* Exponents 1 … 10 000 and r/d 1e-4 … 0.99, evenly by their logarithms. */
 static bool measure(int bands, float bound, outcome *o, cli_error *error) {
     const lmp_preintegrated_lobe_desc desc = { .bands = bands, .error = bound };
-    const double start = paper_now();
+    const double start = timing_now();
     lmp_preintegrated_lobe *response;
     const lmp_result result = lmp_preintegrated_lobe_create(NULL, &desc, &response);
     if (result != LMP_OK)
         return cli_fail(error, NULL, "the lobes of %d bands: %s", bands, lmp_result_text(result));
-    *o = (outcome) { .seconds = paper_now() - start,
+    *o = (outcome) { .seconds = timing_now() - start,
                      .kilobytes = (double)lmp_preintegrated_lobe_describe(response).bytes / 1024 };
     double largest = 0, squares = 0;
 #pragma omp parallel for reduction(max : largest) reduction(+ : squares) schedule(dynamic)

@@ -17,12 +17,12 @@ typedef struct figure {
 
 /* The paper's own shader beside the library's. */
 static const struct {
-    gpu_method method;
+    method_kind method;
     const char *name;
 } methods[] = {
-    { GPU_METHOD_PAPER, "the paper's shader" },
-    { GPU_METHOD_COEFFICIENTS, "library: coefficients" },
-    { GPU_METHOD_ZONAL, "library: zonal" },
+    { METHOD_PAPER, "the paper's shader" },
+    { METHOD_COEFFICIENTS, "library: coefficients" },
+    { METHOD_ZONAL, "library: zonal" },
 };
 
 static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli_error *error) {

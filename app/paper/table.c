@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/legendre.h"
 #include "app/paper/paper.h"
+#include "app/timing/timing.h"
 
 #include <lampion/light.h>
 
@@ -31,17 +32,12 @@ static double worst_error(const lmp_zonal_table *table, double least) {
     return worst;
 }
 
-static int by_value(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Median nanoseconds of one evaluation of all bands. */
 static double time_evaluation(const lmp_zonal_table *table) {
     double times[RUNS];
     volatile float sink = 0;
     for (int run = 0; run < RUNS; run++) {
-        const double start = paper_now();
+        const double start = timing_now();
         for (int i = 0; i < CALLS; i++) {
             float z[BANDS];
             const float s = (float)(i + 1) / (CALLS + 1);
@@ -51,10 +47,9 @@ static double time_evaluation(const lmp_zonal_table *table) {
                 lmp_sphere_zonal(BANDS, s, 1, z);
             sink = sink + z[BANDS - 1];
         }
-        times[run] = (paper_now() - start) * 1e9 / CALLS;
+        times[run] = (timing_now() - start) * 1e9 / CALLS;
     }
-    qsort(times, RUNS, sizeof *times, by_value);
-    return times[RUNS / 2];
+    return timing_of(times, RUNS).median;
 }
 
 bool paper_step_table(paper *p, cli_error *error) {
@@ -64,7 +59,7 @@ bool paper_step_table(paper *p, cli_error *error) {
         &p->page,
         "The paper reports that tabulating the Z<sub>l</sub> saves about half a millisecond a "
         "frame on its GPU, for some tens of kilobytes. Ten bands, one evaluation on one "
-        "processor core; errors in parts of each light's largest coefficient. A table is entered "
+        "CPU core; errors in parts of each light's largest coefficient. A table is entered "
         "with cos a, which in float32 hardly tells small lights apart, however large the table.");
     if (!page_table_begin(&p->page, &table, "tabulated",
                           "form|kilobytes|ns|largest error, a from 10° to 90°|from 0.1°", error))

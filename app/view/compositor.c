@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/compositor.h"
-#include "app/device/materials.h"
+#include "app/bake/bake.h"
+#include "app/override/override.h"
+#include "app/shade/shade.h"
 #include "app/view/draft.h"
 
 #include <stdlib.h>
@@ -23,7 +25,7 @@ typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
 /* One side's renderers, and the materials that they have been given. */
 typedef struct side {
     gpu_renderer *renderers[QUALITIES];
-    device_materials materials;
+    override_set materials;
     char (*names)[VIEW_MATERIAL_SIZE]; /* of them, GPU_TABLES_MAX allocated */
     int count, bands;
     lmp_window window;
@@ -61,7 +63,7 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
 static void close_side(side *own) {
     for (int i = 0; i < QUALITIES; i++)
         gpu_renderer_destroy(own->renderers[i]);
-    device_materials_free(&own->materials);
+    override_free(&own->materials);
     free(own->names);
     memset(own, 0, sizeof *own);
 }
@@ -99,7 +101,7 @@ static const lmp_preintegrated_lobe *get_response(view_compositor *s, const view
     made_response *made = find_response(s, look);
     if (!made) {
         lmp_preintegrated_lobe *response = NULL;
-        if (!device_preintegrated_lobe(look->bands, look->window, &response, error))
+        if (!bake_lobes(look->bands, look->window, &response, error))
             return NULL;
         made = &s->responses[0];
         for (int i = 1; i < RESPONSES; i++)
@@ -116,7 +118,7 @@ static const lmp_preintegrated_lobe *get_response(view_compositor *s, const view
  */
 
 static bool is_preintegrated(const view_look *look) {
-    return look->method == GPU_METHOD_PREINTEGRATED;
+    return method_table[look->method].reads & METHOD_READS_PREINTEGRATED;
 }
 
 static bool has_materials(const side *own, const view_settings *settings, const view_look *look) {
@@ -129,7 +131,7 @@ static bool has_materials(const side *own, const view_settings *settings, const 
 
 static bool settle_materials(view_compositor *s, side *own, const view_settings *settings,
                              const view_look *look, cli_error *error) {
-    device_materials fresh = { .count = 0 };
+    override_set fresh = { .count = 0 };
     cli_list list = { .count = settings->material_count };
     if (has_materials(own, settings, look))
         return true;
@@ -137,21 +139,20 @@ static bool settle_materials(view_compositor *s, side *own, const view_settings 
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
-    bool ok = device_materials_open(&list, s->world, &fresh, error) &&
-              device_materials_bake(&fresh, look->bands, look->window, error) &&
-              (!is_preintegrated(look) || device_materials_respond(&fresh, error));
+    bool ok = override_open(&list, s->world, &fresh, error) &&
+              override_bake(&fresh, look->bands, look->window, error) &&
+              (!is_preintegrated(look) || override_preintegrate(&fresh, error));
     for (int i = 0; i < QUALITIES && ok; i++)
-        ok =
-            !own->renderers[i] || device_materials_give(&fresh, s->world, own->renderers[i], error);
+        ok = !own->renderers[i] || override_apply(&fresh, s->world, own->renderers[i], error);
     if (!ok) { /* as before, for what is drawn next */
         cli_error ignored;
         for (int i = 0; i < QUALITIES; i++)
             if (own->renderers[i])
-                device_materials_give(&own->materials, s->world, own->renderers[i], &ignored);
-        device_materials_free(&fresh);
+                override_apply(&own->materials, s->world, own->renderers[i], &ignored);
+        override_free(&fresh);
         return false;
     }
-    device_materials_free(&own->materials);
+    override_free(&own->materials);
     own->materials = fresh;
     own->count = settings->material_count;
     own->bands = look->bands;
@@ -167,7 +168,7 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
         const view_look *look = &settings->looks[i];
         if (settings->material_count > 0 && !has_materials(&s->sides[i], settings, look))
             return "projecting the materials …";
-        if (look->method == GPU_METHOD_PREINTEGRATED && !find_response(s, look))
+        if (is_preintegrated(look) && !find_response(s, look))
             return "integrating the lobes …";
     }
     return NULL;
@@ -196,13 +197,13 @@ static bool open_side(view_compositor *s, side *own, quality fineness, cli_error
         return false;
     *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
     return *renderer &&
-           (own->count == 0 || device_materials_give(&own->materials, s->world, *renderer, error));
+           (own->count == 0 || override_apply(&own->materials, s->world, *renderer, error));
 }
 
 /* How to draw a side: how many samples come from what samples counts. */
 static bool fill_frame(view_compositor *s, const view_settings *settings, const view_look *look,
                        int divisor, gpu_frame *frame, device_kind *device, cli_error *error) {
-    *device = device_choose(DEVICE_AUTO, &s->context, look->method, look->bands);
+    *device = method_device(look->method, DEVICE_AUTO, s->context.software, look->bands);
     *frame = (gpu_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
@@ -214,12 +215,12 @@ static bool fill_frame(view_compositor *s, const view_settings *settings, const 
         .light_count = settings->light_count,
         .samples = divisor > 1 ? 1 : settings->samples,
         .samples_exposure = settings->exposure,
-        .host = *device == DEVICE_CPU ? device_shade : NULL,
+        .host = *device == DEVICE_CPU ? shade_frame : NULL,
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
-    if (look->method == GPU_METHOD_PREINTEGRATED)
-        frame->response = get_response(s, look, error);
-    return look->method != GPU_METHOD_PREINTEGRATED || frame->response;
+    if (is_preintegrated(look))
+        frame->lobes = get_response(s, look, error);
+    return !is_preintegrated(look) || frame->lobes;
 }
 
 /* Sample `index`, or with -1 all. */

@@ -16,13 +16,13 @@ static view_look *look_here(view_state *s) {
 }
 
 static void hold_bands(view_look *look) {
-    const int most = view_bands_max(look->method);
+    const int most = method_table[look->method].bands_max[DEVICE_AUTO];
     look->bands = look->bands < 1 ? 1 : look->bands > most ? most : look->bands;
 }
 
 static void change_method(view_state *s, int step) {
     view_look *look = look_here(s);
-    look->method = (gpu_method)(((int)look->method + step + GPU_METHODS) % GPU_METHODS);
+    look->method = (method_kind)(((int)look->method + step + METHODS) % METHODS);
     hold_bands(look);
 }
 
@@ -33,7 +33,7 @@ static void change_bands(view_state *s, int step) {
 
 static void change_window(view_state *s, int step) {
     view_look *look = look_here(s);
-    look->window = (lmp_window)(((int)look->window + step + 3) % 3);
+    look->window = (lmp_window)(((int)look->window + step + METHOD_WINDOWS) % METHOD_WINDOWS);
 }
 
 static void change_exposure(view_state *s, int thirds) {

@@ -27,9 +27,9 @@ static void add_row(view_row *rows, int *count, const char *name, const char *fo
 }
 
 static void describe_look(const view_look *look, char *text, size_t size) {
-    snprintf(text, size, "%s, %d band%s%s%s", gpu_method_names[look->method], look->bands,
+    snprintf(text, size, "%s, %d band%s%s%s", method_table[look->method].name, look->bands,
              look->bands == 1 ? "" : "s", look->window == LMP_WINDOW_NONE ? "" : ", ",
-             look->window == LMP_WINDOW_NONE ? "" : device_window_names[look->window]);
+             look->window == LMP_WINDOW_NONE ? "" : method_window_names[look->window]);
 }
 
 /* "30, number 4: sphere, radius 0.2" */
@@ -70,7 +70,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
             v->sample < 0 ? 1 : d->samples);
     add_row(rows, &count, "Geometry", "%.1f ms", t->gbuffer);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
-            v->statistics.device == DEVICE_CPU ? "CPU" : "GPU");
+            device_table[v->statistics.device].text);
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
     add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);

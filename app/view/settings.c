@@ -11,12 +11,6 @@
 
 const char *const view_split_names[GPU_SPLITS + 1] = { "none", "divided", "difference", NULL };
 
-int view_bands_max(gpu_method method) {
-    const int cpu = device_bands_max(DEVICE_CPU, method),
-              gpu = device_bands_max(DEVICE_GPU, method);
-    return cpu > gpu ? cpu : gpu;
-}
-
 /* --- materials ----------------------------------------------------------------------------------
  */
 
@@ -68,9 +62,9 @@ static void add_camera(cJSON *root, const scene_camera *camera) {
 
 static void add_look(cJSON *array, const view_look *look) {
     cJSON *object = cJSON_CreateObject();
-    cJSON_AddStringToObject(object, "method", gpu_method_names[look->method]);
+    cJSON_AddStringToObject(object, "method", method_table[look->method].name);
     cJSON_AddNumberToObject(object, "bands", look->bands);
-    cJSON_AddStringToObject(object, "window", device_window_names[look->window]);
+    cJSON_AddStringToObject(object, "window", method_window_names[look->window]);
     cJSON_AddItemToArray(array, object);
 }
 
@@ -153,12 +147,13 @@ static bool read_camera(const cJSON *root, scene_camera *camera) {
 
 static bool read_look(const cJSON *object, view_look *look) {
     int method, window;
-    if (!read_choice(object, "method", gpu_method_names, &method) ||
-        !read_choice(object, "window", device_window_names, &window))
+    if (!read_choice(object, "method", method_names(), &method) ||
+        !read_choice(object, "window", method_window_names, &window))
         return false;
-    look->method = (gpu_method)method;
+    look->method = (method_kind)method;
     look->window = (lmp_window)window;
-    return read_int(object, "bands", 1, view_bands_max(look->method), &look->bands);
+    return read_int(object, "bands", 1, method_table[look->method].bands_max[DEVICE_AUTO],
+                    &look->bands);
 }
 
 static bool read_looks(const cJSON *root, view_look looks[2]) {

@@ -4,7 +4,7 @@
 #ifndef LAMPION_VIEW_SETTINGS_H
 #define LAMPION_VIEW_SETTINGS_H
 
-#include "app/device/device.h"
+#include "app/gpu/gpu.h"
 
 #define VIEW_PATH_SIZE     1024
 #define VIEW_MATERIAL_SIZE (VIEW_PATH_SIZE + SCENE_NAME_SIZE)
@@ -12,7 +12,7 @@
 
 /* How to shade a side. */
 typedef struct view_look {
-    gpu_method method;
+    method_kind method;
     int bands;
     lmp_window window;
 } view_look;
@@ -34,9 +34,6 @@ typedef struct view_settings {
 } view_settings;
 
 extern const char *const view_split_names[GPU_SPLITS + 1]; /* NULL-terminated */
-
-/* Finds out whether a method takes so many bands where this machine shades it. */
-int view_bands_max(gpu_method method);
 
 /* Has materials of that name replaced by another, as --material has it, or with NULL by nothing.
  * False if there is no room or the names are too long. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The same image from both shading devices and every method, in 8 bits, under lights of every kind.
  */
-#include "app/device/device.h"
+#include "app/bake/bake.h"
+#include "app/shade/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/kinds.h"
 
@@ -72,7 +73,7 @@ static lmp_preintegrated_lobe *response_of(const gpu_frame *frame) {
     lmp_preintegrated_lobe *response;
     const lmp_preintegrated_lobe_desc desc = { .bands = frame->bands,
                                                .window = frame->window,
-                                               .error = DEVICE_LOBES_ERROR };
+                                               .error = BAKE_LOBES_ERROR };
     assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
     return response;
 }
@@ -84,14 +85,12 @@ static void both_devices_draw_the_same_image(void **state) {
         stage s;
         open_stage(&s, scenes[i]);
         lmp_preintegrated_lobe *response = response_of(&s.frame);
-        s.frame.response = response;
-        for (int m = 0; m < GPU_METHODS; m++) {
-            s.frame.method = (gpu_method)m;
-            if (device_bands_max(DEVICE_CPU, s.frame.method) < s.frame.bands)
-                continue;
+        s.frame.lobes = response;
+        for (int m = 0; m < METHODS; m++) {
+            s.frame.method = (method_kind)m;
             s.frame.host = NULL;
             draw_first(s.renderer, &s.frame);
-            s.frame.host = device_shade;
+            s.frame.host = shade_frame;
             draw(s.renderer, &s.frame, second);
             assert_int_equal(beyond(1), 0);
         }
@@ -101,11 +100,11 @@ static void both_devices_draw_the_same_image(void **state) {
 }
 
 static void check_preintegrated(stage *s) {
-    s->frame.method = GPU_METHOD_COEFFICIENTS;
+    s->frame.method = METHOD_COEFFICIENTS;
     draw_first(s->renderer, &s->frame);
     lmp_preintegrated_lobe *response = response_of(&s->frame);
-    s->frame.response = response;
-    s->frame.method = GPU_METHOD_PREINTEGRATED;
+    s->frame.lobes = response;
+    s->frame.method = METHOD_PREINTEGRATED;
     draw(s->renderer, &s->frame, second);
     print_message("%d bands, window %d: %d pixels of %d differ by more than a level\n",
                   s->frame.bands, (int)s->frame.window, beyond(1), PIXELS);
@@ -160,15 +159,15 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
     expect(gpu_set_tables(s.renderer, (const lmp_brdf_table *const *)tables, 2, uses,
                           s.world.material_count, &error),
            &error);
-    s.frame.method = GPU_METHOD_COEFFICIENTS;
+    s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
     lmp_preintegrated_lobe *lobes = response_of(&s.frame);
-    s.frame.response = lobes;
-    s.frame.method = GPU_METHOD_PREINTEGRATED;
+    s.frame.lobes = lobes;
+    s.frame.method = METHOD_PREINTEGRATED;
     for (int pass = 0; pass < 3; pass++) {
         const lmp_preintegrated_brdf *given[2] = { responses[0], pass == 2 ? NULL : responses[1] };
         gpu_set_responses(s.renderer, given);
-        s.frame.host = pass == 1 ? device_shade : NULL;
+        s.frame.host = pass == 1 ? shade_frame : NULL;
         draw(s.renderer, &s.frame, second);
         assert_true(beyond(1) <= PIXELS / 1000);
         assert_int_equal(beyond(2), 0);
@@ -185,16 +184,16 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     (void)state;
     stage s;
     open_stage(&s, "builtin:atrium");
-    s.frame.method = GPU_METHOD_ZONAL;
+    s.frame.method = METHOD_ZONAL;
     draw_first(s.renderer, &s.frame);
-    s.frame.method = GPU_METHOD_PAPER;
+    s.frame.method = METHOD_PAPER;
     draw(s.renderer, &s.frame, second);
     assert_int_equal(beyond(1), 0);
     /* the tabulation loses the digits of far lights, and Diracs wholly */
     s.frame.light_count -= KINDS;
-    s.frame.method = GPU_METHOD_ZONAL;
+    s.frame.method = METHOD_ZONAL;
     draw_first(s.renderer, &s.frame);
-    s.frame.method = GPU_METHOD_TABULATED;
+    s.frame.method = METHOD_TABULATED_Z;
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 500);
     close_stage(&s);
@@ -205,11 +204,11 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **stat
     stage s;
     open_stage(&s, "builtin:balls");
     s.frame.bands = 100;
-    s.frame.host = device_shade;
+    s.frame.host = shade_frame;
     draw_first(s.renderer, &s.frame);
     lmp_preintegrated_lobe *response = response_of(&s.frame);
-    s.frame.response = response;
-    s.frame.method = GPU_METHOD_PREINTEGRATED;
+    s.frame.lobes = response;
+    s.frame.method = METHOD_PREINTEGRATED;
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);

@@ -310,10 +310,10 @@ static void eight_bit_images_are_where_the_camera_says(void **state) {
     gpu_renderer *renderer = open_renderer(world);
     gpu_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
-    for (int m = 0; m <= GPU_METHOD_TABULATED; m++) {
-        frame.method = (gpu_method)m;
-        if (m == GPU_METHOD_PREINTEGRATED)
-            continue; /* wants a table */
+    for (int m = 0; m < METHODS_TIMED; m++) {
+        frame.method = (method_kind)m;
+        if (method_table[m].reads & METHOD_READS_PREINTEGRATED)
+            continue; /* wants lobes */
         expect(gpu_render(renderer, &frame, NULL, &error), &error);
         expect(gpu_read_rgb8(renderer, 1, rgb8, NULL, &error), &error);
         for (int y = 0; y < SIDE; y++)
@@ -339,7 +339,7 @@ static void impossible_frames_are_refused_with_a_reason(void **state) {
     assert_false(gpu_render(renderer, &frame, NULL, &error));
     assert_non_null(strstr(error.text, "beyond"));
     frame.width = SIDE;
-    frame.bands = GPU_BANDS_MAX + 1;
+    frame.bands = METHOD_GPU_BANDS_MAX + 1;
     assert_false(gpu_render(renderer, &frame, NULL, &error));
     assert_non_null(strstr(error.text, "bands"));
     frame.bands = 3;
@@ -349,17 +349,17 @@ static void impossible_frames_are_refused_with_a_reason(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
-/* Each shader takes as many bands as gpu_bands_max says, and no more. */
+/* Each shader takes as many bands as its row says, and no more. */
 static void bands_up_to_the_limit_of_a_method_are_drawn(void **state) {
     (void)state;
     const scene *world = make_sheets();
     gpu_renderer *renderer = open_renderer(world);
     gpu_frame frame = look_at(world, 0, 1);
-    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
+    for (int m = 0; m < METHOD_PREINTEGRATED; m++) {
         cli_error error = { "" };
         char limit[32];
-        frame.method = (gpu_method)m;
-        frame.bands = gpu_bands_max(frame.method);
+        frame.method = (method_kind)m;
+        frame.bands = method_table[m].bands_max[DEVICE_GPU];
         snprintf(limit, sizeof limit, "1 to %d", frame.bands);
         expect(gpu_render(renderer, &frame, NULL, &error), &error);
         frame.bands++;

@@ -96,7 +96,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
 static void expect_agreement(const char *name, gpu_renderer *renderer, const gpu_frame *frame) {
     const worst w = compare(renderer, frame);
     print_message("%-14s %-12s %2d bands %4zu lights: %.1e of the lobes, %.1e of the peak\n", name,
-                  gpu_method_names[frame->method], frame->bands, frame->light_count, w.relative,
+                  method_table[frame->method].name, frame->bands, frame->light_count, w.relative,
                   w.peak);
     assert_true(w.surfaces > 0);
     if (!(w.relative <= bound))
@@ -112,10 +112,10 @@ static void every_method_agrees_on(const char *name, int random_lights, bool kee
     const scene_lights_options lights = { .random_count = random_lights, .seed = 7, .keep = keep };
     expect(scene_apply_lights(&world, &lights, &error), &error);
     gpu_renderer *renderer = open_renderer(&world);
-    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++)
+    for (int m = 0; m < METHOD_PREINTEGRATED; m++)
         for (int b = 0; b < BAND_COUNTS; b++) {
             gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
-            frame.method = (gpu_method)m;
+            frame.method = (method_kind)m;
             frame.bands = band_counts[b];
             expect_agreement(name, renderer, &frame);
         }
@@ -158,8 +158,8 @@ static void with_balls(void (*check)(scene *world, gpu_renderer *renderer)) {
 }
 
 static void check_with(const char *name, gpu_renderer *renderer, gpu_frame frame) {
-    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
-        frame.method = (gpu_method)m;
+    for (int m = 0; m < METHOD_PREINTEGRATED; m++) {
+        frame.method = (method_kind)m;
         expect_agreement(name, renderer, &frame);
     }
 }
@@ -268,14 +268,14 @@ static void windows_agree_with_lmp_shade(void **state) {
 }
 
 static void check_bytes(scene *world, gpu_renderer *renderer) {
-    static unsigned char bytes[GPU_METHOD_PREINTEGRATED][3 * PIXELS];
+    static unsigned char bytes[METHOD_PREINTEGRATED][3 * PIXELS];
     cli_error error = { "" };
     gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
     image drawn = render_image(renderer, &frame);
     const float exposure = image_auto_exposure(&drawn);
     image_free(&drawn);
-    for (int m = 0; m < GPU_METHOD_PREINTEGRATED; m++) {
-        frame.method = (gpu_method)m;
+    for (int m = 0; m < METHOD_PREINTEGRATED; m++) {
+        frame.method = (method_kind)m;
         expect(gpu_render(renderer, &frame, NULL, &error), &error);
         expect(gpu_read_rgb8(renderer, exposure, bytes[m], NULL, &error), &error);
     }

@@ -65,7 +65,7 @@ static void agree_with(lmp_brdf_table *first, lmp_brdf_table *second, double bou
     frame.window = LMP_WINDOW_HANNING;
     for (int m = 0; m < 2; m++) {
         int by_table = 0;
-        frame.method = m == 0 ? GPU_METHOD_ZONAL : GPU_METHOD_COEFFICIENTS;
+        frame.method = m == 0 ? METHOD_ZONAL : METHOD_COEFFICIENTS;
         const double worst = difference(renderer, &frame, &by_table);
         print_message("%d pixels by table: %.1e of the peak\n", by_table, worst);
         assert_true(by_table > 100);

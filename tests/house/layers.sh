@@ -20,7 +20,11 @@ may_include() {
     shade) echo base kernels sh light lobe brdf preintegrated shade ;;
     field) echo base kernels sh light lobe brdf preintegrated shade field ;;
     lampion) echo base sh light lobe probe brdf preintegrated shade field kernels ;;
-    app/cli) echo app/cli base ;;
+    app/timing) echo app/timing ;;
+    app/cli) echo app/timing app/cli base ;;
+    app/device) echo app/cli app/device ;;
+    app/method) echo app/cli app/device app/method base shade sh ;;
+    app/bake) echo app/cli app/file app/bake LIBRARY ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
     app/sandbox) echo app/cli app/sandbox ;;
@@ -32,12 +36,13 @@ may_include() {
     app/animation) echo app/cli app/file app/scene app/animation base ;;
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
-    app/material) echo app/cli app/file app/material base sh brdf ;;
-    app/gpu) echo app/cli app/file app/image app/scene app/gpu shaders lookup LIBRARY ;;
-    app/device) echo app/cli app/file app/scene app/material app/gpu app/device LIBRARY ;;
-    app/view) echo app/cli app/file app/image app/scene app/animation app/material app/gpu app/device app/view LIBRARY ;;
-    app/paper) echo app/cli app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
-    app/command) echo app/cli app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
+    app/material) echo app/cli app/file app/bake app/material base sh brdf preintegrated ;;
+    app/gpu) echo app/timing app/cli app/file app/image app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
+    app/shade) echo app/cli app/scene app/gpu app/shade LIBRARY ;;
+    app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;
+    app/view) echo app/cli app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/override app/view LIBRARY ;;
+    app/paper) echo app/timing app/cli app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
+    app/command) echo app/timing app/cli app/method app/bake app/shade app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }

@@ -121,7 +121,7 @@ static void materials_are_in_the_rows(void **state) {
     with = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2 --device gpu --material "
                         "'wall=phong:5'");
     assert_int_equal(count_rows(with), 3);
-    assert_string_equal(text_at(with, 0, "method"), "coefficients");
+    assert_string_equal(text_at(with, 0, "method"), "zonal");
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(row_at(with, 0), "vs_paper")));
     cJSON_Delete(with);
 }
@@ -200,7 +200,7 @@ static void bad_options_end_before_anything_runs(void **state) {
         const char *options;
     } refused[] = {
         { 2, "--method paper --bands 50" },
-        { 2, "--device cpu --method coefficients" },
+        { 2, "--device cpu --method paper" },
         { 2, "--method paper --scene $F/a\\\"b.obj --material wall=phong:5" },
         { 2, "--full --material wall=phong:5" },
         { 2, "--method polar" },

@@ -13,7 +13,10 @@ small="--size 64x36 --bands 4"
 cmp "$WORK/a.png" "$WORK/b.png" || fail "two runs differ"
 for method in zonal coefficients; do
     "$PROGRAM" render builtin:balls $small --method $method -o "$WORK/$method.exr"
+    "$PROGRAM" render builtin:balls --size 16x9 --bands 128 --device cpu --method $method -o "$WORK/cpu-$method.exr"
 done
+"$PROGRAM" compare "$WORK/cpu-zonal.exr" "$WORK/cpu-coefficients.exr" --fail-above rmse=1e-6 ||
+    fail "the CPU's images differ by more than rounding"
 
 # sequences: numbered, moving, and of one exposure
 "$PROGRAM" render builtin:balls $small --frames 2 --fps 1 -o "$WORK/f_%03d.png"
@@ -63,7 +66,7 @@ refused 2 builtin:ball -o "$WORK/x.gif"
 refused 2 builtin:ball -o "$WORK/x.png" --size 0x10
 refused 2 builtin:ball -o "$WORK/x.png" --size 16384x16384
 refused 2 builtin:ball -o "$WORK/x.png" --bands 129
-refused 2 builtin:ball -o "$WORK/x.png" --bands 21 --method coefficients
+refused 2 builtin:ball -o "$WORK/x.png" --bands 21 --method coefficients --device gpu
 refused 2 builtin:ball -o "$WORK/x.png" --eye nan,0,0
 refused 2 builtin:ball -o "$WORK/x.png" --background 1,-1,0
 refused 2 builtin:ball -o "$WORK/x.png" --shard 1/2

@@ -109,7 +109,7 @@ static void keys_change_the_side_under_the_pointer(void **unused) {
     key("g");
     assert_int_equal(state.now.looks[0].bands, 11);
     assert_int_equal(state.now.looks[1].bands, 1);
-    assert_int_equal(state.now.looks[1].method, GPU_METHOD_COEFFICIENTS);
+    assert_int_equal(state.now.looks[1].method, METHOD_COEFFICIENTS);
     assert_int_equal(state.now.looks[1].window, LMP_WINDOW_HANNING);
     at(320, 100);
     button(VIEW_PRESS, VIEW_LEFT, false);
@@ -124,7 +124,8 @@ static void keys_change_the_side_under_the_pointer(void **unused) {
     assert_int_equal(state.now.split, GPU_SPLIT_NONE);
     for (int i = 0; i < 300; i++)
         key("Up");
-    assert_int_equal(state.now.looks[0].bands, view_bands_max(state.now.looks[0].method));
+    assert_int_equal(state.now.looks[0].bands,
+                     method_table[state.now.looks[0].method].bands_max[DEVICE_AUTO]);
 }
 
 static void files_become_materials_where_they_are_dropped(void **unused) {

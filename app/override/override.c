@@ -1,32 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/device/materials.h"
-
-#include "app/device/device.h"
+#include "app/override/override.h"
+#include "app/method/method.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Notes that the materials named like the slot are replaced by entry `entry`. */
-static bool use_entry(const scene *world, const char *text, size_t slot_length, int entry,
-                      int *uses, cli_error *error) {
-    char slot[SCENE_NAME_SIZE] = "";
+/* Notes that the materials of the name before `=` in text are replaced by entry `entry`. */
+static bool use_entry(const scene *world, const char *text, size_t length, int entry, int *uses,
+                      cli_error *error) {
+    char name[SCENE_NAME_SIZE] = "";
     bool found = false;
-    if (slot_length >= sizeof slot)
+    if (length >= sizeof name)
         return cli_fail(error, text, "no material has so long a name");
-    memcpy(slot, text, slot_length);
+    memcpy(name, text, length);
     for (size_t i = 0; i < world->material_count; i++)
-        if (strcmp(world->materials[i].name, slot) == 0) {
+        if (strcmp(world->materials[i].name, name) == 0) {
             uses[i] = entry;
             found = true;
         }
     return found ||
-           cli_fail_member(error, world->origin, "material", slot, world->materials[0].name,
+           cli_fail_member(error, world->origin, "material", name, world->materials[0].name,
                            sizeof *world->materials, world->material_count);
 }
 
-bool device_materials_open(const cli_list *list, const scene *world, device_materials *all,
-                           cli_error *error) {
-    *all = (device_materials) { .count = 0 };
+bool override_open(const cli_list *list, const scene *world, override_set *all, cli_error *error) {
+    *all = (override_set) { .count = 0 };
     if (list->count == 0)
         return true;
     all->uses = malloc((world->material_count + 1) * sizeof *all->uses);
@@ -37,7 +35,7 @@ bool device_materials_open(const cli_list *list, const scene *world, device_mate
     for (int i = 0; i < list->count; i++) {
         const char *text = list->items[i], *equals = strchr(text, '=');
         if (!equals)
-            return cli_fail(error, text, "--material is SLOT=MATERIAL");
+            return cli_fail(error, text, "--material is " OVERRIDE_ARGUMENT);
         if (!use_entry(world, text, (size_t)(equals - text), i, all->uses, error) ||
             !material_open(equals + 1, &all->opened[i], error))
             return false;
@@ -46,7 +44,7 @@ bool device_materials_open(const cli_list *list, const scene *world, device_mate
     return true;
 }
 
-bool device_materials_bake(device_materials *all, int bands, lmp_window window, cli_error *error) {
+bool override_bake(override_set *all, int bands, lmp_window window, cli_error *error) {
     const lmp_brdf_table_desc desc = { .bands = bands,
                                        .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
                                        .window = window };
@@ -56,15 +54,15 @@ bool device_materials_bake(device_materials *all, int bands, lmp_window window, 
     return true;
 }
 
-bool device_materials_respond(device_materials *all, cli_error *error) {
+bool override_preintegrate(override_set *all, cli_error *error) {
     for (int i = 0; i < all->count; i++)
-        if (!device_preintegrated_brdf(&all->opened[i], all->tables[i], &all->responses[i], error))
+        if (!material_preintegrate(&all->opened[i], all->tables[i], &all->preintegrated[i], error))
             return false;
     return true;
 }
 
-bool device_materials_give(const device_materials *all, const scene *world, gpu_renderer *renderer,
-                           cli_error *error) {
+bool override_apply(const override_set *all, const scene *world, gpu_renderer *renderer,
+                    cli_error *error) {
     const size_t count = world->material_count;
     int *none = NULL;
     if (!all->uses) {
@@ -76,25 +74,26 @@ bool device_materials_give(const device_materials *all, const scene *world, gpu_
     const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
                                    all->uses ? all->uses : none, count, error);
     if (ok)
-        gpu_set_responses(renderer, (const lmp_preintegrated_brdf *const *)all->responses);
+        gpu_set_responses(renderer, (const lmp_preintegrated_brdf *const *)all->preintegrated);
     free(none);
     return ok;
 }
 
-bool device_materials_apply(const cli_list *list, const scene *world, const gpu_frame *frame,
-                            gpu_renderer *renderer, device_materials *all, cli_error *error) {
-    return device_materials_open(list, world, all, error) &&
-           device_materials_bake(all, frame->bands, frame->window, error) &&
-           (frame->method != GPU_METHOD_PREINTEGRATED || device_materials_respond(all, error)) &&
-           (all->count == 0 || device_materials_give(all, world, renderer, error));
+bool override_prepare(const cli_list *list, const scene *world, const gpu_frame *frame,
+                      gpu_renderer *renderer, override_set *all, cli_error *error) {
+    return override_open(list, world, all, error) &&
+           override_bake(all, frame->bands, frame->window, error) &&
+           (!(method_table[frame->method].reads & METHOD_READS_PREINTEGRATED) ||
+            override_preintegrate(all, error)) &&
+           (all->count == 0 || override_apply(all, world, renderer, error));
 }
 
-void device_materials_free(device_materials *all) {
+void override_free(override_set *all) {
     for (int i = 0; i < all->count; i++) {
-        lmp_preintegrated_brdf_destroy(all->responses[i]);
+        lmp_preintegrated_brdf_destroy(all->preintegrated[i]);
         lmp_brdf_table_destroy(all->tables[i]);
         material_close(&all->opened[i]);
     }
     free(all->uses);
-    *all = (device_materials) { .count = 0 };
+    *all = (override_set) { .count = 0 };
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/command/command.h"
+#include "app/timing/timing.h"
 
 #include <stdio.h>
 #include <string.h>
 
-void command_processor(char *name, size_t size) {
+void timing_cpu_name(char *name, size_t size) {
     char line[256];
     FILE *file = fopen("/proc/cpuinfo", "r");
-    snprintf(name, size, "unknown processor");
+    snprintf(name, size, "unknown CPU");
     while (file && fgets(line, sizeof line, file))
         if (strncmp(line, "model name", 10) == 0 && strchr(line, ':')) {
             snprintf(name, size, "%.*s", (int)strcspn(strchr(line, ':') + 2, "\n\""),

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/method/method.h"
+#include "app/cli/cli.h"
+
+#include <stdio.h>
+
+/* A driver takes minutes to compile the coefficients of more bands. */
+#define GPU_COEFFICIENTS_MAX 20
+
+/* Where a method takes so many bands on the GPU, and on the CPU. */
+#define BANDS(gpu, cpu)                                                                            \
+    { [DEVICE_AUTO] = (gpu) > (cpu) ? (gpu) : (cpu), [DEVICE_GPU] = (gpu), [DEVICE_CPU] = (cpu) }
+
+const method_row method_table[METHODS_TIMED] = {
+    [METHOD_ZONAL] = { .name = "zonal",
+                       .help = "is fast",
+                       .method = LMP_SHADE_ZONAL,
+                       .bands_max = BANDS(METHOD_GPU_BANDS_MAX, LMP_BANDS_MAX),
+                       .batched = true,
+                       .tabulated = true,
+                       .shader = "shade.comp",
+                       .function = "lmp_shade_zonal",
+                       .defines = "" },
+    [METHOD_COEFFICIENTS] = { .name = "coefficients",
+                              .help = "is the paper's",
+                              .method = LMP_SHADE_COEFFICIENTS,
+                              .bands_max = BANDS(GPU_COEFFICIENTS_MAX, LMP_BANDS_MAX),
+                              .tabulated = true,
+                              .shader = "shade.comp",
+                              .function = "lmp_shade_coefficients",
+                              .defines = "" },
+    [METHOD_PREINTEGRATED] = { .name = "preintegrated",
+                               .help = "costs the same at any number of bands",
+                               .method = LMP_SHADE_PREINTEGRATED,
+                               .bands_max = BANDS(LMP_BANDS_MAX, LMP_BANDS_MAX),
+                               .batched = true,
+                               .tabulated = true,
+                               .reads = METHOD_READS_PREINTEGRATED,
+                               .shader = "shade.comp",
+                               .function = "lmp_shade_preintegrated",
+                               .defines = "#define SHADE_PREINTEGRATED\n" },
+    [METHOD_PAPER] = { .name = "paper",
+                       .baseline = true,
+                       .bands_max = BANDS(GPU_COEFFICIENTS_MAX, 0),
+                       .shader = "paper.frag",
+                       .fragment = true,
+                       .function = "paper_shade",
+                       .defines = "" },
+    [METHOD_TABULATED_Z] = { .name = "tabulated-z",
+                             .bands_max = BANDS(GPU_COEFFICIENTS_MAX, 0),
+                             .reads = METHOD_READS_TABULATED_Z,
+                             .shader = "shade.comp",
+                             .function = "lmp_shade_coefficients",
+                             .defines = "#define SHADE_TABULATED_Z\n" },
+};
+
+const char *const method_window_names[METHOD_WINDOWS + 1] = {
+    [LMP_WINDOW_NONE] = "none",
+    [LMP_WINDOW_HANNING] = "hanning",
+    [LMP_WINDOW_LANCZOS] = "lanczos",
+};
+
+const char *const *method_names(void) {
+    static const char *names[METHODS + 1];
+    cli_row_names(&method_table[0].name, sizeof *method_table, METHODS, names);
+    return names;
+}
+
+const char *method_help(void) {
+    static char text[512];
+    size_t used = (size_t)snprintf(text, sizeof text, "how to shade");
+    for (int m = 0; m < METHODS; m++) {
+        const method_row *row = &method_table[m];
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %s", m ? ", " : ": ",
+                                 row->name, row->help);
+        if (row->bands_max[DEVICE_GPU] < row->bands_max[DEVICE_CPU])
+            used += (size_t)snprintf(text + used, sizeof text - used, " (on the GPU to %d bands)",
+                                     row->bands_max[DEVICE_GPU]);
+    }
+    return text;
+}
+
+device_kind method_device(method_kind method, device_kind wanted, bool software, int bands) {
+    const method_row *row = &method_table[method];
+    if (wanted != DEVICE_AUTO)
+        return wanted;
+    if (bands > row->bands_max[DEVICE_GPU])
+        return bands <= row->bands_max[DEVICE_CPU] ? DEVICE_CPU : DEVICE_GPU;
+    return software && row->batched ? DEVICE_CPU : DEVICE_GPU;
+}

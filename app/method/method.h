@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* method.h - how a frame is shaded: one table row a method. Options and their help, checks, the
+ * viewer's keys, benchmarks and shaders follow from the rows. */
+#ifndef LAMPION_METHOD_H
+#define LAMPION_METHOD_H
+
+#include "app/device/device.h"
+
+#include <lampion/shade.h>
+
+#include <stdbool.h>
+
+/* --- windowing filters: lmp_window --------------------------------------------------------------
+ */
+
+enum { METHOD_WINDOWS = LMP_WINDOW_LANCZOS + 1 };
+
+extern const char *const method_window_names[METHOD_WINDOWS + 1]; /* NULL-terminated */
+
+/* --- methods ------------------------------------------------------------------------------------
+ */
+
+typedef enum method_kind {
+    METHOD_ZONAL,
+    METHOD_COEFFICIENTS,
+    METHOD_PREINTEGRATED,
+    METHODS,
+    /* for benchmarks alone: the paper's own */
+    METHOD_PAPER = METHODS, /* its fragment shader */
+    METHOD_TABULATED_Z,     /* its tabulated Z_l (§4.2) in the method of coefficients */
+    METHODS_TIMED
+} method_kind;
+
+/* What a method reads besides the scene. */
+enum {
+    METHOD_READS_PREINTEGRATED = 1, /* lobes and BRDFs, so that its cost is that of one band */
+    METHOD_READS_TABULATED_Z = 2
+};
+
+typedef struct method_row {
+    const char *name, *help;
+    lmp_shade_method method; /* the library's */
+    int bands_max[DEVICES];  /* 0: it does not run there; automatically: the most of all devices */
+    bool batched;            /* the CPU has batch kernels for it */
+    bool tabulated;          /* it shades tabulated materials, too */
+    bool baseline;           /* benchmarks tell the others' speed against its */
+    unsigned reads;          /* METHOD_READS_… */
+    const char *shader;      /* its file */
+    bool fragment;        /* the shader is a full screen's fragment shader, not a compute shader */
+    const char *function; /* that the shader calls for a pixel */
+    const char *defines;  /* put before the shader */
+} method_row;
+
+extern const method_row method_table[METHODS_TIMED];
+
+#define METHOD_GPU_BANDS_MAX 32 /* LMP_BANDS_GLSL_MAX of lampion.glsl */
+
+/* The names of the rows that options choose among, NULL-terminated, and the options' help, which
+ * tells the limits of the devices. */
+const char *const *method_names(void);
+const char *method_help(void);
+
+/* Where a frame is shaded. DEVICE_AUTO: on the GPU, but where OpenGL is software on the CPU if it
+ * has batch kernels, and where the bands are too many for a shader. */
+device_kind method_device(method_kind method, device_kind wanted, bool software, int bands);
+
+#endif

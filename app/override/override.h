@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* override.h - the option --material NAME=MATERIAL: materials of a scene replaced by others. */
+#ifndef LAMPION_OVERRIDE_H
+#define LAMPION_OVERRIDE_H
+
+#include "app/gpu/gpu.h"
+#include "app/material/material.h"
+
+#define OVERRIDE_ARGUMENT "NAME=MATERIAL"
+#define OVERRIDE_OPTION_ROW(list)                                                                  \
+    {                                                                                              \
+        .name = "material", .kind = CLI_LIST, .target = &(list), .argument = OVERRIDE_ARGUMENT,    \
+        .help = "replace a material of the scene: " MATERIAL_NAMES                                 \
+    }
+
+typedef struct override_set {
+    material opened[GPU_TABLES_MAX];
+    lmp_brdf_table *tables[GPU_TABLES_MAX];                /* NULL before override_bake */
+    lmp_preintegrated_brdf *preintegrated[GPU_TABLES_MAX]; /* of tables; NULL unless asked for */
+    int count;
+    int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
+} override_set;
+
+/* Opens each of the list. An unknown name is an error that lists those there are. On failure too,
+ * *set is to be freed. */
+bool override_open(const cli_list *list, const scene *scene, override_set *set, cli_error *error);
+
+/* Makes a table of each. */
+bool override_bake(override_set *set, int bands, lmp_window window, cli_error *error);
+
+/* Then preintegrates the tables that allow it, for a method that reads them so. */
+bool override_preintegrate(override_set *set, cli_error *error);
+
+/* Has the renderer of the scene shade by them; without any by the scene's own again. */
+bool override_apply(const override_set *set, const scene *scene, gpu_renderer *renderer,
+                    cli_error *error);
+
+/* All of these: what the frame's method, bands and window need, for the renderer. */
+bool override_prepare(const cli_list *list, const scene *scene, const gpu_frame *frame,
+                      gpu_renderer *renderer, override_set *set, cli_error *error);
+
+/* After the renderer. */
+void override_free(override_set *set);
+
+#endif

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/shade/shade.h"
+
+#include <stdlib.h>
+
+/* What every pixel of a frame is shaded by. */
+typedef struct shading {
+    lmp_shade_settings settings;
+    const lmp_light *lights;
+    size_t light_count;
+} shading;
+
+static lmp_vec3_array vectors(float *const planes[3], size_t first) {
+    return (lmp_vec3_array) { planes[0] + first, planes[1] + first, planes[2] + first,
+                              sizeof(float) };
+}
+
+/* Neighbors in a row, from `first` on. */
+static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t count,
+                      float *rgba) {
+    const lmp_surfaces surfaces = {
+        .position = vectors(row->position, first),
+        .normal = vectors(row->normal, first),
+        .view = vectors(row->view, first),
+        .material = row->material + first,
+        .material_stride = sizeof *row->material,
+    };
+    lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float), rgba);
+}
+
+/* Runs of surfaces are shaded together; what lies between them shows what it emits. */
+static void shade_row(const shading *s, const gpu_row *row, size_t width, float *rgba) {
+    for (size_t i = 0; i < width;) {
+        size_t end = i;
+        while (end < width && row->kind[end] == GPU_KIND_SURFACE)
+            end++;
+        if (end > i)
+            shade_run(s, row, i, end - i, rgba + 4 * i);
+        for (; i < end; i++)
+            for (size_t c = 0; c < 3; c++)
+                rgba[4 * i + c] += row->emission[c][i];
+        for (; i < width && row->kind[i] != GPU_KIND_SURFACE; i++)
+            for (size_t c = 0; c < 3; c++)
+                rgba[4 * i + c] = row->emission[c][i];
+    }
+}
+
+bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                 cli_error *error) {
+    const size_t width = (size_t)frame->width;
+    lmp_light *lights = calloc(frame->light_count + 1, sizeof *lights);
+    const shading s = { { .method = method_table[frame->method].method,
+                          .bands = frame->bands,
+                          .window = frame->window,
+                          .lobe = frame->lobes },
+                        lights,
+                        frame->light_count };
+    bool ok = lights;
+    for (size_t i = 0; ok && i < frame->light_count; i++)
+        lights[i] = frame->lights[i].emitter;
+    if (ok)
+#pragma omp parallel reduction(&& : ok)
+    {
+        gpu_row row;
+        const bool mine = gpu_row_create(frame->width, &row);
+#pragma omp for schedule(dynamic, 4)
+        for (int y = 0; y < frame->height; y++)
+            if (mine) {
+                gpu_gbuffer_row(gbuffer, y, &row);
+                shade_row(&s, &row, width, rgba + 4 * (size_t)y * width);
+            }
+        if (mine)
+            gpu_row_free(&row);
+        ok = mine;
+    }
+    free(lights);
+    return ok || cli_fail(error, NULL, "out of memory");
+}

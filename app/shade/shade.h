@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: MIT */
+/* shade.h - frames shaded on the CPU: the G-buffer's pixels through the library, on all cores. */
+#ifndef LAMPION_SHADE_FRAME_H
+#define LAMPION_SHADE_FRAME_H
+
+#include "app/gpu/gpu.h"
+
+/* gpu_frame.host: shades by the frame's method, bands, window, lights and lobes. */
+bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba, cli_error *error);
+
+#endif
