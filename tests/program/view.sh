@@ -159,7 +159,7 @@ until_true "help" is value help true
 xdotool key Escape
 until_true "no help" is value help false
 xdotool key shift+F5
-until_true "starting anew" says "graphics were started anew"
+until_true "starting again" says "graphics were started again"
 is value width 400 || fail "starting anew lost the size"
 
 # the scene file: broken, it stays; mended, it is read again
