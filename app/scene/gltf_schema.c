@@ -12,8 +12,8 @@
     { .name = "name", TEXT }
 #define COUNT                  .type = GLTF_TYPE_INTEGER, .maximum = 9007199254740991.0 /* 2^53 - 1 */
 #define UNIT                   .maximum = 1.0
-#define POSITIVE               .maximum = INFINITY, .above = true
-#define NOT_NEGATIVE           .maximum = INFINITY
+#define POSITIVE               .maximum = HUGE_VAL, .above = true
+#define NOT_NEGATIVE           .maximum = HUGE_VAL
 #define CHOICE(values)         .choices = " " values " "
 #define REFERENCE(of)          .type = GLTF_TYPE_REFERENCE, .kind = (of)
 #define OBJECT(of)             .type = GLTF_TYPE_OBJECT, .object = &(of)
