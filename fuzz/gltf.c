@@ -15,5 +15,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_scene_check(&builder);
     gltf_close(&document);
     builder_free(&builder);
+    sources_free(&sources);
     return 0;
 }

@@ -22,5 +22,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     mtl_names_free(&names);
     free(files.names);
     builder_free(&builder);
+    sources_free(&sources);
     return 0;
 }

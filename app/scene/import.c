@@ -175,14 +175,6 @@ static bool prepare(const char *path, import_job *job, cli_error *error) {
     return true;
 }
 
-static void free_sources(source_set *set) {
-    for (size_t i = 0; i < set->count; i++)
-        free(set->items[i].data);
-    free(set->items);
-    set->items = NULL;
-    set->count = 0;
-}
-
 static int open_source(void *context, const char *name, cli_error *error) {
     const import_job *job = context;
     return sources_open(&job->sources, name, error);
@@ -221,7 +213,7 @@ bool import_scene(const char *path, bool no_cache, scene *s, cli_error *error) {
     if (ok) {
         const file_hash key = cache_key(job.folder, job.name, job.data, job.size);
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
-        free_sources(&job.sources);
+        sources_free(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);
         if (ok && !cached && !no_cache && !lacks_files(block))
             cache_store(&key, block, size);

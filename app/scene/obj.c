@@ -268,11 +268,11 @@ static uint32_t material_of(const obj_reader *r, const run *from) {
 }
 
 static bool add_run(const obj_reader *r, const run *from, size_t end) {
-    const corner *corners = (const corner *)r->corners.items + from->first_corner;
     const float *positions = r->positions.items, *uvs = r->uvs.items, *normals = r->normals.items;
     const size_t count = end - from->first_corner;
     if (count == 0)
         return true;
+    const corner *corners = (const corner *)r->corners.items + from->first_corner;
     mesh_draft draft = { .subject = r->sources->subject,
                          .name = from->name,
                          .material = material_of(r, from),

@@ -176,3 +176,11 @@ bool sources_read_if_there(source_set *set, const char *uri, const source **foun
     *error = reason;
     return false;
 }
+
+void sources_free(source_set *set) {
+    for (size_t i = 0; i < set->count; i++)
+        free(set->items[i].data);
+    free(set->items);
+    set->items = NULL;
+    set->count = 0;
+}

@@ -34,4 +34,7 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
 bool sources_read_if_there(source_set *set, const char *uri, const source **found,
                            cli_error *error);
 
+/* Frees what was read. */
+void sources_free(source_set *set);
+
 #endif

@@ -21,9 +21,7 @@ static bool reads(const char *text, scene_builder *builder, cli_error *error) {
     *builder = (scene_builder) { 0 };
     *error = (cli_error) { .text = "" };
     const bool ok = obj_add(text, strlen(text), &sources, builder, error);
-    for (size_t i = 0; i < sources.count; i++)
-        free(sources.items[i].data);
-    free(sources.items);
+    sources_free(&sources);
     return ok;
 }
 
