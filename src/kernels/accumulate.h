@@ -20,8 +20,8 @@
 /* Lights a pass, where their bands fit. */
 #define ACCUMULATE_LIGHTS (LMP_LANES == 16 ? 4 : 2)
 
-/* Columns first … end-1 of bands low … high-1: either whole columns, which begin at their own band
- * m, or a part of one. */
+/* Columns first … end-1 of bands low … high-1: whole columns, which begin at their own band m, a
+ * part of one, or whole bands. */
 typedef struct accumulate_tile {
     int first, end, low, high;
 } accumulate_tile;
@@ -159,7 +159,7 @@ LMP_INLINE void accumulate_band(accumulate_tile tile, int l, int monic, int plan
         vf_store(plus + (size_t)m * stride, norm * sum[0]);
         if (m > 0)
             vf_store(minus - (size_t)m * stride, norm * sum[planes]);
-        sum += (tile.high - m - 1) * 2 * planes;
+        sum += (tile.high - (m + 1 > tile.low ? m + 1 : tile.low)) * 2 * planes;
     }
 }
 

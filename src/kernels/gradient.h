@@ -33,6 +33,24 @@ typedef struct gradient_band {
     vf along;  /* (pi s2/d) 2 P_l/alpha */
 } gradient_band;
 
+/* The tile after this one: of few bands whole bands, which lie together in rows and need the light
+ * less often than columns do; of more, columns, whose recurrences begin with them. */
+static inline accumulate_tile gradient_next(int bands, accumulate_tile tile) {
+    if (bands > GRADIENT_COLUMNS)
+        return accumulate_next(bands, tile, GRADIENT_PAIRS);
+    int high = tile.high + 1, pairs = high;
+    if (tile.high == bands)
+        return (accumulate_tile) { .first = bands };
+    while (high < bands && pairs + high + 1 <= GRADIENT_PAIRS)
+        pairs += ++high;
+    return (accumulate_tile) { 0, high, tile.high, high };
+}
+
+static inline accumulate_tile gradient_first(int bands) {
+    return bands > GRADIENT_COLUMNS ? accumulate_first(bands, GRADIENT_PAIRS)
+                                    : gradient_next(bands, (accumulate_tile) { 0 });
+}
+
 /* What of a light a tile needs: bands from its lowest on, and C_m, S_m from before its first. */
 typedef struct gradient_light {
     vf x, y, z;
@@ -137,10 +155,10 @@ LMP_INLINE void gradient_entry(accumulate_tile tile, const gradient_light *light
 }
 
 /* The sums of a column follow those of the column below it. */
-LMP_INLINE void gradient_columns(int bands, accumulate_tile tile, int at_once,
-                                 const gradient_light *light, vf *sums) {
+LMP_INLINE void gradient_columns(accumulate_tile tile, int at_once, const gradient_light *light,
+                                 vf *sums) {
     gradient_pair pairs[GRADIENT_PAIRS];
-    for (int k = 0; tile.end < bands && k < at_once; k++)
+    for (int k = 0; tile.end < tile.high && k < at_once; k++)
         gradient_column(tile, tile.end, light[k].z, pairs, k);
     sums += accumulate_pairs(tile) * GRADIENT_WIDTH;
     for (int m = tile.end - 1; m >= tile.first; m--) {
@@ -168,19 +186,18 @@ LMP_INLINE void gradient_columns(int bands, accumulate_tile tile, int at_once,
     }
 }
 
-static LMP_NOINLINE void gradient_tile(int bands, accumulate_tile tile,
-                                       const lmp_kernel_lights *lights, const vf point[3],
-                                       float cos_min, vf *sums) {
+static LMP_NOINLINE void gradient_tile(accumulate_tile tile, const lmp_kernel_lights *lights,
+                                       const vf point[3], float cos_min, vf *sums) {
     gradient_light light[GRADIENT_LIGHTS];
     size_t i = 0;
     for (; i + GRADIENT_LIGHTS <= lights->count; i += GRADIENT_LIGHTS) {
         for (size_t k = 0; k < GRADIENT_LIGHTS; k++)
             gradient_prepare(tile, lights, i + k, point, cos_min, &light[k]);
-        gradient_columns(bands, tile, GRADIENT_LIGHTS, light, sums);
+        gradient_columns(tile, GRADIENT_LIGHTS, light, sums);
     }
     for (; i < lights->count; i++) {
         gradient_prepare(tile, lights, i, point, cos_min, &light[0]);
-        gradient_columns(bands, tile, 1, light, sums);
+        gradient_columns(tile, 1, light, sums);
     }
 }
 
@@ -199,10 +216,10 @@ static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
         const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
                               vf_load(points->z + e) };
         const size_t live = layout_live(count, e);
-        for (accumulate_tile tile = accumulate_first(bands, GRADIENT_PAIRS); tile.first < bands;
-             tile = accumulate_next(bands, tile, GRADIENT_PAIRS)) {
+        for (accumulate_tile tile = gradient_first(bands); tile.first < bands;
+             tile = gradient_next(bands, tile)) {
             memset(sums, 0, accumulate_pairs(tile) * GRADIENT_WIDTH * sizeof *sums);
-            gradient_tile(bands, tile, lights, point, cos_min, sums);
+            gradient_tile(tile, lights, point, cos_min, sums);
             gradient_put(bands, tile, sums, out, gradient, e, live);
         }
     }
