@@ -12,10 +12,18 @@ layout(std430, binding = SHARED_TABLES) readonly restrict buffer tables_block {
 #if TABLE_FULL
 #define TABLE_COUNT       LMP_SH_COUNT
 #define TABLE_INDEX(l, m) (l * l + l + m)
+#define TABLE_FAR(first, weight, i)                                                                \
+    (weight.z * table_values[first.z + i].rgb + weight.w * table_values[first.w + i].rgb)
 #else
 #define TABLE_COUNT       (LMP_BANDS * (LMP_BANDS + 1) / 2)
 #define TABLE_INDEX(l, m) (l * (l + 1) / 2 + m)
+#define TABLE_FAR(first, weight, i) 0.0
 #endif
+
+/* Coefficient i between the four rows of table_rows. */
+#define TABLE_AT(first, weight, i)                                                                 \
+    (weight.x * table_values[first.x + i].rgb + weight.y * table_values[first.y + i].rgb +         \
+     TABLE_FAR(first, weight, i))
 
 /* v without its part along n, made unit; `otherwise` where nothing is left. */
 vec3 table_flatten(vec3 v, vec3 n, vec3 otherwise) {
@@ -79,20 +87,11 @@ vec3 shade_table(lmp_surface surface, int table) {
     table_rows(table, dot(surface.view, n), atan(dot(x, cross(n, side)), dot(x, side)), first,
                weight);
     vec3 reflected = vec3(0.0);
-#define TABLE_AT(i)                                                                                \
-    (weight.x * table_values[first.x + i].rgb + weight.y * table_values[first.y + i].rgb +         \
-     TABLE_FAR(i))
-#if TABLE_FULL
-#define TABLE_FAR(i)                                                                               \
-    (weight.z * table_values[first.z + i].rgb + weight.w * table_values[first.w + i].rgb)
-#else
-#define TABLE_FAR(i) 0.0
-#endif
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        reflected += sum[LMP_INDEX(l, m)] * TABLE_AT(TABLE_INDEX(l, m));                           \
+        reflected += sum[LMP_INDEX(l, m)] * TABLE_AT(first, weight, TABLE_INDEX(l, m));            \
         if (TABLE_FULL == 1 && m > 0)                                                              \
-            reflected += sum[LMP_INDEX(l, -m)] * TABLE_AT(TABLE_INDEX(l, -m));                     \
+            reflected += sum[LMP_INDEX(l, -m)] * TABLE_AT(first, weight, TABLE_INDEX(l, -m));      \
     }
 #define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
     LMP_FOR_COLUMNS(LMP_COLUMN)

@@ -355,14 +355,16 @@ static int repeat_shot(const render_options *o, const char *name) {
     return ok ? CLI_OK : cli_report(&error);
 }
 
+static const render_options defaults = { .size = { 1280, 720 },
+                                         .bands = LMP_SHADE_BANDS_DEFAULT,
+                                         .window = LMP_WINDOW_HANNING,
+                                         .samples = 1,
+                                         .shard = { 1, 1 },
+                                         .repeat = 5,
+                                         .fps = 24 };
+
 static int run(const cli_command *command, int argc, char **argv) {
-    render_options o = { .size = { 1280, 720 },
-                         .bands = LMP_SHADE_BANDS_DEFAULT,
-                         .window = LMP_WINDOW_HANNING,
-                         .samples = 1,
-                         .shard = { 1, 1 },
-                         .repeat = 5,
-                         .fps = 24 };
+    render_options o = defaults;
     const cli_option options[] = {
         { "output", 'o', CLI_TEXT, &o.output, "FILE",
           "the image: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },

@@ -60,6 +60,17 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
     return add_materials(&a->materials, s, error);
 }
 
+/* What the table of options cannot say. */
+static int check_arguments(const cli_command *command, const view_arguments *a, int operand_count) {
+    const int most = method_table[a->method].bands_max[DEVICE_AUTO];
+    if (operand_count > 1 || (operand_count == 0 && !a->from))
+        return cli_usage(command, "one SCENE is needed, %d given", operand_count);
+    if (a->bands > most)
+        return cli_usage(command, "--bands %d: %s takes 1 to %d", a->bands,
+                         method_table[a->method].name, most);
+    return CLI_OK;
+}
+
 static int view(const view_arguments *a, const char *name, view_options *o) {
     cli_error error = { "" };
     return fill_options(a, name, o, &error) && view_run(o, &error) ? CLI_OK : cli_report(&error);
@@ -116,13 +127,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     int operand_count, status;
     char **operands;
     if (cli_parse(command, options, argc, argv, &operand_count, &operands, &status)) {
-        const int most = method_table[a.method].bands_max[DEVICE_AUTO];
-        if (operand_count > 1 || (operand_count == 0 && !a.from))
-            status = cli_usage(command, "one SCENE is needed, %d given", operand_count);
-        else if (a.bands > most)
-            status = cli_usage(command, "--bands %d: %s takes 1 to %d", a.bands,
-                               method_table[a.method].name, most);
-        else
+        status = check_arguments(command, &a, operand_count);
+        if (status == CLI_OK)
             status = view(&a, operand_count ? operands[0] : NULL, o);
     }
     free(o);
