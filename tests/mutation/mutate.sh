@@ -16,7 +16,7 @@ app/reference/lobe.c reference.texture reference.estimate
 app/compare/ssim.c reference.compare
 app/gpu/renderer.c gpu.draw
 src/brdf/table.c unit.brdf_table
-src/brdf/rgl_read.c unit.brdf_rgl
+src/brdf/rgl_read.c unit.brdf_rgl unit.brdf_rgl_refusals
 END
 }
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* brdfs.h - the BRDFs that more than one test measures. */
+/* brdfs.h - the BRDFs that more than one test measures, and directions for them. */
 #ifndef LAMPION_BRDFS_H
 #define LAMPION_BRDFS_H
 
 #include "tests/oracle/check.h"
 
 #include <lampion/brdf.h>
+
+#include <math.h>
 
 static inline lmp_brdf *lambert(float r, float g, float b) {
     lmp_brdf *brdf = NULL;
@@ -25,6 +27,20 @@ static inline lmp_brdf *ggx(float alpha_x, float alpha_y) {
     lmp_brdf *brdf = NULL;
     assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
     return brdf;
+}
+
+static inline lmp_brdf *sgd_brdf(const char *name) {
+    lmp_sgd parameters;
+    lmp_brdf *brdf = NULL;
+    assert_int_equal(lmp_sgd_find(name, &parameters), LMP_OK);
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &parameters, &brdf), LMP_OK);
+    return brdf;
+}
+
+static inline lmp_vec3 random_upper(void) {
+    lmp_vec3 w = check_random_direction();
+    w.z = fabsf(w.z);
+    return w;
 }
 
 #endif

@@ -1,68 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Responses of measured materials against the sums over bands that they stand for. */
-#include "src/base/bytes.h"
-#include "tests/oracle/check.h"
+#include "tests/unit/preintegrated_brdfs.h"
 
-#include <lampion/lampion.h>
-
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-static const double pi = 3.14159265358979324;
-
-static lmp_brdf *sgd_brdf(const char *name) {
-    lmp_sgd sgd;
-    lmp_brdf *brdf;
-    assert_int_equal(lmp_sgd_find(name, &sgd), LMP_OK);
-    assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
-    return brdf;
-}
-
-static lmp_brdf_table *table_of(lmp_brdf *brdf, const lmp_brdf_table_desc *desc) {
-    lmp_brdf_table *table;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, desc, &table), LMP_OK);
-    lmp_brdf_destroy(brdf);
-    return table;
-}
-
-static lmp_brdf_table *sgd_table(const char *name, int bands, lmp_window window) {
-    const lmp_brdf_table_desc desc = { .bands = bands, .window = window, .rings_max = 128 };
-    return table_of(sgd_brdf(name), &desc);
-}
-
-static lmp_preintegrated_brdf *created(const lmp_brdf_table *table, float error) {
-    lmp_preintegrated_brdf *response;
-    const lmp_preintegrated_brdf_desc desc = { .error = error };
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, &desc, &response), LMP_OK);
-    return response;
-}
 
 /* --- errors ------------------------------------------------------------------------------------
  */
-
-/* A view, and a sphere of radiance 1 that looks r / 1 large: where a cap of a given size may lie.
- */
-typedef struct probe {
-    double theta;
-    float radius;
-} probe;
-
-/* A direction at g, p around the mirror direction, of the frame whose z is the normal. */
-static lmp_vec3 around_mirror(const probe *p, double g, double azimuth) {
-    const double x = sin(g) * cos(azimuth), y = sin(g) * sin(azimuth), z = cos(g);
-    const double c = cos(p->theta), s = sin(p->theta);
-    return (lmp_vec3) { (float)(c * x - s * z), (float)y, (float)(s * x + c * z) };
-}
-
-static lmp_vec3 random_direction(const probe *p, int i, double detail) {
-    double g = fabs(asin(fmin((double)p->radius, 1)) + detail * check_random_between(-4, 4));
-    if (i % 3 == 1)
-        g = acos(check_random_between(-1, 1));
-    if (i % 3 == 2)
-        g = check_random_between(0, 0.3);
-    return around_mirror(p, i == 0 ? 0 : fmin(g, pi), check_random_between(0, 2 * pi));
-}
 
 static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_preintegrated_brdf *response,
                       const probe *p, lmp_vec3 direction) {
@@ -110,12 +53,6 @@ static void compare(const lmp_brdf_table *table, const lmp_preintegrated_brdf *r
         for (int c = 0; c < 3; c++)
             check_errors_add(errors, fabs(off[c]) / (double)peak);
     }
-}
-
-static probe random_probe(double least, double most) {
-    return (probe) { check_random() < 0.8 ? pi / 2 * check_random()
-                                          : pi / 2 * (1 - 0.1 * check_random()),
-                     (float)pow(10, check_random_between(least, most)) };
 }
 
 /* Prints and returns them. */
@@ -428,174 +365,6 @@ static void every_instruction_set_shades_the_same_bits(void **state) {
     crowd_free(c);
 }
 
-/* --- making ------------------------------------------------------------------------------------
- */
-
-static lmp_brdf_table *small_table(void) {
-    const lmp_brdf_table_desc desc = { .bands = 2, .views = 3, .rings_max = 32 };
-    return table_of(sgd_brdf("white-fabric"), &desc);
-}
-
-static void backwards(void *user, size_t count, void (*task)(size_t index, void *data),
-                      void *data) {
-    (void)user;
-    for (size_t i = count; i-- > 0;)
-        task(i, data);
-}
-
-static void progressed(void *user, double done) {
-    double *before = user;
-    assert_true(done > *before && done <= 1);
-    *before = done;
-}
-
-static void *written(const lmp_preintegrated_brdf *response, size_t *size) {
-    *size = lmp_preintegrated_brdf_size(response);
-    void *bytes = malloc(*size);
-    assert_non_null(bytes);
-    lmp_preintegrated_brdf_write(response, bytes);
-    return bytes;
-}
-
-static void tasks_in_any_order_give_the_same_bytes(void **state) {
-    (void)state;
-    double done = 0;
-    const lmp_preintegrated_brdf_desc desc = { .parallel = backwards,
-                                               .progress = progressed,
-                                               .user = &done };
-    lmp_brdf_table *table = sgd_table("nickel", 5, LMP_WINDOW_NONE);
-    lmp_preintegrated_brdf *plain = created(table, 0), *other;
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, &desc, &other), LMP_OK);
-    CHECK_WITHIN(fabs(done - 1), 0);
-    size_t size, other_size;
-    void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
-    assert_int_equal(size, other_size);
-    assert_memory_equal(bytes, other_bytes, size);
-    free(bytes);
-    free(other_bytes);
-    lmp_preintegrated_brdf_destroy(plain);
-    lmp_preintegrated_brdf_destroy(other);
-    lmp_brdf_table_destroy(table);
-}
-
-static void what_cannot_be_made_is_refused(void **state) {
-    (void)state;
-    lmp_brdf_table *table = small_table();
-    const float wrong[] = { 1e-5f, 0.5f, NAN, -1 };
-    for (int i = 0; i < 4; i++) {
-        lmp_preintegrated_brdf *response = (lmp_preintegrated_brdf *)1;
-        assert_int_equal(
-            lmp_preintegrated_brdf_create(
-                NULL, table, &(lmp_preintegrated_brdf_desc) { .error = wrong[i] }, &response),
-            LMP_ERROR_ARGUMENT);
-        assert_null(response);
-    }
-    lmp_preintegrated_brdf *response;
-    assert_int_equal(
-        lmp_preintegrated_brdf_create(
-            NULL, table, &(lmp_preintegrated_brdf_desc) { .bytes_max = 1000 }, &response),
-        LMP_ERROR_MEMORY);
-    lmp_brdf_table_destroy(table);
-
-    const lmp_ggx ggx = { 0.6f, 0.3f, { 0.9f, 0.8f, 0.6f }, { 0, 0, 0 } };
-    lmp_brdf *brdf;
-    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
-    const lmp_brdf_table_desc desc = { .bands = 3, .views = 4, .azimuths = 4, .rings_max = 32 };
-    table = table_of(brdf, &desc);
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, NULL, &response),
-                     LMP_ERROR_ARGUMENT);
-    lmp_brdf_table_destroy(table);
-}
-
-static void a_refused_allocation_leaks_nothing(void **state) {
-    (void)state;
-    lmp_brdf_table *table = small_table();
-    const lmp_preintegrated_brdf_desc desc = { .error = 0.1f };
-    for (int refuse = 0;; refuse += check_count(1 + refuse / 8, 1)) {
-        check_heap heap = { .refuse = refuse };
-        const lmp_allocator allocator = check_allocator(&heap);
-        lmp_preintegrated_brdf *response;
-        const lmp_result result =
-            lmp_preintegrated_brdf_create(&allocator, table, &desc, &response);
-        lmp_preintegrated_brdf_destroy(response);
-        assert_int_equal(heap.live, 0);
-        if (result == LMP_OK)
-            break;
-        assert_int_equal(result, LMP_ERROR_MEMORY);
-        assert_null(response);
-    }
-    lmp_brdf_table_destroy(table);
-}
-
-/* --- bytes -------------------------------------------------------------------------------------
- */
-
-static void bytes_read_back_are_the_same_response(void **state) {
-    (void)state;
-    lmp_brdf_table *table = small_table();
-    lmp_preintegrated_brdf *response = created(table, 0), *copy;
-    size_t size, again_size;
-    void *bytes = written(response, &size);
-    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_OK);
-    void *again = written(copy, &again_size);
-    assert_int_equal(size, again_size);
-    assert_memory_equal(bytes, again, size);
-    for (int i = 0; i < 200; i++) {
-        const probe p = random_probe(-3, 0);
-        const lmp_vec3 axis = random_direction(&p, i, 0.1);
-        const lmp_rgb a = lmp_preintegrated_brdf_eval(response, (float)cos(p.theta), axis, 0.1f),
-                      b = lmp_preintegrated_brdf_eval(copy, (float)cos(p.theta), axis, 0.1f);
-        assert_memory_equal(&a, &b, sizeof a);
-    }
-    free(bytes);
-    free(again);
-    lmp_preintegrated_brdf_destroy(response);
-    lmp_preintegrated_brdf_destroy(copy);
-    lmp_brdf_table_destroy(table);
-}
-
-static void sign(unsigned char *bytes, size_t size) {
-    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
-}
-
-static void damaged_bytes_are_refused(void **state) {
-    (void)state;
-    lmp_brdf_table *table = small_table();
-    lmp_preintegrated_brdf *response = created(table, 0.1f), *copy;
-    size_t size;
-    unsigned char *bytes = written(response, &size);
-    const size_t texels = 6 * lmp_preintegrated_brdf_describe(response).texel_count;
-    lmp_preintegrated_brdf_destroy(response);
-    lmp_brdf_table_destroy(table);
-
-    for (size_t cut = 0; cut < size; cut += 1 + cut / 16)
-        assert_int_not_equal(lmp_preintegrated_brdf_read(NULL, bytes, cut, &copy), LMP_OK);
-    bytes[size / 2] ^= 1;
-    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_ERROR_CHECKSUM);
-    bytes[size / 2] ^= 1;
-    bytes[8] = 99;
-    assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_ERROR_VERSION);
-    assert_null(copy);
-    bytes[8] = 1;
-    /* Any change before the texels is refused, or gives a response that stays in bounds. */
-    for (int i = 0; i < 2000; i++) {
-        const size_t at = 12 + (size_t)(check_random() * (double)(size - texels - 16));
-        const unsigned char was = bytes[at];
-        bytes[at] = (unsigned char)(check_random() * 256);
-        sign(bytes, size);
-        if (lmp_preintegrated_brdf_read(NULL, bytes, size, &copy) == LMP_OK)
-            for (int k = 0; k < 20; k++) {
-                const probe p = random_probe(-3, 0);
-                (void)lmp_preintegrated_brdf_eval(
-                    copy, (float)cos(p.theta), random_direction(&p, k, 0.5), (float)check_random());
-                (void)lmp_preintegrated_brdf_ambient(copy, (float)cos(p.theta));
-            }
-        lmp_preintegrated_brdf_destroy(copy);
-        bytes[at] = was;
-    }
-    free(bytes);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_materials_match_their_sums_within_the_error),
@@ -606,11 +375,6 @@ int main(void) {
         cmocka_unit_test(many_surfaces_are_shaded_like_one),
         cmocka_unit_test(every_instruction_set_shades_the_same_bits),
         cmocka_unit_test(a_larger_error_takes_less_memory),
-        cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
-        cmocka_unit_test(what_cannot_be_made_is_refused),
-        cmocka_unit_test(a_refused_allocation_leaks_nothing),
-        cmocka_unit_test(bytes_read_back_are_the_same_response),
-        cmocka_unit_test(damaged_bytes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
