@@ -2,7 +2,7 @@
 /* Every kernel, on every instruction set this machine has: against the oracle in double precision,
  * and bit for bit against the scalar build and the committed checksums, which hold for every
  * compiler. Memory around each output is guarded. */
-#include "tests/kernels/shading.h"
+#include "tests/kernels/shaded.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: MIT */
+/* shaded.h - what the kernels of shading should give, in double precision and written from
+ * lampion/shade.h and lampion/preintegrated.h. */
+#ifndef LAMPION_SHADED_H
+#define LAMPION_SHADED_H
+
+#include "tests/kernels/shading.h"
+
+static double dot3(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* A surface and what it sees. */
+typedef struct seen {
+    double point[3], normal[3], view[3], mirror[3];
+} seen;
+
+static void see(const shading *s, int i, seen *surface) {
+    const inputs *in = s->in;
+    widen(VECTOR(in->point), i, surface->point);
+    widen(VECTOR(in->normal), i, surface->normal);
+    widen(VECTOR(in->view), i, surface->view);
+    const double twice = 2 * dot3(surface->normal, surface->view);
+    for (int k = 0; k < 3; k++)
+        surface->mirror[k] = twice * surface->normal[k] - surface->view[k];
+}
+
+/* A light seen from a surface as lmp_light_cap puts it: a cap of at most a hemisphere, and inside a
+ * sphere light all around less the cap. */
+typedef struct seen_light {
+    double center[3], point[3], radius; /* for oracle_sphere */
+    double axis[3], t;                  /* 1 - cos a */
+    double scale;                       /* of its radiance */
+    double alpha2;                      /* cos² a */
+    bool inside, nothing;
+} seen_light;
+
+static void see_light(const shading *s, const seen *surface, int light, int i, seen_light *to) {
+    const lmp_kernel_light *l = &s->lights[light];
+    const double center[3] = { (double)l->x, (double)l->y, (double)l->z };
+    double v[3];
+    for (int k = 0; k < 3; k++) {
+        to->center[k] = center[k];
+        to->point[k] = l->w > 0 ? surface->point[k] : 0;
+        v[k] = center[k] - to->point[k];
+    }
+    const double r = (double)l->radius, d2 = dot3(v, v), d = sqrt(d2);
+    to->radius = r;
+    to->scale = l->scale ? (double)l->scale[i] : 1;
+    to->inside = d < r;
+    to->nothing = d2 == 0 && r == 0;
+    const double sine2 = to->nothing ? 0 : to->inside ? d2 / (r * r) : r * r / d2;
+    to->alpha2 = 1 - sine2;
+    to->t = sine2 / (1 + sqrt(1 - sine2));
+    for (int k = 0; k < 3; k++)
+        to->axis[k] = d2 > 0 ? (to->inside ? -v[k] : v[k]) / d : k == 2;
+}
+
+/* What is expected of an element, and how far rounding may take it. */
+typedef struct shaded {
+    double values[6], bound;
+} shaded;
+
+static void shaded_add(shaded *sum, int first, lmp_rgb rgb, double scale, const double answer[3]) {
+    sum->values[first] += (double)rgb.r * scale * answer[0];
+    sum->values[first + 1] += (double)rgb.g * scale * answer[1];
+    sum->values[first + 2] += (double)rgb.b * scale * answer[2];
+}
+
+/* A lobe's response from its definition, Σ lambda_l L_lm Y_lm(axis). */
+static double lobe_of(int bands, const double *lambda, const double *sh, const double *axis) {
+    double sum = 0;
+    for (int l = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++)
+            sum += lambda[l] * sh[LMP_SH_INDEX(l, m)] * axis[LMP_SH_INDEX(l, m)];
+    return sum;
+}
+
+/* By bands: dot products with both lobes' coefficients. */
+static void expect_zonal(const shading *s, int i, shaded *to) {
+    static double sh[128 * 128], around[2][128 * 128], lambda[2][128];
+    seen surface;
+    double size = 0;
+    see(s, i, &surface);
+    oracle_sh_eval(s->bands, surface.normal, around[0]);
+    oracle_sh_eval(s->bands, surface.mirror, around[1]);
+    const double e = (double)s->in->exponent[i];
+    for (int l = 0; l < s->bands; l++) {
+        /* of the lobe that integrates to 1 */
+        const double phong = l == 0   ? 1
+                             : l == 1 ? (e + 1) / (e + 2)
+                                      : lambda[1][l - 2] * (e - l + 2) / (e + l + 1);
+        lambda[1][l] = phong;
+        lambda[0][l] = (double)s->diffuse[l];
+    }
+    for (int l = 0; l < s->bands; l++) {
+        lambda[0][l] *= (double)s->window[l];
+        lambda[1][l] *= (double)s->window[l];
+        size += (fabs(lambda[0][l]) + fabs(lambda[1][l])) * (2 * l + 1);
+    }
+    *to = (shaded) { { 0 }, 0 };
+    for (int light = 0; light < SHADE_LIGHTS; light++) {
+        seen_light one;
+        see_light(s, &surface, light, i, &one);
+        if (one.nothing)
+            continue;
+        oracle_sphere(s->bands, one.center, one.radius, one.point, sh, NULL);
+        for (int lobe = 0; lobe < 2; lobe++) {
+            const double value = lobe_of(s->bands, lambda[lobe], sh, around[lobe]);
+            shaded_add(to, 3 * lobe, s->lights[light].radiance, one.scale,
+                       (double[3]) { value, value, value });
+        }
+        to->bound += 4e-7 + (1e-9 + 0.05 * surface_bound(one.alpha2)) * size;
+    }
+}
+
+static void spline(double x, double w[4]) {
+    const double y = 1 - x;
+    w[0] = y * y * y / 6;
+    w[1] = (4 - 6 * x * x + 3 * x * x * x) / 6;
+    w[2] = (4 - 6 * y * y + 3 * y * y * y) / 6;
+    w[3] = x * x * x / 6;
+}
+
+/* The steepest that splines of coefficients in -1 … 1 can be, and the integers' share of the error:
+ * weights in 1/32767. */
+#define STEEPEST 2.0
+#define WHOLE    4e-5
+
+/* One lobe's reading: the mean over the cap. */
+static double read_lobe(const shading *s, uint32_t first, uint32_t columns, const float place[3],
+                        double cosine, double t) {
+    const double share = (double)place[0], density = (double)place[1];
+    const double x = acos(fmin(fmax(cosine, -1), 1)) * density, y = acos(1 - t) * density;
+    const size_t column = (size_t)x, row = (size_t)y;
+    double wx[4], wy[4], sum = 0;
+    spline(x - (double)column, wx);
+    spline(y - (double)row, wy);
+    for (size_t k = 0; k < 4; k++)
+        for (size_t j = 0; j < 4; j++) {
+            const int16_t *pair = s->pairs + 2 * (first + (row + k) * columns + column + j);
+            sum += wy[k] * wx[j] * ((1 - share) * pair[0] + share * pair[1]);
+        }
+    return sum * 2 / 32767 / (2 * ORACLE_PI * t + (double)place[2]);
+}
+
+/* From everywhere less the mean, or the mean, times the cap's solid angle. */
+static void add_mean(const seen_light *one, const lmp_kernel_light *light, int first,
+                     const double mean[3], const double ambient[3], shaded *to) {
+    double value[3];
+    for (int c = 0; c < 3; c++) {
+        const double covered = 2 * ORACLE_PI * one->t * mean[c];
+        value[c] = one->inside ? ambient[c] - covered : covered;
+    }
+    shaded_add(to, first, light->radiance, one->scale, value);
+}
+
+static void expect_response(const shading *s, int i, shaded *to) {
+    seen surface;
+    see(s, i, &surface);
+    *to = (shaded) { { 0 }, 0 };
+    for (int light = 0; light < SHADE_LIGHTS; light++) {
+        seen_light one;
+        see_light(s, &surface, light, i, &one);
+        if (one.nothing)
+            continue;
+        for (int lobe = 0; lobe < 2; lobe++) {
+            const float place[3] = { lobe ? s->share[i] : s->broad[0][0],
+                                     lobe ? s->density[i] : s->broad[1][0],
+                                     lobe ? s->angle[i] : s->broad[2][0] };
+            const double cosine = dot3(lobe ? surface.mirror : surface.normal, one.axis);
+            const double mean =
+                read_lobe(s, lobe ? s->first[i] : s->broad_first[0],
+                          lobe ? s->columns[i] : s->broad_columns[0], place, cosine, one.t);
+            add_mean(&one, &s->lights[light], 3 * lobe, (double[3]) { mean, mean, mean },
+                     (double[3]) { 1, 1, 1 }, to);
+            /* acos near 1 has half of the digits, where the response is flat */
+            const double density = (double)place[1];
+            to->bound += one.scale * (WHOLE + STEEPEST * density * surface_bound(one.alpha2) +
+                                      STEEPEST * density * density * 1e-7);
+        }
+    }
+}
+
+/* Where a warp puts a share: the slice before, and the share of the next. */
+static size_t seek_warp(const float *warp, int steps, int count, double share, double *second) {
+    const double at = fmin(fmax(share, 0), 1) * steps;
+    const size_t i = (size_t)fmin(at, steps - 1);
+    const double low = (double)warp[i], high = (double)warp[i + 1];
+    const double slice = low + (at - (double)i) * (high - low);
+    const size_t first = (size_t)fmin(slice, count - 2);
+    *second = slice - (double)first;
+    return first;
+}
+
+/* The whole part of a coordinate that has a neighbor before and two after. */
+static size_t spline_at(double at, uint32_t count, double w[4]) {
+    const size_t base = (size_t)fmin(fmax(at, 1), (double)(count - 3));
+    spline(fmin(fmax(at - (double)base, 0), 1), w);
+    return base;
+}
+
+static void add_slice(const shading *s, size_t index, double coordinate, double azimuth,
+                      double weight, double rgb[3]) {
+    const lmp_kernel_slice *slice = &s->slices[index];
+    double down[4], across[4];
+    const size_t row = spline_at(
+        coordinate * (double)slice->row_density - (double)slice->row_origin, slice->rows, down);
+    const size_t column =
+        spline_at(azimuth * (double)slice->column_density + 1, slice->columns, across);
+    for (size_t k = 0; k < 4; k++)
+        for (size_t j = 0; j < 4; j++)
+            for (size_t c = 0; c < 3; c++) {
+                const size_t texel = slice->first + (row + k - 1) * slice->columns + column + j - 1;
+                rgb[c] +=
+                    weight * (double)slice->unit * down[k] * across[j] * s->texels[3 * texel + c];
+            }
+}
+
+/* The frame of the mirror direction: z along it, x in the plane of incidence; and theta_o. */
+static double mirror_frame(const seen *surface, double frame[3][3]) {
+    const double *n = surface->normal, along = dot3(n, surface->view);
+    double flat[3], length2 = 0;
+    for (int k = 0; k < 3; k++) {
+        flat[k] = surface->view[k] - along * n[k];
+        length2 += flat[k] * flat[k];
+    }
+    if (!(length2 > 1e-12)) {
+        flat[0] = n[1] * n[1] > 0.5 ? 1 : n[2];
+        flat[1] = 0;
+        flat[2] = n[1] * n[1] > 0.5 ? 0 : -n[0];
+        length2 = dot3(flat, flat);
+    }
+    for (int k = 0; k < 3; k++)
+        flat[k] /= sqrt(length2);
+    const double cosine = fmin(fmax(along, 0), 1), sine = sqrt(1 - cosine * cosine);
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        frame[0][k] = cosine * flat[k] + sine * n[k];
+        frame[1][k] = n[a] * flat[b] - n[b] * flat[a];
+        frame[2][k] = cosine * n[k] - sine * flat[k];
+    }
+    return acos(cosine);
+}
+
+static void read_measured(const shading *s, const seen_light *one, double frame[3][3], size_t view,
+                          double later, double mean[3]) {
+    const lmp_kernel_preintegrated_brdf *m = &s->measured;
+    const double x = dot3(frame[0], one->axis), y = dot3(frame[1], one->axis);
+    const double z = dot3(frame[2], one->axis), a = acos(1 - one->t);
+    double azimuth = atan2(y, x), larger;
+    azimuth = azimuth < 0 ? (m->mirrored ? -azimuth : azimuth + 2 * ORACLE_PI) : azimuth;
+    const double rim = a * a / (hypot(a, (double)m->radius) + (double)m->radius);
+    const double from_rim = atan2(hypot(x, y), z) - rim;
+    const double row =
+        from_rim * ((double)m->reach / ((double)m->width * hypot(from_rim, (double)m->reach)) +
+                    (double)m->slope);
+    const double quarter = ORACLE_PI / 2;
+    const size_t cap = seek_warp(s->cap_remap, CAP_STEPS, CAPS,
+                                 a / (a + 0.5) * (quarter + 0.5) / quarter, &larger);
+    memset(mean, 0, 3 * sizeof *mean);
+    for (size_t k = 0; k < 4; k++)
+        add_slice(s, (view + k / 2) * CAPS + cap + k % 2, row, azimuth,
+                  (k / 2 ? later : 1 - later) * (k % 2 ? larger : 1 - larger), mean);
+    for (int c = 0; c < 3; c++)
+        mean[c] /= 2 * ORACLE_PI * one->t + (double)m->lobe_angle;
+}
+
+static void expect_measured(const shading *s, int i, shaded *to) {
+    seen surface;
+    double frame[3][3], later;
+    see(s, i, &surface);
+    const double theta = mirror_frame(&surface, frame);
+    const size_t view =
+        seek_warp(s->view_remap, VIEW_STEPS, VIEWS, theta / (ORACLE_PI / 2), &later);
+    const lmp_rgb *color = &s->colors[view];
+    const double all[3] = {
+        (1 - later) * (double)color[0].r + later * (double)color[1].r,
+        (1 - later) * (double)color[0].g + later * (double)color[1].g,
+        (1 - later) * (double)color[0].b + later * (double)color[1].b,
+    };
+    *to = (shaded) { { 0 }, 1e-6 };
+    shaded_add(to, 0, s->ambient, 1, all);
+    for (int light = 0; light < SHADE_LIGHTS; light++) {
+        seen_light one;
+        double mean[3];
+        see_light(s, &surface, light, i, &one);
+        if (one.nothing)
+            continue;
+        read_measured(s, &one, frame, view, later, mean);
+        add_mean(&one, &s->lights[light], 0, mean, all, to);
+        to->bound += one.scale * (WHOLE + STEEPEST * surface_bound(one.alpha2));
+    }
+}
+
+#endif
