@@ -1,64 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes and lights files that are truncated, damaged or malicious: the program says so in one
- * line, exits with 1, and leaves nothing behind. */
-#include "tests/program/folder.h"
-
-#include <dirent.h>
-#include <fcntl.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-static int count_entries(const char *path) {
-    DIR *listing = opendir(path);
-    int count = 0;
-    assert_non_null(listing);
-    while (readdir(listing))
-        count++;
-    closedir(listing);
-    return count;
-}
-
-/* Runs the program with its output in files; returns its exit status. */
-static int run_program(const char *const arguments[]) {
-    const pid_t child = fork();
-    if (child == 0) {
-        const int out = open(in_folder("stdout"), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        const int err = open(in_folder("stderr"), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        dup2(out, 1);
-        dup2(err, 2);
-        char *copies[16] = { 0 };
-        for (int i = 0; arguments[i] && i < 15; i++)
-            copies[i] = strdup(arguments[i]);
-        execv(getenv("LAMPION_PROGRAM"), copies);
-        _exit(127);
-    }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_true(WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
-
-static size_t read_text(const char *name, char *text, size_t size) {
-    FILE *file = fopen(in_folder(name), "rb");
-    assert_non_null(file);
-    const size_t got = fread(text, 1, size - 1, file);
-    fclose(file);
-    text[got] = 0;
-    return got;
-}
-
-/* What the program printed must be one line that starts with "lampion" and holds `expected`. */
-static void assert_one_line(int status, const char *what, const char *expected) {
-    char text[4096];
-    const size_t printed = read_text("stdout", text, sizeof text);
-    const size_t size = read_text("stderr", text, sizeof text);
-    if (status != 1 || printed != 0 || size == 0 || strchr(text, '\n') != text + size - 1 ||
-        strncmp(text, "lampion: ", 9) != 0 || !strstr(text, expected))
-        fail_msg("%s: status %d, \"%s\" instead of \"%s\"", what, status, text, expected);
-}
+/* Scenes that are truncated, damaged or malicious. */
+#include "tests/program/refused.h"
 
 /* The program must refuse the scene of this name in the folder. */
 static void assert_refused(const char *name, const char *expected) {
@@ -67,18 +9,6 @@ static void assert_refused(const char *name, const char *expected) {
     const char *const arguments[] = { "lampion", "info", path, NULL };
     const int before = count_entries(folder);
     assert_one_line(run_program(arguments), name, expected);
-    assert_int_equal(count_entries(folder), before);
-}
-
-static void assert_lights_refused(const char *json, const char *expected) {
-    char path[512], pixels[512];
-    folder_write_text("lights.json", json);
-    snprintf(path, sizeof path, "%s", in_folder("lights.json"));
-    snprintf(pixels, sizeof pixels, "%s", in_folder("image.png"));
-    const char *const arguments[] = { "lampion", "render", "builtin:ball", "--lights",
-                                      path,      "-o",     pixels,         NULL };
-    const int before = count_entries(folder);
-    assert_one_line(run_program(arguments), json, expected);
     assert_int_equal(count_entries(folder), before);
 }
 
@@ -373,83 +303,10 @@ static void files_outside_the_folder_are_never_read(void **state) {
     assert_refused("gone.gltf", "\"gone.bin\", which does not exist");
 }
 
-/* --- lights -------------------------------------------------------------------------------------
- */
-
-static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) {
-    (void)state;
-#define GOOD "{\"position\":[0,1,0],\"radius\":1,\"radiance\":[1,1,1]}"
-    assert_lights_refused("", "lights.json");
-    assert_lights_refused("{\"lights\":[" GOOD, "is no valid JSON");
-    assert_lights_refused("{\n\"lights\":\n[NaN]}", "is no valid JSON: line 3");
-    assert_lights_refused("{\"lights\":[" GOOD "]} more", "is no valid JSON");
-    assert_lights_refused("[]", "has no array");
-    assert_lights_refused("{\"lights\":{}}", "has no array");
-    assert_lights_refused("{\"lights\":[],\"lamps\":[]}", "has keys other");
-    assert_lights_refused("{\"lights\":[" GOOD ",3]}", "lights[1] is no object");
-    assert_lights_refused("{\"lights\":[" GOOD ",{\"position\":[0,1],\"radius\":1,\"power\":1}]}",
-                          "lights[1].position is not three numbers");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":-1,\"power\":1}]}",
-                          "lights[0].radius is not above 0");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":0,\"power\":1}]}",
-                          "lights[0].radius is not above 0");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1e999,\"power\":1}]}",
-                          "lights[0].radius is not above 0, or above 1e17");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":2e17,\"power\":1}]}",
-                          "lights[0].radius is not above 0, or above 1e17");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,2e17],\"radius\":1,\"power\":1}]}",
-                          "lights[0].position is not finite, or beyond 1e17");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1e999,0],\"radius\":1,\"power\":1}]}",
-                          "lights[0].position is not finite");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":-1}]}",
-                          "lights[0].radiance is negative");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":[1,1e60,1]}]}",
-                          "lights[0].radiance is negative or not finite");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":\"much\"}]}",
-                          "lights[0].power is not a number or three");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1}]}",
-                          "lights[0] needs one of radiance, power, intensity");
-    assert_lights_refused(
-        "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,\"radiance\":1}]}",
-        "lights[0] needs one of radiance, power, intensity");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"color\":1}]}",
-                          "unknown key \"color\" (a sphere light has position, radius, "
-                          "radiance, power, intensity)");
-    assert_lights_refused(
-        "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"radius\":2,\"power\":1}]}",
-        "lights[0] has the key \"radius\" twice");
-    assert_lights_refused("{\"lights\":[{\"kind\":\"cone\"}]}",
-                          "lights[0].kind is none of sphere, point, spot, directional, cap, "
-                          "hemisphere");
-    assert_lights_refused("{\"lights\":[{\"kind\":\"point\",\"position\":[0,1,0],\"radius\":1,"
-                          "\"intensity\":1}]}",
-                          "unknown key \"radius\" (a point light has position, intensity)");
-    assert_lights_refused("{\"lights\":[{\"kind\":\"point\",\"position\":[0,1,0]}]}",
-                          "lights[0] needs intensity");
-    assert_lights_refused("{\"lights\":[{\"kind\":\"cap\",\"direction\":[0,1,0],\"angle\":4,"
-                          "\"radiance\":1}]}",
-                          "lights[0].angle is not in 0 to pi");
-    assert_lights_refused("{\"lights\":[{\"kind\":\"directional\",\"direction\":[0,0,0],"
-                          "\"irradiance\":1}]}",
-                          "lights[0].direction is no direction");
-    assert_lights_refused("{\"lights\":[{\"kind\":\"spot\",\"position\":[0,1,0],"
-                          "\"direction\":[0,-1,0],\"inner\":0.5,\"outer\":0.4,\"intensity\":1}]}",
-                          "lights[0].inner is above the outer angle");
-    assert_lights_refused("{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,"
-                          "\"hidden\":1}]}",
-                          "lights[0].hidden is neither true nor false");
-}
-
 static int make_folder(void **state) {
-    (void)state;
-    if (!mkdtemp(folder) || !getenv("LAMPION_PROGRAM"))
+    if (make_refused_folder(state))
         return -1;
-    mkdir(in_folder("cache"), 0700);
-    setenv("XDG_CACHE_HOME", in_folder("cache"), 1);
     folder_write("triangle.bin", triangle, sizeof triangle);
-    folder_write_text("stdout", "");
-    folder_write_text("stderr", "");
-    folder_write_text("lights.json", "");
     return 0;
 }
 
@@ -465,7 +322,6 @@ int main(void) {
         cmocka_unit_test(bombs_end_quickly),
         cmocka_unit_test(textures_that_cannot_be_are_refused),
         cmocka_unit_test(files_outside_the_folder_are_never_read),
-        cmocka_unit_test(faulty_lights_files_are_refused_by_the_light_s_number),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

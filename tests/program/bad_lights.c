@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/* Lights files that are truncated or say what cannot be. */
+#include "tests/program/refused.h"
+
+static void assert_lights_refused(const char *json, const char *expected) {
+    char path[512], pixels[512];
+    folder_write_text("lights.json", json);
+    snprintf(path, sizeof path, "%s", in_folder("lights.json"));
+    snprintf(pixels, sizeof pixels, "%s", in_folder("image.png"));
+    const char *const arguments[] = { "lampion", "render", "builtin:ball", "--lights",
+                                      path,      "-o",     pixels,         NULL };
+    const int before = count_entries(folder);
+    assert_one_line(run_program(arguments), json, expected);
+    assert_int_equal(count_entries(folder), before);
+}
+
+#define GOOD "{\"position\":[0,1,0],\"radius\":1,\"radiance\":[1,1,1]}"
+static const struct {
+    const char *json, *expected;
+} faults[] = {
+    { "", "lights.json" },
+    { "{\"lights\":[" GOOD, "is no valid JSON" },
+    { "{\n\"lights\":\n[NaN]}", "is no valid JSON: line 3" },
+    { "{\"lights\":[" GOOD "]} more", "is no valid JSON" },
+    { "[]", "has no array" },
+    { "{\"lights\":{}}", "has no array" },
+    { "{\"lights\":[],\"lamps\":[]}", "has keys other" },
+    { "{\"lights\":[" GOOD ",3]}", "lights[1] is no object" },
+    { "{\"lights\":[" GOOD ",{\"position\":[0,1],\"radius\":1,\"power\":1}]}",
+      "lights[1].position is not three numbers" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":-1,\"power\":1}]}",
+      "lights[0].radius is not above 0" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":0,\"power\":1}]}",
+      "lights[0].radius is not above 0" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1e999,\"power\":1}]}",
+      "lights[0].radius is not above 0, or above 1e17" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":2e17,\"power\":1}]}",
+      "lights[0].radius is not above 0, or above 1e17" },
+    { "{\"lights\":[{\"position\":[0,1,2e17],\"radius\":1,\"power\":1}]}",
+      "lights[0].position is not finite, or beyond 1e17" },
+    { "{\"lights\":[{\"position\":[0,1e999,0],\"radius\":1,\"power\":1}]}",
+      "lights[0].position is not finite" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":-1}]}",
+      "lights[0].radiance is negative" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":[1,1e60,1]}]}",
+      "lights[0].radiance is negative or not finite" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":\"much\"}]}",
+      "lights[0].power is not a number or three" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1}]}",
+      "lights[0] needs one of radiance, power, intensity" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,\"radiance\":1}]}",
+      "lights[0] needs one of radiance, power, intensity" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"color\":1}]}",
+      "unknown key \"color\" (a sphere light has position, radius, "
+      "radiance, power, intensity)" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"radius\":2,\"power\":1}]}",
+      "lights[0] has the key \"radius\" twice" },
+    { "{\"lights\":[{\"kind\":\"cone\"}]}",
+      "lights[0].kind is none of sphere, point, spot, directional, cap, "
+      "hemisphere" },
+    { "{\"lights\":[{\"kind\":\"point\",\"position\":[0,1,0],\"radius\":1,"
+      "\"intensity\":1}]}",
+      "unknown key \"radius\" (a point light has position, intensity)" },
+    { "{\"lights\":[{\"kind\":\"point\",\"position\":[0,1,0]}]}", "lights[0] needs intensity" },
+    { "{\"lights\":[{\"kind\":\"cap\",\"direction\":[0,1,0],\"angle\":4,"
+      "\"radiance\":1}]}",
+      "lights[0].angle is not in 0 to pi" },
+    { "{\"lights\":[{\"kind\":\"directional\",\"direction\":[0,0,0],"
+      "\"irradiance\":1}]}",
+      "lights[0].direction is no direction" },
+    { "{\"lights\":[{\"kind\":\"spot\",\"position\":[0,1,0],"
+      "\"direction\":[0,-1,0],\"inner\":0.5,\"outer\":0.4,\"intensity\":1}]}",
+      "lights[0].inner is above the outer angle" },
+    { "{\"lights\":[{\"position\":[0,1,0],\"radius\":1,\"power\":1,"
+      "\"hidden\":1}]}",
+      "lights[0].hidden is neither true nor false" },
+};
+
+static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
+        assert_lights_refused(faults[i].json, faults[i].expected);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faulty_lights_files_are_refused_by_the_light_s_number),
+    };
+    return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
+}
