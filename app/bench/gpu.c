@@ -2,7 +2,7 @@
 /* lampion bench gpu - what a frame costs by device, method, bands and lights (docs/benchmarks.md).
  */
 #include "app/bake/bake.h"
-#include "app/command/bench.h"
+#include "app/bench/bench.h"
 #include "app/override/override.h"
 #include "app/shade/shade.h"
 #include "app/timing/timing.h"

@@ -10,7 +10,7 @@ typedef struct bench_options {
     int bands;                 /* 0: many */
     int mask, threads, kernel; /* of cpu; kernel 0: all */
     /* of gpu */
-    int device, method;  /* of bench_devices and bench_methods */
+    int device, method;  /* indices indices of bench_devices and bench_methods */
     int lights, size[2]; /* 0: many */
     int seconds;         /* 0: a default, or no limit if `full` */
     const char *scene;   /* NULL: many */
@@ -18,11 +18,13 @@ typedef struct bench_options {
     cli_list materials;
 } bench_options;
 
-/* What `lampion bench gpu` times; the first of each is all. */
+/* What `lampion bench` times, NULL-terminated; the first of each is all. */
+const char *const *bench_kernel_names(void);
 const char *const *bench_devices(void);
 const char *const *bench_methods(void);
 
-/* `lampion bench gpu`; returns the exit status. */
+/* `lampion bench cpu` and `lampion bench gpu`; return the exit status. */
+int bench_cpu(const bench_options *options);
 int bench_gpu(const cli_command *command, const bench_options *options);
 
 #endif

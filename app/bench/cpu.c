@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion bench cpu - what the batch kernels cost (docs/benchmarks.md). */
+#include "app/bench/bench.h"
+#include "app/bench/inputs.h"
+#include "app/bench/peak.h"
+#include "app/timing/timing.h"
+
+#include <omp.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const int bands_measured[] = { 3, 5, 6, 8, 10, 20, 50, 128 };
+enum { BANDS_MEASURED = sizeof bands_measured / sizeof *bands_measured, RUNS_MAX = 401 };
+
+typedef struct measurement {
+    const char *isa;
+    timing_quartiles ns; /* a light-point pair */
+    double peak_fraction, vs_paper;
+    double vs_scalar; /* 0: scalar was not measured */
+} measurement;
+
+const char *const *bench_kernel_names(void) {
+    static const char *names[BENCH_KERNELS + 2] = { "all" };
+    cli_row_names(&bench_kernels[0].name, sizeof *bench_kernels, BENCH_KERNELS, names + 1);
+    return names;
+}
+
+static bool wanted(const bench_options *o, int kernel) {
+    return o->kernel == 0 || o->kernel == kernel + 1;
+}
+
+/* --- measuring ----------------------------------------------------------------------------------
+ */
+
+static double now_ns(void) {
+    return 1e9 * timing_now();
+}
+
+static double time_calls(const bench_kernel *kernel, const bench_batch *b, int calls) {
+    const double start = now_ns();
+    for (int i = 0; i < calls; i++)
+        kernel->run(b);
+    return (now_ns() - start) / calls;
+}
+
+/* Calls that take about 40 µs, so that a run is short enough to fall between interruptions. */
+static int calls_of(const bench_kernel *kernel, const bench_batch *b) {
+    kernel->run(b);
+    const double one = time_calls(kernel, b, 1);
+    return one > 40000 ? 1 : (int)(40000 / (one + 1)) + 1;
+}
+
+/* ns a pair; the peak is measured between the runs, for other loads come and go. */
+static measurement measure(const bench_kernel *kernel, const bench_batch *b, unsigned flag,
+                           int runs) {
+    static double ns[RUNS_MAX], fraction[RUNS_MAX];
+    const double pairs = (double)b->count * kernel->lights;
+    const double lanes = flag == LMP_CPU_AVX512   ? 16
+                         : flag == LMP_CPU_AVX2   ? 8
+                         : flag == LMP_CPU_VECTOR ? 4
+                                                  : 1;
+    const int calls = calls_of(kernel, b);
+    for (int i = 0; i < runs; i++) {
+        const double before = bench_peak(flag);
+        ns[i] = time_calls(kernel, b, calls) / pairs;
+        const double after = bench_peak(flag), peak = before < after ? before : after;
+        fraction[i] = kernel->slots(b->bands) / lanes / ns[i] * peak;
+    }
+    measurement m = { .ns = timing_of(ns, runs) };
+    m.peak_fraction = timing_of(fraction, runs).median;
+    return m;
+}
+
+static double measure_paper(const bench_kernel *kernel, const bench_batch *b, int runs) {
+    static double ns[RUNS_MAX];
+    for (int i = 0; i < runs; i++) {
+        const double start = now_ns();
+        for (size_t e = 0; e < 16; e++)
+            kernel->paper(b, e);
+        ns[i] = (now_ns() - start) / 16 / kernel->lights;
+    }
+    return timing_of(ns, runs).median;
+}
+
+static void print_row(const bench_options *o, bool first, const bench_kernel *kernel, int bands,
+                      lmp_sh_layout layout, const measurement *m) {
+    const char *name = layout == LMP_SH_PLANAR ? "planar" : "rows";
+    char vs_scalar[32] = "-";
+    if (m->vs_scalar > 0)
+        snprintf(vs_scalar, sizeof vs_scalar, "%.3g", m->vs_scalar);
+    else if (o->json)
+        strcpy(vs_scalar, "null");
+    if (o->json)
+        printf("%s    {\"kernel\": \"%s\", \"bands\": %d, \"isa\": \"%s\", \"layout\": \"%s\", "
+               "\"ns\": %.4g, \"ns_quartiles\": [%.4g, %.4g], \"peak_fraction\": %.3f, "
+               "\"vs_paper\": %.3g, \"vs_scalar\": %s}",
+               first ? "" : ",\n", kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower,
+               m->ns.upper, m->peak_fraction, m->vs_paper, vs_scalar);
+    else
+        printf("%-14s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9s\n", kernel->name, bands,
+               m->isa, name, m->ns.median, m->ns.lower, m->ns.upper, m->peak_fraction, m->vs_paper,
+               vs_scalar);
+    fflush(stdout);
+}
+
+/* The rows of one kernel at one number of bands, of one layout. */
+static void measure_rows(const bench_options *o, bench_inputs *in, const bench_kernel *kernel,
+                         int bands, lmp_sh_layout layout, bool *first) {
+    const int runs = o->full ? 301 : 31;
+    const bench_batch b = bench_batch_of(in, kernel, bands, layout);
+    const double paper = measure_paper(kernel, &b, o->full ? 31 : 5);
+    double scalar = 0;
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+        if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))
+            continue;
+        lmp_cpu_mask(flag);
+        measurement m = measure(kernel, &b, flag, flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
+        m.isa = lmp_cpu_name();
+        m.vs_paper = paper / m.ns.median;
+        scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
+        m.vs_scalar = scalar / m.ns.median;
+        print_row(o, *first, kernel, bands, layout, &m);
+        *first = false;
+    }
+}
+
+static bool measure_kernels(const bench_options *o, bench_inputs *in) {
+    const int *bands = o->bands ? &o->bands : bands_measured;
+    bool first = true, ok = true;
+    for (int k = 0; k < BENCH_KERNELS; k++)
+        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_MEASURED); n++) {
+            const bench_kernel *kernel = &bench_kernels[k];
+            if (kernel->table != BENCH_TABLE_NONE && !o->bands && bands[n] != BENCH_TABLE_BANDS)
+                continue;
+            ok = ok && bench_tables_create(kernel->table, bands[n], in);
+            for (int layout = kernel->shades ? LMP_SH_INTERLEAVED : LMP_SH_PLANAR;
+                 ok && layout >= LMP_SH_INTERLEAVED; layout--)
+                measure_rows(o, in, kernel, bands[n], (lmp_sh_layout)layout, &first);
+            bench_tables_free(in);
+        }
+    return ok;
+}
+
+/* Points split among threads, each with an output of its own, on the best kernels of the mask. */
+static bool measure_threads(const bench_options *o, bench_inputs *in) {
+    const int most = o->threads ? o->threads : omp_get_max_threads();
+    const size_t room = 64 * 1200; /* of the widest batch here, padded */
+    float *outputs = aligned_alloc(64, (size_t)most * room * sizeof *outputs);
+    if (!outputs)
+        return false;
+    memset(outputs, 0, (size_t)most * room * sizeof *outputs);
+    lmp_cpu_mask((unsigned)o->mask);
+    bool first = true;
+    for (int k = 0; k < 4 && (!o->bands || o->bands == 10); k++) {
+        double alone = 0;
+        for (int threads = 1; wanted(o, k) && threads <= most; threads++) {
+            static double ns[RUNS_MAX];
+            bench_batch b = bench_batch_of(in, &bench_kernels[k], 10, LMP_SH_PLANAR);
+            const int runs = 31, calls = 50 * calls_of(&bench_kernels[k], &b);
+            for (int r = 0; r < runs; r++) {
+                const double start = now_ns();
+#pragma omp parallel for num_threads(threads) schedule(static) firstprivate(b)
+                for (int i = 0; i < calls; i++) {
+                    b.out = outputs + (size_t)omp_get_thread_num() * room;
+                    bench_kernels[k].run(&b);
+                }
+                ns[r] = (now_ns() - start) /
+                        ((double)calls * (double)b.count * bench_kernels[k].lights);
+            }
+            const double median = timing_of(ns, runs).median;
+            alone = threads == 1 ? median : alone;
+            if (o->json)
+                printf(
+                    "%s    {\"kernel\": \"%s\", \"bands\": 10, \"isa\": \"%s\", \"threads\": %d, "
+                    "\"ns\": %.4g, \"speedup\": %.3g}",
+                    first ? "" : ",\n", bench_kernels[k].name, lmp_cpu_name(), threads, median,
+                    alone / median);
+            else
+                printf("%-14s    10  %-7s %2d threads %10.4g ns  x %.2f\n", bench_kernels[k].name,
+                       lmp_cpu_name(), threads, median, alone / median);
+            first = false;
+        }
+    }
+    free(outputs);
+    return true;
+}
+
+static void print_header(const bench_options *o) {
+    char name[160];
+    timing_cpu_name(name, sizeof name);
+    if (o->json) {
+        printf("{\n  \"cpu\": \"%s\",\n  \"compiler\": \"%s\",\n  \"flags\": \"%s\",\n"
+               "  \"commit\": \"%s\",\n  \"rows\": [\n",
+               name, __VERSION__, LAMPION_BUILD_FLAGS, LAMPION_COMMIT);
+        return;
+    }
+    printf("%s; compiler %s; %s; commit %s\n", name, __VERSION__, LAMPION_BUILD_FLAGS,
+           LAMPION_COMMIT);
+    printf(
+        "ns a light-point pair (%d lights a point where lights are summed): median, quartiles; "
+        "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each); "
+        "times the speed of the paper's\nEq. 12 and 13 one by one, and of the scalar build\n",
+        BENCH_LIGHTS);
+    printf("%-14s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
+           "ns", "quartiles", "peak", "x paper", "x scalar");
+}
+
+int bench_cpu(const bench_options *o) {
+    static bench_inputs in;
+    cli_error error = { "" };
+    bool done = bench_inputs_create(&in);
+    if (done) {
+        print_header(o);
+        done = measure_kernels(o, &in);
+        if (o->json)
+            printf("\n  ],\n  \"threads\": [\n");
+        done = done && measure_threads(o, &in);
+        if (o->json)
+            printf("\n  ]\n}\n");
+    }
+    bench_inputs_free(&in);
+    if (!done) {
+        cli_fail(&error, NULL, "out of memory");
+        return cli_report(&error);
+    }
+    return CLI_OK;
+}

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/bench/inputs.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static float uniform(uint32_t *state) {
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) / 16777216.0f;
+}
+
+bool bench_inputs_create(bench_inputs *in) {
+    const size_t values =
+        12 * (size_t)BENCH_OUTPUT_FLOATS + 16 * 12 * LMP_SH_COUNT(LMP_BANDS_MAX) * 4;
+    uint32_t state = 1;
+    for (int i = 0; i < BENCH_ELEMENTS_MAX; i++) {
+        float length = 0;
+        for (int k = 0; k < 3; k++) {
+            in->point[k][i] = uniform(&state);
+            in->center[k][i] = 2 + 3 * uniform(&state);
+            in->axis[k][i] = 2 * uniform(&state) - 1;
+            in->radiance[k][i] = 1 + uniform(&state);
+            length += in->axis[k][i] * in->axis[k][i];
+        }
+        for (int k = 0; k < 3; k++)
+            in->axis[k][i] /= sqrtf(length);
+        in->radius[i] = 0.05f + 0.5f * uniform(&state);
+        in->distance[i] = 1 + 3 * uniform(&state);
+    }
+    for (int i = 0; i < BENCH_ELEMENTS_MAX; i++) {
+        /* Both axes on the lights' side, where a surface sees most of them. */
+        const float x = uniform(&state), y = uniform(&state), z = 0.1f + uniform(&state);
+        const float length = sqrtf(x * x + y * y + z * z);
+        in->normal[0][i] = x / length;
+        in->normal[1][i] = y / length;
+        in->normal[2][i] = z / length;
+        const lmp_rgb color = { in->radiance[0][i], in->radiance[1][i], in->radiance[2][i] };
+        in->material[i] = (lmp_material) { .diffuse = color, .specular = color, .exponent = 20 };
+    }
+    for (int i = 0; i < BENCH_LIGHTS; i++)
+        in->lights[i] =
+            (lmp_light) { .position = { in->center[0][i], in->center[1][i], in->center[2][i] },
+                          .radius = in->radius[i],
+                          .radiance = { in->radiance[0][i], in->radiance[1][i],
+                                        in->radiance[2][i] } };
+    lmp_lobe_phong(LMP_BANDS_MAX, 20, in->lambda);
+    in->out = aligned_alloc(64, values * sizeof(float));
+    in->vectors = aligned_alloc(64, values * sizeof(float));
+    in->matrices = malloc(LMP_SH_ROTATION_COUNT(LMP_BANDS_MAX) * sizeof(float));
+    if (!in->out || !in->vectors || !in->matrices)
+        return false;
+    for (size_t i = 0; i < values; i++) {
+        in->out[i] = 0;
+        in->vectors[i] = uniform(&state);
+    }
+    lmp_sh_rotation(LMP_BANDS_MAX, (lmp_quat) { 0.5f, 0.5f, -0.5f, 0.5f }, in->matrices);
+    return true;
+}
+
+void bench_inputs_free(bench_inputs *in) {
+    free(in->out);
+    free(in->vectors);
+    free(in->matrices);
+}
+
+static lmp_vec3_array planes_of(float (*planes)[BENCH_ELEMENTS_MAX]) {
+    return (lmp_vec3_array) { planes[0], planes[1], planes[2], sizeof(float) };
+}
+
+/* As many elements as keep the output in the first cache: a multiple of 48 lanes or of 16. */
+bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int bands,
+                           lmp_sh_layout layout) {
+    const size_t values = kernel->values(bands), fit = BENCH_OUTPUT_FLOATS / values;
+    bench_batch b = { .bands = bands, .layout = layout };
+    b.count = fit >= BENCH_ELEMENTS_MAX ? BENCH_ELEMENTS_MAX
+              : fit >= 48               ? fit / 48 * 48
+              : fit >= 32               ? 32
+                                        : 16;
+    /* An odd number of cache lines, for planes whose distance is a power of two collide. */
+    b.stride =
+        layout == LMP_SH_PLANAR ? (b.count / 16 | 1) * 16 + (b.count / 16 % 2 ? 32 : 0) : values;
+    b.axes = planes_of(in->axis);
+    b.points = planes_of(in->point);
+    b.spheres = (lmp_spheres) { planes_of(in->center),
+                                { in->radius, sizeof(float) },
+                                planes_of(in->radiance) };
+    b.distances = in->distance;
+    b.lambda = in->lambda;
+    b.matrices = in->matrices;
+    b.vectors = in->vectors;
+    b.out = in->out;
+    b.lights = in->lights;
+    b.response = in->lobes;
+    b.surfaces = (lmp_surfaces) { .position = b.points,
+                                  .normal = planes_of(in->normal),
+                                  .view = b.axes,
+                                  .material = in->material,
+                                  .material_stride = sizeof *in->material };
+    if (kernel->table == BENCH_TABLE_MEASURED) {
+        in->tabulated = (lmp_material) { .kind = LMP_MATERIAL_TABLE,
+                                         .table = in->table,
+                                         .preintegrated = in->measured };
+        b.surfaces.material = &in->tabulated;
+        b.surfaces.material_stride = 0;
+    }
+    return b;
+}
+
+/* --- tables ------------------------------------------------------------------------------------
+ */
+
+void bench_tables_free(bench_inputs *in) {
+    lmp_preintegrated_lobe_destroy(in->lobes);
+    lmp_preintegrated_brdf_destroy(in->measured);
+    lmp_brdf_table_destroy(in->table);
+    in->lobes = NULL;
+    in->measured = NULL;
+    in->table = NULL;
+}
+
+static bool measured_create(int bands, bench_inputs *in) {
+    const lmp_brdf_table_desc desc = { .bands = bands };
+    lmp_sgd sgd;
+    lmp_brdf *brdf;
+    if (lmp_sgd_find("gold-metallic-paint", &sgd) != LMP_OK ||
+        lmp_brdf_create_sgd(NULL, &sgd, &brdf) != LMP_OK)
+        return false;
+    const bool made = lmp_brdf_table_create(NULL, brdf, &desc, &in->table) == LMP_OK &&
+                      lmp_preintegrated_brdf_create(NULL, in->table, NULL, &in->measured) == LMP_OK;
+    lmp_brdf_destroy(brdf);
+    return made;
+}
+
+bool bench_tables_create(bench_table table, int bands, bench_inputs *in) {
+    const lmp_preintegrated_lobe_desc desc = { .bands = bands };
+    return table == BENCH_TABLE_NONE ||
+           (lmp_preintegrated_lobe_create(NULL, &desc, &in->lobes) == LMP_OK &&
+            (table == BENCH_TABLE_LOBES || measured_create(bands, in)));
+}

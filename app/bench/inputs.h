@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* inputs.h - made-up points, lights and materials for the kernels, and what the kernels read of
+ * them. */
+#ifndef LAMPION_BENCH_INPUTS_H
+#define LAMPION_BENCH_INPUTS_H
+
+#include "app/bench/kernels.h"
+
+#include <stdbool.h>
+
+typedef struct bench_inputs {
+    float center[3][BENCH_ELEMENTS_MAX], point[3][BENCH_ELEMENTS_MAX], axis[3][BENCH_ELEMENTS_MAX];
+    float radiance[3][BENCH_ELEMENTS_MAX], radius[BENCH_ELEMENTS_MAX], distance[BENCH_ELEMENTS_MAX];
+    float normal[3][BENCH_ELEMENTS_MAX];
+    lmp_material material[BENCH_ELEMENTS_MAX], tabulated;
+    float lambda[LMP_BANDS_MAX];
+    float *out, *vectors, *matrices;
+    lmp_light lights[BENCH_LIGHTS];
+    /* What the kernels that read a table read now. */
+    lmp_preintegrated_lobe *lobes;
+    lmp_brdf_table *table;
+    lmp_preintegrated_brdf *measured;
+} bench_inputs;
+
+/* False without memory; free *inputs in any case. */
+bool bench_inputs_create(bench_inputs *inputs);
+void bench_inputs_free(bench_inputs *inputs);
+
+/* What kernels of this kind read, of so many bands. */
+bool bench_tables_create(bench_table table, int bands, bench_inputs *inputs);
+void bench_tables_free(bench_inputs *inputs);
+
+/* What a kernel works on in one call. */
+bench_batch bench_batch_of(bench_inputs *inputs, const bench_kernel *kernel, int bands,
+                           lmp_sh_layout layout);
+
+#endif

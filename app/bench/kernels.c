@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/bench/kernels.h"
+
+/* --- the batch functions ------------------------------------------------------------------------
+ */
+
+static void run_basis(const bench_batch *b) {
+    lmp_sh_eval_n(b->bands, b->axes, b->count, b->layout, b->stride, b->out);
+}
+static void run_dot(const bench_batch *b) {
+    lmp_sh_dot_n(b->bands, b->vectors, b->vectors, b->count, b->layout, b->stride, b->out);
+}
+static void run_rotate(const bench_batch *b) {
+    lmp_sh_rotate_n(b->bands, b->matrices, b->vectors, b->count, b->layout, b->stride, b->out);
+}
+static void run_zonal(const bench_batch *b) {
+    const lmp_float_array distances = { b->distances, sizeof(float) };
+    lmp_sphere_zonal_n(b->bands, b->spheres.radius, distances, b->count, b->layout, b->stride,
+                       b->out);
+}
+static void run_project(const bench_batch *b) {
+    lmp_sphere_project_n(b->bands, &b->spheres, b->points, b->count, b->layout, b->stride, b->out);
+}
+static void run_accumulate(const bench_batch *b) {
+    lmp_sphere_accumulate_n(b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count, b->layout,
+                            b->stride, b->out);
+}
+static void run_gradient(const bench_batch *b) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    float *slopes = b->out + 3 * n * (b->layout == LMP_SH_PLANAR ? b->stride : b->count);
+    const size_t stride = b->layout == LMP_SH_PLANAR ? b->stride : 0;
+    lmp_sphere_accumulate_gradient_n(b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count,
+                                     b->layout, stride, b->out, stride, slopes);
+}
+static void run_lobe(const bench_batch *b) {
+    lmp_lobe_response_n(b->bands, b->lambda, b->axes, &b->spheres, BENCH_LIGHTS, b->points,
+                        b->count, b->layout, b->stride, b->out);
+}
+
+static void run_shade_zonal(const bench_batch *b) {
+    const lmp_shade_settings settings = { .bands = b->bands };
+    lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
+}
+static void run_shade_preintegrated(const bench_batch *b) {
+    const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = b->response };
+    lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
+}
+
+/* --- operations: what src/kernels asks for, without fused ones -----------------------------------
+ */
+
+static size_t values_basis(int n) {
+    return LMP_SH_COUNT(n);
+}
+static size_t values_zonal(int n) {
+    return (size_t)n;
+}
+static size_t values_rgb(int n) {
+    return 3 * LMP_SH_COUNT(n);
+}
+static size_t values_gradient(int n) {
+    return 12 * LMP_SH_COUNT(n);
+}
+static size_t values_lobe(int n) {
+    (void)n;
+    return 3;
+}
+
+/* Past the second band; entries (l, m) with m >= 0, and steps of their recurrences. */
+static double later(int n) {
+    return n > 2 ? n - 2 : 0;
+}
+static double entries(int n) {
+    return n * (n + 1) / 2.0;
+}
+static double steps(int n) {
+    return n * (n - 1) / 2.0;
+}
+static double slots_basis(int n) {
+    /* A column: 2 for its first step, 4 for the next; times C_m and S_m; C_m and S_m: 6. */
+    return 2 * (n - 1) + 4 * (steps(n) - (n - 1)) + 2 * steps(n) + 6 * later(n);
+}
+static double slots_dot(int n) {
+    return 2.0 * n * n + 15;
+}
+static double slots_rotate(int n) {
+    double slots = 0;
+    for (int side = 1; side < 2 * n; side += 2)
+        slots += side * (2.0 * side - 1);
+    return slots;
+}
+static double slots_zonal(int n) {
+    return 14 + 5 * later(n) + n;
+}
+static double slots_project(int n) {
+    return 24 + 5 * later(n) + slots_basis(n) + entries(n);
+}
+static double slots_accumulate(int n) {
+    return 24 + 11 * later(n) + 6 * n + entries(n) + 6 * n + 12 * steps(n) + 3 * steps(n) +
+           3.0 * n * n / BENCH_LIGHTS;
+}
+static double slots_gradient(int n) {
+    return 29 + 16 * later(n) + 5 + 8 * n + 4 * steps(n) + 11 * entries(n) + 32 * n + 64 * steps(n);
+}
+static double slots_lobe(int n) {
+    return 19 + 6 + 2 + (n > 1 ? 3 : 0) + 11 * later(n) + 7;
+}
+
+/* A cap seen from two axes, and three channels of two lobes. */
+enum { SLOTS_CAP = 17, SLOTS_DIRECTION = 12, SLOTS_ACCUMULATE = 12 };
+static double slots_shade_zonal(int n) {
+    /* The cap's R_l, the mirror direction's P_l and their sum; every other band the normal's. */
+    const double band = n <= 48 ? 9 + 3.5 : 12 + 4;
+    return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 8 + band * later(n);
+}
+/* Floats alone: the products of 16-bit coefficients with their weights are integers. */
+static double slots_shade_response(int n) {
+    (void)n;
+    /* Three angles; two readings: coordinates, two splines' weights, rounded, four rows. */
+    return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 17 + 2 * 21 + 2 * (4 + 30 + 19 + 9) +
+           10;
+}
+static double slots_shade_measured(int n) {
+    (void)n;
+    /* Three cosines and three angles; the row's coordinate, the cap's fraction; four slices:
+     * splines' weights and the sums of 12 numbers; those times the radiance. */
+    return SLOTS_CAP + 18 + 66 + 50 + 5 + 4 * (59 + 24) + 24;
+}
+
+/* --- the table ----------------------------------------------------------------------------------
+ */
+
+const bench_kernel bench_kernels[BENCH_KERNELS] = {
+    { "project", values_basis, slots_project, run_project, bench_paper_project, 1, false,
+      BENCH_TABLE_NONE },
+    { "accumulate", values_rgb, slots_accumulate, run_accumulate, bench_paper_accumulate,
+      BENCH_LIGHTS, false, BENCH_TABLE_NONE },
+    { "gradient", values_gradient, slots_gradient, run_gradient, bench_paper_gradient, BENCH_LIGHTS,
+      false, BENCH_TABLE_NONE },
+    { "lobe", values_lobe, slots_lobe, run_lobe, bench_paper_lobe, BENCH_LIGHTS, false,
+      BENCH_TABLE_NONE },
+    { "zonal", values_zonal, slots_zonal, run_zonal, bench_paper_zonal, 1, false,
+      BENCH_TABLE_NONE },
+    { "basis", values_basis, slots_basis, run_basis, bench_paper_basis, 1, false,
+      BENCH_TABLE_NONE },
+    { "rotate", values_basis, slots_rotate, run_rotate, bench_paper_rotate, 1, false,
+      BENCH_TABLE_NONE },
+    { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, 1, false, BENCH_TABLE_NONE },
+    { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, bench_paper_shade,
+      BENCH_LIGHTS, true, BENCH_TABLE_NONE },
+    { "shade-response", values_lobe, slots_shade_response, run_shade_preintegrated,
+      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES },
+    { "shade-measured", values_lobe, slots_shade_measured, run_shade_preintegrated,
+      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_MEASURED },
+};

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/* kernels.h - the batch kernels that `lampion bench cpu` times: what they work on, and what they
+ * ask of a CPU. */
+#ifndef LAMPION_BENCH_KERNELS_H
+#define LAMPION_BENCH_KERNELS_H
+
+#include <lampion/lampion.h>
+
+/* Sizes: outputs of a call fit the first cache (48 KiB), as a caller that uses them at once sees;
+ * BENCH_LIGHTS lights go into each point. */
+enum { BENCH_LIGHTS = 32, BENCH_ELEMENTS_MAX = 480, BENCH_OUTPUT_FLOATS = 6144 };
+
+/* What a kernel works on. */
+typedef struct bench_batch {
+    int bands;
+    lmp_sh_layout layout;
+    size_t count, stride;
+    lmp_vec3_array axes, points;
+    lmp_spheres spheres;
+    const float *distances, *lambda, *matrices, *vectors;
+    lmp_surfaces surfaces;
+    const lmp_light *lights;
+    const lmp_preintegrated_lobe *response; /* of the kernels that read one */
+    float *out;
+} bench_batch;
+
+/* What a kernel reads. Its bands do not concern the cost: 10, unless others are asked for. */
+typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_MEASURED } bench_table;
+enum { BENCH_TABLE_BANDS = 10 };
+
+/* One light a pair, or BENCH_LIGHTS of them. */
+typedef struct bench_kernel {
+    const char *name;
+    size_t (*values)(int bands); /* of an element */
+    double (*slots)(int bands);  /* mul, add, div and sqrt a light-point pair */
+    void (*run)(const bench_batch *b);
+    void (*paper)(const bench_batch *b, size_t element);
+    int lights;  /* pairs an element */
+    bool shades; /* its output has one layout */
+    bench_table table;
+} bench_kernel;
+
+enum { BENCH_KERNELS = 11 };
+extern const bench_kernel bench_kernels[BENCH_KERNELS];
+
+/* --- paper.c: elements of the same work by the paper's formulas, one by one ----------------------
+ */
+
+void bench_paper_basis(const bench_batch *b, size_t element);
+void bench_paper_dot(const bench_batch *b, size_t element);
+void bench_paper_rotate(const bench_batch *b, size_t element);
+void bench_paper_zonal(const bench_batch *b, size_t element);
+void bench_paper_project(const bench_batch *b, size_t element);
+void bench_paper_accumulate(const bench_batch *b, size_t element);
+void bench_paper_gradient(const bench_batch *b, size_t element);
+void bench_paper_lobe(const bench_batch *b, size_t element);
+void bench_paper_shade(const bench_batch *b, size_t element);
+
+#endif

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/bench/kernels.h"
+
+#include <math.h>
+#include <string.h>
+
+static float coefficient_sink[12 * LMP_SH_COUNT(LMP_BANDS_MAX)];
+
+static lmp_vec3 vector_at(const lmp_vec3_array *array, size_t i) {
+    const size_t step = i * array->stride / sizeof(float);
+    return (lmp_vec3) { array->x[step], array->y[step], array->z[step] };
+}
+
+/* Eq. 12 as printed, then Eq. 13, at a point moved by `shift` along x, y or z. */
+static void paper_light(const bench_batch *b, size_t sphere, lmp_vec3 at, float *sh) {
+    const lmp_vec3 center = vector_at(&b->spheres.center, sphere);
+    const lmp_vec3 v = { center.x - at.x, center.y - at.y, center.z - at.z };
+    const float d = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z),
+                sine = b->spheres.radius.at[sphere] / d;
+    float zonal[LMP_BANDS_MAX];
+    lmp_zonal_printed(b->bands, sqrtf(1 - sine * sine), zonal);
+    lmp_sh_from_zonal(b->bands, zonal, (lmp_vec3) { v.x / d, v.y / d, v.z / d }, sh);
+}
+void bench_paper_basis(const bench_batch *b, size_t i) {
+    lmp_sh_eval(b->bands, vector_at(&b->axes, i), coefficient_sink);
+}
+void bench_paper_dot(const bench_batch *b, size_t i) {
+    const float *vector = b->vectors + i * LMP_SH_COUNT(b->bands);
+    coefficient_sink[0] = lmp_sh_dot(b->bands, vector, vector);
+}
+void bench_paper_rotate(const bench_batch *b, size_t i) {
+    lmp_sh_rotate(b->bands, b->matrices, b->vectors + i * LMP_SH_COUNT(b->bands), coefficient_sink);
+}
+void bench_paper_zonal(const bench_batch *b, size_t i) {
+    const float sine = b->spheres.radius.at[i] / b->distances[i];
+    lmp_zonal_printed(b->bands, sqrtf(1 - sine * sine), coefficient_sink);
+}
+void bench_paper_project(const bench_batch *b, size_t i) {
+    paper_light(b, i, vector_at(&b->points, i), coefficient_sink);
+}
+static void paper_sum(const bench_batch *b, size_t point, lmp_vec3 shift, float *sum) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    lmp_vec3 at = vector_at(&b->points, point);
+    at = (lmp_vec3) { at.x + shift.x, at.y + shift.y, at.z + shift.z };
+    memset(sum, 0, 3 * n * sizeof *sum);
+    for (size_t light = 0; light < BENCH_LIGHTS; light++) {
+        static float sh[LMP_SH_COUNT(LMP_BANDS_MAX)];
+        const lmp_vec3 rgb = vector_at(&b->spheres.radiance, light);
+        paper_light(b, light, at, sh);
+        for (size_t i = 0; i < n; i++) {
+            sum[i] += rgb.x * sh[i];
+            sum[n + i] += rgb.y * sh[i];
+            sum[2 * n + i] += rgb.z * sh[i];
+        }
+    }
+}
+void bench_paper_accumulate(const bench_batch *b, size_t i) {
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+}
+/* The paper has no gradient: one-sided differences. */
+void bench_paper_gradient(const bench_batch *b, size_t i) {
+    const size_t n = 3 * LMP_SH_COUNT(b->bands);
+    const float h = 0.001f;
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    for (size_t axis = 0; axis < 3; axis++) {
+        float *slope = coefficient_sink + (1 + axis) * n;
+        paper_sum(b, i, (lmp_vec3) { axis == 0 ? h : 0, axis == 1 ? h : 0, axis == 2 ? h : 0 },
+                  slope);
+        for (size_t v = 0; v < n; v++)
+            slope[v] = (slope[v] - coefficient_sink[v]) / h;
+    }
+}
+void bench_paper_lobe(const bench_batch *b, size_t i) {
+    static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    const size_t n = LMP_SH_COUNT(b->bands);
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    lmp_lobe_project(b->bands, b->lambda, vector_at(&b->axes, i), lobe);
+    for (size_t c = 0; c < 3; c++)
+        coefficient_sink[c] = lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
+}
+
+/* Both lobes, or the one of a table. */
+void bench_paper_shade(const bench_batch *b, size_t i) {
+    static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    const size_t n = LMP_SH_COUNT(b->bands);
+    const lmp_vec3_array around[2] = { b->surfaces.normal, b->axes };
+    float rgb[3] = { 0, 0, 0 };
+    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    for (int k = b->surfaces.material->kind == LMP_MATERIAL_TABLE ? 1 : 0; k < 2; k++) {
+        lmp_lobe_project(b->bands, b->lambda, vector_at(&around[k], i), lobe);
+        for (size_t c = 0; c < 3; c++)
+            rgb[c] += lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
+    }
+    memcpy(coefficient_sink, rgb, sizeof rgb);
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/bench/peak.h"
+#include "app/timing/timing.h"
+
+#include <lampion/lampion.h>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+/* Nanoseconds an operation: independent multiply-adds on the units that also multiply, add, divide
+ * and take roots (multiplications where the instruction set has no FMA). Enough chains for two
+ * units of 5 cycles, and turns for the clock's own 30 ns not to count. */
+enum { PEAK_CHAINS = 12, PEAK_TURNS = 3400 };
+#if defined(__x86_64__)
+#define PEAK_STEP(a, step)                                                                         \
+    (a) = step(a, one, one);                                                                       \
+    __asm__ volatile("" : "+x"(a));
+#define PEAK_LOOP(type, step)                                                                      \
+    type a = one, b = one, c = one, d = one, e = one, f = one;                                     \
+    type g = one, h = one, i = one, j = one, k = one, l = one;                                     \
+    const double from = 1e9 * timing_now();                                                        \
+    for (int r = 0; r < PEAK_TURNS; r++) {                                                         \
+        PEAK_STEP(a, step)                                                                         \
+        PEAK_STEP(b, step)                                                                         \
+        PEAK_STEP(c, step)                                                                         \
+        PEAK_STEP(d, step)                                                                         \
+        PEAK_STEP(e, step)                                                                         \
+        PEAK_STEP(f, step)                                                                         \
+        PEAK_STEP(g, step)                                                                         \
+        PEAK_STEP(h, step)                                                                         \
+        PEAK_STEP(i, step)                                                                         \
+        PEAK_STEP(j, step)                                                                         \
+        PEAK_STEP(k, step)                                                                         \
+        PEAK_STEP(l, step)                                                                         \
+    }                                                                                              \
+    return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_TURNS);
+#define PEAK_MULTIPLY(a, b, c) _mm_mul_ps(a, b)
+__attribute__((target("avx512f"))) static double peak_avx512(void) {
+    const __m512 one = _mm512_set1_ps(1);
+    PEAK_LOOP(__m512, _mm512_fmadd_ps)
+}
+__attribute__((target("avx2,fma"))) static double peak_avx2(void) {
+    const __m256 one = _mm256_set1_ps(1);
+    PEAK_LOOP(__m256, _mm256_fmadd_ps)
+}
+static double peak_sse2(void) {
+    const __m128 one = _mm_set1_ps(1);
+    PEAK_LOOP(__m128, PEAK_MULTIPLY)
+}
+double bench_peak(unsigned flag) {
+    return flag == LMP_CPU_AVX512 ? peak_avx512()
+           : flag == LMP_CPU_AVX2 ? peak_avx2()
+                                  : peak_sse2();
+}
+#else
+typedef float peak_lanes __attribute__((vector_size(16)));
+double bench_peak(unsigned flag) {
+    (void)flag;
+    peak_lanes a[PEAK_CHAINS];
+    const double from = 1e9 * timing_now();
+    for (int i = 0; i < PEAK_CHAINS; i++)
+        a[i] = (peak_lanes) { 1, 1, 1, 1 };
+    for (int r = 0; r < PEAK_TURNS; r++)
+        for (int i = 0; i < PEAK_CHAINS; i++) {
+            a[i] = a[i] * 0.5f;
+            __asm__ volatile("" : "+w"(a[i]));
+        }
+    return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_TURNS);
+}
+#endif
