@@ -52,7 +52,7 @@ void gpu_mesh_set_kind(const gpu_mesh *mesh, size_t material, int kind);
 /* Draws what the frustum of clip_from_world may hold, with the two variants of surface.frag. */
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked);
 
-/* --- renderer.c ---------------------------------------------------------------------------------
+/* --- what follows shares the renderer -----------------------------------------------------------
  */
 
 enum { GPU_ATTACHMENTS = 4, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
@@ -67,10 +67,10 @@ typedef struct gpu_variant {
     GLuint program;
 } gpu_variant;
 
-/* --- response.c ---------------------------------------------------------------------------------
+/* --- preintegrated_lobe.c -----------------------------------------------------------------------
  */
 
-/* Uploads a response once, and again when another one takes its place. */
+/* Uploads the lobes once, and again when another one takes its place. */
 bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated_lobe *response,
                                  cli_error *error);
 
@@ -83,13 +83,13 @@ int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
 /* Uploads the tables that a frame sums by bands, once. */
 bool gpu_bind_tables(gpu_renderer *renderer, method_kind method, cli_error *error);
 
-/* --- measured.c ---------------------------------------------------------------------------------
+/* --- preintegrated_brdf.c -----------------------------------------------------------------------
  */
 
-/* Whether some material has a response. */
+/* Whether some material is read preintegrated. */
 bool gpu_has_preintegrated_brdf(const gpu_renderer *renderer);
 
-/* Uploads the materials' responses, once. */
+/* Uploads the preintegrated BRDFs, once. */
 bool gpu_bind_preintegrated_brdf(gpu_renderer *renderer, cli_error *error);
 
 /* --- zonal.c ------------------------------------------------------------------------------------
@@ -132,7 +132,7 @@ void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
  * how many the shaders have to take. */
 size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
 
-/* --- renderer.c, again --------------------------------------------------------------------------
+/* --- the renderer -------------------------------------------------------------------------------
  */
 
 struct gpu_renderer {
@@ -165,10 +165,57 @@ struct gpu_renderer {
     gpu_gbuffer gbuffer;                                     /* of host shaders */
 };
 
+/* --- targets.c ----------------------------------------------------------------------------------
+ */
+
+/* Of the G-buffer's attachments, and of its depth. */
+extern const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1];
+GLuint gpu_target_create(GLenum format, int width, int height);
+
+/* All targets of frames of this size, in place of those before. */
+bool gpu_targets_create(gpu_renderer *renderer, int width, int height, cli_error *error);
+void gpu_targets_delete(gpu_renderer *renderer);
+
 /* What a frame of keep_geometry has left is not used any more. */
 void gpu_forget_geometry(gpu_renderer *renderer);
 
+/* --- frame.c ------------------------------------------------------------------------------------
+ */
+
+/* Sample `index` of `count` in its pixel, -0.5 … 0.5. */
+void gpu_sample_offset(int index, int count, float offset[2]);
+
+bool gpu_fill_frame(const gpu_renderer *renderer, const gpu_frame *frame, const float offset[2],
+                    shared_frame *block, cli_error *error);
+void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
+
+/* --- variant.c ----------------------------------------------------------------------------------
+ */
+
+/* The program that shades the frame, 0 on failure; and what its method reads, uploaded and bound.
+ */
+GLuint gpu_variant_find(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
+bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
+
+/* --- passes.c -----------------------------------------------------------------------------------
+ */
+
+void gpu_draw_gbuffer(gpu_renderer *renderer, const gpu_frame *frame, const shared_frame *block);
+
 /* Binds the G-buffer's textures and the blocks for a compute pass. */
 void gpu_bind_gbuffer(const gpu_renderer *renderer);
+
+/* One sample of every pixel into the HDR target. */
+void gpu_shade(gpu_renderer *renderer, const gpu_frame *frame, GLuint program);
+
+/* Adds the HDR target to the sums; the last sample leaves the mean there, with `show` every one. */
+void gpu_resolve(gpu_renderer *renderer, const gpu_frame *frame, int index, bool show);
+
+/* --- clock.c ------------------------------------------------------------------------------------
+ */
+
+/* Marks an instant of the frame; its milliseconds, once the frame is done. */
+void gpu_mark(gpu_renderer *renderer, int index);
+double gpu_marked(const gpu_renderer *renderer, int index);
 
 #endif

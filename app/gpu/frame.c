@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* What the shaders are told of a frame: its camera, sample and lights. */
+#include "app/gpu/internal.h"
+
+#include <math.h>
+#include <string.h>
+
+static void subtract(const float a[3], const float b[3], float difference[3]) {
+    for (int i = 0; i < 3; i++)
+        difference[i] = a[i] - b[i];
+}
+
+static void cross(const float a[3], const float b[3], float product[3]) {
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static float dot(const float a[3], const float b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static bool scale_to(float v[3], float length) {
+    const float current = sqrtf(dot(v, v));
+    if (!(current > 0))
+        return false;
+    for (int i = 0; i < 3; i++)
+        v[i] *= length / current;
+    return true;
+}
+
+/* Sample `index` of `count` in its pixel, -0.5 … 0.5, by the two-dimensional golden ratio (Roberts
+ * 2018). */
+void gpu_sample_offset(int index, int count, float offset[2]) {
+    static const double steps[2] = { 0.7548776662466927, 0.5698402909980532 };
+    for (int i = 0; i < 2; i++) {
+        const double at = count > 1 ? 0.5 + steps[i] * index : 0.5;
+        offset[i] = (float)(at - floor(at) - 0.5);
+    }
+}
+
+/* Rows of the clip matrix: x right, y down (row 0 of an image is its top), depth = near /
+ * distance, w = distance. */
+bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float offset[2],
+                    shared_frame *block, cli_error *error) {
+    const scene_camera *camera = &frame->camera;
+    const float half_height = tanf(0.5f * camera->fov);
+    const float half_width = half_height * (float)frame->width / (float)frame->height;
+    memset(block, 0, sizeof *block);
+    memcpy(block->eye, camera->eye, sizeof camera->eye);
+    block->eye[3] = r->near;
+    subtract(camera->target, camera->eye, block->forward);
+    cross(block->forward, camera->up, block->right);
+    cross(block->forward, block->right, block->down);
+    if (!scale_to(block->forward, 1) || !scale_to(block->right, half_width) ||
+        !scale_to(block->down, half_height))
+        return cli_fail(error, "camera", "it looks along its up direction, or at itself");
+    memcpy(block->background, frame->background, sizeof frame->background);
+    block->size_lights[0] = (float)frame->width;
+    block->size_lights[1] = (float)frame->height;
+    block->size_lights[2] = (float)r->shaded_lights;
+
+    block->jitter[0] = 2 * offset[0] / (float)frame->width;
+    block->jitter[1] = 2 * offset[1] / (float)frame->height;
+
+    float rows[4][4] = { { 0 } };
+    for (int i = 0; i < 3; i++) {
+        rows[3][i] = block->forward[i];
+        rows[0][i] = block->right[i] / (half_width * half_width) - block->jitter[0] * rows[3][i];
+        rows[1][i] = block->down[i] / (half_height * half_height) - block->jitter[1] * rows[3][i];
+    }
+    for (int row = 0; row < 4; row++) {
+        rows[row][3] = row == 2 ? r->near : -dot(rows[row], block->eye);
+        for (int column = 0; column < 4; column++)
+            block->clip_from_world[4 * column + row] = rows[row][column];
+    }
+    return true;
+}
+
+void gpu_upload_lights(gpu_renderer *r, const gpu_frame *frame) {
+    shared_lights block;
+    r->shaded_lights = gpu_take_lights(frame, &block);
+    if (r->shaded_lights)
+        glNamedBufferSubData(r->lights_block, 0,
+                             (GLsizeiptr)(r->shaded_lights * sizeof *block.lights), &block);
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT */
+/* The HDR target to a window, to 8 bits, and as it is. */
+#include "app/gpu/internal.h"
+
+void gpu_present(gpu_renderer *r, unsigned framebuffer, float exposure, bool rows_from_top) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, r->width, r->height);
+    glBindVertexArray(r->empty_array);
+    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
+    glBindTextureUnit(SHARED_HDR, r->hdr);
+    glUseProgram(r->tone);
+    glUniform1f(0, exposure);
+    glUniform1i(1, rows_from_top ? 0 : 1);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+bool gpu_read_rgb8(gpu_renderer *r, float exposure, unsigned char *rgb8, gpu_times *times,
+                   cli_error *error) {
+    if (times)
+        gpu_mark(r, 3);
+    gpu_present(r, r->ldr_framebuffer, exposure, true);
+    if (times) {
+        gpu_mark(r, 4);
+        times->tone = gpu_marked(r, 4) - gpu_marked(r, 3);
+        times->total = times->gbuffer + times->shade + times->transfer + times->tone;
+    }
+    const size_t size = 3 * (size_t)r->width * (size_t)r->height;
+    if (size > INT32_MAX)
+        return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
+                        r->height);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(r->ldr, 0, GL_RGB, GL_UNSIGNED_BYTE, (GLsizei)size, rgb8);
+    return true;
+}
+
+bool gpu_read_image(gpu_renderer *r, image *pixels, cli_error *error) {
+    if (!image_create(pixels, r->width, r->height, error))
+        return false;
+    const size_t size = 3 * sizeof(float) * (size_t)r->width * (size_t)r->height;
+    if (size > INT32_MAX) {
+        image_free(pixels);
+        return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
+                        r->height);
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(r->hdr, 0, GL_RGB, GL_FLOAT, (GLsizei)size, pixels->rgb);
+    return true;
+}
