@@ -178,59 +178,72 @@ static bool open_sgd(const char *name, const char *text, material *m, cli_error 
 /* --- files --------------------------------------------------------------------------------------
  */
 
+static lmp_result read_table(const void *data, size_t size, lmp_parse_error *wrong, material *m) {
+    return lmp_brdf_table_read(NULL, data, size, wrong, &m->table);
+}
+
+static lmp_result read_rgl(const void *data, size_t size, lmp_parse_error *wrong, material *m) {
+    return lmp_brdf_read_rgl(NULL, data, size, wrong, &m->brdf);
+}
+
+static lmp_result read_merl(const void *data, size_t size, lmp_parse_error *wrong, material *m) {
+    return lmp_brdf_read_merl(NULL, data, size, wrong, &m->brdf);
+}
+
+/* Formats are told apart by how their files begin; MERL's begin with nothing of their own. */
+static const struct {
+    const char *magic;
+    lmp_result (*read)(const void *data, size_t size, lmp_parse_error *wrong, material *m);
+} formats[] = { { "LMPT", read_table }, { "tensor_file", read_rgl }, { "", read_merl } };
+
 static bool open_file(const char *path, material *m, cli_error *error) {
     void *data = NULL;
-    size_t size = 0;
+    size_t size = 0, i = 0;
     if (!file_read(path, FILE_LIMIT, &data, &size, error))
         return false;
-    lmp_parse_error fault = { 0 };
-    lmp_result result;
-    if (size >= 4 && memcmp(data, "LMPT", 4) == 0)
-        result = lmp_brdf_table_read(NULL, data, size, &fault, &m->table);
-    else if (size >= 12 && memcmp(data, "tensor_file", 12) == 0)
-        result = lmp_brdf_read_rgl(NULL, data, size, &fault, &m->brdf);
-    else
-        result = lmp_brdf_read_merl(NULL, data, size, &fault, &m->brdf);
+    while (size < strlen(formats[i].magic) ||
+           memcmp(data, formats[i].magic, strlen(formats[i].magic)) != 0)
+        i++;
+    lmp_parse_error wrong = { 0 };
+    const lmp_result result = formats[i].read(data, size, &wrong, m);
     file_hash_add(&m->hash, data, size);
     m->file_size = size;
     free(data);
-    if (result != LMP_OK)
-        return cli_fail(error, path, "%s (byte %zu)", fault.text, fault.offset);
-    return true;
+    return result == LMP_OK || cli_fail(error, path, "%s (byte %zu)", wrong.text, wrong.offset);
 }
+
+static const struct {
+    const char *name;
+    bool (*open)(const char *name, const char *parameters, material *m, cli_error *error);
+} kinds[] = {
+    { "lambert", open_lambert }, { "phong", open_phong }, { "ggx", open_ggx }, { "sgd", open_sgd }
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
 
 /* A name such as gxx:0.3 is no file: says so. Returns false. */
 static bool hint_kind(const char *name, cli_error *error) {
-    static const char *const kinds[] = { "lambert", "phong", "ggx", "sgd", NULL };
+    const char *names[KINDS + 1];
     char word[16];
     const size_t length = strcspn(name, ":");
     if (name[length] != ':' || length >= sizeof word || access(name, F_OK) == 0)
         return false;
     snprintf(word, sizeof word, "%.*s", (int)length, name);
-    return cli_fail_word(error, name, word, kinds);
+    cli_row_names(&kinds[0].name, sizeof *kinds, KINDS, names);
+    return cli_fail_word(error, name, word, names);
 }
 
 bool material_open(const char *name, material *m, cli_error *error) {
-    static const struct {
-        const char *prefix;
-        bool (*open)(const char *, const char *, material *, cli_error *);
-    } kinds[] = { { "lambert:", open_lambert },
-                  { "phong:", open_phong },
-                  { "ggx:", open_ggx },
-                  { "sgd:", open_sgd } };
+    const size_t length = strcspn(name, ":");
     memset(m, 0, sizeof *m);
     m->name = name;
-    bool ok = false, found = false;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !found; i++) {
-        const size_t length = strlen(kinds[i].prefix);
-        if (strncmp(name, kinds[i].prefix, length) == 0) {
-            found = true;
-            file_hash_add(&m->hash, name, strlen(name));
-            ok = kinds[i].open(name, name + length, m, error);
-        }
-    }
-    if (!found)
-        ok = open_file(name, m, error) || hint_kind(name, error);
+    int kind = 0;
+    while (kind < KINDS && (name[length] != ':' || strlen(kinds[kind].name) != length ||
+                            strncmp(name, kinds[kind].name, length) != 0))
+        kind++;
+    if (kind < KINDS)
+        file_hash_add(&m->hash, name, strlen(name));
+    const bool ok = kind < KINDS ? kinds[kind].open(name, name + length + 1, m, error)
+                                 : open_file(name, m, error) || hint_kind(name, error);
     if (!ok)
         material_close(m);
     return ok;
