@@ -63,8 +63,8 @@ int main(int argc, char **argv) {
 
     const lmp_light lamp = { .position = { -1, 2, 0 }, .radius = 0.3f, .radiance = { 10, 10, 10 } };
     const lmp_surface surface = { .normal = { 0, 1, 0 }, .view = { 0.447214f, 0.894427f, 0 } };
-    const lmp_material baked = { .kind = LMP_MATERIAL_TABLE, .table = table };
-    const lmp_rgb color = lmp_shade(NULL, &baked, &surface, &lamp, 1);
+    const lmp_material brass = { .kind = LMP_MATERIAL_TABLE, .table = table };
+    const lmp_rgb color = lmp_shade(NULL, &brass, &surface, &lamp, 1);
     printf("under a lamp: %.3f %.3f %.3f\n", (double)color.r, (double)color.g, (double)color.b);
     lmp_brdf_table_destroy(table);
     return 0;

@@ -420,7 +420,7 @@ static int check_options(const cli_command *command, const bench_options *o,
 int bench_gpu(const cli_command *command, const bench_options *o) {
     cli_error error = { "" };
     const int scenes = o->full && !o->scene ? SCENES : 1;
-    bench_plan plan = { .end_ms = INFINITY };
+    bench_plan plan = { .end_ms = (double)INFINITY };
     plan_cases(&plan, o);
     const int status = check_options(command, o, &plan);
     if (status != CLI_OK)

@@ -105,7 +105,7 @@ static bool parse_light(const char *text, scene_light *light, cli_error *error) 
     };
     scene_light_error wrong;
     return scene_light_check(light, &wrong) ||
-           cli_fail(error, "--light", "\"%s\"%s", text, wrong.text);
+           cli_fail(error, "--light", "\"%s\": %s", text, wrong.text + (wrong.text[0] == '.'));
 }
 
 static bool solve_point(const reference_arguments *a, cli_error *error) {

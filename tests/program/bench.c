@@ -29,7 +29,8 @@ static char *read_output(const char *name) {
     char *text = calloc(1 << 16, 1);
     assert_non_null(file);
     assert_non_null(text);
-    assert_true(fread(text, 1, (1 << 16) - 1, file) > 0);
+    const size_t length = fread(text, 1, (1 << 16) - 1, file);
+    assert_true(length < (1 << 16) - 1 && !ferror(file));
     fclose(file);
     return text;
 }

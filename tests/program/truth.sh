@@ -53,7 +53,7 @@ refuses 1 'absent.gltf' reference "$WORK/absent.gltf" -o "$WORK/none.png"
 refuses 1 'none.jpg' reference builtin:balls -o "$WORK/none.jpg"
 refuses 2 'no scene' reference builtin:balls --point 0,0,0
 refuses 1 'X,Y,Z,RADIUS,R,G,B' reference --point 0,0,0 --light 1,2,3
-refuses 1 'X,Y,Z,RADIUS,R,G,B' reference --point 0,0,0 --light 1,2,3,-1,1,1,1
+refuses 1 'radius is not above 0' reference --point 0,0,0 --light 1,2,3,-1,1,1,1
 refuses 1 'X,Y,Z,RADIUS,R,G,B' reference --point 0,0,0 --light 0x1,2,3,1,1,1,1
 refuses 1 'X,Y,Z,RADIUS,R,G,B' reference --point 0,0,0 --light 1,2,3,1,1,1,1,
 refuses 2 'not a number' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rmse=0x1

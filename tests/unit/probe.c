@@ -53,7 +53,10 @@ static void many_normals_give_the_same_bits_as_one(void **state) {
 
 /* The polynomial as published: Ramamoorthi and Hanrahan 2001, Eq. 13 and c1 … c5 below it, for a
  * basis without the Condon-Shortley sign. */
-static double published(const float *f, const double n[3]) {
+static double published(const float *sh, const double n[3]) {
+    double f[9];
+    for (int k = 0; k < 9; k++)
+        f[k] = (double)sh[k];
     const double c1 = 0.429043, c2 = 0.511664, c3 = 0.743125, c4 = 0.886227, c5 = 0.247708;
     const double x = n[0], y = n[1], z = n[2];
     const double l00 = f[0], l1m = -f[1], l10 = f[2], l11 = -f[3], l2mm = f[4], l2m = -f[5];
@@ -311,7 +314,7 @@ static void bad_samples_are_refused(void **state) {
  */
 
 static double least_on_grid(int bands, const float *sh) {
-    double least = INFINITY;
+    double least = (double)INFINITY;
     for (int i = 0; i < 200; i++)
         for (int j = 0; j < 400; j++) {
             const double polar = ORACLE_PI * (i + 0.5) / 200, phi = ORACLE_PI * j / 200;

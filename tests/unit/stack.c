@@ -80,7 +80,7 @@ static void shade_all_ways(void) {
 
 /* --- every function --------------------------------------------------------------------------- */
 
-/* Objects are made before they are used, and made anew when they are. */
+/* Objects are made before they are used, and made again when they are. */
 #define MAKE(destroy, object, ...) (destroy(object), (object) = NULL, (void)(__VA_ARGS__))
 
 #define LAYOUTS(...)                                                                               \
