@@ -90,15 +90,35 @@ uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
     return ~crc;
 }
 
-lmp_result lmp_bytes_check_frame(const void *bytes, size_t size, const unsigned char magic[8],
-                                 uint32_t version, size_t header) {
-    const size_t checksum = 4;
+/* --- what is around the numbers of a file --------------------------------------------------------
+ */
+
+unsigned char *lmp_bytes_begin(void *bytes, const lmp_bytes_format *format) {
+    memcpy(bytes, format->magic, sizeof format->magic);
+    return lmp_bytes_store_u32((unsigned char *)bytes + sizeof format->magic, format->version);
+}
+
+void lmp_bytes_end(void *bytes, unsigned char *end) {
+    lmp_bytes_store_u32(end, lmp_bytes_checksum(bytes, (size_t)(end - (unsigned char *)bytes)));
+}
+
+lmp_result lmp_bytes_check_begin(const void *bytes, size_t size, const lmp_bytes_format *format) {
     const unsigned char *p = bytes;
-    if (size < header + checksum || memcmp(p, magic, 8) != 0)
+    if (size < format->header + LMP_BYTES_CHECKSUM ||
+        memcmp(p, format->magic, sizeof format->magic) != 0)
         return LMP_ERROR_FORMAT;
-    if (lmp_bytes_at_u32(p + 8) != version)
-        return LMP_ERROR_VERSION;
-    if (lmp_bytes_checksum(p, size - checksum) != lmp_bytes_at_u32(p + size - checksum))
-        return LMP_ERROR_CHECKSUM;
-    return LMP_OK;
+    return lmp_bytes_at_u32(p + sizeof format->magic) == format->version ? LMP_OK
+                                                                         : LMP_ERROR_VERSION;
+}
+
+lmp_result lmp_bytes_check_end(const void *bytes, size_t size) {
+    const size_t end = size - LMP_BYTES_CHECKSUM;
+    return lmp_bytes_checksum(bytes, end) == lmp_bytes_at_u32((const unsigned char *)bytes + end)
+               ? LMP_OK
+               : LMP_ERROR_CHECKSUM;
+}
+
+lmp_result lmp_bytes_check_frame(const void *bytes, size_t size, const lmp_bytes_format *format) {
+    const lmp_result begun = lmp_bytes_check_begin(bytes, size, format);
+    return begun == LMP_OK ? lmp_bytes_check_end(bytes, size) : begun;
 }

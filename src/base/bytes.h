@@ -82,9 +82,25 @@ static inline void lmp_bytes_load_i16s(const unsigned char *from, size_t count, 
 /* CRC-32C (Castagnoli), sixteen bytes a step. */
 uint32_t lmp_bytes_checksum(const void *bytes, size_t size);
 
-/* Whether a file holds a header of so many bytes that begins with the magic and the version, and
- * ends with the checksum of what is before: LMP_OK, or what is wrong. */
-lmp_result lmp_bytes_check_frame(const void *bytes, size_t size, const unsigned char magic[8],
-                                 uint32_t version, size_t header);
+/* What every file format here has around its numbers: a header that begins with the magic and the
+ * version, and the checksum of all before it at the end. */
+typedef struct lmp_bytes_format {
+    unsigned char magic[8];
+    uint32_t version;
+    size_t header; /* bytes */
+} lmp_bytes_format;
+
+enum { LMP_BYTES_BEGIN = 12, LMP_BYTES_CHECKSUM = 4 };
+
+/* Writes the magic and the version; returns the place after them. */
+unsigned char *lmp_bytes_begin(void *bytes, const lmp_bytes_format *format);
+/* Writes the checksum of all from bytes to end there. */
+void lmp_bytes_end(void *bytes, unsigned char *end);
+
+/* Each returns LMP_OK or what is wrong: whether a file has room for its header and checksum and
+ * begins as its format does, whether its checksum holds, and both. */
+lmp_result lmp_bytes_check_begin(const void *bytes, size_t size, const lmp_bytes_format *format);
+lmp_result lmp_bytes_check_end(const void *bytes, size_t size);
+lmp_result lmp_bytes_check_frame(const void *bytes, size_t size, const lmp_bytes_format *format);
 
 #endif

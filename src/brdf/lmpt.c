@@ -4,24 +4,22 @@
 
 #include <math.h>
 
-#define FORMAT_VERSION 1
-#define HEADER         48u
-#define CHECKSUM       4u
-static const unsigned char magic[8] = { 'L', 'M', 'P', 'T', 0x0d, 0x0a, 0x1a, 0x0a };
+#define HEADER 48u
+static const lmp_bytes_format format = { .magic = { 'L', 'M', 'P', 'T', 0x0d, 0x0a, 0x1a, 0x0a },
+                                         .version = 1,
+                                         .header = HEADER };
 
 static size_t float_count(const lmp_brdf_table_info *info) {
     return 3 * info->count * (size_t)info->views * (size_t)info->azimuths;
 }
 
 size_t lmp_brdf_table_size(const lmp_brdf_table *table) {
-    return HEADER + 4 * float_count(&table->info) + CHECKSUM;
+    return HEADER + 4 * float_count(&table->info) + LMP_BYTES_CHECKSUM;
 }
 
 void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes) {
     const lmp_brdf_table_info *info = &table->info;
-    unsigned char *p = bytes;
-    memcpy(p, magic, sizeof magic);
-    p = lmp_bytes_store_u32(p + sizeof magic, FORMAT_VERSION);
+    unsigned char *p = lmp_bytes_begin(bytes, &format);
     p = lmp_bytes_store_u32(p, (uint32_t)info->bands);
     p = lmp_bytes_store_u32(p, (uint32_t)info->views);
     p = lmp_bytes_store_u32(p, (uint32_t)info->azimuths);
@@ -33,7 +31,7 @@ void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes) {
     p = lmp_bytes_store_u32(p, 0);
     for (size_t i = 0; i < float_count(info); i++)
         p = lmp_bytes_store_f32(p, table->coefficients[i]);
-    lmp_bytes_store_u32(p, lmp_bytes_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
+    lmp_bytes_end(bytes, p);
 }
 
 /* One integer of the header, held to its range. */
@@ -49,13 +47,14 @@ static lmp_result take(const unsigned char *bytes, size_t offset, const char *wh
 
 static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_table_info *info,
                               lmp_parse_error *fault) {
-    if (size < HEADER + CHECKSUM || memcmp(bytes, magic, sizeof magic) != 0)
-        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 0, "not a Lampion table (.lmpt)");
-    const uint32_t version = lmp_bytes_at_u32(bytes + 8);
-    if (version != FORMAT_VERSION)
-        return lmp_brdf_fail(fault, LMP_ERROR_VERSION, 8,
-                             "table format version %zu, this library knows version %d",
-                             (size_t)version, FORMAT_VERSION);
+    const lmp_result begun = lmp_bytes_check_begin(bytes, size, &format);
+    if (begun == LMP_ERROR_VERSION)
+        return lmp_brdf_fail(fault, begun, sizeof format.magic,
+                             "table format version %zu, this library knows version %zu",
+                             (size_t)lmp_bytes_at_u32(bytes + sizeof format.magic),
+                             (size_t)format.version);
+    if (begun != LMP_OK)
+        return lmp_brdf_fail(fault, begun, 0, "not a Lampion table (.lmpt)");
     int mirrored = 0, window = 0;
     lmp_result result = take(bytes, 12, "bands", 1, LMP_BANDS_MAX, &info->bands, fault);
     if (result == LMP_OK)
@@ -93,14 +92,14 @@ lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data,
     const size_t n = (size_t)info.bands;
     info.count = info.mirrored ? n * (n + 1) / 2 : n * n;
     const uint64_t wanted =
-        HEADER + CHECKSUM +
+        HEADER + LMP_BYTES_CHECKSUM +
         UINT64_C(12) * info.count * (uint64_t)info.views * (uint64_t)info.azimuths;
     if (wanted != size)
         return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 12,
                              "%d bands, %d views, %d azimuths need %zu bytes, the file has %zu",
                              info.bands, info.views, info.azimuths, (size_t)wanted, size);
-    if (lmp_bytes_checksum(bytes, size - CHECKSUM) != lmp_bytes_at_u32(bytes + size - CHECKSUM))
-        return lmp_brdf_fail(fault, LMP_ERROR_CHECKSUM, size - CHECKSUM,
+    if (lmp_bytes_check_end(bytes, size) != LMP_OK)
+        return lmp_brdf_fail(fault, LMP_ERROR_CHECKSUM, size - LMP_BYTES_CHECKSUM,
                              "checksum mismatch: the file is damaged");
     result = lmp_brdf_table_new(allocator, &info, table);
     if (result != LMP_OK)

@@ -6,11 +6,11 @@
 #include "src/base/allocator.h"
 #include "src/preintegrated/brdf.h"
 
-#define FORMAT_VERSION 1u
-#define HEADER         68u
-#define CHECKSUM       4u
-#define SLICE_BYTES    24u
-static const unsigned char magic[8] = { 'L', 'M', 'P', 'S', 0x0d, 0x0a, 0x1a, 0x0a };
+#define HEADER      68u
+#define SLICE_BYTES 24u
+static const lmp_bytes_format format = { .magic = { 'L', 'M', 'P', 'S', 0x0d, 0x0a, 0x1a, 0x0a },
+                                         .version = 1,
+                                         .header = HEADER };
 
 static size_t body_size(const lmp_preintegrated_brdf_info *info) {
     return 4 * ((size_t)info->view_steps + 1 + info->cap_steps + 1) +
@@ -19,7 +19,7 @@ static size_t body_size(const lmp_preintegrated_brdf_info *info) {
 }
 
 size_t lmp_preintegrated_brdf_size(const lmp_preintegrated_brdf *brdf) {
-    return HEADER + body_size(&brdf->info) + CHECKSUM;
+    return HEADER + body_size(&brdf->info) + LMP_BYTES_CHECKSUM;
 }
 
 static unsigned char *store_floats(unsigned char *p, const float *values, size_t count) {
@@ -28,11 +28,10 @@ static unsigned char *store_floats(unsigned char *p, const float *values, size_t
     return p;
 }
 
-static unsigned char *store_header(unsigned char *p, const lmp_preintegrated_brdf_info *info) {
+static unsigned char *store_header(void *bytes, const lmp_preintegrated_brdf_info *info) {
     const float numbers[] = { info->window_size, info->error, info->width,     info->radius,
                               info->reach,       info->slope, info->lobe_angle };
-    memcpy(p, magic, sizeof magic);
-    p = lmp_bytes_store_u32(p + sizeof magic, FORMAT_VERSION);
+    unsigned char *p = lmp_bytes_begin(bytes, &format);
     p = lmp_bytes_store_u32(p, (uint32_t)info->bands);
     p = lmp_bytes_store_u16(p, (uint16_t)info->window);
     p = lmp_bytes_store_u16(p, info->mirrored);
@@ -61,7 +60,7 @@ void lmp_preintegrated_brdf_write(const lmp_preintegrated_brdf *brdf, void *byte
     }
     for (size_t i = 0; i < 3 * info->texel_count; i++)
         p = lmp_bytes_store_u16(p, (uint16_t)info->texels[i]);
-    lmp_bytes_store_u32(p, lmp_bytes_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
+    lmp_bytes_end(bytes, p);
 }
 
 /* --- reading -------------------------------------------------------------------------------------
@@ -74,7 +73,7 @@ static bool positive(float value) {
 /* Numbers that describe a brdf, of a size that agrees with the file's. */
 static bool read_header(const unsigned char *bytes, size_t size,
                         lmp_preintegrated_brdf_info *info) {
-    const unsigned char *p = bytes + sizeof magic + 4;
+    const unsigned char *p = bytes + LMP_BYTES_BEGIN;
     const uint32_t bands = lmp_bytes_load_u32(&p);
     const uint16_t window = lmp_bytes_load_u16(&p), mirrored = lmp_bytes_load_u16(&p);
     if (bands < 1 || bands > LMP_BANDS_MAX || window > LMP_WINDOW_LANCZOS || mirrored > 1)
@@ -100,7 +99,8 @@ static bool read_header(const unsigned char *bytes, size_t size,
     return info->view_steps >= 1 && info->view_steps <= BRDF_STEPS_MAX && info->cap_steps >= 1 &&
            info->cap_steps <= BRDF_STEPS_MAX && info->view_count >= 2 &&
            info->view_count <= info->view_steps + 1 && info->cap_count >= 2 &&
-           info->cap_count <= info->cap_steps + 1 && size == HEADER + body_size(info) + CHECKSUM;
+           info->cap_count <= info->cap_steps + 1 &&
+           size == HEADER + body_size(info) + LMP_BYTES_CHECKSUM;
 }
 
 /* Rising from 0 to the last slice. */
@@ -157,7 +157,7 @@ static bool read_body(const unsigned char *p, lmp_preintegrated_brdf *brdf) {
 lmp_result lmp_preintegrated_brdf_read(const lmp_allocator *allocator, const void *data,
                                        size_t size, lmp_preintegrated_brdf **brdf) {
     *brdf = NULL;
-    const lmp_result framed = lmp_bytes_check_frame(data, size, magic, FORMAT_VERSION, HEADER);
+    const lmp_result framed = lmp_bytes_check_frame(data, size, &format);
     if (framed != LMP_OK)
         return framed;
     const lmp_allocator resolved = lmp_allocator_resolve(allocator);

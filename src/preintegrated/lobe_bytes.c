@@ -7,12 +7,12 @@
 #include "src/base/allocator.h"
 #include "src/preintegrated/lobe.h"
 
-#define FORMAT_VERSION 1u
-#define HEADER         32u
-#define CHECKSUM       4u
+#define HEADER 32u
 /* Nodes a radian: three times what 128 bands take, and 1024 cells of it count below 2^32 pairs. */
 #define DENSITY_MAX 512
-static const unsigned char magic[8] = { 'L', 'M', 'P', 'R', 0x0d, 0x0a, 0x1a, 0x0a };
+static const lmp_bytes_format format = { .magic = { 'L', 'M', 'P', 'R', 0x0d, 0x0a, 0x1a, 0x0a },
+                                         .version = 1,
+                                         .header = HEADER };
 
 static size_t plan_size(uint32_t cells) {
     return 4 * LMP_PREINTEGRATED_LOBE_REMAP_COUNT + 8 * (size_t)cells;
@@ -20,14 +20,12 @@ static size_t plan_size(uint32_t cells) {
 
 size_t lmp_preintegrated_lobe_size(const lmp_preintegrated_lobe *lobe) {
     const lmp_preintegrated_lobe_info *info = &lobe->info;
-    return HEADER + plan_size(info->cell_count) + 4 * info->pair_count + CHECKSUM;
+    return HEADER + plan_size(info->cell_count) + 4 * info->pair_count + LMP_BYTES_CHECKSUM;
 }
 
 void lmp_preintegrated_lobe_write(const lmp_preintegrated_lobe *lobe, void *bytes) {
     const lmp_preintegrated_lobe_info *info = &lobe->info;
-    unsigned char *p = bytes;
-    memcpy(p, magic, sizeof magic);
-    p = lmp_bytes_store_u32(p + sizeof magic, FORMAT_VERSION);
+    unsigned char *p = lmp_bytes_begin(bytes, &format);
     p = lmp_bytes_store_u32(p, (uint32_t)info->bands);
     p = lmp_bytes_store_u32(p, (uint32_t)info->window);
     p = lmp_bytes_store_f32(p, info->window_size);
@@ -41,7 +39,7 @@ void lmp_preintegrated_lobe_write(const lmp_preintegrated_lobe *lobe, void *byte
     }
     for (size_t i = 0; i < 2 * info->pair_count; i++)
         p = lmp_bytes_store_u16(p, (uint16_t)lobe->coefficients[i]);
-    lmp_bytes_store_u32(p, lmp_bytes_checksum(bytes, (size_t)(p - (unsigned char *)bytes)));
+    lmp_bytes_end(bytes, p);
 }
 
 /* Every reading stays inside: the remap rises from 0 to the last slice, and grids are finite. */
@@ -64,7 +62,7 @@ static bool cells_valid(const lmp_preintegrated_lobe *plan) {
 
 static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preintegrated_lobe *plan) {
     lmp_preintegrated_lobe_info *info = &plan->info;
-    const unsigned char *p = bytes + sizeof magic + 4;
+    const unsigned char *p = bytes + LMP_BYTES_BEGIN;
     const uint32_t bands = lmp_bytes_load_u32(&p), window = lmp_bytes_load_u32(&p);
     if (bands > LMP_BANDS_MAX || window > LMP_WINDOW_LANCZOS)
         return LMP_ERROR_FORMAT;
@@ -74,7 +72,8 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preinte
     info->error = lmp_bytes_load_f32(&p);
     info->cell_count = lmp_bytes_load_u32(&p);
     if (!lmp_preintegrated_lobe_valid(info) || info->cell_count < 1 ||
-        info->cell_count > LOBE_CELLS_MAX || size < HEADER + plan_size(info->cell_count) + CHECKSUM)
+        info->cell_count > LOBE_CELLS_MAX ||
+        size < HEADER + plan_size(info->cell_count) + LMP_BYTES_CHECKSUM)
         return LMP_ERROR_FORMAT;
     for (int i = 0; i < LMP_PREINTEGRATED_LOBE_REMAP_COUNT; i++)
         plan->remap[i] = lmp_bytes_load_f32(&p);
@@ -88,7 +87,7 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preinte
     if (!cells_valid(plan))
         return LMP_ERROR_FORMAT;
     lmp_preintegrated_lobe_layout(plan);
-    return size == HEADER + plan_size(info->cell_count) + 4 * info->pair_count + CHECKSUM
+    return size == HEADER + plan_size(info->cell_count) + 4 * info->pair_count + LMP_BYTES_CHECKSUM
                ? LMP_OK
                : LMP_ERROR_FORMAT;
 }
@@ -97,7 +96,7 @@ lmp_result lmp_preintegrated_lobe_read(const lmp_allocator *allocator, const voi
                                        size_t size, lmp_preintegrated_lobe **lobe) {
     *lobe = NULL;
     const unsigned char *bytes = data;
-    lmp_result result = lmp_bytes_check_frame(bytes, size, magic, FORMAT_VERSION, HEADER);
+    lmp_result result = lmp_bytes_check_frame(bytes, size, &format);
     if (result != LMP_OK)
         return result;
     const lmp_allocator resolved = lmp_allocator_resolve(allocator);
@@ -111,7 +110,7 @@ lmp_result lmp_preintegrated_lobe_read(const lmp_allocator *allocator, const voi
     lmp_release(&resolved, plan);
     if (result != LMP_OK)
         return result;
-    const unsigned char *p = bytes + size - CHECKSUM - 4 * (*lobe)->info.pair_count;
+    const unsigned char *p = bytes + size - LMP_BYTES_CHECKSUM - 4 * (*lobe)->info.pair_count;
     lmp_bytes_load_i16s(p, 2 * (*lobe)->info.pair_count, (*lobe)->coefficients);
     return LMP_OK;
 }
