@@ -5,6 +5,8 @@
 #include "app/bench/peak.h"
 #include "app/timing/timing.h"
 
+#include <lampion/cpu.h>
+
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,6 +7,8 @@
 #include "app/shade/shade.h"
 #include "app/timing/timing.h"
 
+#include <lampion/cpu.h>
+
 #include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/bench/kernels.h"
+#include "app/zonal/zonal.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,7 +19,7 @@ static void paper_light(const bench_batch *b, size_t sphere, lmp_vec3 at, float 
     const float d = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z),
                 sine = b->spheres.radius.at[sphere] / d;
     float zonal[LMP_BANDS_MAX];
-    lmp_zonal_printed(b->bands, sqrtf(1 - sine * sine), zonal);
+    zonal_printed(b->bands, sqrtf(1 - sine * sine), zonal);
     lmp_sh_from_zonal(b->bands, zonal, (lmp_vec3) { v.x / d, v.y / d, v.z / d }, sh);
 }
 void bench_paper_basis(const bench_batch *b, size_t i) {
@@ -33,7 +34,7 @@ void bench_paper_rotate(const bench_batch *b, size_t i) {
 }
 void bench_paper_zonal(const bench_batch *b, size_t i) {
     const float sine = b->spheres.radius.at[i] / b->distances[i];
-    lmp_zonal_printed(b->bands, sqrtf(1 - sine * sine), coefficient_sink);
+    zonal_printed(b->bands, sqrtf(1 - sine * sine), coefficient_sink);
 }
 void bench_paper_project(const bench_batch *b, size_t i) {
     paper_light(b, i, vector_at(&b->points, i), coefficient_sink);

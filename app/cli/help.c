@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/cli/option.h"
 
-#include <lampion/base.h>
+#include <lampion/cpu.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -2,6 +2,7 @@
 #include "app/cli/option.h"
 
 #include <lampion/base.h>
+#include <lampion/cpu.h>
 
 #include <stdio.h>
 #include <string.h>

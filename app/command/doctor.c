@@ -6,6 +6,7 @@
 #include "app/timing/timing.h"
 
 #include <lampion/base.h>
+#include <lampion/cpu.h>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

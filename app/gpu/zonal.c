@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The paper's tabulation of Z_l against cos a (§4.2), to be timed. */
+#include "app/zonal/zonal.h"
 #include "app/gpu/internal.h"
 
 #include <math.h>
@@ -7,12 +8,12 @@
 
 /* sin²a R_l of all entries, 4 bands a row of texels. */
 static bool fill_table(int bands, size_t rows, vec4 *texels) {
-    lmp_zonal_table *table;
-    if (lmp_zonal_table_create(NULL, bands, 2 * SHARED_ZONAL_ENTRIES - 1, &table) != LMP_OK)
+    zonal_table *table = zonal_table_create(bands, 2 * SHARED_ZONAL_ENTRIES - 1);
+    if (!table)
         return false;
     for (size_t i = 0; i < SHARED_ZONAL_ENTRIES; i++) {
         float zonal[LMP_BANDS_MAX];
-        lmp_zonal_table_eval(table, (float)i / (SHARED_ZONAL_ENTRIES - 1), zonal);
+        zonal_table_eval(table, (float)i / (SHARED_ZONAL_ENTRIES - 1), zonal);
         for (size_t l = 0; l < 4 * rows; l++) {
             /* Z_l = pi sin²a R_l sqrt((2l + 1)/(4 pi)) */
             const double norm = sqrt(3.14159265358979324 * (2.0 * (double)l + 1) / 4);
@@ -20,7 +21,7 @@ static bool fill_table(int bands, size_t rows, vec4 *texels) {
                 l < (size_t)bands ? (float)((double)zonal[l] / norm) : 0;
         }
     }
-    lmp_zonal_table_destroy(table);
+    zonal_table_destroy(table);
     return true;
 }
 

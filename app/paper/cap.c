@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/legendre.h"
 #include "app/paper/paper.h"
+#include "app/zonal/zonal.h"
 
 #include <lampion/light.h>
 
@@ -54,8 +55,8 @@ static void raise_errors(float ratio, zonal_errors errors) {
     double truth[LMP_BANDS_MAX];
     float zonal[FORMS][LMP_BANDS_MAX] = { { 0 } };
     const float cos_a = sqrtf(1 - ratio * ratio);
-    lmp_zonal_printed(LMP_BANDS_MAX, cos_a, zonal[PRINTED]);
-    lmp_zonal_sloan(LMP_ZONAL_SLOAN_BANDS, cos_a, zonal[SLOAN]);
+    zonal_printed(LMP_BANDS_MAX, cos_a, zonal[PRINTED]);
+    zonal_sloan(ZONAL_SLOAN_BANDS, cos_a, zonal[SLOAN]);
     lmp_sphere_zonal(LMP_BANDS_MAX, ratio, 1, zonal[LIBRARY]);
     for (int l = 0; l < LMP_BANDS_MAX; l++)
         truth[l] = paper_zonal(l, asin((double)ratio));
@@ -81,7 +82,7 @@ static bool write_errors(paper *p, cli_error *error) {
               "below, all computed in float32. Eq. 12 as printed loses small lights to "
               "cancellation; Sloan's closed forms (2008, %d bands) begin with the same cos a, "
               "which has lost them already; the library's form does not.",
-              LIGHTS, LMP_ZONAL_SLOAN_BANDS);
+              LIGHTS, ZONAL_SLOAN_BANDS);
     if (!page_table_begin(&p->page, &table, "accuracy",
                           "r/d|printed, 3 bands|printed, 6|printed, 10|printed, 30|printed, 128|"
                           "Sloan, 3 bands|Sloan, 6|library, 3 bands|library, 6|library, 10|"

@@ -2,6 +2,7 @@
 #include "app/paper/legendre.h"
 #include "app/paper/paper.h"
 #include "app/timing/timing.h"
+#include "app/zonal/zonal.h"
 
 #include <lampion/light.h>
 
@@ -12,14 +13,14 @@ enum { BANDS = 10, ANGLES = 400, RUNS = 9, CALLS = 20000 };
 
 /* Largest error over half angles from `least` degrees to 90, in parts of each light's largest
  * coefficient. */
-static double worst_error(const lmp_zonal_table *table, double least) {
+static double worst_error(const zonal_table *table, double least) {
     double worst = 0;
     for (int i = 1; i <= ANGLES; i++) {
         const double a = M_PI / 2 * pow(least / 90, 1 - (double)i / ANGLES), s = sin(a);
         float z[BANDS];
         double largest = 0, error = 0;
         if (table)
-            lmp_zonal_table_eval(table, (float)cos(a), z);
+            zonal_table_eval(table, (float)cos(a), z);
         else
             lmp_sphere_zonal(BANDS, (float)s, 1, z);
         for (int l = 0; l < BANDS; l++) {
@@ -33,7 +34,7 @@ static double worst_error(const lmp_zonal_table *table, double least) {
 }
 
 /* Median nanoseconds of one evaluation of all bands. */
-static double time_evaluation(const lmp_zonal_table *table) {
+static double time_evaluation(const zonal_table *table) {
     double times[RUNS];
     volatile float sink = 0;
     for (int run = 0; run < RUNS; run++) {
@@ -42,7 +43,7 @@ static double time_evaluation(const lmp_zonal_table *table) {
             float z[BANDS];
             const float s = (float)(i + 1) / (CALLS + 1);
             if (table)
-                lmp_zonal_table_eval(table, s, z);
+                zonal_table_eval(table, s, z);
             else
                 lmp_sphere_zonal(BANDS, s, 1, z);
             sink = sink + z[BANDS - 1];
@@ -67,13 +68,13 @@ bool paper_step_table(paper *p, cli_error *error) {
     page_table_row(&table, "analytic|0|%.0f|%.1e|%.1e", time_evaluation(NULL),
                    worst_error(NULL, 10), worst_error(NULL, 0.1));
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        lmp_zonal_table *zonal = NULL;
-        if (lmp_zonal_table_create(NULL, BANDS, sizes[i], &zonal) != LMP_OK)
+        zonal_table *zonal = zonal_table_create(BANDS, sizes[i]);
+        if (!zonal)
             return cli_fail(error, NULL, "out of memory");
         page_table_row(&table, "table of %d|%.1f|%.0f|%.1e|%.1e", sizes[i],
                        sizes[i] * BANDS * 4 / 1024.0, time_evaluation(zonal),
                        worst_error(zonal, 10), worst_error(zonal, 0.1));
-        lmp_zonal_table_destroy(zonal);
+        zonal_table_destroy(zonal);
     }
     return page_table_end(&table, error);
 }

@@ -162,7 +162,7 @@ typedef struct lmp_brdf_table_desc {
 
 typedef struct lmp_brdf_table lmp_brdf_table;
 
-/* desc NULL: the paper's choice, 10 bands with a Hanning window of their number. */
+/* desc NULL: zero-initialized. The paper windows its 10 bands by LMP_WINDOW_HANNING. */
 LMP_API lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf *brdf,
                                          const lmp_brdf_table_desc *desc, lmp_brdf_table **table);
 LMP_API void lmp_brdf_table_destroy(lmp_brdf_table *table);

@@ -5,6 +5,7 @@
 
 #include <lampion/base.h>
 #include <lampion/brdf.h>
+#include <lampion/cpu.h>
 #include <lampion/light.h>
 #include <lampion/lobe.h>
 #include <lampion/preintegrated.h>

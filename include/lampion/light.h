@@ -181,24 +181,6 @@ LMP_API float lmp_sphere_radiance_from_intensity(float intensity, float radius);
 LMP_API float lmp_cap_irradiance_from_radiance(float radiance, float angle);
 LMP_API float lmp_cap_radiance_from_irradiance(float irradiance, float angle);
 
-/* --- alternatives, kept for comparison (docs/accuracy.md) ------------------------------------- */
-
-/* Paper Eq. 12 exactly as printed, from cos a in -1 … 1, radiance 1; float32 cancels for small
- * lights. zonal receives `bands` values, here and below. */
-LMP_API void lmp_zonal_printed(int bands, float cos_a, float *zonal);
-
-/* Sloan's closed forms (2008), factored; bands <= LMP_ZONAL_SLOAN_BANDS. */
-#define LMP_ZONAL_SLOAN_BANDS 6
-LMP_API void lmp_zonal_sloan(int bands, float cos_a, float *zonal);
-
-/* The paper's tabulation of Z_l against cos a (§4.2), linear between `size` >= 2 entries that span
- * -1 … 1. Immutable. allocator may be NULL; *table is NULL on failure; destroy accepts NULL. */
-typedef struct lmp_zonal_table lmp_zonal_table;
-LMP_API lmp_result lmp_zonal_table_create(const lmp_allocator *allocator, int bands, int size,
-                                          lmp_zonal_table **table);
-LMP_API void lmp_zonal_table_destroy(lmp_zonal_table *table);
-LMP_API void lmp_zonal_table_eval(const lmp_zonal_table *table, float cos_a, float *zonal);
-
 #ifdef __cplusplus
 }
 #endif

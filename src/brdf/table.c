@@ -233,9 +233,7 @@ static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
 lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf *brdf,
                                  const lmp_brdf_table_desc *desc, lmp_brdf_table **table) {
     *table = NULL;
-    lmp_brdf_table_desc own = { .window = LMP_WINDOW_HANNING };
-    if (desc)
-        own = *desc;
+    lmp_brdf_table_desc own = desc ? *desc : (lmp_brdf_table_desc) { 0 };
     if (!resolve(brdf, &own))
         return LMP_ERROR_ARGUMENT;
     const lmp_brdf_table_info info = {

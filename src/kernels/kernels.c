@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/kernels/kernels.h"
 
+#include <lampion/cpu.h>
+
 #include <stdatomic.h>
 
 extern const lmp_kernels lmp_kernels_scalar;

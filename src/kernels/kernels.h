@@ -148,7 +148,7 @@ typedef struct lmp_kernels {
                                      lmp_rgb ambient, size_t count, float *const rgb[3]);
 } lmp_kernels;
 
-/* Fills the table with the best build among `cpu_flags` (lmp_cpu_flag, base.h) that this library
+/* Fills the table with the best build among `cpu_flags` (lmp_cpu_flag, cpu.h) that this library
  * and machine have; scalar when there is none. Returns the flag of the build taken. */
 unsigned lmp_kernels_init(lmp_kernels *kernels, unsigned cpu_flags);
 

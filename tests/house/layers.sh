@@ -11,7 +11,7 @@ stdalign stdarg stdatomic stdbool stddef stdint stdlib stdnoreturn string tgmath
 may_include() {
     case $1 in
     base) echo base ;;
-    kernels) echo base kernels lookup ;;
+    kernels) echo base cpu kernels lookup ;;
     sh) echo base kernels sh ;;
     light) echo base kernels sh light ;;
     lobe | brdf) echo base kernels sh light "$1" ;;
@@ -19,9 +19,11 @@ may_include() {
     preintegrated) echo base kernels sh light lobe brdf preintegrated lookup ;;
     shade) echo base kernels sh light lobe brdf preintegrated shade ;;
     field) echo base kernels sh light lobe brdf preintegrated shade field ;;
-    lampion) echo base sh light lobe probe brdf preintegrated shade field kernels ;;
+    cpu) echo base cpu ;;
+    lampion) echo base cpu sh light lobe probe brdf preintegrated shade field kernels ;;
     app/timing) echo app/timing ;;
-    app/cli) echo app/timing app/cli base ;;
+    app/cli) echo app/timing app/cli base cpu ;;
+    app/zonal) echo app/zonal base sh light ;;
     app/device) echo app/cli app/device ;;
     app/method) echo app/cli app/device app/method base shade sh ;;
     app/bake) echo app/cli app/file app/bake LIBRARY ;;
@@ -37,15 +39,15 @@ may_include() {
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/bake app/material base sh brdf preintegrated ;;
-    app/gpu) echo app/timing app/cli app/file app/image app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
+    app/gpu) echo app/timing app/zonal app/cli app/file app/image app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
     app/shade) echo app/cli app/scene app/gpu app/shade LIBRARY ;;
     app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;
     app/view) echo app/cli app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/override app/view LIBRARY ;;
-    app/paper) echo app/timing app/cli app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
-    app/bench) echo app/timing app/cli app/device app/method app/scene app/material app/gpu app/bake app/shade app/override app/bench LIBRARY ;;
-    app/command) echo app/bench app/timing app/cli app/method app/bake app/shade app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
+    app/paper) echo app/timing app/zonal app/cli app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
+    app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/gpu app/bake app/shade app/override app/bench LIBRARY ;;
+    app/command) echo app/bench app/zonal app/timing app/cli app/method app/bake app/shade app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
         app/command shaders LIBRARY ;;
-    esac | sed 's/LIBRARY/base kernels sh light lobe probe brdf preintegrated shade field lampion/'
+    esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }
 
 module_of() {

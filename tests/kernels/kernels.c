@@ -4,6 +4,8 @@
  * compiler. Memory around each output is guarded. */
 #include "tests/kernels/shaded.h"
 
+#include <lampion/cpu.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

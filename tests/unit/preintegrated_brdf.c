@@ -2,6 +2,7 @@
 /* Responses of measured materials against the sums over bands that they stand for. */
 #include "tests/unit/preintegrated_brdfs.h"
 
+#include <lampion/cpu.h>
 #include <stdlib.h>
 
 /* --- errors ------------------------------------------------------------------------------------

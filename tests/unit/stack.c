@@ -35,7 +35,6 @@ static lmp_cap cap;
 static lmp_spheres spheres;
 static lmp_vec3_array points;
 static lmp_float_array floats;
-static lmp_zonal_table *zonal;
 static lmp_sh_product *product;
 static lmp_brdf *brdf, *read_brdf;
 static lmp_sgd sgd;
@@ -132,11 +131,6 @@ static void shade_all_ways(void) {
     X(lmp_sphere_radiance_from_intensity, lmp_sphere_radiance_from_intensity(1, 1)) \
     X(lmp_cap_irradiance_from_radiance, lmp_cap_irradiance_from_radiance(1, 1)) \
     X(lmp_cap_radiance_from_irradiance, lmp_cap_radiance_from_irradiance(1, 1)) \
-    X(lmp_zonal_printed, lmp_zonal_printed(N, 0.5f, lambda)) \
-    X(lmp_zonal_sloan, lmp_zonal_sloan(LMP_ZONAL_SLOAN_BANDS, 0.5f, lambda)) \
-    X(lmp_zonal_table_create, MAKE(lmp_zonal_table_destroy, zonal, lmp_zonal_table_create(NULL, N, 4, &zonal))) \
-    X(lmp_zonal_table_eval, lmp_zonal_table_eval(zonal, 0.5f, lambda)) \
-    X(lmp_zonal_table_destroy, lmp_zonal_table_destroy(zonal), zonal = NULL) \
     X(lmp_lobe_diffuse, lmp_lobe_diffuse(N, lambda)) \
     X(lmp_lobe_phong, lmp_lobe_phong(N, 20, lambda)) \
     X(lmp_lobe_vmf, lmp_lobe_vmf(N, 20, lambda)) \
