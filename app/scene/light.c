@@ -91,22 +91,27 @@ static const struct {
     [SCENE_LIGHT_COLOR] = { is_color, "is negative or not finite" },
 };
 
+bool scene_light_check_member(const lmp_light *emitter, const scene_light_member *member,
+                              scene_light_error *error) {
+    lmp_light copy = *emitter;
+    if (ranges[member->type].fits(scene_light_value(&copy, member)))
+        return true;
+    snprintf(error->text, sizeof error->text, ".%s %s", member->name, ranges[member->type].wrong);
+    return false;
+}
+
 bool scene_light_check(const scene_light *light, scene_light_error *error) {
-    lmp_light emitter = light->emitter;
-    const char *wrong = NULL, *name = "";
-    if ((unsigned)emitter.kind >= SCENE_LIGHT_KINDS)
-        wrong = "is of no known kind";
-    const scene_light_member *m = wrong ? NULL : scene_light_kinds[emitter.kind].members;
-    for (; !wrong && m->name; m++)
-        if (!ranges[m->type].fits(scene_light_value(&emitter, m))) {
-            wrong = ranges[m->type].wrong;
-            name = m->name;
-        }
-    if (!wrong && emitter.kind == LMP_LIGHT_SPOT && !(emitter.inner <= emitter.outer)) {
-        wrong = "is above the outer angle";
-        name = "inner";
+    const lmp_light *emitter = &light->emitter;
+    if ((unsigned)emitter->kind >= SCENE_LIGHT_KINDS) {
+        snprintf(error->text, sizeof error->text, " is of no known kind");
+        return false;
     }
-    if (wrong)
-        snprintf(error->text, sizeof error->text, "%s%s %s", *name ? "." : "", name, wrong);
-    return !wrong;
+    for (const scene_light_member *m = scene_light_kinds[emitter->kind].members; m->name; m++)
+        if (!scene_light_check_member(emitter, m, error))
+            return false;
+    if (emitter->kind == LMP_LIGHT_SPOT && !(emitter->inner <= emitter->outer)) {
+        snprintf(error->text, sizeof error->text, ".inner is above the outer angle");
+        return false;
+    }
+    return true;
 }

@@ -60,6 +60,10 @@ typedef struct scene_light_error {
  * come from outside. */
 bool scene_light_check(const scene_light *light, scene_light_error *error);
 
+/* The same of one member. */
+bool scene_light_check_member(const lmp_light *emitter, const scene_light_member *member,
+                              scene_light_error *error);
+
 struct cJSON;
 
 /* Reads { "kind": …, members …, "hidden": … } strictly; without a kind it is a sphere. */

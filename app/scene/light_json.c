@@ -123,7 +123,9 @@ bool scene_light_from_json(const cJSON *object, scene_light *light, scene_light_
         return false;
     for (const scene_light_member *m = kind->members; m->name; m++) {
         const cJSON *item = file_json_member(object, m->name);
-        if (!given_once(object, kind, m, error) || (item && !read_member(item, m, light, error)))
+        if (!given_once(object, kind, m, error) ||
+            (item && (!read_member(item, m, light, error) ||
+                      !scene_light_check_member(&light->emitter, m, error))))
             return false;
     }
     const cJSON *hidden = file_json_member(object, "hidden");
