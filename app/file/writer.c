@@ -70,11 +70,25 @@ static pid_t maker_of(const char *name) {
                                                                                  : 0;
 }
 
+/* A process that is no more, or a zombie, which writes nothing again. */
+static bool is_gone(pid_t process) {
+    char path[40], state = 0;
+    if (kill(process, 0) != 0)
+        return errno == ESRCH;
+    snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
+    FILE *const file = fopen(path, "re");
+    if (!file)
+        return false;
+    const bool told = fscanf(file, "%*d (%*[^)]) %c", &state) == 1;
+    fclose(file);
+    return told && state == 'Z';
+}
+
 /* A process of another machine, or of another container, is not seen here, but its lock is. */
 static bool is_stale(int folder, const char *name) {
     struct stat status;
     const pid_t maker = maker_of(name);
-    if (maker == 0 || kill(maker, 0) == 0 || errno != ESRCH)
+    if (maker == 0 || !is_gone(maker))
         return false;
     const int fd = openat(folder, name, O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
     const bool stale = fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
