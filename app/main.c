@@ -85,5 +85,6 @@ int main(int argc, char **argv) {
     /* the calls that fail say so: a reader that is gone, a file at the limit of its size */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+    signal(SIGCHLD, SIG_DFL); /* inherited, it may make waiting for a child fail */
     return close_output(run(argc, argv));
 }

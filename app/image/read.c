@@ -115,7 +115,9 @@ bool image_read_png_text(const char *path, const char *key, char **text, cli_err
     size_t size;
     if (!decode(&d, path, &block, &size, error))
         return false;
-    *text = strndup(block, size);
+    const bool fits = size <= IMAGE_TEXT_MAX;
+    *text = fits ? strndup(block, size) : NULL;
     munmap(block, size);
-    return *text || cli_fail(error, path, "out of memory");
+    return *text || (!fits && cli_fail(error, path, "holds more text than a scene of ours has")) ||
+           cli_fail(error, path, "out of memory");
 }

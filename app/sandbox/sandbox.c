@@ -4,8 +4,10 @@
 #include "app/sandbox/message.h"
 #include "app/sandbox/policy.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -30,6 +32,8 @@
 #define CPU_BASE        1.0    /* seconds */
 #define CPU_PER_BYTE    0.5e-6 /* seconds */
 #define TICK            20     /* milliseconds between looks at the clock */
+#define INPUT_MAX       (8ull << 30)
+#define FILES_MAX       4096
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SANITIZED 1
@@ -81,15 +85,51 @@ static void set_limits(pid_t process, uint64_t base, uint64_t input_bytes) {
 /* Its descriptors: the standard ones on /dev/null, then these two. */
 enum { CHILD_OUTPUT = 3, CHILD_SOCKET = 4 };
 
-static void arrange_descriptors(int output, int socket) {
+static bool close_all_above(int descriptor) {
+    if (close_range((unsigned)descriptor + 1, ~0u, 0) == 0)
+        return true;
+    DIR *const open_ones = opendir("/proc/self/fd"); /* before Linux 5.9 */
+    if (!open_ones)
+        return false;
+    for (const struct dirent *entry; (entry = readdir(open_ones));) {
+        const int fd = (int)strtol(entry->d_name, NULL, 10);
+        if (fd > descriptor && fd != dirfd(open_ones))
+            close(fd);
+    }
+    closedir(open_ones);
+    return true;
+}
+
+static bool arrange_descriptors(int output, int socket) {
     const int null = open("/dev/null", O_RDWR);
+    if (null < 0)
+        return false;
     for (int fd = 0; fd < 3; fd++)
-        dup2(null, fd);
+        if (dup2(null, fd) < 0)
+            return false;
     /* Out of the way first, whatever numbers they have. */
     const int high_output = fcntl(output, F_DUPFD, 16), high_socket = fcntl(socket, F_DUPFD, 16);
-    dup2(high_output, CHILD_OUTPUT);
-    dup2(high_socket, CHILD_SOCKET);
-    close_range(CHILD_SOCKET + 1, ~0u, 0);
+    return dup2(high_output, CHILD_OUTPUT) >= 0 && dup2(high_socket, CHILD_SOCKET) >= 0 &&
+           close_all_above(CHILD_SOCKET);
+}
+
+/* Memory that is shared with the parent or a file: a driver's, a window's. Sanitizers share none.
+ */
+static bool leave_shared_memory(void) {
+    FILE *const maps = fopen("/proc/self/maps", "re");
+    char line[4600];
+    while (maps && fgets(line, sizeof line, maps)) {
+        uintptr_t first, end;
+        char permissions[8];
+        if (sscanf(line, "%" SCNxPTR "-%" SCNxPTR " %7s", &first, &end, permissions) == 3 &&
+            permissions[3] == 's' && munmap((void *)first, end - first) != 0) {
+            fclose(maps);
+            return false;
+        }
+    }
+    if (maps)
+        fclose(maps);
+    return maps != NULL;
 }
 
 static void forget_environment(void) {
@@ -114,7 +154,8 @@ static void leave_parent(pid_t parent) {
 _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int output, int socket) {
     cli_error error = { 0 };
     leave_parent(parent);
-    arrange_descriptors(output, socket);
+    if (!arrange_descriptors(output, socket) || !leave_shared_memory())
+        _exit(EXIT_FAILURE);
     const struct rlimit none = { 0, 0 };
     setrlimit(RLIMIT_CORE, &none);
     if (policy_enter(&error) && job->work(job->context, CHILD_OUTPUT, &error))
@@ -144,6 +185,7 @@ int sandbox_open(const char *name, cli_error *error) {
 typedef struct guard {
     const sandbox_job *job;
     pid_t child;
+    int opened;
     int socket, process; /* the latter is readable when the child has ended */
     uint64_t base, input_bytes;
     char complaint[sizeof((cli_error *)0)->text];
@@ -158,13 +200,17 @@ static double seconds_of(clockid_t clock) {
 static void open_for_child(guard *g, const char *name) {
     struct stat status;
     cli_error error = { "no file can be opened" };
-    const int file = g->job->open ? g->job->open(g->job->context, name, &error) : -1;
+    const bool may = g->job->open && g->opened++ < FILES_MAX;
+    const int file = may ? g->job->open(g->job->context, name, &error) : -1;
     if (file < 0) {
         message_send(g->socket, MESSAGE_FAILURE, error.text, -1);
         return;
     }
-    if (fstat(file, &status) == 0)
+    /* what it may use grows with what it reads, but not without end */
+    if (fstat(file, &status) == 0 && status.st_size > 0 && (uint64_t)status.st_size < INPUT_MAX)
         g->input_bytes += (uint64_t)status.st_size;
+    if (g->input_bytes > INPUT_MAX)
+        g->input_bytes = INPUT_MAX;
     set_limits(g->child, g->base, g->input_bytes);
     message_send(g->socket, MESSAGE_FILE, "", file);
     close(file);
@@ -258,8 +304,12 @@ bool sandbox_run(const sandbox_job *job, void **block, size_t *size, cli_error *
     bool ok = spawn(job, output, &g, error);
     if (ok) {
         attend(&g);
-        while (waitpid(g.child, &status, 0) < 0 && errno == EINTR)
-            continue;
+        while (waitpid(g.child, &status, 0) < 0)
+            if (errno != EINTR) {
+                status =
+                    SIGKILL; /* somebody else has waited for it: what it wrote is not known whole */
+                break;
+            }
         close(g.process);
         close(g.socket);
         ok = explain(status, g.complaint, job->subject, error) &&

@@ -89,12 +89,14 @@ static bool geometry_fits(const blob_header *header) {
         if (indices[i] >= vertex_count)
             return false;
     const scene_mesh *meshes = blob_items(header, BLOB_MESHES);
+    uint64_t corners = 0; /* of all meshes: they do not overlap, or whoever copies them runs over */
     for (uint64_t i = 0; i < header->sections[BLOB_MESHES].count; i++)
         if (!name_fits(meshes[i].name) || meshes[i].index_count % 3 != 0 ||
             meshes[i].first_index > index_count ||
             meshes[i].index_count > index_count - meshes[i].first_index ||
             meshes[i].material >= header->sections[BLOB_MATERIALS].count ||
-            !all_finite(meshes[i].minimum, 3) || !all_finite(meshes[i].maximum, 3))
+            !all_finite(meshes[i].minimum, 3) || !all_finite(meshes[i].maximum, 3) ||
+            (corners += meshes[i].index_count) > index_count)
             return false;
     return true;
 }
@@ -155,12 +157,14 @@ static bool motions_fit(const blob_header *header) {
     const scene_motion *motions = blob_items(header, BLOB_MOTIONS);
     const uint64_t light_count = header->sections[BLOB_LIGHTS].count;
     const uint64_t offset_count = header->sections[BLOB_OFFSETS].count;
+    uint64_t offsets_used = 0;
     for (uint64_t i = 0; i < header->sections[BLOB_MOTIONS].count; i++) {
         const scene_motion *m = &motions[i];
         /* by rising lights: none has two */
         if (m->light >= light_count || (i > 0 && m->light <= motions[i - 1].light) ||
             m->count < 2 || m->first > offset_count || m->count > offset_count - m->first ||
-            !(m->period > 0.0f) || !isfinite(m->period))
+            (offsets_used += m->count) > offset_count || !(m->period > 0.0f) ||
+            !isfinite(m->period))
             return false;
     }
     const lmp_vec3 *offsets = blob_items(header, BLOB_OFFSETS);

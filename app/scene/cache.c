@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/cache.h"
 
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 file_hash cache_key(const char *folder, const char *name, const void *data, size_t size) {
     file_hash key = { BLOB_VERSION, 0 };
@@ -20,19 +23,31 @@ static const char *name_of(const file_hash *key, entry_name name) {
     return name;
 }
 
-static bool sources_unchanged(const void *block, source_set *sources) {
+/* One at a time and no more than was read then: a file may have grown beyond memory. */
+static bool is_unchanged(const source_set *sources, const blob_source *item) {
+    struct stat status;
+    cli_error ignored;
+    file_hash hash = { 0 };
+    void *data = NULL;
+    size_t size = 0;
+    const int fd = sources_open(sources, item->path, &ignored);
+    if (fd < 0)
+        return false;
+    const bool read = fstat(fd, &status) == 0 && (uint64_t)status.st_size == item->size &&
+                      file_read_descriptor(fd, item->path, item->size, &data, &size, &ignored);
+    close(fd);
+    if (read)
+        file_hash_add(&hash, data, size);
+    free(data);
+    return read && hash.low == item->hash.low && hash.high == item->hash.high;
+}
+
+static bool sources_unchanged(const void *block, const source_set *sources) {
     const blob_source *items = blob_items(block, BLOB_SOURCES);
     const blob_header *header = block;
-    for (uint64_t i = 0; i < header->sections[BLOB_SOURCES].count; i++) {
-        const source *found;
-        cli_error ignored;
-        file_hash hash = { 0 };
-        if (!sources_read(sources, items[i].path, &found, &ignored) || found->size != items[i].size)
+    for (uint64_t i = 0; i < header->sections[BLOB_SOURCES].count; i++)
+        if (!is_unchanged(sources, &items[i]))
             return false;
-        file_hash_add(&hash, found->data, found->size);
-        if (hash.low != items[i].hash.low || hash.high != items[i].hash.high)
-            return false;
-    }
     return true;
 }
 

@@ -41,7 +41,8 @@ static bool check_keys(const cJSON *object, const scene_light_kind *kind,
     for (int i = 0; kind->members[i].name; i++)
         known[3 + i] = kind->members[i].name;
     const char *unknown = file_json_unknown_key(object, known);
-    const char *repeated = file_json_repeated_key(object);
+    /* it compares every pair: of the few known ones alone */
+    const char *repeated = unknown ? NULL : file_json_repeated_key(object);
     if (unknown)
         snprintf(error->text, sizeof error->text,
                  " has an unknown key \"%.64s\" (a %s light has %s)", unknown, kind->name,
