@@ -108,13 +108,17 @@ LMP_API lmp_result lmp_preintegrated_lobe_read(const lmp_allocator *allocator, c
  * How it is stored
  *   slices   of a view and a half angle each; between them the value is linear in the coordinates
  *            view_remap and cap_remap.
- *   grid     of a slice: polar about the mirror direction, g the angle to it, p the azimuth
- *            around it from the side of the normal. Rows are counted from where the cap's rim
- * shows, so that the rim lies on the same row in every slice: x      = g - a² / (sqrt(a² + radius²)
- * + radius) s      = x (reach / width / sqrt(x² + reach²) + slope) row    = s row_density -
- * row_origin column = p column_density + 1 Cubic B-splines in both, 4 x 4 coefficients a reading,
- * the second of them at the whole part of row and column. value    mean over the cap of BRDF times
- * cosine, times the cap's solid angle plus lobe_angle. Red, green, blue in 16 bits each. */
+ *   grid     of a slice: polar about the mirror direction, g the angle to it, p the azimuth around
+ *            it from the side of the normal. Rows are counted from where the cap's rim shows, so
+ *            that the rim lies on the same row in every slice:
+ *                x      = g - a² / (sqrt(a² + radius²) + radius)
+ *                s      = x (reach / width / sqrt(x² + reach²) + slope)
+ *                row    = s row_density - row_origin
+ *                column = p column_density + 1
+ *            Cubic B-splines in both, 4 x 4 coefficients a reading, the second of them at the whole
+ *            part of row and column.
+ *   value    mean over the cap of BRDF times cosine, times the cap's solid angle plus lobe_angle.
+ *            Red, green, blue in 16 bits each. */
 typedef struct lmp_preintegrated_brdf lmp_preintegrated_brdf;
 
 /* How to make one; zero-initialize it, zero means the default. */

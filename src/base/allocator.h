@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* heap.h - the allocator of an object: the caller's hooks, or malloc and free. */
+/* allocator.h - the allocator of an object: the caller's hooks, or malloc and free. */
 #ifndef LAMPION_BASE_ALLOCATOR_H
 #define LAMPION_BASE_ALLOCATOR_H
 
