@@ -99,7 +99,7 @@ LMP_INLINE void cap_axis(cap_lanes *cap) {
         cap->z = vf_select_less(vf_set(0), cap->per_d, cap->z, center_z);
 }
 
-/* radial[l] = strength s2 R_l(cos a) for 1 <= l < bands, by the differences of R_l (MATH: no
+/* radial[l] = strength s2 R_l(cos a) for 1 <= l < bands, by the differences of R_l (light.h: no
  * cancellation however small the light), and radial[0] = strength 2 (1 - cos a). */
 LMP_INLINE void cap_radial(int bands, const cap_lanes *cap, vf strength, vf *radial) {
     const float *cap_d = lmp_table_cap_d, *cap_t = lmp_table_cap_t;

@@ -32,7 +32,7 @@ static void evaluates_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
-/* Bounds: ten times the errors that MATH's table of float32 gives, against the unit direction. */
+/* Bounds: ten times the errors of float32 that docs/accuracy.md measures, by the unit direction. */
 static void evaluates_any_number_of_bands(void **state) {
     (void)state;
     const struct {
