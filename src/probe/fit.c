@@ -5,6 +5,7 @@
  * may reach 1e7 before digits of the values are lost. A sphere that is sampled at all is far from
  * that; what is not is refused. */
 #include "src/base/allocator.h"
+#include "src/base/element.h"
 
 #include <lampion/probe.h>
 
@@ -20,19 +21,14 @@ typedef struct normal_equations {
     double *right;  /* right side */
 } normal_equations;
 
-static float element(const float *first, size_t stride, size_t i) {
-    return *(const float *)(const void *)((const char *)first + i * stride);
-}
-
 /* Adds a sample; false where a number of it is not finite or the weight is negative. */
 static bool add_sample(normal_equations *equations, int bands, const lmp_probe_samples *samples,
                        size_t i, float *basis) {
-    const lmp_vec3_array *d = &samples->directions;
-    const lmp_vec3 w = { element(d->x, d->stride, i), element(d->y, d->stride, i),
-                         element(d->z, d->stride, i) };
-    const double value = (double)element(samples->values.at, samples->values.stride, i);
-    const double weight =
-        samples->weights.at ? (double)element(samples->weights.at, samples->weights.stride, i) : 1;
+    const lmp_vec3 w = lmp_vec3_element(&samples->directions, i);
+    const double value = (double)lmp_element(samples->values.at, samples->values.stride, i);
+    const double weight = samples->weights.at
+                              ? (double)lmp_element(samples->weights.at, samples->weights.stride, i)
+                              : 1;
     if (!isfinite(w.x) || !isfinite(w.y) || !isfinite(w.z) || !isfinite(value) ||
         !isfinite(weight) || weight < 0)
         return false;

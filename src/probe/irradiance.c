@@ -1,22 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/element.h"
 #include "src/sh/column.h"
 
 #include <lampion/probe.h>
 
 #include <assert.h>
-
-lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
-    const size_t plane = LMP_SH_COUNT(bands);
-    float lambda[LMP_BANDS_MAX];
-    lmp_lobe_diffuse(bands, lambda);
-    return (lmp_rgb) { lmp_sh_filtered(bands, sh, lambda, normal),
-                       lmp_sh_filtered(bands, sh + plane, lambda, normal),
-                       lmp_sh_filtered(bands, sh + 2 * plane, lambda, normal) };
-}
-
-static float element(const float *first, size_t stride, size_t i) {
-    return *(const float *)(const void *)((const char *)first + i * stride);
-}
 
 void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, size_t count,
                             lmp_rgb *rgb) {
@@ -24,13 +12,17 @@ void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, 
     float lambda[LMP_BANDS_MAX];
     lmp_lobe_diffuse(bands, lambda);
     for (size_t i = 0; i < count; i++) {
-        const lmp_vec3 n = { element(normals.x, normals.stride, i),
-                             element(normals.y, normals.stride, i),
-                             element(normals.z, normals.stride, i) };
+        const lmp_vec3 n = lmp_vec3_element(&normals, i);
         rgb[i] = (lmp_rgb) { lmp_sh_filtered(bands, sh, lambda, n),
                              lmp_sh_filtered(bands, sh + plane, lambda, n),
                              lmp_sh_filtered(bands, sh + 2 * plane, lambda, n) };
     }
+}
+
+lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
+    lmp_rgb rgb;
+    lmp_probe_irradiance_n(bands, sh, lmp_vec3_array_same(&normal), 1, &rgb);
+    return rgb;
 }
 
 void lmp_probe_constants_of(int bands, const float *sh, float scale,
