@@ -240,6 +240,9 @@ bool assimp_add(const char *name, const void *data, size_t size, source_set *sou
         return false;
     const bool ok = add_node(&job, imported, imported->mRootNode, &identity, 0, error) &&
                     assimp_add_materials(imported, sources, builder, error);
+    builder_left_out(builder, NULL, "light", imported->mNumLights);
+    builder_left_out(builder, NULL, "camera", imported->mNumCameras);
+    builder_left_out(builder, NULL, "animation", imported->mNumAnimations);
     aiReleaseImport(imported);
     return ok;
 }

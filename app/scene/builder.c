@@ -90,6 +90,8 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
 
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {
     char name[SCENE_NAME_SIZE];
+    if (count == 0)
+        return;
     scene_clean_name(name, what ? what : "");
     scene_left_out *items = builder_items(builder, BLOB_LEFT_OUT), *found = NULL;
     const size_t known = builder_count(builder, BLOB_LEFT_OUT);

@@ -31,6 +31,7 @@ typedef struct channel {
 struct gltf_motions {
     channel *channels; /* CHANNEL_KINDS a node */
     bool *moved;       /* nodes that a channel moves, their own or that of one above */
+    bool *turned;      /* the same of channels of rotation alone */
     size_t node_count;
     double period;
 };
@@ -95,6 +96,7 @@ static bool read_channels(const gltf *document, gltf_motions *all, cli_error *er
         const long parent = document->nodes[node].parent;
         all->moved[node] =
             own[0].times || own[1].times || own[2].times || (parent >= 0 && all->moved[parent]);
+        all->turned[node] = own[CHANNEL_ROTATION].times || (parent >= 0 && all->turned[parent]);
     }
     return true;
 }
@@ -106,8 +108,9 @@ gltf_motions *gltf_motions_open(const gltf *document, cli_error *error) {
         all->node_count = nodes;
         all->channels = calloc(CHANNEL_KINDS * nodes + 1, sizeof *all->channels);
         all->moved = calloc(nodes + 1, sizeof *all->moved);
+        all->turned = calloc(nodes + 1, sizeof *all->turned);
     }
-    if (all && all->channels && all->moved
+    if (all && all->channels && all->moved && all->turned
             ? read_channels(document, all, error)
             : cli_fail(error, document->subject, "does not fit into memory"))
         return all;
@@ -124,11 +127,16 @@ void gltf_motions_close(gltf_motions *all) {
     }
     free(all->channels);
     free(all->moved);
+    free(all->turned);
     free(all);
 }
 
 bool gltf_moves(const gltf_motions *all, size_t node) {
     return all->period > 0.0 && all->moved[node];
+}
+
+bool gltf_turns(const gltf_motions *all, size_t node) {
+    return all->period > 0.0 && all->turned[node];
 }
 
 /* --- sampling -----------------------------------------------------------------------------------

@@ -3,13 +3,8 @@
 #include "app/scene/gltf.h"
 #include "app/scene/vector.h"
 
+#include <stdio.h>
 #include <string.h>
-
-/* Lights without a radius in their extras: relative to the diagonal of the scene's bounds. */
-#define DEFAULT_RADIUS 0.01
-/* A directional light becomes a sphere this many diagonals away with the sun's radius of 0.27°. */
-#define SUN_DISTANCE 20.0
-#define SUN_SINE     0.00471
 
 typedef struct scene_box {
     double center[3], diagonal;
@@ -76,46 +71,56 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     return true;
 }
 
-static bool add_light(const gltf *document, size_t node, const scene_box *box,
-                      const gltf_motions *motions, scene_builder *builder, cli_error *error) {
+/* A radius in the extras of the light, or of the node that holds it, makes a point a sphere. */
+static void set_emitter(const cJSON *entry, const cJSON *holder, const double m[16],
+                        lmp_light *emitter) {
+    const cJSON *cone = gltf_member(entry, "spot");
+    const char *type = gltf_text(entry, "type");
+    double color[3] = { 1.0, 1.0, 1.0 };
+    gltf_numbers(entry, "color", 3, color);
+    double strength = gltf_number(entry, "intensity", 1.0);
+    double radius = gltf_number(gltf_member(entry, "extras"), "radius", 0.0);
+    radius = gltf_number(gltf_member(holder, "extras"), "radius", radius);
+    emitter->position = vec((float)m[12], (float)m[13], (float)m[14]);
+    if (strcmp(type, "directional") == 0) {
+        emitter->kind = LMP_LIGHT_DIRECTIONAL;
+        emitter->direction = axis_of(m, 2, 1.0f);
+    } else if (strcmp(type, "spot") == 0) {
+        emitter->kind = LMP_LIGHT_SPOT;
+        emitter->direction = axis_of(m, 2, -1.0f);
+        emitter->inner = (float)gltf_number(cone, "innerConeAngle", 0.0);
+        emitter->outer = (float)gltf_number(cone, "outerConeAngle", M_PI_4);
+    } else if (radius != 0.0) {
+        emitter->radius = (float)radius;
+        strength /= M_PI * radius * radius;
+    } else
+        emitter->kind = LMP_LIGHT_POINT;
+    emitter->radiance = (lmp_rgb) { (float)(strength * color[0]), (float)(strength * color[1]),
+                                    (float)(strength * color[2]) };
+}
+
+static bool add_light(const gltf *document, size_t node, const gltf_motions *motions,
+                      scene_builder *builder, cli_error *error) {
     const cJSON *holder = gltf_item(document, GLTF_NODES, node);
     const size_t index = (size_t)gltf_index(gltf_extension(holder, "KHR_lights_punctual"), "light");
     const cJSON *entry = gltf_item(document, GLTF_LIGHTS, index);
-    const double *m = document->nodes[node].world;
-    double color[3] = { 1.0, 1.0, 1.0 }, center[3] = { m[12], m[13], m[14] };
-    gltf_numbers(entry, "color", 3, color);
-    double strength = gltf_number(entry, "intensity", 1.0);
-    double radius =
-        gltf_number(gltf_member(entry, "extras"), "radius", DEFAULT_RADIUS * box->diagonal);
-    radius = gltf_number(gltf_member(holder, "extras"), "radius", radius);
-    if (gltf_member(entry, "spot"))
-        builder_left_out(builder, "cone", "spot light", 1);
-    const bool far = strcmp(gltf_text(entry, "type"), "directional") == 0;
-    if (far) {
-        const lmp_vec3 back = axis_of(m, 2, 1.0f);
-        const double away[3] = { (double)back.x, (double)back.y, (double)back.z };
-        for (int k = 0; k < 3; k++)
-            center[k] = box->center[k] + away[k] * SUN_DISTANCE * box->diagonal;
-        /* Irradiance E = pi sin²a L: with L = I/(pi r²) below, I = E distance². */
-        radius = SUN_SINE * SUN_DISTANCE * box->diagonal;
-        strength *= SUN_DISTANCE * SUN_DISTANCE * box->diagonal * box->diagonal;
-    }
-    if (!(radius > 0.0) || !(strength >= 0.0) || !isfinite(radius) || !isfinite(strength) ||
-        !(color[0] >= 0.0 && color[1] >= 0.0 && color[2] >= 0.0))
-        return cli_fail(error, document->subject,
-                        "has a light (%zu) whose radius or intensity makes no sense", index);
     scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
+    scene_light_error wrong;
     if (!light)
         return cli_fail(error, document->subject, "does not fit into memory");
-    const double area = M_PI * radius * radius;
-    light->emitter = (lmp_light) {
-        .position = { (float)center[0], (float)center[1], (float)center[2] },
-        .radius = (float)radius,
-        .radiance = { (float)(strength * color[0] / area), (float)(strength * color[1] / area),
-                      (float)(strength * color[2] / area) },
-    };
+    set_emitter(entry, holder, document->nodes[node].world, &light->emitter);
+    if (!scene_light_check(light, &wrong)) {
+        char text[sizeof wrong.text + 16];
+        snprintf(text, sizeof text, "makes a light: %s", wrong.text);
+        return gltf_fail(document, GLTF_LIGHTS, index, text, error);
+    }
+    if (gltf_member(entry, "range"))
+        builder_left_out(builder, "range", "light", 1);
+    if (scene_light_has(light, SCENE_LIGHT_DIRECTION) && gltf_turns(motions, node))
+        builder_left_out(builder, "animated direction", "light", 1);
     const size_t number = builder_count(builder, BLOB_LIGHTS) - 1;
-    return far || gltf_add_motion(document, motions, node, number, builder, error);
+    return !scene_light_has(light, SCENE_LIGHT_POSITION) ||
+           gltf_add_motion(document, motions, node, number, builder, error);
 }
 
 bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *error) {
@@ -131,7 +136,7 @@ bool gltf_add_views(const gltf *document, scene_builder *builder, cli_error *err
         if (gltf_member(node, "camera"))
             ok = add_camera(document, i, &box, builder, error);
         if (ok && gltf_extension(node, "KHR_lights_punctual"))
-            ok = add_light(document, i, &box, motions, builder, error);
+            ok = add_light(document, i, motions, builder, error);
     }
     gltf_motions_close(motions);
     return ok;

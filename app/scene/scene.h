@@ -153,7 +153,9 @@ typedef struct scene_lights_options {
     const char *file; /* a lights file, or NULL */
     int random_count; /* random lights */
     uint64_t seed;
-    bool keep; /* keep the scene's own lights beside these, which otherwise replace them */
+    bool keep;          /* keep the scene's own lights beside these, which otherwise replace them */
+    float point_radius; /* of the scene's own point lights, which become spheres; 0: points */
+    float sun_angle;    /* degrees: half that of its directional lights; 0: parallel rays */
 } scene_lights_options;
 
 /* The rows of a command's option table that fill a scene_lights_options variable. */
@@ -175,6 +177,20 @@ typedef struct scene_lights_options {
           .target = &(variable).seed,                                                              \
           .argument = "SEED",                                                                      \
           .help = "seed of the random lights" },                                                   \
+        { .name = "point-radius",                                                                  \
+          .kind = CLI_FLOAT,                                                                       \
+          .target = &(variable).point_radius,                                                      \
+          .argument = "RADIUS",                                                                    \
+          .help = "make the scene's own point lights spheres of the same intensity",               \
+          .minimum = 0,                                                                            \
+          .maximum = 1e12 },                                                                       \
+        { .name = "sun-angle",                                                                     \
+          .kind = CLI_FLOAT,                                                                       \
+          .target = &(variable).sun_angle,                                                         \
+          .argument = "DEGREES",                                                                   \
+          .help = "make its directional lights suns of this angular radius (ours has 0.27)",       \
+          .minimum = 0,                                                                            \
+          .maximum = 89 },                                                                         \
     {                                                                                              \
         .name = "keep-lights", .kind = CLI_FLAG, .target = &(variable).keep,                       \
         .help = "keep the scene's own lights beside --lights and --random-lights"                  \

@@ -209,7 +209,7 @@ static void what_is_left_out_is_named(void **state) {
           "EXT_texture_webp (1 texture)" },
         { "\"alphaMode\":\"MASK\"", "\"alphaMode\":\"BLEND\"", "blending (1 material)" },
         { "\"normalTexture\"", "\"occlusionTexture\"", "occlusion map (1 material)" },
-        { "\"intensity\":4", "\"intensity\":5", "cone (1 spot light)" },
+        { "\"intensity\":4", "\"intensity\":5", "range (1 light)" },
         { "\"path\":\"translation\"", "\"path\":\"translation\"", NULL },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

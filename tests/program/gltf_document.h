@@ -163,15 +163,19 @@ static inline void expect(const char *json, const char *refusal, const char *wha
     builder_free(&builder);
 }
 
-/* The document with the first `from` in it replaced by `to`. */
-static inline char *changed(const char *from, const char *to) {
-    const char *found = strstr(document, from);
+/* A text with the first `from` in it replaced by `to`; to be freed. */
+static inline char *replaced(const char *in, const char *from, const char *to) {
+    const char *found = strstr(in, from);
     if (!found)
         fail_msg("\"%s\" is not in the document", from);
-    char *text = malloc(sizeof document + strlen(to));
+    char *text = malloc(strlen(in) + strlen(to) + 1);
     assert_non_null(text);
-    sprintf(text, "%.*s%s%s", (int)(found - document), document, to, found + strlen(from));
+    sprintf(text, "%.*s%s%s", (int)(found - in), in, to, found + strlen(from));
     return text;
+}
+
+static inline char *changed(const char *from, const char *to) {
+    return replaced(document, from, to);
 }
 
 #endif

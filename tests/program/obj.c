@@ -168,6 +168,33 @@ static void other_formats_are_read(void **state) {
     }
 }
 
+static void what_other_formats_lose_is_named(void **state) {
+    (void)state;
+    folder_write_text(
+        "m.dae",
+        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+        "version=\"1.4.1\"><asset><up_axis>Y_UP</up_axis></asset><library_lights><light id=\"l\">"
+        "<technique_common><point><color>1 1 1</color></point></technique_common></light>"
+        "</library_lights><library_geometries><geometry id=\"g\"><mesh><source id=\"p\">"
+        "<float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array><technique_common>"
+        "<accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+        "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+        "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+        "source=\"#p\"/></vertices><triangles count=\"1\"><input semantic=\"VERTEX\" "
+        "source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+        "</library_geometries><library_visual_scenes><visual_scene "
+        "id=\"s\"><node><instance_geometry "
+        "url=\"#g\"/></node><node><instance_light url=\"#l\"/></node></visual_scene>"
+        "</library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    scene s;
+    cli_error error = { "" };
+    if (!scene_load(in_folder("m.dae"), &(scene_options) { .no_cache = true }, &s, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(s.left_out_count, 1);
+    assert_string_equal(s.left_out[0].noun, "light");
+    scene_free(&s);
+}
+
 static void a_strict_reading_leaves_nothing_out(void **state) {
     (void)state;
     scene s;
@@ -194,6 +221,7 @@ int main(void) {
         cmocka_unit_test(names_of_files_may_differ_in_case),
         cmocka_unit_test(many_groups_are_many_meshes),
         cmocka_unit_test(other_formats_are_read),
+        cmocka_unit_test(what_other_formats_lose_is_named),
         cmocka_unit_test(a_strict_reading_leaves_nothing_out),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+/* KHR_lights_punctual: each light becomes one of the library's kind, where its node is, and a point
+ * or parallel light takes the size that the command line gives it. */
+#include "tests/program/gltf_document.h"
+
+#include <math.h>
+
+#define SPOT                                                                                       \
+    "\"spot\",\"color\":[1,0.5,0],\"intensity\":4,\"range\":9,\"spot\":"                           \
+    "{\"innerConeAngle\":0.1,\"outerConeAngle\":0.5}"
+#define NODE "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}"
+
+/* The document's only light. */
+static lmp_light read_light(const char *from, const char *to) {
+    scene_builder builder;
+    cli_error error;
+    char *text = changed(from, to);
+    if (!reads(text, &builder, &error))
+        fail_msg("%s: %s", to, error.text);
+    assert_int_equal(builder_count(&builder, BLOB_LIGHTS), 1);
+    const scene_light light = *(const scene_light *)builder_items(&builder, BLOB_LIGHTS);
+    assert_int_equal(light.hidden, 0);
+    builder_free(&builder);
+    free(text);
+    return light.emitter;
+}
+
+static void assert_vector(lmp_vec3 v, double x, double y, double z) {
+    CHECK_WITHIN(fabs((double)v.x - x), 1e-6);
+    CHECK_WITHIN(fabs((double)v.y - y), 1e-6);
+    CHECK_WITHIN(fabs((double)v.z - z), 1e-6);
+}
+
+static void a_spot_keeps_its_cones_and_shines_along_minus_z(void **state) {
+    (void)state;
+    /* A quarter turn around y: the node's -z is the world's -x. */
+    const lmp_light light = read_light(NODE, "{\"rotation\":[0,0.70710678,0,0.70710678],"
+                                             "\"translation\":[1,2,3],\"scale\":[2,2,2],"
+                                             "\"extensions\":{\"KHR_lights_punctual\":"
+                                             "{\"light\":0}}}");
+    assert_int_equal(light.kind, LMP_LIGHT_SPOT);
+    assert_vector(light.position, 1, 2, 3);
+    assert_vector(light.direction, -1, 0, 0);
+    CHECK_WITHIN(fabs((double)light.inner - 0.1), 1e-7);
+    CHECK_WITHIN(fabs((double)light.outer - 0.5), 1e-7);
+    assert_vector((lmp_vec3) { light.intensity.r, light.intensity.g, light.intensity.b }, 4, 2, 0);
+}
+
+static void a_cone_that_is_not_given_is_an_eighth_of_a_circle(void **state) {
+    (void)state;
+    const lmp_light light = read_light("\"innerConeAngle\":0.1,\"outerConeAngle\":0.5", "");
+    CHECK_WITHIN(fabs((double)light.inner), 0);
+    CHECK_WITHIN(fabs((double)light.outer - M_PI / 4), 1e-6);
+}
+
+/* Its rays go along -z, so that it is seen toward +z; its place is of no account. */
+static void parallel_light_is_directional(void **state) {
+    (void)state;
+    const lmp_light light = read_light(SPOT, "\"directional\",\"intensity\":3,\"color\":[0,1,0.5]");
+    assert_int_equal(light.kind, LMP_LIGHT_DIRECTIONAL);
+    assert_vector(light.direction, 0, 0, 1);
+    assert_vector((lmp_vec3) { light.irradiance.r, light.irradiance.g, light.irradiance.b }, 0, 3,
+                  1.5);
+}
+
+static void a_point_is_a_point_and_with_a_radius_a_sphere(void **state) {
+    (void)state;
+    lmp_light light = read_light(SPOT, "\"point\",\"intensity\":3");
+    assert_int_equal(light.kind, LMP_LIGHT_POINT);
+    assert_true(light.intensity.g == 3 && light.radius == 0);
+    light = read_light(SPOT, "\"point\",\"intensity\":3,\"extras\":{\"radius\":0.5}");
+    assert_int_equal(light.kind, LMP_LIGHT_SPHERE);
+    assert_true(light.radius == 0.5f);
+    CHECK_WITHIN(fabs(M_PI * 0.25 * (double)light.radiance.b - 3), 1e-6);
+}
+
+/* The place of an animated node moves the light, and its rotation is named. */
+static void a_direction_that_is_animated_is_left_out(void **state) {
+    (void)state;
+    char *values = changed("\"count\":4,\"type\":\"VEC4\"}]",
+                           "\"count\":4,\"type\":\"VEC4\"},{\"bufferView\":8,"
+                           "\"componentType\":5126,\"count\":2,\"type\":\"VEC4\"}]");
+    char *output = replaced(values, "\"output\":6", "\"output\":9");
+    char *rotated = replaced(output, "\"path\":\"translation\"", "\"path\":\"rotation\"");
+    const char *const texts[] = { document, rotated };
+    for (size_t turns = 0; turns < 2; turns++) {
+        scene_builder builder;
+        cli_error error;
+        bool named = false;
+        if (!reads(texts[turns], &builder, &error))
+            fail_msg("%s", error.text);
+        const scene_left_out *items = builder_items(&builder, BLOB_LEFT_OUT);
+        for (size_t i = 0; i < builder_count(&builder, BLOB_LEFT_OUT); i++)
+            named = named || strcmp(items[i].what, "animated direction") == 0;
+        assert_int_equal(named, turns);
+        assert_int_equal(builder_count(&builder, BLOB_MOTIONS), 1);
+        builder_free(&builder);
+    }
+    free(values);
+    free(output);
+    free(rotated);
+}
+
+static void impossible_lights_are_refused(void **state) {
+    (void)state;
+    static const char *const cases[][2] = {
+        { "\"point\",\"extras\":{\"radius\":-1}", "light 0 makes a light: .radius is not above" },
+        { "\"point\",\"intensity\":1e300", "light 0 makes a light: .intensity is negative or" },
+        { "\"directional\",\"intensity\":1e39", ".irradiance is negative or not finite" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *text = changed(SPOT, cases[i][0]);
+        expect(text, cases[i][1], cases[i][0]);
+        free(text);
+    }
+}
+
+static void the_command_line_gives_points_and_parallel_light_a_size(void **state) {
+    (void)state;
+    scene_light lights[] = {
+        { .emitter = { .kind = LMP_LIGHT_POINT, .intensity = { 1, 2, 3 } } },
+        { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL,
+                       .direction = { 0, 1, 0 },
+                       .irradiance = { 1, 2, 3 } } },
+        { .emitter = { .kind = LMP_LIGHT_SPOT, .direction = { 0, 1, 0 }, .outer = 1 } },
+    };
+    const scene_light before = lights[2];
+    scene s = { .lights = lights, .light_count = 3 };
+    cli_error error;
+    assert_true(scene_apply_lights(
+        &s, &(scene_lights_options) { .point_radius = 2, .sun_angle = 30 }, &error));
+    assert_int_equal(lights[0].emitter.kind, LMP_LIGHT_SPHERE);
+    CHECK_WITHIN(fabs(4 * M_PI * (double)lights[0].emitter.radiance.g - 2), 1e-6);
+    /* Irradiance of a cap that one faces: pi sin²a L. */
+    assert_int_equal(lights[1].emitter.kind, LMP_LIGHT_CAP);
+    CHECK_WITHIN(fabs((double)lights[1].emitter.angle - M_PI / 6), 1e-6);
+    CHECK_WITHIN(fabs(M_PI * 0.25 * (double)lights[1].emitter.radiance.b - 3), 1e-6);
+    assert_memory_equal(&lights[2], &before, sizeof before);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_spot_keeps_its_cones_and_shines_along_minus_z),
+        cmocka_unit_test(a_cone_that_is_not_given_is_an_eighth_of_a_circle),
+        cmocka_unit_test(parallel_light_is_directional),
+        cmocka_unit_test(a_point_is_a_point_and_with_a_radius_a_sphere),
+        cmocka_unit_test(a_direction_that_is_animated_is_left_out),
+        cmocka_unit_test(impossible_lights_are_refused),
+        cmocka_unit_test(the_command_line_gives_points_and_parallel_light_a_size),
+    };
+    fill_bytes();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
