@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/animation/internal.h"
+#include "app/animation/animation.h"
+
+#include "app/animation/path.h"
 #include "app/scene/random.h"
 #include "app/scene/vector.h"
 
@@ -14,6 +16,13 @@
 
 /* Seconds that a fall through the whole height of the scene and the way back take. */
 #define BOUNCE_PERIOD 2.0
+
+struct animation {
+    float minimum[3], maximum[3]; /* the scene's bounds */
+    path rest;                    /* of lights without a path of their own */
+    path *paths;
+    size_t path_count;
+};
 
 /* --- the paths ----------------------------------------------------------------------------------
  */
@@ -190,7 +199,7 @@ static bool open_paths(const char *name, const scene *world, animation *all, cli
         return cli_fail(error, name, "is no path of lights (did you mean %s?)", nearest);
     if (!dot)
         return cli_fail(error, name, "is no path of lights (there are " ANIMATION_NAMES ")");
-    return animation_read(name, world, all, error);
+    return animation_read_paths(name, world, all->paths, error);
 }
 
 bool animation_open(const char *name, const scene *world, animation **opened, cli_error *error) {

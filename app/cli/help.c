@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/cli/option.h"
 
-#include <lampion/cpu.h>
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -97,21 +95,6 @@ void option_describe(const cli_option *option, char *text, size_t size) {
     describe_values(option, text, size);
     if (!option->given)
         describe_default(option, text, size);
-}
-
-int option_rows(const cli_option *options, cli_option *rows) {
-    static int every = LMP_CPU_ALL;
-    const cli_option cpu_mask = cli_cpu_mask(&every);
-    int count = 0;
-    bool own = false;
-    for (; options[count].name && count < OPTIONS_MAX - 2; count++) {
-        rows[count] = options[count];
-        own = own || strcmp(options[count].name, cpu_mask.name) == 0;
-    }
-    if (!own)
-        rows[count++] = cpu_mask;
-    rows[count++] = (cli_option) { .name = "help", .letter = 'h', .help = "this text" };
-    return count;
 }
 
 static void print_option(const cli_option *option) {

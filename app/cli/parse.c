@@ -69,18 +69,6 @@ static int unknown_option(const cli_command *command, const cli_option *options,
     return cli_usage(command, "unknown option %.*s", length, word);
 }
 
-cli_option cli_cpu_mask(int *mask) {
-    return (cli_option) {
-        .name = "cpu-mask",
-        .kind = CLI_INT,
-        .target = mask,
-        .argument = "N",
-        .help = "instruction sets: the sum of 1 scalar, 2 SSE2 or NEON, 4 AVX2, 8 AVX-512",
-        .minimum = LMP_CPU_SCALAR,
-        .maximum = LMP_CPU_ALL,
-    };
-}
-
 /* Takes one option, and its value from the next word if need be; CLI_OK or CLI_USAGE. */
 static int take_option(const cli_command *command, const cli_option *options,
                        const cli_option *common, char *word, arguments *rest) {

@@ -5,9 +5,6 @@
 
 #include "app/scene/vector.h"
 
-const storey_plan atrium_lower = { 0.0f, 3.20f, GALLERY, 1.14f };
-const storey_plan atrium_upper = { GALLERY, GALLERY + 2.55f, CORNICE, 1.22f };
-
 static void add_material(scene_builder *builder, const char *name, float r, float g, float b,
                          float roughness, float metallic) {
     scene_material *material = builder_material(builder, name);
@@ -45,15 +42,6 @@ static void add_materials(scene_builder *builder) {
         for (int i = 0; i < 4; i++)
             add_material(builder, gloss_names[color][i], tile_colors[color][0],
                          tile_colors[color][1], tile_colors[color][2], gloss[i], sheen[i]);
-}
-
-void atrium_turn(scene_shaper *shaper, const shape_point *profile, int point_count, lmp_vec3 origin,
-                 int segments) {
-    shape_turn(shaper, &(shape_turning) { .profile = profile,
-                                          .point_count = point_count,
-                                          .origin = origin,
-                                          .axis = 'y',
-                                          .segments = segments });
 }
 
 void builtin_atrium(const builtin_parameters *parameters, scene_builder *builder) {

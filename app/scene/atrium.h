@@ -49,12 +49,12 @@ typedef struct court_plan {
 } court_plan;
 
 /* A solid of revolution around the vertical through `origin`. */
-void atrium_turn(scene_shaper *shaper, const shape_point *profile, int point_count, lmp_vec3 origin,
-                 int segments);
+void atrium_revolve(scene_shaper *shaper, const shape_point *profile, int point_count,
+                    lmp_vec3 origin, int segments);
 
 /* Half of one around the z axis at height y: an arch. */
-void atrium_turn_arch(scene_shaper *shaper, const shape_point *profile, int point_count, float y,
-                      int segments);
+void atrium_revolve_arch(scene_shaper *shaper, const shape_point *profile, int point_count, float y,
+                         int segments);
 
 /* Height of a groin vault over the springing of a storey. */
 float atrium_vault_rise(const storey_plan *s);

@@ -42,33 +42,33 @@ void atrium_put_column(scene_shaper *shaper, lmp_vec3 foot, float radius, float 
     const int base_count = sizeof attic_base / sizeof *attic_base;
     for (int i = 0; i < base_count; i++)
         scaled[i] = (shape_point) { attic_base[i].r * radius, plinth + attic_base[i].a * radius };
-    atrium_turn(shaper, scaled, base_count, foot, 32);
+    atrium_revolve(shaper, scaled, base_count, foot, 32);
     /* The shaft swells a little before it tapers: entasis. */
     for (int i = 0; i <= RINGS; i++) {
         const float t = (float)i / RINGS;
         scaled[i] = (shape_point) { radius * (1.0f - 0.14f * t * t), base + (capital - base) * t };
     }
-    shape_turn(shaper, &(shape_turning) { .profile = scaled,
-                                          .point_count = RINGS + 1,
-                                          .origin = foot,
-                                          .axis = 'y',
-                                          .segments = flutes ? 4 * flutes : 28,
-                                          .flutes = flutes,
-                                          .depth = 0.055f });
+    shape_revolve(shaper, &(shape_revolution) { .profile = scaled,
+                                                .point_count = RINGS + 1,
+                                                .origin = foot,
+                                                .axis = 'y',
+                                                .segments = flutes ? 4 * flutes : 28,
+                                                .flutes = flutes,
+                                                .depth = 0.055f });
     const int astragal_count = sizeof astragal / sizeof *astragal;
     for (int i = 0; i < astragal_count; i++)
         scaled[i] = (shape_point) { astragal[i].r * radius, capital + astragal[i].a * radius };
-    atrium_turn(shaper, scaled, astragal_count, foot, 32);
+    atrium_revolve(shaper, scaled, astragal_count, foot, 32);
     const int bell_count = sizeof bell / sizeof *bell;
     for (int i = 0; i < bell_count; i++)
         scaled[i] = (shape_point) { bell[i].r * radius, capital + bell[i].a * radius };
-    shape_turn(shaper, &(shape_turning) { .profile = scaled,
-                                          .point_count = bell_count,
-                                          .origin = foot,
-                                          .axis = 'y',
-                                          .segments = 80,
-                                          .flutes = 16,
-                                          .depth = 0.10f });
+    shape_revolve(shaper, &(shape_revolution) { .profile = scaled,
+                                                .point_count = bell_count,
+                                                .origin = foot,
+                                                .axis = 'y',
+                                                .segments = 80,
+                                                .flutes = 16,
+                                                .depth = 0.10f });
     box_at(shaper, foot, 1.38f * radius, height - 0.26f * radius, height - 0.08f * radius);
     box_at(shaper, foot, 1.48f * radius, height - 0.09f * radius, height);
 }
@@ -86,7 +86,8 @@ static void atrium_put_balustrade(scene_shaper *shaper, float floor) {
     shaper->material = BALUSTER;
     for (int i = 0; i < BALUSTERS; i++) {
         const float x = 2.3f * (((float)i + 0.5f) / BALUSTERS - 0.5f);
-        atrium_turn(shaper, baluster, sizeof baluster / sizeof *baluster, vec(x, floor, 0.05f), 12);
+        atrium_revolve(shaper, baluster, sizeof baluster / sizeof *baluster, vec(x, floor, 0.05f),
+                       12);
     }
     const float end = 0.5f * BAY - 0.2f;
     shaper->material = TRIM;
@@ -96,18 +97,6 @@ static void atrium_put_balustrade(scene_shaper *shaper, float floor) {
 
 /* --- arches -------------------------------------------------------------------------------------
  */
-
-/* A half ring round (0, y, 0) in the plane of the wall. */
-void atrium_turn_arch(scene_shaper *shaper, const shape_point *profile, int point_count, float y,
-                      int segments) {
-    shape_turn(shaper, &(shape_turning) { .profile = profile,
-                                          .point_count = point_count,
-                                          .origin = vec(0.0f, y, 0.0f),
-                                          .axis = 'z',
-                                          .from = 0.0f,
-                                          .to = PI,
-                                          .segments = segments });
-}
 
 /* One face of the wall around an arch, at depth z, seen from +z (or from -z if `back`). */
 static void put_spandrels(scene_shaper *shaper, const storey_plan *s, float z, bool back) {
@@ -141,7 +130,7 @@ static void put_arch(scene_shaper *shaper, const storey_plan *s) {
     put_spandrels(shaper, s, -WALL, true);
     const shape_point soffit[] = { { r, WALL }, { r, -WALL } };
     shaper->material = TRIM;
-    atrium_turn_arch(shaper, soffit, 2, s->springing, 32);
+    atrium_revolve_arch(shaper, soffit, 2, s->springing, 32);
     for (int side = 0; side < 2; side++) {
         const float from = side ? r : -half, to = side ? half : -r;
         shape_quad(shaper, vec(from, s->springing, -WALL), vec(to, s->springing, -WALL),
@@ -152,7 +141,7 @@ static void put_arch(scene_shaper *shaper, const storey_plan *s) {
         { r + 0.19f, WALL + 0.07f }, { r + 0.18f, WALL + 0.05f }, { r + 0.10f, WALL + 0.05f },
         { r + 0.10f, WALL + 0.03f }, { r, WALL + 0.03f },         { r, WALL },
     };
-    atrium_turn_arch(shaper, archivolt, sizeof archivolt / sizeof *archivolt, s->springing, 32);
+    atrium_revolve_arch(shaper, archivolt, sizeof archivolt / sizeof *archivolt, s->springing, 32);
     /* keystone */
     const float y0 = s->springing + r - 0.04f, y1 = s->springing + r + 0.36f, z = WALL + 0.13f;
     const lmp_vec3 k[8] = { vec(-0.09f, y0, WALL), vec(0.09f, y0, WALL), vec(0.14f, y1, WALL),
@@ -180,11 +169,11 @@ static void put_medallion(scene_shaper *shaper, float y) {
     } parts[] = { { ring, 6, TRIM }, { boss, 4, TRIM }, { disc, 2, DADO } };
     for (int i = 0; i < 3; i++) {
         shaper->material = parts[i].stone;
-        shape_turn(shaper, &(shape_turning) { .profile = parts[i].profile,
-                                              .point_count = parts[i].count,
-                                              .origin = vec(-0.5f * BAY, y, WALL),
-                                              .axis = 'z',
-                                              .segments = 32 });
+        shape_revolve(shaper, &(shape_revolution) { .profile = parts[i].profile,
+                                                    .point_count = parts[i].count,
+                                                    .origin = vec(-0.5f * BAY, y, WALL),
+                                                    .axis = 'z',
+                                                    .segments = 32 });
     }
 }
 

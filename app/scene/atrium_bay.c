@@ -21,11 +21,11 @@ static void put_groin_shell(scene_shaper *shaper, lmp_vec3 center, float half_x,
             const float t = s * (2.0f * (float)k / STEPS - 1.0f);
             const float height = sqrtf(fmaxf(0.0f, 1.0f - t * t));
             const float along = side & 1 ? -s : s, across = side & 1 ? -t : t;
-            const bool turned = side & 2;
-            out[k] = vec_add(center, vec(half_x * (turned ? -across : along), rise * height,
-                                         half_z * (turned ? along : across)));
-            out_normals[k] = vec(turned ? across / half_x : 0.0f, -height / rise,
-                                 turned ? 0.0f : -across / half_z);
+            const bool rotated = side & 2;
+            out[k] = vec_add(center, vec(half_x * (rotated ? -across : along), rise * height,
+                                         half_z * (rotated ? along : across)));
+            out_normals[k] = vec(rotated ? across / half_x : 0.0f, -height / rise,
+                                 rotated ? 0.0f : -across / half_z);
         }
         for (int k = 0; i > 0 && k < STEPS; k++) {
             const lmp_vec3 corners[4] = { in[k], out[k], out[k + 1], in[k + 1] };
@@ -75,11 +75,11 @@ static void put_aisle(scene_shaper *shaper, const storey_plan *s) {
                                   { r, back + 0.07f },
                                   { r, back } };
     shaper->material = FRESCO;
-    atrium_turn_arch(shaper, disc, 2, y, 32);
+    atrium_revolve_arch(shaper, disc, 2, y, 32);
     shape_quad(shaper, vec(-r, s->floor + 1.05f, z), vec(r, s->floor + 1.05f, z), vec(r, y, z),
                vec(-r, y, z));
     shaper->material = TRIM;
-    atrium_turn_arch(shaper, frame, 5, y, 32);
+    atrium_revolve_arch(shaper, frame, 5, y, 32);
     for (int side = 0; side < 2; side++) {
         const float x = side ? r : -r - 0.12f;
         shape_box(shaper, vec(x, s->floor + 1.05f, back), vec(x + 0.12f, y, back + 0.08f));

@@ -49,7 +49,7 @@ static void put_vault(court_plan *court) {
     enum { RIBS_ALONG = 9 };
     const shape_point shell[] = { { r, length }, { r, -length } };
     shaper->material = PLASTER;
-    atrium_turn_arch(shaper, shell, 2, CORNICE, 64);
+    atrium_revolve_arch(shaper, shell, 2, CORNICE, 64);
     shaper->material = TRIM;
     for (int i = 0; i <= 2 * court->bays; i++) {
         const float z = 0.5f * BAY * ((float)i - (float)court->bays);
@@ -60,7 +60,7 @@ static void put_vault(court_plan *court) {
                                     { r - drop, z - half + 0.06f },
                                     { r - 0.7f * drop, z - half },
                                     { r, z - half } };
-        atrium_turn_arch(shaper, rib, sizeof rib / sizeof *rib, CORNICE, 64);
+        atrium_revolve_arch(shaper, rib, sizeof rib / sizeof *rib, CORNICE, 64);
     }
     for (int i = 1; i <= RIBS_ALONG; i++) {
         const float middle = PI * (float)i / (RIBS_ALONG + 1), half = 0.022f, inner = r - 0.12f;
@@ -91,11 +91,11 @@ static void put_spokes(scene_shaper *shaper, lmp_vec3 center) {
         shape_box(shaper, vec_add(center, vec(x - wide, y - high, 0.02f)),
                   vec_add(center, vec(x + wide, y + high, 0.09f)));
         const lmp_vec3 between = vec(i & 1 ? -0.53f : 0.53f, i & 2 ? -0.53f : 0.53f, 0.0f);
-        shape_turn(shaper, &(shape_turning) { .profile = ring,
-                                              .point_count = sizeof ring / sizeof *ring,
-                                              .origin = vec_add(center, between),
-                                              .axis = 'z',
-                                              .segments = 32 });
+        shape_revolve(shaper, &(shape_revolution) { .profile = ring,
+                                                    .point_count = sizeof ring / sizeof *ring,
+                                                    .origin = vec_add(center, between),
+                                                    .axis = 'z',
+                                                    .segments = 32 });
     }
 }
 
@@ -114,7 +114,7 @@ static void put_lunettes(court_plan *court) {
         shaper->origin = vec(0.0f, 0.0f, end ? court->half_length : -court->half_length);
         const shape_point wall[] = { { HALF_WIDTH, 0.0f }, { 0.0f, 0.0f } };
         shaper->material = LIMESTONE;
-        atrium_turn_arch(shaper, wall, 2, CORNICE, 64);
+        atrium_revolve_arch(shaper, wall, 2, CORNICE, 64);
         const lmp_vec3 center = vec(0.0f, CORNICE + 1.95f, 0.0f);
         const struct {
             const shape_point *profile;
@@ -123,11 +123,11 @@ static void put_lunettes(court_plan *court) {
         } parts[] = { { ring, 7, TRIM }, { hub, 4, TRIM }, { glass, 2, FRESCO } };
         for (int i = 0; i < 3; i++) {
             shaper->material = parts[i].stone;
-            shape_turn(shaper, &(shape_turning) { .profile = parts[i].profile,
-                                                  .point_count = parts[i].count,
-                                                  .origin = center,
-                                                  .axis = 'z',
-                                                  .segments = 64 });
+            shape_revolve(shaper, &(shape_revolution) { .profile = parts[i].profile,
+                                                        .point_count = parts[i].count,
+                                                        .origin = center,
+                                                        .axis = 'z',
+                                                        .segments = 64 });
         }
         put_spokes(shaper, center);
     }

@@ -21,9 +21,9 @@ static void put_lantern(court_plan *court, lmp_vec3 center, float radius, float 
                                    { 0.34f * radius, -0.94f * radius } };
     const shape_point cord[] = { { 0.010f, 1.1f * radius }, { 0.010f, ceiling - center.y } };
     shaper->material = BRONZE;
-    atrium_turn(shaper, top, sizeof top / sizeof *top, center, 24);
-    atrium_turn(shaper, bottom, sizeof bottom / sizeof *bottom, center, 24);
-    atrium_turn(shaper, cord, 2, center, 6);
+    atrium_revolve(shaper, top, sizeof top / sizeof *top, center, 24);
+    atrium_revolve(shaper, bottom, sizeof bottom / sizeof *bottom, center, 24);
+    atrium_revolve(shaper, cord, 2, center, 6);
     enum { RINGS = 7 };
     for (int i = 0; i < RINGS; i++) {
         const float height = 0.78f * radius * (2.0f * (float)i / (RINGS - 1) - 1.0f);
@@ -31,7 +31,7 @@ static void put_lantern(court_plan *court, lmp_vec3 center, float radius, float 
         const shape_point ring[] = { { wide, height - 0.009f * radius },
                                      { wide + 0.012f * radius, height },
                                      { wide, height + 0.009f * radius } };
-        atrium_turn(shaper, ring, 3, center, 32);
+        atrium_revolve(shaper, ring, 3, center, 32);
     }
 }
 

@@ -54,11 +54,11 @@ static void turn_sphere(scene_shaper *shaper, lmp_vec3 center, float radius, int
         profile[i] = (shape_point) { radius * sinf(angle), -radius * cosf(angle) };
     }
     profile[0].r = profile[rings].r = 0.0f;
-    shape_turn(shaper, &(shape_turning) { .profile = profile,
-                                          .point_count = rings + 1,
-                                          .origin = center,
-                                          .axis = 'y',
-                                          .segments = segments });
+    shape_revolve(shaper, &(shape_revolution) { .profile = profile,
+                                                .point_count = rings + 1,
+                                                .origin = center,
+                                                .axis = 'y',
+                                                .segments = segments });
 }
 
 /* A floor that bends up into a wall behind, as photographers use. */
@@ -115,10 +115,10 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) 
     shaper.material = add_material(builder, "backdrop", 0.30f, 0.30f, 0.31f, 0.9f, 0.0f);
     sweep_backdrop(&shaper, 5.0f, -2.6f, 1.6f, 6.0f, 8.0f);
     shaper.material = add_material(builder, "stand", 0.08f, 0.08f, 0.09f, 0.5f, 0.0f);
-    shape_turn(&shaper, &(shape_turning) { .profile = foot,
-                                           .point_count = sizeof foot / sizeof *foot,
-                                           .axis = 'y',
-                                           .segments = 96 });
+    shape_revolve(&shaper, &(shape_revolution) { .profile = foot,
+                                                 .point_count = sizeof foot / sizeof *foot,
+                                                 .axis = 'y',
+                                                 .segments = 96 });
     shaper.material = add_material(builder, "test_material", 0.70f, 0.36f, 0.12f, 0.35f, 0.0f);
     turn_sphere(&shaper, vec(0.0f, 1.18f, 0.0f), 1.0f, 192);
     shaper_finish(&shaper);

@@ -44,7 +44,7 @@ static uint32_t *grow_triangles(scene_shaper *shaper, size_t count) {
     return first;
 }
 
-static lmp_vec3 turn_quarters(lmp_vec3 a, int quarters) {
+static lmp_vec3 rotate_quarters(lmp_vec3 a, int quarters) {
     switch (quarters & 3) {
     case 1:
         return vec(a.z, a.y, -a.x);
@@ -59,9 +59,9 @@ static lmp_vec3 turn_quarters(lmp_vec3 a, int quarters) {
 
 static void put_vertex(const scene_shaper *shaper, scene_vertex *vertex, lmp_vec3 position,
                        lmp_vec3 normal, float u, float v) {
-    const lmp_vec3 p = vec_add(turn_quarters(position, shaper->quarters), shaper->origin);
+    const lmp_vec3 p = vec_add(rotate_quarters(position, shaper->quarters), shaper->origin);
     const lmp_vec3 n =
-        turn_quarters(vec_normalize(normal, vec(0.0f, 1.0f, 0.0f)), shaper->quarters);
+        rotate_quarters(vec_normalize(normal, vec(0.0f, 1.0f, 0.0f)), shaper->quarters);
     vec_store(p, vertex->position);
     vec_store(n, vertex->normal);
     vec_store(vec_across(n), vertex->tangent);
@@ -140,60 +140,60 @@ static segment_normals normals_of_segment(const shape_point *profile, int point_
     return ends;
 }
 
-/* --- turning ------------------------------------------------------------------------------------
+/* --- revolving
+ * ------------------------------------------------------------------------------------
  */
 
-typedef struct turning_frame {
+typedef struct revolution_frame {
     lmp_vec3 first, second, axis;
-} turning_frame;
+} revolution_frame;
 
-static turning_frame frame_of_axis(char axis) {
+static revolution_frame frame_of_axis(char axis) {
     const lmp_vec3 x = vec(1.0f, 0.0f, 0.0f), y = vec(0.0f, 1.0f, 0.0f), z = vec(0.0f, 0.0f, 1.0f);
-    return axis == 'x'   ? (turning_frame) { y, z, x }
-           : axis == 'y' ? (turning_frame) { z, x, y }
-                         : (turning_frame) { x, y, z };
+    return axis == 'x'   ? (revolution_frame) { y, z, x }
+           : axis == 'y' ? (revolution_frame) { z, x, y }
+                         : (revolution_frame) { x, y, z };
 }
 
-static void put_turned(const scene_shaper *shaper, const shape_turning *turning,
-                       const turning_frame *frame, shape_point point, shape_point normal,
-                       float angle, scene_vertex *vertex) {
+static void put_revolved(const scene_shaper *shaper, const shape_revolution *solid,
+                         const revolution_frame *frame, shape_point point, shape_point normal,
+                         float angle, scene_vertex *vertex) {
     const float c = cosf(angle), s = sinf(angle);
     float scale = 1.0f, slope = 0.0f;
-    if (turning->flutes > 0) {
+    if (solid->flutes > 0) {
         /* Round hollows with sharp arrises between them: |sin|. */
-        const float half = 0.5f * (float)turning->flutes;
+        const float half = 0.5f * (float)solid->flutes;
         const float wave = sinf(half * angle);
-        scale = 1.0f - turning->depth * fabsf(wave);
-        slope = -turning->depth * half * cosf(half * angle) * (wave < 0.0f ? -1.0f : 1.0f) / scale;
+        scale = 1.0f - solid->depth * fabsf(wave);
+        slope = -solid->depth * half * cosf(half * angle) * (wave < 0.0f ? -1.0f : 1.0f) / scale;
     }
     const lmp_vec3 radial = vec_add(vec_scale(frame->first, c), vec_scale(frame->second, s));
     const lmp_vec3 around = vec_add(vec_scale(frame->first, -s), vec_scale(frame->second, c));
-    lmp_vec3 position = vec_add(turning->origin, vec_scale(radial, scale * point.r));
+    lmp_vec3 position = vec_add(solid->origin, vec_scale(radial, scale * point.r));
     position = vec_add(position, vec_scale(frame->axis, point.a));
     lmp_vec3 n = vec_add(vec_scale(radial, normal.r), vec_scale(around, -slope * normal.r));
     n = vec_add(n, vec_scale(frame->axis, normal.a));
     put_vertex(shaper, vertex, position, n, angle * point.r, point.a);
 }
 
-void shape_turn(scene_shaper *shaper, const shape_turning *turning) {
-    const turning_frame frame = frame_of_axis(turning->axis);
-    const bool whole = turning->from == turning->to;
-    const float from = turning->from, to = whole ? turning->from + 2.0f * PI : turning->to;
-    const uint32_t across = (uint32_t)turning->segments + 1;
-    for (int i = 0; i + 1 < turning->point_count; i++) {
-        const segment_normals normals =
-            normals_of_segment(turning->profile, turning->point_count, i);
+void shape_revolve(scene_shaper *shaper, const shape_revolution *solid) {
+    const revolution_frame frame = frame_of_axis(solid->axis);
+    const bool whole = solid->from == solid->to;
+    const float from = solid->from, to = whole ? solid->from + 2.0f * PI : solid->to;
+    const uint32_t across = (uint32_t)solid->segments + 1;
+    for (int i = 0; i + 1 < solid->point_count; i++) {
+        const segment_normals normals = normals_of_segment(solid->profile, solid->point_count, i);
         const uint32_t first = (uint32_t)builder_count(shaper->builder, BLOB_VERTICES);
         scene_vertex *vertices = builder_append(shaper->builder, BLOB_VERTICES, 2 * (size_t)across);
-        uint32_t *indices = grow_triangles(shaper, 6 * (size_t)turning->segments);
+        uint32_t *indices = grow_triangles(shaper, 6 * (size_t)solid->segments);
         if (!vertices || !indices)
             return;
         for (uint32_t k = 0; k < across; k++) {
-            const float angle = from + (to - from) * (float)k / (float)turning->segments;
-            put_turned(shaper, turning, &frame, turning->profile[i], normals.start, angle,
-                       &vertices[2 * k]);
-            put_turned(shaper, turning, &frame, turning->profile[i + 1], normals.end, angle,
-                       &vertices[2 * k + 1]);
+            const float angle = from + (to - from) * (float)k / (float)solid->segments;
+            put_revolved(shaper, solid, &frame, solid->profile[i], normals.start, angle,
+                         &vertices[2 * k]);
+            put_revolved(shaper, solid, &frame, solid->profile[i + 1], normals.end, angle,
+                         &vertices[2 * k + 1]);
         }
         for (uint32_t k = 0; k + 1 < across; k++)
             put_quad_indices(indices + 6 * k, first + 2 * k, first + 2 * k + 2, first + 2 * k + 3,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* shape.h - the solids that the built-in scenes are made of: boxes, turned and swept mouldings. */
+/* shape.h - the solids that the built-in scenes are made of: boxes, solids of revolution and swept
+ * mouldings. */
 #ifndef LAMPION_SCENE_SHAPE_H
 #define LAMPION_SCENE_SHAPE_H
 
@@ -8,7 +9,7 @@
 #define SHAPE_MATERIALS_MAX 32
 
 /* Where shapes go: triangles are sorted by material, and one mesh a material comes out. Shapes are
- * given in a local frame: turned by `quarters` of 90° around y, then moved to `origin`. */
+ * given in a local frame: rotated by `quarters` of 90° around y, then moved to `origin`. */
 typedef struct scene_shaper {
     scene_builder *builder;
     builder_array triangles[SHAPE_MATERIALS_MAX]; /* uint32_t indices */
@@ -34,7 +35,7 @@ void shape_quad_smooth(scene_shaper *shaper, const lmp_vec3 corners[4], const lm
 void shape_box(scene_shaper *shaper, lmp_vec3 minimum, lmp_vec3 maximum);
 
 /* A surface of revolution, or part of one. */
-typedef struct shape_turning {
+typedef struct shape_revolution {
     const shape_point *profile; /* edges bending by less than 50° are smooth */
     int point_count;
     lmp_vec3 origin;
@@ -43,12 +44,12 @@ typedef struct shape_turning {
     int segments;   /* around the axis */
     int flutes;     /* 0, or the number of hollows around the axis */
     float depth;    /* of a flute, relative to the radius */
-} shape_turning;
+} shape_revolution;
 
 /* The outside is to the right of the profile's direction in the (r, a) plane. */
-void shape_turn(scene_shaper *shaper, const shape_turning *turning);
+void shape_revolve(scene_shaper *shaper, const shape_revolution *turning);
 
-/* Sweeps a profile of (depth towards +z, height) along x. Its outside as for shape_turn. */
+/* Sweeps a profile of (depth towards +z, height) along x. Its outside as for shape_revolve. */
 void shape_sweep(scene_shaper *shaper, const shape_point *profile, int point_count, lmp_vec3 origin,
                  float from_x, float to_x);
 

@@ -48,6 +48,11 @@ lmp_material lmp_shade_phong(const lmp_material *material);
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
                      const lmp_surface *surface, shade_lobes *lobes);
 
+/* One surface whose source is not preintegrated, by any method but LMP_SHADE_PREINTEGRATED for
+ * lobes; clamped to 0. */
+lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *material,
+                      const lmp_surface *surface, const lmp_light *lights, size_t count);
+
 /* Not clamped. */
 lmp_rgb lmp_shade_lobes_coefficients(const shade_lobes *lobes, lmp_vec3 point,
                                      const lmp_light *lights, size_t count);

@@ -141,7 +141,7 @@ static lmp_vec3 vector_at(const lmp_vec3_array *array, size_t i) {
 }
 
 /* Sums of coefficients: surface by surface. */
-static void shade_each(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *surfaces,
                        const size_t *at, size_t count, const lmp_light *lights, size_t light_count,
                        size_t stride, float *rgb) {
     for (size_t i = 0; i < count; i++) {
@@ -150,7 +150,7 @@ static void shade_each(const lmp_shade_settings *settings, const lmp_surfaces *s
                                       vector_at(&surfaces->view, at[i]),
                                       vector_at(&surfaces->tangent, at[i]) };
         const lmp_rgb color =
-            lmp_shade(settings, material_at(surfaces, at[i]), &surface, lights, light_count);
+            lmp_shade_sum(resolved, material_at(surfaces, at[i]), &surface, lights, light_count);
         memcpy((char *)rgb + at[i] * stride, &color, sizeof color);
     }
 }
@@ -371,7 +371,7 @@ void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surface
             const bool lobes = !chunk.source.table && !chunk.source.preintegrated;
             assert(!lobes || resolved.method != LMP_SHADE_PREINTEGRATED || resolved.lobe);
             if (chunk.source.table || (lobes && resolved.method == LMP_SHADE_COEFFICIENTS))
-                shade_each(settings, surfaces, chunk.at, chunk.count, lights, light_count, stride,
+                shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,
                            rgb);
             else
                 shade_chunk(&method, surfaces, &chunk, lights, light_count, stride, rgb);

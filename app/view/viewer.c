@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* view.c - the viewer's loop: events, time, wishes. */
+/* viewer.c - the viewer's loop: events, time, wishes. */
 #include "app/view/view.h"
 
 #include "app/file/file.h"

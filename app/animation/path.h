@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* internal.h - what the files of this folder share. */
-#ifndef LAMPION_ANIMATION_INTERNAL_H
-#define LAMPION_ANIMATION_INTERNAL_H
+/* path.h - how one light moves, and such paths from JSON (docs/scenes.md). */
+#ifndef LAMPION_ANIMATION_PATH_H
+#define LAMPION_ANIMATION_PATH_H
 
-#include "app/animation/animation.h"
+#include "app/scene/scene.h"
 
 typedef enum path_kind { PATH_REST, PATH_ORBIT, PATH_BOUNCE, PATH_CIRCLE, PATH_KEYS } path_kind;
 
@@ -23,14 +23,7 @@ typedef struct path {
     bool smooth; /* Catmull-Rom between keys, else straight */
 } path;
 
-struct animation {
-    float minimum[3], maximum[3]; /* the scene's bounds */
-    path rest;                    /* of lights without a path of their own */
-    path *paths;
-    size_t path_count;
-};
-
-/* Reads a JSON file into paths that are all PATH_REST. */
-bool animation_read(const char *file, const scene *world, animation *all, cli_error *error);
+/* Reads a JSON file into the paths of all lights of the scene, all PATH_REST before. */
+bool animation_read_paths(const char *file, const scene *world, path *paths, cli_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* file.c - paths of lights from JSON (docs/scenes.md). */
+#include "app/animation/path.h"
+
 #include "app/file/file.h"
-#include "app/animation/internal.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -103,7 +103,7 @@ static bool read_keys(const path_reader *reader, const cJSON *array, const scene
 /* The light that an entry names, which must take this path: *index is its number; all but those
  * with a path of their own if there is none. */
 static bool read_light(const path_reader *reader, const cJSON *light, bool circle,
-                       const scene *world, const animation *all, size_t *index) {
+                       const scene *world, const path *paths, size_t *index) {
     double number = 0;
     if (light && (!file_json_number(light, 0, (double)world->light_count - 1, &number) ||
                   number != floor(number)))
@@ -111,7 +111,7 @@ static bool read_light(const path_reader *reader, const cJSON *light, bool circl
                         "paths[%d] names none of the %zu lights, from 0", reader->number,
                         world->light_count);
     *index = (size_t)number;
-    if (light && all->paths[*index].kind != PATH_REST)
+    if (light && paths[*index].kind != PATH_REST)
         return fail_path(reader, "is the second path of its light");
     if (light && !circle && !scene_light_has(&world->lights[*index], SCENE_LIGHT_POSITION))
         return cli_fail(reader->error, reader->file,
@@ -122,7 +122,7 @@ static bool read_light(const path_reader *reader, const cJSON *light, bool circl
 
 /* Fills the path of the lights that an entry names. */
 static bool read_path(const path_reader *reader, const cJSON *entry, const scene *world,
-                      animation *all) {
+                      path *paths) {
     static const char *const known[] = { "light", "keys", "smooth", "circle", "bounce", NULL };
     const cJSON *light = file_json_member(entry, "light"), *keys = file_json_member(entry, "keys"),
                 *smooth = file_json_member(entry, "smooth"),
@@ -138,25 +138,25 @@ static bool read_path(const path_reader *reader, const cJSON *entry, const scene
         return fail_path(reader, circle ? "has a circle that is no object"
                                         : "has a bounce that is no object");
     size_t index = 0;
-    if (!read_light(reader, light, circle, world, all, &index))
+    if (!read_light(reader, light, circle, world, paths, &index))
         return false;
     if (smooth && !cJSON_IsBool(smooth))
         return fail_path(reader, "has a smooth that is neither true nor false");
     if (keys && !light)
         return fail_path(reader, "has keys, but no light that follows them");
     path own = { .smooth = cJSON_IsTrue(smooth) };
-    path *p = light ? &all->paths[index] : &own;
+    path *p = light ? &paths[index] : &own;
     *p = own;
     if (keys ? !read_keys(reader, keys, &world->lights[index], p)
              : !(circle ? read_circle(reader, circle, p) : read_bounce(reader, fall, p)))
         return false;
-    for (size_t i = 0; !light && i < all->path_count; i++)
-        if (all->paths[i].kind == PATH_REST)
-            all->paths[i] = own;
+    for (size_t i = 0; !light && i < world->light_count; i++)
+        if (paths[i].kind == PATH_REST)
+            paths[i] = own;
     return true;
 }
 
-bool animation_read(const char *file, const scene *world, animation *all, cli_error *error) {
+bool animation_read_paths(const char *file, const scene *world, path *paths, cli_error *error) {
     cJSON *root = file_read_json(file, FILE_LIMIT, error);
     if (!root)
         return false;
@@ -164,7 +164,7 @@ bool animation_read(const char *file, const scene *world, animation *all, cli_er
     path_reader reader = { file, 0, error };
     bool ok = list;
     cJSON_ArrayForEach(entry, list) {
-        ok = ok && read_path(&reader, entry, world, all);
+        ok = ok && read_path(&reader, entry, world, paths);
         reader.number++;
     }
     cJSON_Delete(root);

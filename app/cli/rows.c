@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* rows.c - what every command takes besides its own table. */
+#include "app/cli/option.h"
+
+#include <lampion/cpu.h>
+
+#include <string.h>
+
+cli_option cli_cpu_mask(int *mask) {
+    return (cli_option) {
+        .name = "cpu-mask",
+        .kind = CLI_INT,
+        .target = mask,
+        .argument = "N",
+        .help = "instruction sets: the sum of 1 scalar, 2 SSE2 or NEON, 4 AVX2, 8 AVX-512",
+        .minimum = LMP_CPU_SCALAR,
+        .maximum = LMP_CPU_ALL,
+    };
+}
+
+int option_rows(const cli_option *options, cli_option *rows) {
+    static int every = LMP_CPU_ALL;
+    const cli_option cpu_mask = cli_cpu_mask(&every);
+    int count = 0;
+    bool own = false;
+    for (; options[count].name && count < OPTIONS_MAX - 2; count++) {
+        rows[count] = options[count];
+        own = own || strcmp(options[count].name, cpu_mask.name) == 0;
+    }
+    if (!own)
+        rows[count++] = cpu_mask;
+    rows[count++] = (cli_option) { .name = "help", .letter = 'h', .help = "this text" };
+    return count;
+}

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: MIT */
+/* events.c - what the pointer, the keys, dropped files and time do to the state. */
+#include "app/view/state.h"
+
+#include "app/material/material.h"
+#include "app/scene/vector.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define RADIANS_A_HEIGHT 3.0   /* of rotation, when the pointer crosses the image */
+#define ZOOM_STEP        0.88f /* of the distance, a step of the wheel */
+#define PICK_PIXELS      4.0f  /* a light may be missed by so much */
+#define DIVIDER_PIXELS   8.0
+#define FLY_SPEED        0.15f /* diagonals of the scene a second */
+#define FLY_FAST         4.0f
+
+static float scene_diagonal(const scene *world) {
+    return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
+}
+
+static scene_light shown_light(const view_state *s, int index) {
+    scene_light light = s->now.lights[index];
+    if (s->seconds > 0)
+        animation_move(s->paths[s->path], s->numbers[index], s->seconds, &light);
+    return light;
+}
+
+static view_ray pointer_ray(const view_state *s) {
+    return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+}
+
+/* --- the pointer --------------------------------------------------------------------------------
+ */
+
+static int light_at_pointer(const view_state *s) {
+    static view_settings shown;
+    const view_ray ray = pointer_ray(s);
+    const float slack = PICK_PIXELS * 2 * tanf(0.5f * s->now.camera.fov) / (float)s->now.height;
+    float light_distance = 0;
+    view_shown(s, &shown);
+    const int light =
+        view_pick_light(&ray, shown.lights, shown.light_count, slack, &light_distance);
+    if (light < 0)
+        return -1;
+    const view_hit hit = view_pick_surface(&ray, s->world);
+    return hit.mesh >= 0 && hit.distance < light_distance - shown.lights[light].emitter.radius
+               ? -1
+               : light;
+}
+
+static void grab_light(view_state *s, int index) {
+    const scene_light shown = shown_light(s, index);
+    double x, y, scale;
+    if (!view_project(&s->now.camera, s->now.width, s->now.height, shown.emitter.position, &x, &y,
+                      &scale))
+        return;
+    s->drag = VIEW_DRAG_LIGHT;
+    s->selected = index;
+    s->grab_depth = 0.5f * (float)((double)s->now.height / scale) / tanf(0.5f * s->now.camera.fov);
+    s->grab_x = s->x - x;
+    s->grab_y = s->y - y;
+    s->grab = vec_sub(s->now.lights[index].emitter.position, shown.emitter.position);
+}
+
+/* Under the pointer, in the plane across the view where it was grabbed. */
+static void drag_light(view_state *s) {
+    const scene_camera *camera = &s->now.camera;
+    const view_ray ray =
+        view_ray_through(camera, s->now.width, s->now.height, s->x - s->grab_x, s->y - s->grab_y);
+    const view_ray middle = view_ray_through(camera, s->now.width, s->now.height,
+                                             0.5 * s->now.width, 0.5 * s->now.height);
+    const float along = vec_dot(ray.direction, middle.direction);
+    const lmp_vec3 to = vec_add(ray.from, vec_scale(ray.direction, s->grab_depth / along));
+    s->now.lights[s->selected].emitter.position = vec_add(to, s->grab);
+    s->lights_edited = true;
+}
+
+static bool on_divider(const view_state *s) {
+    return s->now.split == GPU_SPLIT_DIVIDED &&
+           fabs(s->x - (double)s->now.divider * s->now.width) <= DIVIDER_PIXELS;
+}
+
+static void press(view_state *s, const view_event *event) {
+    if (event->button == VIEW_MIDDLE || (event->button == VIEW_LEFT && event->shift)) {
+        s->drag = VIEW_DRAG_PAN;
+        return;
+    }
+    if (event->button == VIEW_RIGHT) {
+        s->drag = VIEW_DRAG_LOOK;
+        return;
+    }
+    if (on_divider(s)) {
+        s->drag = VIEW_DRAG_DIVIDER;
+        return;
+    }
+    const int light = light_at_pointer(s);
+    s->drag = VIEW_DRAG_ORBIT;
+    s->selected = -1;
+    if (light >= 0)
+        grab_light(s, light);
+}
+
+static void move(view_state *s, double x, double y) {
+    const double right = (x - s->x) / s->now.height, down = (y - s->y) / s->now.height;
+    const float yaw = (float)(RADIANS_A_HEIGHT * right), pitch = (float)(RADIANS_A_HEIGHT * down);
+    s->x = x;
+    s->y = y;
+    switch (s->drag) {
+    case VIEW_DRAG_NONE:
+        break;
+    case VIEW_DRAG_ORBIT:
+        view_orbit(&s->now.camera, -yaw, pitch);
+        break;
+    case VIEW_DRAG_PAN:
+        view_pan(&s->now.camera, (float)-right, (float)down);
+        break;
+    case VIEW_DRAG_LOOK:
+        view_look_round(&s->now.camera, yaw, -pitch);
+        break;
+    case VIEW_DRAG_LIGHT:
+        if (s->selected >= 0)
+            drag_light(s);
+        break;
+    case VIEW_DRAG_DIVIDER:
+        s->now.divider = fminf(fmaxf((float)(x / s->now.width), 0.02f), 0.98f);
+        break;
+    }
+}
+
+/* Zooms, or takes a dragged light nearer and farther. */
+static void scroll(view_state *s, double steps) {
+    const float factor = powf(ZOOM_STEP, (float)steps);
+    if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
+        s->grab_depth /= factor;
+        drag_light(s);
+    } else {
+        view_dolly(&s->now.camera, factor, 0.01f * scene_diagonal(s->world));
+    }
+}
+
+/* --- keys and files -----------------------------------------------------------------------------
+ */
+
+static void press_key(view_state *s, const char *name) {
+    for (const view_key *key = view_keys; key->key || key->shown; key++)
+        if (key->key && strcmp(key->key, name) == 0) {
+            key->act(s, key->argument);
+            return;
+        }
+}
+
+static void hold(view_state *s, char letter, bool down, bool fast) {
+    static const char letters[] = "wasdqe";
+    const char *at = letter ? strchr(letters, letter) : NULL;
+    s->fast = fast;
+    if (at)
+        s->held[at - letters] = down;
+    else if (!letter)
+        memset(s->held, 0, sizeof s->held);
+}
+
+/* The file becomes the material of the object under the pointer. */
+static void drop(view_state *s, const char *file) {
+    const view_ray ray = pointer_ray(s);
+    const view_hit hit = view_pick_surface(&ray, s->world);
+    cli_error error;
+    material opened;
+    const char *base = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
+    if (hit.mesh < 0) {
+        view_say(s, "Drop %s onto an object", base);
+        return;
+    }
+    const char *replaced = s->world->materials[s->world->meshes[hit.mesh].material].name;
+    if (!material_open(file, &opened, &error)) {
+        view_say(s, "%s", error.text);
+        return;
+    }
+    material_close(&opened);
+    if (!view_set_material(&s->now, replaced, file)) {
+        view_say(s, "%s cannot be replaced: too many materials, or too long a name", replaced);
+        return;
+    }
+    snprintf(s->dropped, sizeof s->dropped, "%s", file);
+    view_say(s, "%s is now %s", replaced, base);
+}
+
+static void resize(view_state *s, int width, int height) {
+    if (width < 1 || height < 1)
+        return;
+    s->now.width = width;
+    s->now.height = height;
+}
+
+void view_handle(view_state *s, const view_event *event) {
+    switch (event->kind) {
+    case VIEW_MOVE:
+        move(s, event->x, event->y);
+        break;
+    case VIEW_PRESS:
+        press(s, event);
+        break;
+    case VIEW_RELEASE:
+        s->drag = VIEW_DRAG_NONE;
+        break;
+    case VIEW_SCROLL:
+        scroll(s, event->y);
+        break;
+    case VIEW_KEY:
+        press_key(s, event->text);
+        break;
+    case VIEW_HOLD:
+    case VIEW_FREE:
+        hold(s, event->letter, event->kind == VIEW_HOLD, event->shift);
+        break;
+    case VIEW_DROP:
+        drop(s, event->text);
+        break;
+    case VIEW_SIZE:
+        resize(s, (int)event->x, (int)event->y);
+        break;
+    }
+}
+
+void view_advance(view_state *s, double seconds) {
+    s->clock += seconds;
+    if (s->playing)
+        s->seconds += seconds;
+    const float step =
+        (float)seconds * FLY_SPEED * scene_diagonal(s->world) * (s->fast ? FLY_FAST : 1);
+    const float right = (float)(s->held[3] - s->held[1]), up = (float)(s->held[5] - s->held[4]);
+    const float forward = (float)(s->held[0] - s->held[2]);
+    if (right != 0 || up != 0 || forward != 0)
+        view_fly(&s->now.camera, right * step, up * step, forward * step);
+    if (s->clock >= s->message_until)
+        s->message[0] = '\0';
+}
