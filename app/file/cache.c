@@ -35,9 +35,10 @@ static trailer trailer_of(const char *name, const void *data, size_t size) {
 /* --- entries ------------------------------------------------------------------------------------
  */
 
+/* A link is none: what it leads to was not made for the cache. */
 static bool is_own_directory(const char *path) {
     struct stat status;
-    return stat(path, &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
+    return lstat(path, &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == geteuid() &&
            access(path, R_OK | X_OK) == 0;
 }
 
@@ -58,40 +59,57 @@ bool file_cache_directory(char *path, size_t size) {
     return is_own_directory(path);
 }
 
+static int open_directory(void) {
+    char path[3072];
+    return file_cache_directory(path, sizeof path)
+               ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW)
+               : -1;
+}
+
 static bool path_of(const char *name, char *path, size_t size) {
     char directory[3072];
     return strlen(name) <= NAME_MAX_LENGTH && file_cache_directory(directory, sizeof directory) &&
            snprintf(path, size, "%s/%s", directory, name) < (int)size;
 }
 
-/* The bytes of an open entry; NULL if they are not what it says. */
-static const void *map_entry(int fd, const char *name, size_t *size) {
-    struct stat status;
-    trailer found;
-    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid() ||
-        status.st_size <= (off_t)sizeof found)
-        return NULL;
-    *size = (size_t)status.st_size - sizeof found;
-    if (pread(fd, &found, sizeof found, (off_t)*size) != (ssize_t)sizeof found)
-        return NULL;
-    void *const data = mmap(NULL, *size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
+/* Opens a regular file of one's own that ends as an entry of this name does, of whatever version;
+ * -1 for anything else, whose it may be. */
+static int open_entry(int directory, const char *name, trailer *end, struct stat *status) {
+    const int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    if (fd >= 0 && fstat(fd, status) == 0 && S_ISREG(status->st_mode) &&
+        status->st_uid == geteuid() && status->st_size > (off_t)sizeof *end &&
+        pread(fd, end, sizeof *end, status->st_size - (off_t)sizeof *end) == sizeof *end &&
+        memcmp(end->magic, CACHE_MAGIC, sizeof end->magic) == 0 &&
+        strncmp(end->name, name, sizeof end->name) == 0)
+        return fd;
+    if (fd >= 0)
+        close(fd);
+    return -1;
+}
+
+/* The bytes of an open entry of so many; NULL if they are not what its end says. */
+static const void *map_entry(int fd, const char *name, const trailer *end, size_t size) {
+    void *const data = mmap(NULL, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, fd, 0);
     if (data == MAP_FAILED)
         return NULL;
-    const trailer expected = trailer_of(name, data, *size);
-    if (memcmp(&found, &expected, sizeof found) == 0)
+    const trailer expected = trailer_of(name, data, size);
+    if (memcmp(end, &expected, sizeof expected) == 0)
         return data;
-    munmap(data, *size);
+    munmap(data, size);
     return NULL;
 }
 
 const void *file_cache_map(const char *name, size_t *size) {
-    char path[4096];
-    if (!path_of(name, path, sizeof path))
-        return NULL;
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    struct stat status;
+    trailer end;
+    const int directory = open_directory();
+    const int fd = directory < 0 ? -1 : open_entry(directory, name, &end, &status);
+    if (directory >= 0)
+        close(directory);
     if (fd < 0)
         return NULL;
-    const void *const data = map_entry(fd, name, size);
+    *size = (size_t)status.st_size - sizeof end;
+    const void *const data = map_entry(fd, name, &end, *size);
     if (data)
         futimens(fd, NULL);
     close(fd);
@@ -107,7 +125,7 @@ void file_cache_unmap(const void *data, size_t size) {
  */
 
 typedef struct cached_file {
-    char name[256];
+    char name[NAME_MAX_LENGTH + 1];
     uint64_t bytes;
     struct timespec used;
 } cached_file;
@@ -126,12 +144,16 @@ static void close_list(cached_files *list) {
     *list = (cached_files) { 0 };
 }
 
-/* Regular files alone: nothing else in there is ours. */
+/* Entries alone: nothing else in there is ours. */
 static bool add_file(cached_files *list, const char *name) {
     struct stat status;
-    if (fstatat(dirfd(list->directory), name, &status, AT_SYMLINK_NOFOLLOW) != 0 ||
-        !S_ISREG(status.st_mode) || strlen(name) >= sizeof list->items->name)
+    trailer end;
+    const int fd = strlen(name) < sizeof list->items->name
+                       ? open_entry(dirfd(list->directory), name, &end, &status)
+                       : -1;
+    if (fd < 0)
         return true;
+    close(fd);
     cached_file *const items = realloc(list->items, (list->count + 1) * sizeof *items);
     if (!items)
         return false;
@@ -144,10 +166,11 @@ static bool add_file(cached_files *list, const char *name) {
 }
 
 static bool open_list(cached_files *list) {
-    char path[3072];
+    const int directory = open_directory();
     *list = (cached_files) { 0 };
-    if (file_cache_directory(path, sizeof path))
-        list->directory = opendir(path);
+    list->directory = directory < 0 ? NULL : fdopendir(directory);
+    if (directory >= 0 && !list->directory)
+        close(directory);
     bool ok = list->directory != NULL;
     for (struct dirent *entry; ok && (entry = readdir(list->directory));)
         ok = add_file(list, entry->d_name);

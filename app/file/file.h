@@ -102,7 +102,7 @@ typedef struct file_cache_usage {
 } file_cache_usage;
 file_cache_usage file_cache_measure(void);
 
-/* Removes every file of the cache. */
+/* Removes every entry of the cache; files that are none stay. */
 void file_cache_clear(void);
 
 /* 128-bit content hash for cache keys and checksums (XXH3, against damage, not against malice);

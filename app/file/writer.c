@@ -209,6 +209,8 @@ bool file_write_fail(file_writer *writer, const char *what, cli_error *error) {
 }
 
 bool file_write_commit(file_writer *writer, cli_error *error) {
+    /* Held until the file has its name: what is locked is swept by nobody. */
+    const int lock = fcntl(writer->descriptor, F_DUPFD_CLOEXEC, 0);
     bool ok = !ferror(writer->stream);
     ok = fclose(writer->stream) == 0 && ok && !writer->reason;
     writer->stream = NULL;
@@ -216,6 +218,8 @@ bool file_write_commit(file_writer *writer, cli_error *error) {
         writer->reason = errno;
         ok = false;
     }
+    if (lock >= 0)
+        close(lock);
     if (!ok)
         return file_write_fail(writer, NULL, error);
     forget(writer->temporary);

@@ -4,8 +4,10 @@
 #include "app/file/file.h"
 #include "tests/program/folder.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -106,6 +108,54 @@ static void what_is_no_file_of_ones_own_is_none(void **state) {
     }
 }
 
+static bool exists(const char *name) {
+    return access(entry(name), F_OK) == 0;
+}
+
+/* Files by names that entries have too, one of them another entry's bytes: nobody stored them here,
+ * and neither the limit nor the user's wish to clear the cache is about them. */
+static void only_entries_are_counted_and_removed(void **state) {
+    (void)state;
+    static const char *const others[] = { "notes.txt", "scene-0123456789abcdef0123456789abcdef",
+                                          "0123456789abcdef0123456789abcdef.lmpt", "copied" };
+    enum { OTHERS = sizeof others / sizeof *others };
+    size_t size;
+    file_cache_store("a", first, SIZE);
+    unsigned char *bytes = read_entry("a", &size);
+    for (int i = 0; i < OTHERS - 1; i++)
+        write_entry(others[i], second, SIZE);
+    write_entry(others[OTHERS - 1], bytes, size);
+    free(bytes);
+    assert_int_equal(file_cache_measure().files, 1);
+    assert_int_equal(file_cache_measure().bytes, size);
+    assert_int_equal(setenv("LAMPION_CACHE_MIB", "0", 1), 0);
+    file_cache_store("b", first, SIZE);
+    unsetenv("LAMPION_CACHE_MIB");
+    assert_false(exists("a") || exists("b"));
+    file_cache_store("a", first, SIZE);
+    file_cache_clear();
+    assert_false(exists("a"));
+    for (int i = 0; i < OTHERS; i++)
+        if (!exists(others[i]))
+            fail_msg("%s is no entry, and gone", others[i]);
+}
+
+static void a_linked_folder_is_no_cache(void **state) {
+    (void)state;
+    char path[600];
+    file_cache_store("a", first, SIZE);
+    snprintf(path, sizeof path, "%s", entry(""));
+    path[strlen(path) - 1] = 0;
+    assert_int_equal(rename(path, in_folder("elsewhere")), 0);
+    assert_int_equal(symlink(in_folder("elsewhere"), path), 0);
+    assert_false(holds("a", first));
+    assert_int_equal(file_cache_measure().files, 0);
+    file_cache_store("b", first, SIZE);
+    file_cache_clear();
+    assert_int_equal(access(in_folder("elsewhere/a"), F_OK), 0);
+    assert_int_not_equal(access(in_folder("elsewhere/b"), F_OK), 0);
+}
+
 static void what_cannot_be_stored_is_no_error(void **state) {
     (void)state;
     struct rlimit old, small;
@@ -153,6 +203,32 @@ static void two_writers_leave_one_s_bytes(void **state) {
         waitpid(writers[i], NULL, 0);
 }
 
+/* --- sweeping -----------------------------------------------------------------------------------
+ */
+
+static bool renamed_locked;
+
+/* The program's, which it calls in place of the system's. */
+int rename(const char *from, const char *to) {
+    const int fd = open(from, O_RDONLY | O_CLOEXEC);
+    renamed_locked = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (fd >= 0)
+        close(fd);
+    return renameat(AT_FDCWD, from, AT_FDCWD, to);
+}
+
+/* Another machine, or container, tells by the lock alone that whoever writes is still there. */
+static void what_is_not_yet_renamed_is_locked(void **state) {
+    (void)state;
+    cli_error error;
+    assert_true(file_write_whole(in_folder("whole"), first, SIZE, &error));
+    assert_true(renamed_locked);
+    const int fd = open(in_folder("whole"), O_RDONLY | O_CLOEXEC);
+    assert_true(fd >= 0);
+    assert_int_equal(flock(fd, LOCK_EX | LOCK_NB), 0);
+    close(fd);
+}
+
 static int make_folder(void **state) {
     (void)state;
     for (int i = 0; i < SIZE; i++) {
@@ -165,7 +241,7 @@ static int make_folder(void **state) {
 static int empty(void **state) {
     (void)state;
     char command[512];
-    snprintf(command, sizeof command, "rm -rf '%s/lampion'", folder);
+    snprintf(command, sizeof command, "rm -rf '%s/lampion' '%s/elsewhere'", folder, folder);
     return system(command);
 }
 
@@ -175,7 +251,10 @@ int main(void) {
         cmocka_unit_test_setup(an_entry_under_another_name_is_none, empty),
         cmocka_unit_test_setup(a_damaged_entry_is_none, empty),
         cmocka_unit_test_setup(what_is_no_file_of_ones_own_is_none, empty),
+        cmocka_unit_test_setup(only_entries_are_counted_and_removed, empty),
+        cmocka_unit_test_setup(a_linked_folder_is_no_cache, empty),
         cmocka_unit_test_setup(what_cannot_be_stored_is_no_error, empty),
+        cmocka_unit_test_setup(what_is_not_yet_renamed_is_locked, empty),
         cmocka_unit_test_setup(two_writers_leave_one_s_bytes, empty),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
