@@ -166,7 +166,7 @@ _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int outpu
     _exit(EXIT_FAILURE);
 }
 
-int sandbox_open(const char *name, cli_error *error) {
+int sandbox_open(const char *name, int *number, cli_error *error) {
     message answer;
     int file;
     if (strlen(name) >= sizeof answer.text)
@@ -174,9 +174,10 @@ int sandbox_open(const char *name, cli_error *error) {
     else if (!message_send(CHILD_SOCKET, MESSAGE_OPEN, name, -1) ||
              !message_receive(CHILD_SOCKET, true, &answer, &file))
         cli_fail(error, name, "cannot be asked for");
-    else if (answer.kind == MESSAGE_FILE && file >= 0)
+    else if (answer.kind == MESSAGE_FILE && file >= 0) {
+        *number = atoi(answer.text);
         return file;
-    else
+    } else
         cli_fail(error, NULL, "%s", answer.text);
     return -1;
 }
@@ -184,10 +185,16 @@ int sandbox_open(const char *name, cli_error *error) {
 /* --- the parent ---------------------------------------------------------------------------------
  */
 
+typedef struct file_identity {
+    dev_t device;
+    ino_t inode;
+} file_identity;
+
 typedef struct guard {
     const sandbox_job *job;
     pid_t child;
-    int opened;
+    int opened, file_count; /* times that a file was given; files that were */
+    file_identity files[FILES_MAX];
     int socket, process; /* the latter is readable when the child has ended */
     uint64_t base, input_bytes;
     char complaint[sizeof((cli_error *)0)->text];
@@ -199,8 +206,26 @@ static double seconds_of(clockid_t clock) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* The number of a file that is given to the child; what the child may use grows with each, but not
+ * without end. */
+static int count_file(guard *g, int file) {
+    struct stat status = { 0 };
+    if (fstat(file, &status) != 0)
+        return -1;
+    for (int i = 0; i < g->file_count; i++)
+        if (g->files[i].device == status.st_dev && g->files[i].inode == status.st_ino)
+            return i;
+    g->files[g->file_count] = (file_identity) { status.st_dev, status.st_ino };
+    if (status.st_size > 0 && (uint64_t)status.st_size < INPUT_MAX)
+        g->input_bytes += (uint64_t)status.st_size;
+    if (g->input_bytes > INPUT_MAX)
+        g->input_bytes = INPUT_MAX;
+    set_limits(g->child, g->base, g->input_bytes);
+    return g->file_count++;
+}
+
 static void open_for_child(guard *g, const char *name) {
-    struct stat status;
+    char number[16];
     cli_error error = { "no file can be opened" };
     const bool may = g->job->open && g->opened++ < FILES_MAX;
     const int file = may ? g->job->open(g->job->context, name, &error) : -1;
@@ -208,13 +233,8 @@ static void open_for_child(guard *g, const char *name) {
         message_send(g->socket, MESSAGE_FAILURE, error.text, -1);
         return;
     }
-    /* what it may use grows with what it reads, but not without end */
-    if (fstat(file, &status) == 0 && status.st_size > 0 && (uint64_t)status.st_size < INPUT_MAX)
-        g->input_bytes += (uint64_t)status.st_size;
-    if (g->input_bytes > INPUT_MAX)
-        g->input_bytes = INPUT_MAX;
-    set_limits(g->child, g->base, g->input_bytes);
-    message_send(g->socket, MESSAGE_FILE, "", file);
+    snprintf(number, sizeof number, "%d", count_file(g, file));
+    message_send(g->socket, MESSAGE_FILE, number, file);
     close(file);
 }
 

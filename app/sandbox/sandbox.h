@@ -28,7 +28,7 @@ typedef struct sandbox_job {
 bool sandbox_run(const sandbox_job *job, void **block, size_t *size, cli_error *error);
 
 /* For the work: the file of that name from the parent, which adds its size to what the limits
- * allow; -1 with *error. */
-int sandbox_open(const char *name, cli_error *error);
+ * allow, once; -1 with *error. A file has the same *number by every name. */
+int sandbox_open(const char *name, int *number, cli_error *error);
 
 #endif

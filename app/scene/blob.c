@@ -64,8 +64,16 @@ static bool header_fits(const blob_header *header, size_t size) {
             return false;
     }
     return header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
+           header->sections[BLOB_SOURCES].count <= BLOB_SOURCES_MAX &&
            header->sections[BLOB_VERTICES].count < UINT32_MAX &&
            header->sections[BLOB_INDICES].count < UINT32_MAX;
+}
+
+static bool all_in_reach(const float *coordinates, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!(fabsf(coordinates[i]) <= LMP_LENGTH_MAX))
+            return false;
+    return true;
 }
 
 /* A name is valid if cleaning it changes nothing. */
@@ -77,11 +85,36 @@ static bool name_fits(const char name[SCENE_NAME_SIZE]) {
     return memcmp(clean, name, SCENE_NAME_SIZE) == 0;
 }
 
+void blob_bounds(const scene_vertex *vertices, const uint32_t *indices, size_t count,
+                 float minimum[3], float maximum[3]) {
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) {
+            const float x = vertices[indices[i]].position[k];
+            if (i == 0 || x < minimum[k])
+                minimum[k] = x;
+            if (i == 0 || x > maximum[k])
+                maximum[k] = x;
+        }
+}
+
+/* A mesh whose bounds are not those of its vertices would be drawn, and lit, elsewhere. */
+static bool bounds_fit(const blob_header *header, const scene_mesh *mesh) {
+    const uint32_t *indices = blob_items(header, BLOB_INDICES);
+    float minimum[3], maximum[3];
+    blob_bounds(blob_items(header, BLOB_VERTICES), indices + mesh->first_index, mesh->index_count,
+                minimum, maximum);
+    for (int k = 0; k < 3; k++)
+        if (!(mesh->minimum[k] == minimum[k] && mesh->maximum[k] == maximum[k]))
+            return false;
+    return true;
+}
+
 static bool geometry_fits(const blob_header *header) {
     const scene_vertex *vertices = blob_items(header, BLOB_VERTICES);
     const uint64_t vertex_count = header->sections[BLOB_VERTICES].count;
     for (uint64_t i = 0; i < vertex_count; i++)
-        if (!all_finite(vertices[i].position, offsetof(scene_vertex, color) / sizeof(float)))
+        if (!all_finite(vertices[i].position, offsetof(scene_vertex, color) / sizeof(float)) ||
+            !all_in_reach(vertices[i].position, 3))
             return false;
     const uint32_t *indices = blob_items(header, BLOB_INDICES);
     const uint64_t index_count = header->sections[BLOB_INDICES].count;
@@ -92,11 +125,10 @@ static bool geometry_fits(const blob_header *header) {
     uint64_t corners = 0; /* of all meshes: they do not overlap, or whoever copies them runs over */
     for (uint64_t i = 0; i < header->sections[BLOB_MESHES].count; i++)
         if (!name_fits(meshes[i].name) || meshes[i].index_count % 3 != 0 ||
-            meshes[i].first_index > index_count ||
+            meshes[i].index_count == 0 || meshes[i].first_index > index_count ||
             meshes[i].index_count > index_count - meshes[i].first_index ||
             meshes[i].material >= header->sections[BLOB_MATERIALS].count ||
-            !all_finite(meshes[i].minimum, 3) || !all_finite(meshes[i].maximum, 3) ||
-            (corners += meshes[i].index_count) > index_count)
+            (corners += meshes[i].index_count) > index_count || !bounds_fit(header, &meshes[i]))
             return false;
     return true;
 }
@@ -168,7 +200,7 @@ static bool motions_fit(const blob_header *header) {
             return false;
     }
     const lmp_vec3 *offsets = blob_items(header, BLOB_OFFSETS);
-    return all_finite(&offsets->x, 3 * offset_count);
+    return all_in_reach(&offsets->x, 3 * offset_count);
 }
 
 static bool left_out_fits(const blob_header *header) {

@@ -27,6 +27,7 @@ typedef enum blob_section {
 } blob_section;
 
 /* A file the scene was made from, for the cache; the scene file itself is not among them. */
+#define BLOB_SOURCES_MAX 4096
 typedef struct blob_source {
     char path[512]; /* relative to the scene's folder */
     uint64_t size;
@@ -52,8 +53,12 @@ void blob_layout(blob_header *header, const size_t counts[BLOB_SECTIONS]);
 /* The array of a section of a blob whose header has been validated. */
 const void *blob_items(const void *block, blob_section section);
 
-/* Checks every offset, count, index, number and name of the blob, and with `checksum` its content
- * hash. `subject` is named in the error. */
+/* The bounds of the vertices of count > 0 indices. */
+void blob_bounds(const scene_vertex *vertices, const uint32_t *indices, size_t count,
+                 float minimum[3], float maximum[3]);
+
+/* Checks every offset, count, index, number, bound and name of the blob, and with `checksum` its
+ * content hash. `subject` is named in the error. */
 bool blob_validate(const void *block, size_t size, bool checksum, const char *subject,
                    cli_error *error);
 

@@ -77,15 +77,8 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
     mesh->first_index = (uint32_t)first_index;
     mesh->index_count = (uint32_t)(end - first_index);
     const uint32_t *indices = builder_items(builder, BLOB_INDICES);
-    const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
-    for (size_t i = first_index; i < end; i++)
-        for (int k = 0; k < 3; k++) {
-            const float x = vertices[indices[i]].position[k];
-            if (i == first_index || x < mesh->minimum[k])
-                mesh->minimum[k] = x;
-            if (i == first_index || x > mesh->maximum[k])
-                mesh->maximum[k] = x;
-        }
+    blob_bounds(builder_items(builder, BLOB_VERTICES), indices + first_index, end - first_index,
+                mesh->minimum, mesh->maximum);
 }
 
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {

@@ -23,32 +23,58 @@ static const char *name_of(const file_hash *key, entry_name name) {
     return name;
 }
 
-/* One at a time and no more than was read then: a file may have grown beyond memory. */
-static bool is_unchanged(const source_set *sources, const blob_source *item) {
+typedef struct file_identity {
+    dev_t device;
+    ino_t inode;
+} file_identity;
+
+static bool is_same(const blob_source *a, const blob_source *b) {
+    return a->size == b->size && a->hash.low == b->hash.low && a->hash.high == b->hash.high;
+}
+
+/* Whether a file that is open has what was read then: no more of it is read, for it may have grown
+ * beyond memory. */
+static bool holds(int fd, const blob_source *item) {
+    cli_error ignored;
+    blob_source found = { .size = 0 };
+    void *data;
+    size_t size;
+    if (!file_read_descriptor(fd, item->path, item->size, &data, &size, &ignored))
+        return false;
+    found.size = size;
+    file_hash_add(&found.hash, data, size);
+    free(data);
+    return is_same(&found, item);
+}
+
+/* A file that has been found unchanged under another name is not read again. */
+static bool is_unchanged(const source_set *sources, const blob_source *items, size_t i,
+                         file_identity *known) {
     struct stat status;
     cli_error ignored;
-    file_hash hash = { 0 };
-    void *data = NULL;
-    size_t size = 0;
-    const int fd = sources_open(sources, item->path, &ignored);
+    const int fd = sources_open(sources, items[i].path, &ignored);
     if (fd < 0)
         return false;
-    const bool read = fstat(fd, &status) == 0 && (uint64_t)status.st_size == item->size &&
-                      file_read_descriptor(fd, item->path, item->size, &data, &size, &ignored);
+    bool ok = fstat(fd, &status) == 0 && (uint64_t)status.st_size == items[i].size, read = false;
+    known[i] = (file_identity) { status.st_dev, status.st_ino };
+    for (size_t k = 0; ok && !read && k < i; k++)
+        read = known[k].device == known[i].device && known[k].inode == known[i].inode &&
+               is_same(&items[k], &items[i]);
+    ok = ok && (read || holds(fd, &items[i]));
     close(fd);
-    if (read)
-        file_hash_add(&hash, data, size);
-    free(data);
-    return read && hash.low == item->hash.low && hash.high == item->hash.high;
+    return ok;
 }
 
 static bool sources_unchanged(const void *block, const source_set *sources) {
     const blob_source *items = blob_items(block, BLOB_SOURCES);
     const blob_header *header = block;
-    for (uint64_t i = 0; i < header->sections[BLOB_SOURCES].count; i++)
-        if (!is_unchanged(sources, &items[i]))
-            return false;
-    return true;
+    const uint64_t count = header->sections[BLOB_SOURCES].count;
+    file_identity *known = calloc(count + 1, sizeof *known);
+    bool ok = known;
+    for (uint64_t i = 0; ok && i < count; i++)
+        ok = is_unchanged(sources, items, i, known);
+    free(known);
+    return ok;
 }
 
 bool cache_load(const file_hash *key, source_set *sources, void **block, size_t *size) {

@@ -72,6 +72,7 @@ static bool add_sources(const import_job *job, scene_builder *builder) {
 static bool check_made(const import_job *job, const scene_builder *builder, cli_error *error) {
     const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
     const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
+    const lmp_vec3 *offsets = builder_items(builder, BLOB_OFFSETS);
     for (size_t i = 0; i < builder_count(builder, BLOB_MESHES); i++)
         if (meshes[i].material >= builder_count(builder, BLOB_MATERIALS))
             return cli_fail(error, job->path, "has a mesh whose material does not exist");
@@ -82,6 +83,11 @@ static bool check_made(const import_job *job, const scene_builder *builder, cli_
                                 "has a vertex that is not at a finite place (up to %g)",
                                 (double)LMP_LENGTH_MAX);
     }
+    for (size_t i = 0; i < builder_count(builder, BLOB_OFFSETS); i++)
+        if (!(fabsf(offsets[i].x) <= LMP_LENGTH_MAX && fabsf(offsets[i].y) <= LMP_LENGTH_MAX &&
+              fabsf(offsets[i].z) <= LMP_LENGTH_MAX))
+            return cli_fail(error, job->path, "has a light that moves beyond reach (up to %g)",
+                            (double)LMP_LENGTH_MAX);
     if (builder_count(builder, BLOB_LIGHTS) > SCENE_LIGHTS_MAX)
         return cli_fail(error, job->path, "has %zu lights (at most %d)",
                         builder_count(builder, BLOB_LIGHTS), SCENE_LIGHTS_MAX);

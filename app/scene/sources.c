@@ -5,6 +5,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,10 +20,19 @@ static int hex_digit(char c) {
                                   : -1;
 }
 
-/* Decodes percent-escapes and turns backslashes into slashes; false if it does not fit. */
+/* Whether what ends here, behind a slash or at the start, is "." or nothing, and so says nothing.
+ */
+static bool ends_empty(const char *path, size_t used) {
+    const size_t before = used - (used > 0 && path[used - 1] == '.');
+    return before == 0 || path[before - 1] == '/';
+}
+
+/* Decodes percent-escapes, turns backslashes into slashes and leaves out what says nothing, so that
+ * a file has few names; false if it does not fit. */
 static bool decode_uri(const char *uri, char *path, size_t size) {
     size_t used = 0;
-    for (const char *c = uri; *c; c++) {
+    bool inside = false; /* behind the first byte, which may be the root's slash */
+    for (const char *c = uri; *c; c++, inside = true) {
         char byte = *c == '\\' ? '/' : *c;
         if (*c == '%' && hex_digit(c[1]) >= 0 && hex_digit(c[2]) >= 0) {
             byte = (char)(hex_digit(c[1]) * 16 + hex_digit(c[2]));
@@ -30,7 +40,10 @@ static bool decode_uri(const char *uri, char *path, size_t size) {
         }
         if (byte == 0 || used + 1 >= size)
             return false;
-        path[used++] = byte;
+        if (byte == '/' && inside && ends_empty(path, used))
+            used -= used > 0 && path[used - 1] == '.';
+        else
+            path[used++] = byte;
     }
     path[used] = 0;
     return used > 0;
@@ -82,62 +95,104 @@ static bool fail_absent(const source_set *set, const char *name, cli_error *erro
     return cli_fail(error, set->subject, "refers to \"%.200s\", which does not exist", name);
 }
 
-/* `real` receives the full name of the file. */
-static bool resolve(const source_set *set, const char *uri, char real[PATH_MAX], cli_error *error) {
-    char name[sizeof((source *)0)->path], full[PATH_MAX];
-    if (!decode_uri(uri, name, sizeof name))
-        return cli_fail(error, set->subject, "refers to a file by a name that is none");
+/* `full` receives where the file of that name is looked for. */
+static bool resolve(const source_set *set, const char *name, char full[PATH_MAX],
+                    cli_error *error) {
     if (name[0] == '/' || has_parent_component(name) || has_scheme(name))
         return cli_fail(error, set->subject,
                         "refers to \"%.200s\", which is outside its folder (only files inside are "
                         "read)",
                         name);
-    const int length = snprintf(full, sizeof full, "%s/%s", set->folder, name);
-    if (length < 0 || (size_t)length >= sizeof full)
-        return cli_fail(error, set->subject, "refers to a file by too long a name");
-    if (!realpath(full, real) && errno == ENOENT)
-        match_case(full, strlen(set->folder));
-    if (!realpath(full, real))
-        return errno == ENOENT ? fail_absent(set, name, error)
-                               : cli_fail(error, set->subject,
-                                          "refers to \"%.200s\", which cannot be opened", name);
-    const size_t folder_length = strlen(set->folder);
-    const bool at_root = folder_length == 1;
-    if (strncmp(real, set->folder, folder_length) != 0 || (!at_root && real[folder_length] != '/'))
-        return cli_fail(error, set->subject,
-                        "refers to \"%.200s\", a link that leaves its folder (only files inside "
-                        "are read)",
-                        name);
-    return true;
+    const int length = snprintf(full, PATH_MAX, "%s/%s", set->folder, name);
+    return (length >= 0 && length < PATH_MAX) ||
+           cli_fail(error, set->subject, "refers to a file by too long a name");
 }
 
-static bool fail_file(const source_set *set, const char *uri, const cli_error *reason,
+static bool is_inside(const char *folder, const char *path) {
+    const size_t length = strlen(folder);
+    return strncmp(path, folder, length) == 0 && (length == 1 || path[length] == '/');
+}
+
+/* The file at `full`, links followed, as a descriptor that reads nothing: what is asked of it is
+ * then true of what is opened by it, whatever the names come to mean. */
+static int find_file(const source_set *set, const char *name, char full[PATH_MAX],
+                     cli_error *error) {
+    int found = open(full, O_PATH | O_CLOEXEC);
+    if (found < 0 && errno == ENOENT) {
+        match_case(full, strlen(set->folder));
+        found = open(full, O_PATH | O_CLOEXEC);
+    }
+    if (found < 0 && errno == ENOENT)
+        fail_absent(set, name, error);
+    else if (found < 0)
+        cli_fail(error, set->subject, "refers to \"%.200s\", which cannot be opened", name);
+    return found;
+}
+
+static bool fail_file(const source_set *set, const char *name, const cli_error *reason,
                       cli_error *error) {
     const char *what = strstr(reason->text, ": ");
-    return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", uri,
+    return cli_fail(error, set->subject, "refers to \"%.200s\", which %s", name,
                     what ? what + 2 : "cannot be read");
 }
 
-int sources_open(const source_set *set, const char *uri, cli_error *error) {
-    char path[PATH_MAX];
+/* Opens what has been found, if that lies inside the folder. */
+static int open_found(const source_set *set, const char *name, int found, cli_error *error) {
+    char link[40], real[PATH_MAX];
     cli_error reason;
-    if (!resolve(set, uri, path, error))
+    snprintf(link, sizeof link, "/proc/self/fd/%d", found);
+    const ssize_t length = readlink(link, real, sizeof real - 1);
+    real[length > 0 ? length : 0] = 0;
+    if (!is_inside(set->folder, real)) {
+        cli_fail(error, set->subject,
+                 "refers to \"%.200s\", a link that leaves its folder (only files inside are read)",
+                 name);
         return -1;
-    const int fd = file_open_descriptor(path, &reason);
+    }
+    const int fd = file_open_descriptor(link, &reason);
     if (fd < 0)
-        fail_file(set, uri, &reason, error);
+        fail_file(set, name, &reason, error);
     return fd;
 }
 
-static bool read_source(const source_set *set, const char *uri, source *item, cli_error *error) {
+int sources_open(const source_set *set, const char *name, cli_error *error) {
+    char full[PATH_MAX];
+    if (!resolve(set, name, full, error))
+        return -1;
+    const int found = find_file(set, name, full, error);
+    const int fd = found < 0 ? -1 : open_found(set, name, found, error);
+    if (found >= 0)
+        close(found);
+    return fd;
+}
+
+/* The one that has been read of the same file, by whatever name; NULL if there is none. */
+static const source *find_same(const source_set *set, int file) {
+    for (size_t i = 0; file >= 0 && i < set->count; i++)
+        if (set->items[i].file == file)
+            return &set->items[i];
+    return NULL;
+}
+
+static bool read_source(const source_set *set, source *item, cli_error *error) {
     cli_error reason;
-    const int fd = set->sandboxed ? sandbox_open(uri, error) : sources_open(set, uri, error);
+    item->file = -1;
+    const int fd = set->sandboxed ? sandbox_open(item->path, &item->file, error)
+                                  : sources_open(set, item->path, error);
     if (fd < 0)
         return false;
-    const bool ok =
-        file_read_descriptor(fd, uri, SOURCES_SIZE_LIMIT, &item->data, &item->size, &reason);
+    const source *const same = find_same(set, item->file);
+    bool ok = true;
+    if (same) {
+        item->data = same->data;
+        item->size = same->size;
+        item->shared = true;
+    } else {
+        ok = file_read_descriptor(fd, item->path, SOURCES_SIZE_LIMIT, &item->data, &item->size,
+                                  &reason);
+    }
     close(fd);
-    return ok || fail_file(set, uri, &reason, error);
+    return ok || fail_file(set, item->path, &reason, error);
 }
 
 bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error) {
@@ -149,14 +204,14 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
             *found = &set->items[i];
             return true;
         }
-    if (set->count == SOURCES_MAX)
-        return cli_fail(error, set->subject, "refers to more than %d files", SOURCES_MAX);
-    if (!set->items && !(set->items = calloc(SOURCES_MAX, sizeof *set->items)))
+    if (set->count == BLOB_SOURCES_MAX)
+        return cli_fail(error, set->subject, "refers to more than %d files", BLOB_SOURCES_MAX);
+    if (!set->items && !(set->items = calloc(BLOB_SOURCES_MAX, sizeof *set->items)))
         return cli_fail(error, set->subject, "does not fit into memory");
     source *item = &set->items[set->count];
-    if (!read_source(set, uri, item, error))
-        return false;
     strcpy(item->path, name);
+    if (!read_source(set, item, error))
+        return false;
     set->count++;
     *found = item;
     return true;
@@ -179,7 +234,8 @@ bool sources_read_if_there(source_set *set, const char *uri, const source **foun
 
 void sources_free(source_set *set) {
     for (size_t i = 0; i < set->count; i++)
-        free(set->items[i].data);
+        if (!set->items[i].shared)
+            free(set->items[i].data);
     free(set->items);
     set->items = NULL;
     set->count = 0;

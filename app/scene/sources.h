@@ -5,13 +5,14 @@
 
 #include "app/scene/blob.h"
 
-#define SOURCES_MAX        4096
 #define SOURCES_SIZE_LIMIT ((size_t)8 << 30)
 
 typedef struct source {
-    char path[sizeof((blob_source *)0)->path]; /* relative to the folder */
+    char path[sizeof((blob_source *)0)->path]; /* relative to the folder, not a URI */
     void *data;
     size_t size;
+    int file;    /* the sandbox's number of it; -1: not known */
+    bool shared; /* the data are an earlier one's: the same file by another name */
 } source;
 
 typedef struct source_set {
@@ -22,12 +23,13 @@ typedef struct source_set {
     size_t count;
 } source_set;
 
-/* Opens the file that `uri` names: relative, without "..", percent-escapes decoded, and after
- * following links still inside the folder. Where no file has that name, one is found whose name
- * differs in case alone. -1 on failure. */
-int sources_open(const source_set *set, const char *uri, cli_error *error);
+/* Opens the file of a source's path: relative, without "..", and after following links still inside
+ * the folder. Where no file has that name, one is found whose name differs in case alone. -1 on
+ * failure. */
+int sources_open(const source_set *set, const char *path, cli_error *error);
 
-/* Reads that file, or gives it again. The set keeps it. */
+/* Reads the file that `uri` names, its percent-escapes decoded, or gives it again. The set keeps
+ * it. */
 bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error);
 
 /* The same, but for a file that is not there: *found is then NULL. */

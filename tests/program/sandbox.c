@@ -77,7 +77,8 @@ static int open_in_folder(void *context, const char *name, cli_error *error) {
 
 static bool copy_file(void *context, int output, cli_error *error) {
     char bytes[64];
-    const int file = sandbox_open(context, error);
+    int number;
+    const int file = sandbox_open(context, &number, error);
     const ssize_t got = file < 0 ? -1 : read(file, bytes, sizeof bytes);
     return got > 0 && write(output, bytes, (size_t)got) == got;
 }

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/* Scenes as a child that was taken over may hand them back: none is believed that says of itself
+ * what is not so. */
+#include "app/scene/builder.h"
+#include "tests/oracle/check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static scene_builder builder;
+
+static int make_triangle(void **state) {
+    (void)state;
+    memset(&builder, 0, sizeof builder);
+    scene_vertex *corners = builder_append(&builder, BLOB_VERTICES, 3);
+    uint32_t *indices = builder_append(&builder, BLOB_INDICES, 3);
+    for (uint32_t i = 0; i < 3; i++) {
+        corners[i].position[i] = 1.0f + (float)i;
+        corners[i].normal[2] = corners[i].tangent[0] = 1.0f;
+        indices[i] = i;
+    }
+    builder_material(&builder, "clay");
+    builder_mesh(&builder, "floor", 0, 0);
+    scene_light *light = builder_append(&builder, BLOB_LIGHTS, 1);
+    *light = (scene_light) { .emitter = { .radius = 1, .radiance = { 1, 1, 1 } } };
+    scene_motion *motion = builder_append(&builder, BLOB_MOTIONS, 1);
+    *motion = (scene_motion) { .light = 0, .first = 0, .count = 2, .period = 1 };
+    builder_append(&builder, BLOB_OFFSETS, 2);
+    return builder.out_of_memory;
+}
+
+static int free_builder(void **state) {
+    (void)state;
+    builder_free(&builder);
+    return 0;
+}
+
+static bool is_valid(void) {
+    void *block;
+    size_t size;
+    cli_error error;
+    assert_true(builder_pack(&builder, &block, &size));
+    const bool valid = blob_validate(block, size, false, "scene", &error);
+    free(block);
+    return valid;
+}
+
+static void what_the_builder_makes_is_valid(void **state) {
+    (void)state;
+    assert_true(is_valid());
+}
+
+static void positions_are_in_reach(void **state) {
+    (void)state;
+    scene_vertex *corners = builder_items(&builder, BLOB_VERTICES);
+    scene_mesh *mesh = builder_items(&builder, BLOB_MESHES);
+    corners[1].position[1] = mesh->maximum[1] = LMP_LENGTH_MAX;
+    assert_true(is_valid());
+    corners[1].position[1] = mesh->maximum[1] = 1.01f * LMP_LENGTH_MAX;
+    assert_false(is_valid());
+}
+
+static void motions_are_in_reach(void **state) {
+    (void)state;
+    lmp_vec3 *offsets = builder_items(&builder, BLOB_OFFSETS);
+    offsets[1].z = -LMP_LENGTH_MAX;
+    assert_true(is_valid());
+    offsets[1].z = -1.01f * LMP_LENGTH_MAX;
+    assert_false(is_valid());
+}
+
+static void bounds_are_those_of_the_vertices(void **state) {
+    (void)state;
+    scene_mesh *mesh = builder_items(&builder, BLOB_MESHES);
+    for (int k = 0; k < 3; k++)
+        for (int side = 0; side < 2; side++) {
+            float *bound = side ? &mesh->maximum[k] : &mesh->minimum[k];
+            const float right = *bound;
+            *bound = right + 0.5f;
+            assert_false(is_valid());
+            *bound = right - 0.5f;
+            assert_false(is_valid());
+            *bound = right;
+        }
+    assert_true(is_valid());
+    mesh->index_count = 0;
+    assert_false(is_valid());
+}
+
+static void the_files_it_was_made_from_are_few(void **state) {
+    (void)state;
+    builder_append(&builder, BLOB_SOURCES, BLOB_SOURCES_MAX);
+    assert_true(is_valid());
+    builder_append(&builder, BLOB_SOURCES, 1);
+    assert_false(is_valid());
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(what_the_builder_makes_is_valid, make_triangle,
+                                        free_builder),
+        cmocka_unit_test_setup_teardown(positions_are_in_reach, make_triangle, free_builder),
+        cmocka_unit_test_setup_teardown(motions_are_in_reach, make_triangle, free_builder),
+        cmocka_unit_test_setup_teardown(bounds_are_those_of_the_vertices, make_triangle,
+                                        free_builder),
+        cmocka_unit_test_setup_teardown(the_files_it_was_made_from_are_few, make_triangle,
+                                        free_builder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
