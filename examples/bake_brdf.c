@@ -14,7 +14,7 @@ static lmp_brdf_table *bake(void) {
     lmp_brdf *brdf;
     lmp_brdf_table *table = NULL;
     if (lmp_brdf_create_ggx(NULL, &brass, &brdf) == LMP_OK)
-        lmp_brdf_table_create(NULL, brdf, &desc, &table);
+        lmp_brdf_table_create(NULL, &desc, brdf, &table);
     lmp_brdf_destroy(brdf);
     return table;
 }

@@ -9,8 +9,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-typedef lmp_result (*fuzz_brdf_reader)(const lmp_allocator *, const void *, size_t,
-                                       lmp_parse_error *, lmp_brdf **);
+typedef lmp_result (*fuzz_brdf_reader)(const lmp_host *, const void *, size_t, lmp_parse_error *,
+                                       lmp_brdf **);
 
 static inline int fuzz_brdf(fuzz_brdf_reader read, const uint8_t *data, size_t size) {
     lmp_brdf *brdf;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/bake/bake.h"
 
-#include <omp.h>
 #include <stdio.h>
 
 typedef char entry_name[64];
 
-void bake_parallel(void *user, size_t count, void (*task)(size_t index, void *data), void *data) {
+static void run_parallel(size_t count, void (*task)(size_t index, void *data), void *data,
+                         void *user) {
     (void)user;
     const long tasks = (long)count;
 #pragma omp parallel for schedule(dynamic)
@@ -14,9 +14,13 @@ void bake_parallel(void *user, size_t count, void (*task)(size_t index, void *da
         task((size_t)i, data);
 }
 
-void bake_progress(void *user, double done) {
-    if (omp_get_thread_num() == 0)
-        cli_progress((const char *)user, done);
+static void show_progress(double done, void *user) {
+    const char *const *what = user;
+    cli_progress(*what, done);
+}
+
+lmp_host bake_host(const char **what) {
+    return (lmp_host) { .parallel = run_parallel, .progress = show_progress, .user = what };
 }
 
 void bake_add_settings(file_hash *key, const void *settings, size_t size) {
@@ -46,7 +50,9 @@ lmp_result bake(const bake_recipe *recipe, void **object) {
     *object = read_entry(recipe, name);
     if (*object)
         return LMP_OK;
-    const lmp_result result = recipe->make(recipe->user, object);
+    const char *what = recipe->what;
+    const lmp_host host = bake_host(&what);
+    const lmp_result result = recipe->make(&host, recipe->user, object);
     cli_progress_end();
     if (result == LMP_OK)
         file_cache_store_object(name, recipe->size(*object), recipe->write, *object);

@@ -11,10 +11,11 @@
 /* How one kind of object is made, and its bytes; `user` is the caller's. */
 typedef struct bake_recipe {
     const char *kind; /* the extension of its files in the cache */
+    const char *what; /* of the progress bar */
     file_hash key;    /* of all that decides its bytes */
     /* NULL where the bytes are not those of what is asked for: it is then made. */
     void *(*read)(const void *bytes, size_t size, const void *user);
-    lmp_result (*make)(const void *user, void **object);
+    lmp_result (*make)(const lmp_host *host, const void *user, void **object);
     size_t (*size)(const void *object);
     void (*write)(const void *object, void *bytes);
     const void *user;
@@ -28,9 +29,8 @@ lmp_result bake(const bake_recipe *recipe, void **object);
 #define BAKE_EPOCH 4
 void bake_add_settings(file_hash *key, const void *settings, size_t size);
 
-/* The hooks of the library's descs: all cores, and a progress bar whose text is `user`. */
-void bake_parallel(void *user, size_t count, void (*task)(size_t index, void *data), void *data);
-void bake_progress(void *user, double done);
+/* The program as the library's host: all cores, and a progress bar whose text is *what. */
+lmp_host bake_host(const char **what);
 
 /* Images ask more of lobes than the default: beside a highlight of ten times white, half a percent
  * of it shows. */

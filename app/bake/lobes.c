@@ -13,9 +13,9 @@ static void *read_lobes(const void *bytes, size_t size, const void *user) {
     return NULL;
 }
 
-static lmp_result make_lobes(const void *user, void **object) {
+static lmp_result make_lobes(const lmp_host *host, const void *user, void **object) {
     lmp_preintegrated_lobe *lobes;
-    const lmp_result result = lmp_preintegrated_lobe_create(NULL, user, &lobes);
+    const lmp_result result = lmp_preintegrated_lobe_create(host, user, &lobes);
     *object = lobes;
     return result;
 }
@@ -29,16 +29,13 @@ static void write_lobes(const void *lobes, void *bytes) {
 }
 
 bool bake_lobes(int bands, lmp_window window, lmp_preintegrated_lobe **lobes, cli_error *error) {
-    static char what[] = "integrating lobes";
     const lmp_preintegrated_lobe_desc desc = {
         .bands = bands,
         .window = window,
         .error = BAKE_LOBES_ERROR,
-        .parallel = bake_parallel,
-        .progress = bake_progress,
-        .user = what,
     };
     bake_recipe recipe = { .kind = "lmpr",
+                           .what = "integrating lobes",
                            .read = read_lobes,
                            .make = make_lobes,
                            .size = size_of_lobes,

@@ -125,8 +125,8 @@ static bool measured_create(int bands, bench_inputs *in) {
     if (lmp_sgd_find("gold-metallic-paint", &sgd) != LMP_OK ||
         lmp_brdf_create_sgd(NULL, &sgd, &brdf) != LMP_OK)
         return false;
-    const bool made = lmp_brdf_table_create(NULL, brdf, &desc, &in->table) == LMP_OK &&
-                      lmp_preintegrated_brdf_create(NULL, in->table, NULL, &in->measured) == LMP_OK;
+    const bool made = lmp_brdf_table_create(NULL, &desc, brdf, &in->table) == LMP_OK &&
+                      lmp_preintegrated_brdf_create(NULL, NULL, in->table, &in->measured) == LMP_OK;
     lmp_brdf_destroy(brdf);
     return made;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion brdf - what is in a material, its values, its table, its image, its other formats. */
 #include "app/command/brdf.h"
+#include "app/bake/bake.h"
 #include "app/csv/csv.h"
 #include "app/method/method.h"
 
@@ -113,7 +114,7 @@ static bool evaluate(const brdf_options *o, const material *m, cli_error *error)
 /* --- bake, convert ------------------------------------------------------------------------------
  */
 
-static bool bake(const brdf_options *o, const material *m, cli_error *error) {
+static bool bake_table(const brdf_options *o, const material *m, cli_error *error) {
     if (!m->brdf)
         return cli_fail(error, m->name, "is a table already");
     lmp_brdf_table *table = NULL;
@@ -132,8 +133,11 @@ static bool convert(const brdf_options *o, const material *m, cli_error *error) 
         return cli_fail(error, o->output, "unknown format (name it .binary or .bsdf)");
     void *data = NULL;
     size_t size = 0;
-    const lmp_result result = merl ? lmp_brdf_write_merl(m->brdf, NULL, &data, &size)
-                                   : lmp_brdf_write_rgl(m->brdf, NULL, &data, &size);
+    const char *what = "sampling the BRDF";
+    const lmp_host host = bake_host(&what);
+    const lmp_result result = merl ? lmp_brdf_write_merl(&host, m->brdf, &data, &size)
+                                   : lmp_brdf_write_rgl(&host, m->brdf, &data, &size);
+    cli_progress_end();
     if (result != LMP_OK)
         return cli_fail(error, o->output, "%s", lmp_result_text(result));
     const bool ok = file_write_whole(o->output, data, size, error);
@@ -173,7 +177,7 @@ static bool measure_bands(const material *m, double left[LMP_BANDS_MAX + 1], cli
     for (int v = 0; v < VIEWS; v++) {
         const double theta = v * pi / 9;
         const lmp_vec3 wo = { (float)sin(theta), 0, (float)cos(theta) };
-        if (lmp_brdf_project(NULL, m->brdf, wo, LMP_BANDS_MAX, RINGS, sh) != LMP_OK) {
+        if (lmp_brdf_project(NULL, LMP_BANDS_MAX, RINGS, m->brdf, wo, sh) != LMP_OK) {
             free(sh);
             return cli_fail(error, m->name, "out of memory");
         }
@@ -227,7 +231,7 @@ static const struct {
     bool (*run)(const brdf_options *, const material *, cli_error *);
     bool writes;
 } actions[] = {
-    { "info", print_info, false }, { "eval", evaluate, false },  { "bake", bake, true },
+    { "info", print_info, false }, { "eval", evaluate, false },  { "bake", bake_table, true },
     { "plot", brdf_plot, true },   { "convert", convert, true },
 };
 

@@ -12,7 +12,7 @@
 
 typedef struct table_recipe {
     const lmp_brdf *brdf;
-    lmp_brdf_table_desc desc;
+    const lmp_brdf_table_desc *desc;
 } table_recipe;
 
 static void *read_table(const void *bytes, size_t size, const void *user) {
@@ -22,10 +22,10 @@ static void *read_table(const void *bytes, size_t size, const void *user) {
     return table;
 }
 
-static lmp_result make_table(const void *user, void **object) {
+static lmp_result make_table(const lmp_host *host, const void *user, void **object) {
     const table_recipe *from = user;
     lmp_brdf_table *table;
-    const lmp_result result = lmp_brdf_table_create(NULL, from->brdf, &from->desc, &table);
+    const lmp_result result = lmp_brdf_table_create(host, from->desc, from->brdf, &table);
     *object = table;
     return result;
 }
@@ -59,9 +59,9 @@ static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_e
 
 bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_table **table,
                    cli_error *error) {
-    static char what[] = "projecting the BRDF";
-    table_recipe from = { m->brdf, *desc };
+    const table_recipe from = { m->brdf, desc };
     bake_recipe recipe = { .kind = "lmpt",
+                           .what = "projecting the BRDF",
                            .key = m->hash,
                            .read = read_table,
                            .make = make_table,
@@ -78,9 +78,6 @@ bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_
     if (m->table)
         return copy_table(m->table, table, error);
     bake_add_settings(&recipe.key, &settings, sizeof settings);
-    from.desc.parallel = bake_parallel;
-    from.desc.progress = bake_progress;
-    from.desc.user = what;
     void *object;
     const lmp_result result = bake(&recipe, &object);
     *table = object;
@@ -116,20 +113,16 @@ static void release_large(void *memory, void *user) {
 }
 
 static void *read_preintegrated(const void *bytes, size_t size, const void *user) {
-    static const lmp_allocator large = { allocate_large, release_large, NULL };
+    static const lmp_host large = { .allocate = allocate_large, .release = release_large };
     (void)user;
     lmp_preintegrated_brdf *brdf;
     lmp_preintegrated_brdf_read(&large, bytes, size, &brdf);
     return brdf;
 }
 
-static lmp_result make_preintegrated(const void *user, void **object) {
-    static char what[] = "integrating the BRDF";
-    const lmp_preintegrated_brdf_desc desc = { .parallel = bake_parallel,
-                                               .progress = bake_progress,
-                                               .user = what };
+static lmp_result make_preintegrated(const lmp_host *host, const void *user, void **object) {
     lmp_preintegrated_brdf *brdf;
-    const lmp_result result = lmp_preintegrated_brdf_create(NULL, user, &desc, &brdf);
+    const lmp_result result = lmp_preintegrated_brdf_create(host, NULL, user, &brdf);
     *object = brdf;
     return result;
 }
@@ -157,6 +150,7 @@ bool material_preintegrate(const material *m, const lmp_brdf_table *table,
         float window_size;
     } settings = { info.bands, (int32_t)info.window, info.window_size };
     bake_recipe recipe = { .kind = "lmps",
+                           .what = "integrating the BRDF",
                            .key = m->hash,
                            .read = read_preintegrated,
                            .make = make_preintegrated,

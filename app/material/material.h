@@ -32,7 +32,7 @@ bool material_open(const char *name, material *material, cli_error *error);
 void material_close(material *material);
 
 /* A table of the material on all cores, with a progress bar, from the cache where it was made
- * before. hooks of desc are set here. A material that is a table is copied: its bands and window
+ * before. A material that is a table is copied: its bands and window
  * are then its own. */
 bool material_bake(const material *material, const lmp_brdf_table_desc *desc,
                    lmp_brdf_table **table, cli_error *error);

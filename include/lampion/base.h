@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion/base.h - what every other header needs: version, results, vectors, the allocator.
+/* lampion/base.h - what every other header needs: version, results, vectors, the host.
  *
  * Conventions of the whole library
  *   - A function `lmp_<topic>_<verb>` lives in `<topic>.h`. Inputs first, destination last.
@@ -17,6 +17,7 @@
 #ifndef LAMPION_BASE_H
 #define LAMPION_BASE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -81,25 +82,35 @@ static inline lmp_vec3_array lmp_vec3_array_same(const lmp_vec3 *vector) {
 typedef enum lmp_result {
     LMP_OK = 0,
     LMP_ERROR_ARGUMENT, /* a value outside its documented range */
-    LMP_ERROR_MEMORY,   /* the allocator returned NULL */
+    LMP_ERROR_MEMORY,   /* the host's allocate returned NULL */
     LMP_ERROR_FORMAT,   /* bytes that are not what they claim to be */
     LMP_ERROR_VERSION,  /* a format version this library does not know */
-    LMP_ERROR_CHECKSUM  /* bytes damaged since they were written */
+    LMP_ERROR_CHECKSUM, /* bytes damaged since they were written */
+    LMP_ERROR_CANCELLED /* lmp_host.cancelled said so */
 } lmp_result;
 
-/* Heap hooks of an object. Set both functions or neither (neither = malloc and free).
+/* What the library borrows of the program that calls it. Every function that allocates or takes
+ * long has one as its first argument. NULL stands for a host all 0, and each hook left 0 for its
+ * default, so set those you need and zero-initialize the rest; allocate and release go together.
  *
- * allocate: `size` bytes aligned for any type, or NULL; release: accepts NULL. */
-typedef struct lmp_allocator {
+ * A function calls the hooks only until it returns. Objects keep allocate, release and user, and
+ * call release when they are destroyed; the struct itself may go. */
+typedef struct lmp_host {
+    /* `size` bytes aligned for any type, or NULL; release accepts NULL. Default: malloc and free.
+     * Called from every thread on which `parallel` runs tasks, at once. */
     void *(*allocate)(size_t size, void *user);
     void (*release)(void *memory, void *user);
-    void *user;
-} lmp_allocator;
-
-/* Runs task(index, data) for every index below count, in any order, on any threads, and returns
- * when all are done: how a host lends its threads to the library. */
-typedef void (*lmp_parallel)(void *user, size_t count, void (*task)(size_t index, void *data),
-                             void *data);
+    /* Runs task(index, data) for every index below count, in any order, on any threads, and returns
+     * when all are done and what they wrote can be read. Default: one after the other, here. */
+    void (*parallel)(size_t count, void (*task)(size_t index, void *data), void *data, void *user);
+    /* How much is done, rising from 0 to 1. Called from any of those threads, one at a time. */
+    void (*progress)(double done, void *user);
+    /* True where the result is no longer wanted: the function then frees what it has made and
+     * returns LMP_ERROR_CANCELLED, once the pieces under way are done (each takes milliseconds, at
+     * 100 bands up to a second). Called from every thread, at once. */
+    bool (*cancelled)(void *user);
+    void *user; /* passed to every hook */
+} lmp_host;
 
 /* The version the library was built as: major << 16 | minor << 8 | patch. */
 LMP_API uint32_t lmp_version(void);

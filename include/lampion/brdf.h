@@ -42,7 +42,7 @@ typedef enum lmp_brdf_kind {
     LMP_BRDF_RGL
 } lmp_brdf_kind;
 
-/* Frees any BRDF, through the allocator it was made with; accepts NULL. */
+/* Frees any BRDF, through the host it was made with; accepts NULL. */
 LMP_API void lmp_brdf_destroy(lmp_brdf *brdf);
 
 /* f_r(wi, wo) in sr⁻¹. */
@@ -66,17 +66,16 @@ typedef struct lmp_brdf_info {
 LMP_API lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf);
 
 /* --- parametric --------------------------------------------------------------------------------
- * allocator may be NULL; *brdf is NULL on failure. LMP_ERROR_ARGUMENT: a value that is not finite
+ * host may be NULL; *brdf is NULL on failure. LMP_ERROR_ARGUMENT: a value that is not finite
  * or outside its range. */
 
 /* albedo/pi; albedo >= 0. */
-LMP_API lmp_result lmp_brdf_create_lambert(const lmp_allocator *allocator, lmp_rgb albedo,
-                                           lmp_brdf **brdf);
+LMP_API lmp_result lmp_brdf_create_lambert(const lmp_host *host, lmp_rgb albedo, lmp_brdf **brdf);
 
 /* reflectance (e+2)/(2 pi) max(wi·r, 0)^e, r the mirror direction of wo: reflects `reflectance` of
  * the light seen head-on (Lafortune and Willems 1994). exponent >= 0, reflectance >= 0. */
-LMP_API lmp_result lmp_brdf_create_phong(const lmp_allocator *allocator, lmp_rgb reflectance,
-                                         float exponent, lmp_brdf **brdf);
+LMP_API lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectance, float exponent,
+                                         lmp_brdf **brdf);
 
 /* Microfacets: GGX normals (Walter et al. 2007), height-correlated Smith masking, Schlick's
  * Fresnel term, plus diffuse/pi. Anisotropic where the alphas differ. */
@@ -85,8 +84,7 @@ typedef struct lmp_ggx {
     lmp_rgb f0;             /* reflectance at normal incidence, >= 0 */
     lmp_rgb diffuse;        /* albedo of the diffuse part, >= 0 */
 } lmp_ggx;
-LMP_API lmp_result lmp_brdf_create_ggx(const lmp_allocator *allocator, const lmp_ggx *ggx,
-                                       lmp_brdf **brdf);
+LMP_API lmp_result lmp_brdf_create_ggx(const lmp_host *host, const lmp_ggx *ggx, lmp_brdf **brdf);
 
 /* The shifted gamma distribution of Bagher, Soler and Holzschuch (2012), each member red, green,
  * blue; formula in docs/materials.md. */
@@ -94,8 +92,7 @@ typedef struct lmp_sgd {
     double rho_d[3], rho_s[3], alpha[3], p[3], f0[3], f1[3], k_ap[3];
     double lambda[3], c[3], k[3], theta0[3];
 } lmp_sgd;
-LMP_API lmp_result lmp_brdf_create_sgd(const lmp_allocator *allocator, const lmp_sgd *sgd,
-                                       lmp_brdf **brdf);
+LMP_API lmp_result lmp_brdf_create_sgd(const lmp_host *host, const lmp_sgd *sgd, lmp_brdf **brdf);
 
 /* The 100 materials of the MERL database as fitted by those authors, built in. A name is as in the
  * database ("gold-metallic-paint") or its alias. lmp_sgd_name: NULL past the end. lmp_sgd_find:
@@ -109,7 +106,7 @@ LMP_API lmp_result lmp_sgd_find(const char *name, lmp_sgd *sgd);
 /* MERL .binary (Matusik et al. 2003): int32 dimensions of theta_h, theta_d, phi_d, then a plane of
  * float64 for red, green and blue. Looked up by cell, as its authors do; negative cells (no data)
  * read as 0. Any dimensions that agree with `size`; NaN and infinity are faults. */
-LMP_API lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, size_t size,
+LMP_API lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
                                       lmp_parse_error *fault, lmp_brdf **brdf);
 
 /* RGL .bsdf tensor file (Dupuy and Jakob 2018), isotropic or anisotropic (phi_i over a full, half
@@ -117,18 +114,19 @@ LMP_API lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void
  * analytic fit of Wyman, Sloan and Shirley 2013) under an equal-energy illuminant, adapted so that
  * a flat spectrum is gray. lmp_brdf_eval divides the file's f_r cos theta_o by its cosine; tables
  * take the viewer as the file's first direction. */
-LMP_API lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, size_t size,
+LMP_API lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
                                      lmp_parse_error *fault, lmp_brdf **brdf);
 
 /* Writers: any BRDF sampled into a file's form. MERL: the value at each cell's center, 90 x 90 x
  * 180 (an anisotropic BRDF loses its anisotropy). RGL: RGB, resolution in docs/formats.md.
  *
- * *data receives *size bytes from the allocator; release them through it (free() if NULL) */
+ * *data receives *size bytes allocated by the host; release them through it (free() if NULL).
+ * *data is NULL on failure */
 #define LMP_MERL_SIZE 34992012u
-LMP_API lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *allocator,
-                                       void **data, size_t *size);
-LMP_API lmp_result lmp_brdf_write_rgl(const lmp_brdf *brdf, const lmp_allocator *allocator,
-                                      void **data, size_t *size);
+LMP_API lmp_result lmp_brdf_write_merl(const lmp_host *host, const lmp_brdf *brdf, void **data,
+                                       size_t *size);
+LMP_API lmp_result lmp_brdf_write_rgl(const lmp_host *host, const lmp_brdf *brdf, void **data,
+                                      size_t *size);
 
 /* --- tables ------------------------------------------------------------------------------------
  */
@@ -151,10 +149,6 @@ typedef struct lmp_brdf_table_desc {
     float tolerance; /* the change, relative to a view's largest coefficient, that ends the doubling
                         of nodes; 1e-4 */
     int rings_max;   /* the most rings to double to, 16 … 2048; what the BRDF resolves, or 512 */
-    lmp_parallel parallel;                     /* NULL: this thread alone. The allocator must then
-                                                  serve several threads */
-    void (*progress)(void *user, double done); /* 0 … 1; may be NULL; called by one thread */
-    void *user;                                /* of both hooks */
 } lmp_brdf_table_desc;
 #define LMP_BRDF_BANDS_DEFAULT    10
 #define LMP_BRDF_VIEWS_DEFAULT    64
@@ -163,8 +157,8 @@ typedef struct lmp_brdf_table_desc {
 typedef struct lmp_brdf_table lmp_brdf_table;
 
 /* desc NULL: zero-initialized. The paper windows its 10 bands by LMP_WINDOW_HANNING. */
-LMP_API lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf *brdf,
-                                         const lmp_brdf_table_desc *desc, lmp_brdf_table **table);
+LMP_API lmp_result lmp_brdf_table_create(const lmp_host *host, const lmp_brdf_table_desc *desc,
+                                         const lmp_brdf *brdf, lmp_brdf_table **table);
 LMP_API void lmp_brdf_table_destroy(lmp_brdf_table *table);
 
 /* What a table is. View v has theta_o = v theta_step, the last half a step before the horizon;
@@ -203,8 +197,8 @@ LMP_API void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int az
  * LMP_SH_COUNT(bands) values.
  *
  * rings Gauss-Legendre rings of 2*rings azimuths; wo.z > 0 */
-LMP_API lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf,
-                                    lmp_vec3 wo, int bands, int rings, float *rgb);
+LMP_API lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings,
+                                    const lmp_brdf *brdf, lmp_vec3 wo, float *rgb);
 
 /* The file format .lmpt (docs/formats.md): little-endian, versioned, checksummed; the same bytes
  * from the same table on any machine.
@@ -212,8 +206,8 @@ LMP_API lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_br
  * bytes receives lmp_brdf_table_size(table) bytes */
 LMP_API size_t lmp_brdf_table_size(const lmp_brdf_table *table);
 LMP_API void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes);
-LMP_API lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data,
-                                       size_t size, lmp_parse_error *fault, lmp_brdf_table **table);
+LMP_API lmp_result lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
+                                       lmp_parse_error *fault, lmp_brdf_table **table);
 
 #ifdef __cplusplus
 }

@@ -36,16 +36,13 @@ typedef struct lmp_preintegrated_lobe_desc {
      * LMP_PREINTEGRATED_LOBE_ERROR_MIN … 0.1; LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT. Above 0.05 the
      * bound may be exceeded by a tenth. Memory grows as 1/error */
     float error;
-    lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
-    void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
-    void *user;                                /* of both hooks */
 } lmp_preintegrated_lobe_desc;
 #define LMP_PREINTEGRATED_LOBE_ERROR_DEFAULT 0.005f
 #define LMP_PREINTEGRATED_LOBE_ERROR_MIN     0.002f
 
-/* allocator and desc may be NULL; *lobe is NULL on failure. LMP_ERROR_ARGUMENT: a member
+/* host and desc may be NULL; *lobe is NULL on failure. LMP_ERROR_ARGUMENT: a member
  * outside its range. Immutable: share it freely. */
-LMP_API lmp_result lmp_preintegrated_lobe_create(const lmp_allocator *allocator,
+LMP_API lmp_result lmp_preintegrated_lobe_create(const lmp_host *host,
                                                  const lmp_preintegrated_lobe_desc *desc,
                                                  lmp_preintegrated_lobe **lobe);
 LMP_API void lmp_preintegrated_lobe_destroy(lmp_preintegrated_lobe *lobe);
@@ -98,8 +95,8 @@ lmp_preintegrated_lobe_describe(const lmp_preintegrated_lobe *lobe);
  * bytes receives lmp_preintegrated_lobe_size(lobe) bytes */
 LMP_API size_t lmp_preintegrated_lobe_size(const lmp_preintegrated_lobe *lobe);
 LMP_API void lmp_preintegrated_lobe_write(const lmp_preintegrated_lobe *lobe, void *bytes);
-LMP_API lmp_result lmp_preintegrated_lobe_read(const lmp_allocator *allocator, const void *data,
-                                               size_t size, lmp_preintegrated_lobe **lobe);
+LMP_API lmp_result lmp_preintegrated_lobe_read(const lmp_host *host, const void *data, size_t size,
+                                               lmp_preintegrated_lobe **lobe);
 
 /* --- BRDFs ---------------------------------------------------------------------------------------
  * The integral of an isotropic BRDF's table over a cap depends on four numbers: the angle of the
@@ -126,23 +123,20 @@ typedef struct lmp_preintegrated_brdf_desc {
     /* As in lmp_preintegrated_lobe_desc, relative to the largest value, of any channel, over all
      * directions at that view and a, or to a twentieth of all views' */
     float error;
-    size_t bytes_max;      /* a larger one is LMP_ERROR_MEMORY; LMP_PREINTEGRATED_BRDF_BYTES_MAX */
-    lmp_parallel parallel; /* NULL: this thread alone. The allocator must serve its threads */
-    void (*progress)(void *user, double done); /* 0 … 1, from any thread; may be NULL */
-    void *user;                                /* of both hooks */
+    size_t bytes_max; /* a larger one is LMP_ERROR_MEMORY; LMP_PREINTEGRATED_BRDF_BYTES_MAX */
 } lmp_preintegrated_brdf_desc;
 #define LMP_PREINTEGRATED_BRDF_BYTES_MAX ((size_t)1 << 27)
 
-/* allocator and desc may be NULL; *brdf is NULL on failure. The table is not kept.
+/* host and desc may be NULL; *brdf is NULL on failure. The table is not kept.
  * LMP_ERROR_ARGUMENT: a member outside its range, or an anisotropic table: its azimuth of the view
- * would be a fifth number. LMP_ERROR_MEMORY: the allocator returned NULL, or it would be larger
+ * would be a fifth number. LMP_ERROR_MEMORY: no memory, or it would be larger
  * than bytes_max. Immutable: share it freely.
  *
  * Making one takes several times its memory: at 100 bands about 210 MB (steel, 59 MB made) to 290
  * (red fabric, 47), and about 12 more a thread. */
-LMP_API lmp_result lmp_preintegrated_brdf_create(const lmp_allocator *allocator,
-                                                 const lmp_brdf_table *table,
+LMP_API lmp_result lmp_preintegrated_brdf_create(const lmp_host *host,
                                                  const lmp_preintegrated_brdf_desc *desc,
+                                                 const lmp_brdf_table *table,
                                                  lmp_preintegrated_brdf **brdf);
 LMP_API void lmp_preintegrated_brdf_destroy(lmp_preintegrated_brdf *brdf);
 
@@ -194,8 +188,8 @@ lmp_preintegrated_brdf_describe(const lmp_preintegrated_brdf *brdf);
 /* As bytes, like lmp_preintegrated_lobe_write and lmp_preintegrated_lobe_read. */
 LMP_API size_t lmp_preintegrated_brdf_size(const lmp_preintegrated_brdf *brdf);
 LMP_API void lmp_preintegrated_brdf_write(const lmp_preintegrated_brdf *brdf, void *bytes);
-LMP_API lmp_result lmp_preintegrated_brdf_read(const lmp_allocator *allocator, const void *data,
-                                               size_t size, lmp_preintegrated_brdf **brdf);
+LMP_API lmp_result lmp_preintegrated_brdf_read(const lmp_host *host, const void *data, size_t size,
+                                               lmp_preintegrated_brdf **brdf);
 
 #ifdef __cplusplus
 }

@@ -162,10 +162,9 @@ LMP_API void lmp_sh_project_cubemap(int bands, const lmp_cubemap *map, float *sh
  * Γ_ijk = ∫ Y_i Y_j Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
 typedef struct lmp_sh_product lmp_sh_product;
 
-/* allocator may be NULL; *product is NULL on failure. Free with lmp_sh_product_destroy, which
+/* host may be NULL; *product is NULL on failure. Free with lmp_sh_product_destroy, which
  * accepts NULL. */
-LMP_API lmp_result lmp_sh_product_create(const lmp_allocator *allocator, int bands,
-                                         lmp_sh_product **product);
+LMP_API lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product **product);
 LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
 
 /* c = the first `bands` bands of the pointwise product of a and b, exact up to rounding.

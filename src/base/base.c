@@ -20,6 +20,8 @@ const char *lmp_result_text(lmp_result result) {
         return "unknown format version";
     case LMP_ERROR_CHECKSUM:
         return "checksum mismatch";
+    case LMP_ERROR_CANCELLED:
+        return "cancelled";
     }
     return "unknown result";
 }

@@ -3,18 +3,17 @@
 
 #include <math.h>
 
-lmp_result lmp_brdf_new(const lmp_allocator *allocator, lmp_brdf_kind kind, size_t extra,
-                        lmp_brdf **brdf) {
+lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf) {
     *brdf = NULL;
     const size_t head = (sizeof **brdf + 15) & ~(size_t)15;
     if (extra > SIZE_MAX - head)
         return LMP_ERROR_MEMORY;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    lmp_brdf *made = lmp_allocate(&heap, head + extra);
+    const lmp_host resolved = lmp_host_resolve(host);
+    lmp_brdf *made = lmp_allocate(&resolved, head + extra);
     if (!made)
         return LMP_ERROR_MEMORY;
     memset(made, 0, head + extra);
-    made->allocator = heap;
+    made->host = resolved;
     made->info.kind = kind;
     made->info.bytes = head + extra;
     *brdf = made;
@@ -24,8 +23,8 @@ lmp_result lmp_brdf_new(const lmp_allocator *allocator, lmp_brdf_kind kind, size
 void lmp_brdf_destroy(lmp_brdf *brdf) {
     if (!brdf)
         return;
-    const lmp_allocator heap = brdf->allocator;
-    lmp_release(&heap, brdf);
+    const lmp_host host = brdf->host;
+    lmp_release(&host, brdf);
 }
 
 lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf) {

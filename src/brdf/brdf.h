@@ -5,8 +5,8 @@
 
 #include <lampion/brdf.h>
 
-#include "src/base/allocator.h"
 #include "src/base/bytes.h"
+#include "src/base/host.h"
 
 #include <stdarg.h>
 
@@ -47,7 +47,7 @@ typedef struct brdf_rgl {
 } brdf_rgl;
 
 struct lmp_brdf {
-    lmp_allocator allocator;
+    lmp_host host;
     lmp_brdf_info info;
     int rings_per_band; /* of a table by default, at least, where info.rings limits them */
     /* f_r of unit vectors above the surface; b is where a cosine was folded in by the file */
@@ -66,8 +66,7 @@ struct lmp_brdf {
 };
 
 /* One block for the object and `extra` bytes behind it, zeroed, aligned for any type. */
-lmp_result lmp_brdf_new(const lmp_allocator *allocator, lmp_brdf_kind kind, size_t extra,
-                        lmp_brdf **brdf);
+lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf);
 static inline void *lmp_brdf_extra(lmp_brdf *brdf) {
     return (unsigned char *)brdf + ((sizeof *brdf + 15) & ~(size_t)15);
 }

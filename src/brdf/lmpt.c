@@ -81,7 +81,7 @@ static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_
     return result;
 }
 
-lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data, size_t size,
+lmp_result lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
                                lmp_parse_error *fault, lmp_brdf_table **table) {
     *table = NULL;
     const unsigned char *bytes = data;
@@ -101,7 +101,7 @@ lmp_result lmp_brdf_table_read(const lmp_allocator *allocator, const void *data,
     if (lmp_bytes_check_end(bytes, size) != LMP_OK)
         return lmp_brdf_fail(fault, LMP_ERROR_CHECKSUM, size - LMP_BYTES_CHECKSUM,
                              "checksum mismatch: the file is damaged");
-    result = lmp_brdf_table_new(allocator, &info, table);
+    result = lmp_brdf_table_new(host, &info, table);
     if (result != LMP_OK)
         return lmp_brdf_fail(fault, result, 0, "no memory for the table");
     for (size_t i = 0; i < float_count(&info); i++) {

@@ -102,7 +102,7 @@ static lmp_result check_header(const unsigned char *bytes, size_t size, int shap
     return LMP_OK;
 }
 
-lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, size_t size,
+lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
                               lmp_parse_error *fault, lmp_brdf **brdf) {
     *brdf = NULL;
     const unsigned char *bytes = data;
@@ -112,7 +112,7 @@ lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, 
     if (result != LMP_OK)
         return result;
     lmp_brdf *made = NULL;
-    result = lmp_brdf_new(allocator, LMP_BRDF_MERL, 3 * cells * sizeof(float), &made);
+    result = lmp_brdf_new(host, LMP_BRDF_MERL, 3 * cells * sizeof(float), &made);
     if (result != LMP_OK)
         return lmp_brdf_fail(fault, result, 0, "no memory for %zu MERL cells", cells);
     float *samples = lmp_brdf_extra(made);
@@ -139,26 +139,46 @@ lmp_result lmp_brdf_read_merl(const lmp_allocator *allocator, const void *data, 
     return LMP_OK;
 }
 
-lmp_result lmp_brdf_write_merl(const lmp_brdf *brdf, const lmp_allocator *allocator, void **data,
+typedef struct writing {
+    const lmp_brdf *brdf;
+    unsigned char *bytes;
+} writing;
+
+/* All cells of one theta_h. */
+static lmp_result write_theta_h(size_t index, void *data) {
+    const writing *job = data;
+    const size_t cells = (LMP_MERL_SIZE - HEADER) / 24;
+    size_t n = index * (size_t)full_shape[1] * (size_t)full_shape[2];
+    for (int j = 0; j < full_shape[1]; j++)
+        for (int k = 0; k < full_shape[2]; k++, n++) {
+            double a[3], b[3], rgb[3] = { -1, -1, -1 };
+            if (cell_center(full_shape, (int)index, j, k, a, b))
+                lmp_brdf_eval_double(job->brdf, a, b, rgb);
+            for (size_t c = 0; c < 3; c++)
+                lmp_bytes_store_f64(job->bytes + HEADER + 8 * (c * cells + n),
+                                    rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
+        }
+    return LMP_OK;
+}
+
+lmp_result lmp_brdf_write_merl(const lmp_host *host, const lmp_brdf *brdf, void **data,
                                size_t *size) {
     *size = LMP_MERL_SIZE;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    unsigned char *bytes = *data = lmp_allocate(&heap, *size);
-    if (!bytes)
+    const lmp_host resolved = lmp_host_resolve(host);
+    writing job = { brdf, lmp_allocate(&resolved, LMP_MERL_SIZE) };
+    *data = NULL;
+    *size = 0;
+    if (!job.bytes)
         return LMP_ERROR_MEMORY;
-    const size_t cells = (LMP_MERL_SIZE - HEADER) / 24;
     for (int axis = 0; axis < 3; axis++)
-        lmp_bytes_store_u32(bytes + 4 * axis, (uint32_t)full_shape[axis]);
-    size_t n = 0;
-    for (int i = 0; i < full_shape[0]; i++)
-        for (int j = 0; j < full_shape[1]; j++)
-            for (int k = 0; k < full_shape[2]; k++, n++) {
-                double a[3], b[3], rgb[3] = { -1, -1, -1 };
-                if (cell_center(full_shape, i, j, k, a, b))
-                    lmp_brdf_eval_double(brdf, a, b, rgb);
-                for (size_t c = 0; c < 3; c++)
-                    lmp_bytes_store_f64(bytes + HEADER + 8 * (c * cells + n),
-                                        rgb[0] < 0 ? -1 : rgb[c] / scale[c]);
-            }
+        lmp_bytes_store_u32(job.bytes + 4 * axis, (uint32_t)full_shape[axis]);
+    const lmp_result result =
+        lmp_host_run(&resolved, 0, 1, (size_t)full_shape[0], write_theta_h, &job);
+    if (result != LMP_OK) {
+        lmp_release(&resolved, job.bytes);
+        return result;
+    }
+    *data = job.bytes;
+    *size = LMP_MERL_SIZE;
     return LMP_OK;
 }

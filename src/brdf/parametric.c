@@ -29,13 +29,12 @@ static void eval_lambert(const lmp_brdf *brdf, const double a[3], const double b
         rgb[c] = brdf->lambert[c] / BRDF_PI;
 }
 
-lmp_result lmp_brdf_create_lambert(const lmp_allocator *allocator, lmp_rgb albedo,
-                                   lmp_brdf **brdf) {
+lmp_result lmp_brdf_create_lambert(const lmp_host *host, lmp_rgb albedo, lmp_brdf **brdf) {
     *brdf = NULL;
     double color[3];
     if (!take_color(albedo, color))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_LAMBERT, 0, brdf);
+    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_LAMBERT, 0, brdf);
     if (result != LMP_OK)
         return result;
     memcpy((*brdf)->lambert, color, sizeof color);
@@ -55,13 +54,13 @@ static void eval_phong(const lmp_brdf *brdf, const double a[3], const double b[3
         rgb[c] = brdf->phong.reflectance[c] * lobe;
 }
 
-lmp_result lmp_brdf_create_phong(const lmp_allocator *allocator, lmp_rgb reflectance,
-                                 float exponent, lmp_brdf **brdf) {
+lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectance, float exponent,
+                                 lmp_brdf **brdf) {
     *brdf = NULL;
     brdf_phong phong = { .exponent = (double)exponent };
     if (!take_color(reflectance, phong.reflectance) || !all_within(&phong.exponent, 1, 0, 1e6))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_PHONG, 0, brdf);
+    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_PHONG, 0, brdf);
     if (result != LMP_OK)
         return result;
     (*brdf)->phong = phong;
@@ -93,8 +92,7 @@ static void eval_ggx(const lmp_brdf *brdf, const double a[3], const double b[3],
     }
 }
 
-lmp_result lmp_brdf_create_ggx(const lmp_allocator *allocator, const lmp_ggx *ggx,
-                               lmp_brdf **brdf) {
+lmp_result lmp_brdf_create_ggx(const lmp_host *host, const lmp_ggx *ggx, lmp_brdf **brdf) {
     *brdf = NULL;
     brdf_ggx own = { .alpha_x = (double)ggx->alpha_x, .alpha_y = (double)ggx->alpha_y };
     if (ggx->alpha_y == 0)
@@ -103,7 +101,7 @@ lmp_result lmp_brdf_create_ggx(const lmp_allocator *allocator, const lmp_ggx *gg
         !take_color(ggx->f0, own.f0) || !take_color(ggx->diffuse, own.diffuse) ||
         !all_within(own.f0, 3, 0, 1))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_GGX, 0, brdf);
+    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_GGX, 0, brdf);
     if (result != LMP_OK)
         return result;
     (*brdf)->ggx = own;

@@ -25,10 +25,10 @@ static void legendre_ring(int bands, double z, double *row) {
     }
 }
 
-lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int rings,
+lmp_result lmp_brdf_quadrature_create(const lmp_host *host, int bands, int rings,
                                       brdf_quadrature *quadrature) {
     const size_t n = (size_t)bands, k = (size_t)rings, half = brdf_half_count(bands);
-    double *block = lmp_allocate(heap, (6 * k + 4 * k * n + k * half) * sizeof *block);
+    double *block = lmp_allocate(host, (6 * k + 4 * k * n + k * half) * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     *quadrature = (brdf_quadrature) { .bands = bands,
@@ -62,8 +62,8 @@ lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int 
     return LMP_OK;
 }
 
-void lmp_brdf_quadrature_destroy(const lmp_allocator *heap, brdf_quadrature *quadrature) {
-    lmp_release(heap, quadrature->block);
+void lmp_brdf_quadrature_destroy(const lmp_host *host, brdf_quadrature *quadrature) {
+    lmp_release(host, quadrature->block);
     quadrature->block = NULL;
 }
 

@@ -25,10 +25,10 @@ static inline size_t brdf_half_index(int bands, int l, int m) {
     return (size_t)(m * bands - m * (m - 1) / 2 + l - m);
 }
 
-/* heap must be resolved. */
-lmp_result lmp_brdf_quadrature_create(const lmp_allocator *heap, int bands, int rings,
+/* host must be resolved. */
+lmp_result lmp_brdf_quadrature_create(const lmp_host *host, int bands, int rings,
                                       brdf_quadrature *quadrature);
-void lmp_brdf_quadrature_destroy(const lmp_allocator *heap, brdf_quadrature *quadrature);
+void lmp_brdf_quadrature_destroy(const lmp_host *host, brdf_quadrature *quadrature);
 
 /* How a view is projected. */
 typedef struct brdf_projection {

@@ -321,17 +321,17 @@ static bool add_spectra(const rgl_file *file, size_t slices, size_t plane, const
     return true;
 }
 
-static lmp_result convert_spectra(const rgl_file *file, const lmp_allocator *heap, size_t slices,
+static lmp_result convert_spectra(const rgl_file *file, const lmp_host *host, size_t slices,
                                   size_t plane, float *rgb) {
     const size_t count = file->fields[FIELD_WAVELENGTHS].count;
-    double *weights = lmp_allocate(heap, count * (3 * sizeof(double) + sizeof(float)));
+    double *weights = lmp_allocate(host, count * (3 * sizeof(double) + sizeof(float)));
     if (!weights)
         return LMP_ERROR_MEMORY;
     float *nm = (float *)(weights + 3 * count);
     const bool good =
         copy_floats(file, FIELD_WAVELENGTHS, 1, nm) && is_ascending(file, FIELD_WAVELENGTHS, nm) &&
         spectral_weights(file, nm, weights) && add_spectra(file, slices, plane, weights, rgb);
-    lmp_release(heap, weights);
+    lmp_release(host, weights);
     return good ? LMP_OK : LMP_ERROR_FORMAT;
 }
 
@@ -377,7 +377,7 @@ static size_t lay_out(const rgl_file *file, brdf_rgl *rgl, float *base) {
     return total;
 }
 
-static lmp_result fill(const rgl_file *file, const lmp_allocator *heap, lmp_brdf *brdf) {
+static lmp_result fill(const rgl_file *file, const lmp_host *host, lmp_brdf *brdf) {
     brdf_rgl *rgl = &brdf->rgl;
     float *base = lmp_brdf_extra(brdf);
     lay_out(file, rgl, base);
@@ -397,13 +397,13 @@ static lmp_result fill(const rgl_file *file, const lmp_allocator *heap, lmp_brdf
     rgl->jacobian = file->bytes[file->fields[FIELD_JACOBIAN].offset] != 0;
     brdf->info.spectral = !file->fields[FIELD_RGB].present;
     if (brdf->info.spectral)
-        return convert_spectra(file, heap, thetas * phis,
+        return convert_spectra(file, host, thetas * phis,
                                (size_t)rgl->rgb_width * (size_t)rgl->rgb_height, rgl->rgb);
     /* negative samples occur in the database; evaluation clamps, as its authors' code does */
     return copy_floats(file, FIELD_RGB, -1e30f, rgl->rgb) ? LMP_OK : LMP_ERROR_FORMAT;
 }
 
-lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, size_t size,
+lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
                              lmp_parse_error *fault, lmp_brdf **brdf) {
     *brdf = NULL;
     rgl_file file = { .bytes = data, .size = size, .fault = fault };
@@ -411,13 +411,13 @@ lmp_result lmp_brdf_read_rgl(const lmp_allocator *allocator, const void *data, s
         return size > 13 && memcmp(data, RGL_MAGIC, RGL_MAGIC_SIZE) == 0 && file.bytes[12] != 1
                    ? LMP_ERROR_VERSION
                    : LMP_ERROR_FORMAT;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     brdf_rgl shape = { 0 };
     lmp_brdf *made = NULL;
     lmp_result result =
-        lmp_brdf_new(&heap, LMP_BRDF_RGL, lay_out(&file, &shape, NULL) * sizeof(float), &made);
+        lmp_brdf_new(&resolved, LMP_BRDF_RGL, lay_out(&file, &shape, NULL) * sizeof(float), &made);
     if (result == LMP_OK)
-        result = fill(&file, &heap, made);
+        result = fill(&file, &resolved, made);
     if (result == LMP_ERROR_MEMORY)
         lmp_brdf_fail(fault, result, 0, "no memory for the samples");
     if (result != LMP_OK) {

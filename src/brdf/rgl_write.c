@@ -28,7 +28,7 @@
 typedef struct writer {
     const lmp_brdf *brdf;
     brdf_rgl rgl; /* the file being made, as its reader will see it */
-    float *phi, *theta, *ndf, *sigma;
+    float *phi, *theta, *ndf, *sigma, *luminance;
 } writer;
 
 static double luminance(const double rgb[3]) {
@@ -173,13 +173,23 @@ static void fill_slice(const writer *w, double theta, double phi, float *out) {
     }
 }
 
-static void fill_samples(const writer *w) {
-    const brdf_rgl *rgl = &w->rgl;
-    const size_t plane = (size_t)rgl->rgb_width * (size_t)rgl->rgb_height;
-    for (int p = 0; p < rgl->phi_count; p++)
-        for (int t = 0; t < rgl->theta_count; t++)
-            fill_slice(w, (double)w->theta[t], (double)w->phi[p],
-                       rgl->rgb + 3 * (size_t)(p * rgl->theta_count + t) * plane);
+static lmp_result fill_slice_task(size_t index, void *data) {
+    const writer *w = data;
+    const size_t thetas = (size_t)w->rgl.theta_count;
+    const size_t plane = (size_t)w->rgl.rgb_width * (size_t)w->rgl.rgb_height;
+    fill_slice(w, (double)w->theta[index % thetas], (double)w->phi[index / thetas],
+               w->rgl.rgb + 3 * index * plane);
+    return LMP_OK;
+}
+
+static void fill_luminances(const writer *w) {
+    const brdf_rgl *r = &w->rgl;
+    const size_t plane = (size_t)r->rgb_width * (size_t)r->rgb_height;
+    const size_t slices = (size_t)r->phi_count * (size_t)r->theta_count;
+    for (size_t i = 0; i < slices * plane; i++) {
+        const float *rgb = r->rgb + i / plane * 3 * plane + i % plane;
+        w->luminance[i] = fmaxf(0, (rgb[0] + rgb[plane] + rgb[2 * plane]) / 3);
+    }
 }
 
 /* --- the file ----------------------------------------------------------------------------------
@@ -241,8 +251,7 @@ static void write_fields(const out_field *fields, size_t count, unsigned char *b
     }
 }
 
-static lmp_result write_file(const writer *w, const float *luminances, const lmp_allocator *heap,
-                             void **data, size_t *size) {
+static lmp_result write_file(const writer *w, const lmp_host *host, void **data, size_t *size) {
     static const char description[] = "resampled by lampion";
     static const unsigned char jacobian = 1;
     const brdf_rgl *r = &w->rgl;
@@ -257,14 +266,14 @@ static lmp_result write_file(const writer *w, const float *luminances, const lmp
         { "ndf", RGL_F32, 2, { (size_t)r->ndf.height, (size_t)r->ndf.width }, w->ndf },
         { "sigma", RGL_F32, 2, { (size_t)r->sigma.height, (size_t)r->sigma.width }, w->sigma },
         { "vndf", RGL_F32, 4, { phis, thetas, vh, vw }, r->density },
-        { "luminance", RGL_F32, 4, { phis, thetas, side, side }, luminances },
+        { "luminance", RGL_F32, 4, { phis, thetas, side, side }, w->luminance },
         { "rgb", RGL_F32, 5, { phis, thetas, 3, side, side }, r->rgb },
     };
     const size_t count = sizeof fields / sizeof *fields;
     *size = directory_size(fields, count);
     for (size_t i = 0; i < count; i++)
         *size += out_bytes(&fields[i]);
-    *data = lmp_allocate(heap, *size);
+    *data = lmp_allocate(host, *size);
     if (!*data)
         return LMP_ERROR_MEMORY;
     write_fields(fields, count, *data);
@@ -294,8 +303,8 @@ static size_t lay_out(writer *w, float *base) {
     const size_t slices = (size_t)r->phi_count * (size_t)r->theta_count;
     const size_t plane = (size_t)r->vndf_width * (size_t)r->vndf_height;
     const size_t samples = (size_t)r->rgb_width * (size_t)r->rgb_height;
-    float **const parts[] = { &w->theta,   &w->phi,         &w->ndf,      &w->sigma,
-                              &r->density, &r->conditional, &r->marginal, &r->rgb };
+    float **const parts[] = { &w->theta,       &w->phi,      &w->ndf, &w->sigma,    &r->density,
+                              &r->conditional, &r->marginal, &r->rgb, &w->luminance };
     const size_t sizes[] = { (size_t)r->theta_count,
                              (size_t)r->phi_count,
                              (size_t)r->ndf.width * (size_t)r->ndf.height,
@@ -303,9 +312,10 @@ static size_t lay_out(writer *w, float *base) {
                              slices * plane,
                              slices * plane,
                              slices * (size_t)r->vndf_height,
-                             slices * samples * 3 };
+                             slices * samples * 3,
+                             slices * samples };
     size_t total = 0;
-    for (size_t i = 0; i < 8; i++) {
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         if (base)
             *parts[i] = base + total;
         total += sizes[i];
@@ -314,18 +324,18 @@ static size_t lay_out(writer *w, float *base) {
     r->phi = w->phi;
     r->ndf.values = w->ndf;
     r->sigma.values = w->sigma;
-    return total + slices * samples;
+    return total;
 }
 
-lmp_result lmp_brdf_write_rgl(const lmp_brdf *brdf, const lmp_allocator *allocator, void **data,
+lmp_result lmp_brdf_write_rgl(const lmp_host *host, const lmp_brdf *brdf, void **data,
                               size_t *size) {
     *data = NULL;
     *size = 0;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     writer w = { .brdf = brdf };
     set_shape(&w);
     const size_t floats = lay_out(&w, NULL);
-    float *block = lmp_allocate(&heap, floats * sizeof *block);
+    float *block = lmp_allocate(&resolved, floats * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
     lay_out(&w, block);
@@ -334,15 +344,12 @@ lmp_result lmp_brdf_write_rgl(const lmp_brdf *brdf, const lmp_allocator *allocat
     fill_sigma(&w);
     fill_densities(&w);
     lmp_rgl_accumulate(&w.rgl);
-    fill_samples(&w);
-    const size_t plane = (size_t)w.rgl.rgb_width * (size_t)w.rgl.rgb_height;
     const size_t slices = (size_t)w.rgl.phi_count * (size_t)w.rgl.theta_count;
-    float *luminances = block + floats - slices * plane;
-    for (size_t i = 0; i < slices * plane; i++) {
-        const float *rgb = w.rgl.rgb + i / plane * 3 * plane + i % plane;
-        luminances[i] = fmaxf(0, (rgb[0] + rgb[plane] + rgb[2 * plane]) / 3);
+    lmp_result result = lmp_host_run(&resolved, 0, 1, slices, fill_slice_task, &w);
+    if (result == LMP_OK) {
+        fill_luminances(&w);
+        result = write_file(&w, &resolved, data, size);
     }
-    const lmp_result result = write_file(&w, luminances, &heap, data, size);
-    lmp_release(&heap, block);
+    lmp_release(&resolved, block);
     return result;
 }

@@ -55,12 +55,11 @@ static bool is_sound(const lmp_sgd *sgd) {
     return true;
 }
 
-lmp_result lmp_brdf_create_sgd(const lmp_allocator *allocator, const lmp_sgd *sgd,
-                               lmp_brdf **brdf) {
+lmp_result lmp_brdf_create_sgd(const lmp_host *host, const lmp_sgd *sgd, lmp_brdf **brdf) {
     *brdf = NULL;
     if (!is_sound(sgd))
         return LMP_ERROR_ARGUMENT;
-    const lmp_result result = lmp_brdf_new(allocator, LMP_BRDF_SGD, 0, brdf);
+    const lmp_result result = lmp_brdf_new(host, LMP_BRDF_SGD, 0, brdf);
     if (result != LMP_OK)
         return result;
     (*brdf)->sgd = *sgd;

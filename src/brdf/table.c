@@ -2,8 +2,6 @@
 #include "src/brdf/table.h"
 #include "src/brdf/quadrature.h"
 
-#include "src/base/parallel.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -12,17 +10,17 @@
 #define RINGS_DEFAULT     512
 #define RINGS_MAX         2048
 
-lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_table_info *info,
+lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
                               lmp_brdf_table **table) {
     *table = NULL;
     const size_t count = info->mirrored ? brdf_half_count(info->bands) : LMP_SH_COUNT(info->bands);
     const size_t head = (sizeof **table + 15) & ~(size_t)15;
     const size_t floats = 3 * count * (size_t)info->views * (size_t)info->azimuths;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    lmp_brdf_table *made = lmp_allocate(&heap, head + floats * sizeof(float));
+    const lmp_host resolved = lmp_host_resolve(host);
+    lmp_brdf_table *made = lmp_allocate(&resolved, head + floats * sizeof(float));
     if (!made)
         return LMP_ERROR_MEMORY;
-    made->allocator = heap;
+    made->host = resolved;
     made->info = *info;
     made->info.count = count;
     made->info.theta_step = (float)(BRDF_PI / 2 / (info->views - 0.5));
@@ -34,8 +32,8 @@ lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_tab
 void lmp_brdf_table_destroy(lmp_brdf_table *table) {
     if (!table)
         return;
-    const lmp_allocator heap = table->allocator;
-    lmp_release(&heap, table);
+    const lmp_host host = table->host;
+    lmp_release(&host, table);
 }
 
 lmp_brdf_table_info lmp_brdf_table_describe(const lmp_brdf_table *table) {
@@ -56,8 +54,6 @@ typedef struct table_job {
     const brdf_quadrature *quadrature;
     float tolerance;
     float *change; /* [azimuth][view]: at the last doubling; INFINITY before the first */
-    bool *failed;  /* [azimuth][view]: out of memory */
-    size_t first, end;
 } table_job;
 
 /* Writes a view's coefficients in the order of the table; returns the relative change. */
@@ -78,19 +74,16 @@ static float store_view(const lmp_brdf_table_info *info, const double *cosine, c
     return largest > 0 ? (float)(change / largest) : 0;
 }
 
-static void make_view(size_t task, void *data) {
+static lmp_result make_view(size_t index, void *data) {
     const table_job *job = data;
-    const size_t index = job->first + task;
     lmp_brdf_table *table = job->table;
     const lmp_brdf_table_info *info = &table->info;
     if (job->change[index] <= job->tolerance)
-        return;
+        return LMP_OK;
     const size_t half = brdf_half_count(info->bands);
-    double *parts = lmp_allocate(&table->allocator, 6 * half * sizeof *parts);
-    if (!parts) {
-        job->failed[index] = true;
-        return;
-    }
+    double *parts = lmp_allocate(&table->host, 6 * half * sizeof *parts);
+    if (!parts)
+        return LMP_ERROR_MEMORY;
     const double theta = (double)info->theta_step * (double)(index % (size_t)info->views);
     const double phi = 2 * BRDF_PI * (double)(index / (size_t)info->views) / (double)info->azimuths;
     const brdf_projection projection = {
@@ -103,19 +96,8 @@ static void make_view(size_t task, void *data) {
     const float change =
         store_view(info, parts, parts + 3 * half, table->coefficients + index * 3 * info->count);
     job->change[index] = isinf(job->change[index]) ? 1e30f : change;
-    lmp_release(&table->allocator, parts);
-}
-
-/* Runs the tasks in portions, so that progress comes from this thread alone. */
-static void run_portions(table_job *job, const lmp_brdf_table_desc *desc, double from, double to) {
-    const size_t total = (size_t)job->table->info.views * (size_t)job->table->info.azimuths;
-    const size_t portion = desc->progress ? 32 : total;
-    for (job->first = 0; job->first < total; job->first = job->end) {
-        job->end = job->first + portion < total ? job->first + portion : total;
-        lmp_parallel_run(desc->parallel, desc->user, job->end - job->first, make_view, job);
-        if (desc->progress)
-            desc->progress(desc->user, from + (to - from) * (double)job->end / (double)total);
-    }
+    lmp_release(&table->host, parts);
+    return LMP_OK;
 }
 
 static float largest_change(const table_job *job, size_t total) {
@@ -126,7 +108,7 @@ static float largest_change(const table_job *job, size_t total) {
 }
 
 /* Doubles the nodes until no view changes by more than the tolerance. */
-static lmp_result refine(table_job *job, const lmp_brdf_table_desc *desc, int rings_max) {
+static lmp_result refine(table_job *job, int rings_max) {
     lmp_brdf_table_info *info = &job->table->info;
     const size_t total = (size_t)info->views * (size_t)info->azimuths;
     int rings = 32;
@@ -135,22 +117,21 @@ static lmp_result refine(table_job *job, const lmp_brdf_table_desc *desc, int ri
     rings = rings < rings_max / 2 ? rings : rings_max / 2;
     for (;;) {
         brdf_quadrature quadrature;
-        const lmp_result result =
-            lmp_brdf_quadrature_create(&job->table->allocator, info->bands, rings, &quadrature);
+        lmp_result result =
+            lmp_brdf_quadrature_create(&job->table->host, info->bands, rings, &quadrature);
         if (result != LMP_OK)
             return result;
         job->quadrature = &quadrature;
         /* each doubling costs four times the one before: a quarter of what is left */
-        const double share = (double)rings / rings_max;
-        run_portions(job, desc, share * share / 4, share * share);
-        lmp_brdf_quadrature_destroy(&job->table->allocator, &quadrature);
-        for (size_t i = 0; i < total; i++)
-            if (job->failed[i])
-                return LMP_ERROR_MEMORY;
+        const double done = (double)rings * rings / ((double)rings_max * rings_max);
+        result = lmp_host_run(&job->table->host, done / 4, done, total, make_view, job);
+        lmp_brdf_quadrature_destroy(&job->table->host, &quadrature);
+        if (result != LMP_OK)
+            return result;
         info->rings = rings;
         info->change = largest_change(job, total);
         if (info->change <= job->tolerance || rings >= rings_max)
-            return LMP_OK;
+            return lmp_host_report(&job->table->host, 1);
         rings = 2 * rings < rings_max ? 2 * rings : rings_max;
     }
 }
@@ -230,8 +211,8 @@ static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
            desc->window_size >= 0 && isfinite(desc->window_size);
 }
 
-lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf *brdf,
-                                 const lmp_brdf_table_desc *desc, lmp_brdf_table **table) {
+lmp_result lmp_brdf_table_create(const lmp_host *host, const lmp_brdf_table_desc *desc,
+                                 const lmp_brdf *brdf, lmp_brdf_table **table) {
     *table = NULL;
     lmp_brdf_table_desc own = desc ? *desc : (lmp_brdf_table_desc) { 0 };
     if (!resolve(brdf, &own))
@@ -245,20 +226,17 @@ lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf 
         .window_size = own.window_size > 0 ? own.window_size : (float)own.bands,
     };
     lmp_brdf_table *made = NULL;
-    lmp_result result = lmp_brdf_table_new(allocator, &info, &made);
+    lmp_result result = lmp_brdf_table_new(host, &info, &made);
     if (result != LMP_OK)
         return result;
     const size_t total = (size_t)own.views * (size_t)own.azimuths;
     table_job job = { .brdf = brdf, .table = made, .tolerance = own.tolerance };
-    job.change = lmp_allocate(&made->allocator, total * (sizeof(float) + sizeof(bool)));
+    job.change = lmp_allocate(&made->host, total * sizeof *job.change);
     if (job.change) {
-        job.failed = (bool *)(job.change + total);
-        for (size_t i = 0; i < total; i++) {
+        for (size_t i = 0; i < total; i++)
             job.change[i] = INFINITY;
-            job.failed[i] = false;
-        }
-        result = refine(&job, &own, own.rings_max);
-        lmp_release(&made->allocator, job.change);
+        result = refine(&job, own.rings_max);
+        lmp_release(&made->host, job.change);
     } else
         result = LMP_ERROR_MEMORY;
     if (result != LMP_OK) {
@@ -270,19 +248,19 @@ lmp_result lmp_brdf_table_create(const lmp_allocator *allocator, const lmp_brdf 
     return LMP_OK;
 }
 
-lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf, lmp_vec3 wo,
-                            int bands, int rings, float *rgb) {
+lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings, const lmp_brdf *brdf,
+                            lmp_vec3 wo, float *rgb) {
     if (!within(bands, 1, LMP_BANDS_MAX) || !within(rings, 1, RINGS_MAX) || !(wo.z > 0))
         return LMP_ERROR_ARGUMENT;
     const double x = (double)wo.x, y = (double)wo.y, z = (double)wo.z;
     const double length = sqrt(x * x + y * y + z * z);
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     const size_t half = brdf_half_count(bands);
     brdf_quadrature quadrature;
-    const lmp_result result = lmp_brdf_quadrature_create(&heap, bands, rings, &quadrature);
+    const lmp_result result = lmp_brdf_quadrature_create(&resolved, bands, rings, &quadrature);
     if (result != LMP_OK)
         return result;
-    double *parts = lmp_allocate(&heap, 6 * half * sizeof *parts);
+    double *parts = lmp_allocate(&resolved, 6 * half * sizeof *parts);
     if (parts) {
         const brdf_projection projection = {
             .brdf = brdf,
@@ -292,9 +270,9 @@ lmp_result lmp_brdf_project(const lmp_allocator *allocator, const lmp_brdf *brdf
         lmp_brdf_project_view(&projection, &quadrature, parts, parts + 3 * half);
         const lmp_brdf_table_info info = { .bands = bands, .count = LMP_SH_COUNT(bands) };
         store_view(&info, parts, parts + 3 * half, rgb);
-        lmp_release(&heap, parts);
+        lmp_release(&resolved, parts);
     }
-    lmp_brdf_quadrature_destroy(&heap, &quadrature);
+    lmp_brdf_quadrature_destroy(&resolved, &quadrature);
     return parts ? LMP_OK : LMP_ERROR_MEMORY;
 }
 

@@ -9,13 +9,13 @@
 #define BRDF_AZIMUTHS_MAX 256
 
 struct lmp_brdf_table {
-    lmp_allocator allocator;
+    lmp_host host;
     lmp_brdf_table_info info;
     float *coefficients; /* [azimuth][view][channel][count] */
 };
 
 /* A table of the shape in info (bands, views, azimuths, mirrored); sets what follows from it. */
-lmp_result lmp_brdf_table_new(const lmp_allocator *allocator, const lmp_brdf_table_info *info,
+lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
                               lmp_brdf_table **table);
 
 /* lmp_brdf_table_view of bands low … high-1: returns how many coefficients a channel has there. */

@@ -15,7 +15,7 @@
 
 /* One allocation: this, then what info points to. */
 struct lmp_preintegrated_brdf {
-    lmp_allocator allocator;
+    lmp_host host;
     lmp_preintegrated_brdf_info info;
     float view_remap[BRDF_STEPS_MAX + 1], cap_remap[BRDF_STEPS_MAX + 1];
     lmp_rgb *ambient;
@@ -25,8 +25,7 @@ struct lmp_preintegrated_brdf {
 
 /* One like `plan`, whose info gives view_count, cap_count and texel_count: remaps copied, the rest
  * not yet set. */
-lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
-                                           const lmp_preintegrated_brdf *plan,
+lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host, const lmp_preintegrated_brdf *plan,
                                            lmp_preintegrated_brdf **brdf);
 
 #endif

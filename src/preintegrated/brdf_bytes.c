@@ -3,7 +3,7 @@
  */
 #include "src/base/bytes.h"
 
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 #include "src/preintegrated/brdf.h"
 
 #define HEADER      68u
@@ -154,19 +154,19 @@ static bool read_body(const unsigned char *p, lmp_preintegrated_brdf *brdf) {
     return true;
 }
 
-lmp_result lmp_preintegrated_brdf_read(const lmp_allocator *allocator, const void *data,
-                                       size_t size, lmp_preintegrated_brdf **brdf) {
+lmp_result lmp_preintegrated_brdf_read(const lmp_host *host, const void *data, size_t size,
+                                       lmp_preintegrated_brdf **brdf) {
     *brdf = NULL;
     const lmp_result framed = lmp_bytes_check_frame(data, size, &format);
     if (framed != LMP_OK)
         return framed;
-    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     lmp_preintegrated_brdf *plan = lmp_allocate(&resolved, sizeof *plan);
     if (!plan)
         return LMP_ERROR_MEMORY;
     memset(plan, 0, sizeof *plan);
     lmp_result result = read_header(data, size, &plan->info)
-                            ? lmp_preintegrated_brdf_allocate(allocator, plan, brdf)
+                            ? lmp_preintegrated_brdf_allocate(host, plan, brdf)
                             : LMP_ERROR_FORMAT;
     lmp_release(&resolved, plan);
     if (result == LMP_OK && !read_body((const unsigned char *)data + HEADER, *brdf)) {

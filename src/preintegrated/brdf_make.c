@@ -1,24 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/preintegrated/brdf_make.h"
 
-#include "src/base/allocator.h"
-#include "src/base/parallel.h"
+#include "src/base/host.h"
 #include "src/kernels/kernels.h"
 
 #include <stdatomic.h>
 #include <string.h>
 
-/* What part of the time is over after them, for progress. */
-#define SERIES_DONE 0.1
-#define NODES_DONE  0.3
-
 /* --- the object ---------------------------------------------------------------------------------
  */
 
-lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
-                                           const lmp_preintegrated_brdf *plan,
+lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host, const lmp_preintegrated_brdf *plan,
                                            lmp_preintegrated_brdf **brdf) {
-    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     const lmp_preintegrated_brdf_info *info = &plan->info;
     *brdf = NULL;
     if (info->texel_count > BRDF_TEXELS_MAX)
@@ -33,7 +27,7 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
     if (!made)
         return LMP_ERROR_MEMORY;
     memcpy(made, plan, sizeof *made);
-    made->allocator = resolved;
+    made->host = resolved;
     made->slices = (lmp_preintegrated_brdf_slice *)(made + 1);
     made->ambient = (lmp_rgb *)(made->slices + slices);
     made->texels = (int16_t *)(made->ambient + info->view_count);
@@ -50,8 +44,8 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_allocator *allocator,
 void lmp_preintegrated_brdf_destroy(lmp_preintegrated_brdf *brdf) {
     if (!brdf)
         return;
-    const lmp_allocator resolved = brdf->allocator;
-    lmp_release(&resolved, brdf);
+    const lmp_host host = brdf->host;
+    lmp_release(&host, brdf);
 }
 
 lmp_preintegrated_brdf_info lmp_preintegrated_brdf_describe(const lmp_preintegrated_brdf *brdf) {
@@ -68,31 +62,22 @@ typedef struct making {
     int caps[BRDF_STEPS_MAX + 1], view_nodes[BRDF_STEPS_MAX + 1];
     int cap_count, view_count;
     brdf_column columns[BRDF_STEPS_MAX + 1];
-    atomic_size_t done, texels;
-    atomic_int result; /* lmp_result of the tasks */
+    atomic_size_t texels;
 } making;
-
-static void report(const lmp_preintegrated_brdf_desc *desc, double done) {
-    if (desc->progress)
-        desc->progress(desc->user, done);
-}
 
 static size_t texels_max(const lmp_preintegrated_brdf_desc *desc) {
     return desc->bytes_max / (3 * sizeof(int16_t));
 }
 
-static void slices_task(size_t index, void *data) {
+static lmp_result slices_task(size_t index, void *data) {
     making *job = data;
-    if (atomic_load(&job->result) != LMP_OK)
-        return;
-    if (lmp_preintegrated_brdf_slices(&job->views, job->caps, job->cap_count, (int)index,
-                                      job->desc->error, &job->columns[index]) != LMP_OK ||
-        atomic_fetch_add(&job->texels, job->columns[index].texel_count) +
-                job->columns[index].texel_count >
-            texels_max(job->desc))
-        atomic_store(&job->result, LMP_ERROR_MEMORY);
-    const size_t done = atomic_fetch_add(&job->done, 1) + 1;
-    report(job->desc, NODES_DONE + (1 - NODES_DONE) * (double)done / job->cap_count);
+    brdf_column *column = &job->columns[index];
+    const lmp_result result = lmp_preintegrated_brdf_slices(&job->views, job->caps, job->cap_count,
+                                                            (int)index, job->desc->error, column);
+    if (result != LMP_OK)
+        return result;
+    const size_t texels = atomic_fetch_add(&job->texels, column->texel_count) + column->texel_count;
+    return texels <= texels_max(job->desc) ? LMP_OK : LMP_ERROR_MEMORY;
 }
 
 /* The slice coordinate at every step, from the steps of the slices. */
@@ -103,8 +88,8 @@ static void fill_remap(const int *nodes, int count, float *remap) {
 }
 
 /* All columns' slices, by view, into one object. */
-static lmp_result assemble(const lmp_allocator *allocator, const making *job,
-                           lmp_preintegrated_brdf *plan, lmp_preintegrated_brdf **brdf) {
+static lmp_result assemble(const lmp_host *host, const making *job, lmp_preintegrated_brdf *plan,
+                           lmp_preintegrated_brdf **brdf) {
     const size_t caps = (size_t)job->cap_count;
     for (size_t i = 0; i < caps; i++)
         plan->info.texel_count += job->columns[i].texel_count;
@@ -117,7 +102,7 @@ static lmp_result assemble(const lmp_allocator *allocator, const making *job,
         view_steps[i] = job->series->step[job->view_nodes[i]];
     fill_remap(view_steps, job->view_count, plan->view_remap);
     fill_remap(job->caps, job->cap_count, plan->cap_remap);
-    const lmp_result result = lmp_preintegrated_brdf_allocate(allocator, plan, brdf);
+    const lmp_result result = lmp_preintegrated_brdf_allocate(host, plan, brdf);
     if (result != LMP_OK)
         return result;
     uint32_t first = 0;
@@ -136,34 +121,30 @@ static lmp_result assemble(const lmp_allocator *allocator, const making *job,
     return LMP_OK;
 }
 
-static lmp_result make_slices(const lmp_allocator *allocator, making *job,
-                              lmp_preintegrated_brdf *plan, lmp_preintegrated_brdf **brdf) {
-    lmp_parallel_run(job->desc->parallel, job->desc->user, (size_t)job->cap_count, slices_task,
-                     job);
-    lmp_result result = (lmp_result)atomic_load(&job->result);
+static lmp_result make_slices(const lmp_host *host, making *job, lmp_preintegrated_brdf *plan,
+                              lmp_preintegrated_brdf **brdf) {
+    lmp_result result = lmp_host_run(&job->series->host, BRDF_NODES_DONE, 1, (size_t)job->cap_count,
+                                     slices_task, job);
     if (result == LMP_OK)
-        result = assemble(allocator, job, plan, brdf);
+        result = assemble(host, job, plan, brdf);
     for (int i = 0; i < job->cap_count; i++)
         lmp_preintegrated_brdf_column_free(job->series, &job->columns[i]);
     return result;
 }
 
-static lmp_result make(const lmp_allocator *allocator, making *job, lmp_preintegrated_brdf *plan,
+static lmp_result make(const lmp_host *host, making *job, lmp_preintegrated_brdf *plan,
                        lmp_preintegrated_brdf **brdf) {
-    report(job->desc, SERIES_DONE);
     lmp_result result =
-        lmp_preintegrated_brdf_caps(job->series, job->desc, job->caps, &job->cap_count);
-    report(job->desc, (SERIES_DONE + NODES_DONE) / 2);
+        lmp_preintegrated_brdf_caps(job->series, job->desc->error, job->caps, &job->cap_count);
     if (result == LMP_OK)
-        result = lmp_preintegrated_brdf_view_nodes(job->series, job->desc, job->view_nodes,
+        result = lmp_preintegrated_brdf_view_nodes(job->series, job->desc->error, job->view_nodes,
                                                    &job->view_count);
-    report(job->desc, NODES_DONE);
     if (result == LMP_OK)
         result = lmp_preintegrated_brdf_views(job->series, job->view_nodes, (size_t)job->view_count,
                                               0, &job->views);
     if (result != LMP_OK)
         return result;
-    result = make_slices(allocator, job, plan, brdf);
+    result = make_slices(host, job, plan, brdf);
     lmp_preintegrated_brdf_views_free(&job->views);
     return result;
 }
@@ -177,7 +158,7 @@ static bool resolve_desc(const lmp_brdf_table *table, lmp_preintegrated_brdf_des
 }
 
 /* All that follows the series. */
-static lmp_result make_from_series(const lmp_allocator *allocator, const lmp_brdf_table_info *table,
+static lmp_result make_from_series(const lmp_host *host, const lmp_brdf_table_info *table,
                                    const lmp_preintegrated_brdf_desc *desc, brdf_series *series,
                                    making *job, lmp_preintegrated_brdf *plan,
                                    lmp_preintegrated_brdf **brdf) {
@@ -198,12 +179,12 @@ static lmp_result make_from_series(const lmp_allocator *allocator, const lmp_brd
                                                  .reach = series->reach,
                                                  .slope = series->slope,
                                                  .lobe_angle = series->lobe_angle };
-    return make(allocator, job, plan, brdf);
+    return make(host, job, plan, brdf);
 }
 
-lmp_result lmp_preintegrated_brdf_create(const lmp_allocator *allocator,
-                                         const lmp_brdf_table *table,
+lmp_result lmp_preintegrated_brdf_create(const lmp_host *host,
                                          const lmp_preintegrated_brdf_desc *desc,
+                                         const lmp_brdf_table *table,
                                          lmp_preintegrated_brdf **brdf) {
     *brdf = NULL;
     lmp_preintegrated_brdf_desc own = { 0 };
@@ -211,16 +192,16 @@ lmp_result lmp_preintegrated_brdf_create(const lmp_allocator *allocator,
         own = *desc;
     if (!resolve_desc(table, &own))
         return LMP_ERROR_ARGUMENT;
-    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     brdf_series *series = lmp_allocate(&resolved, sizeof *series);
     making *job = lmp_allocate(&resolved, sizeof *job);
     lmp_preintegrated_brdf *plan = lmp_allocate(&resolved, sizeof *plan);
     lmp_result result = series && job && plan
-                            ? lmp_preintegrated_brdf_series(allocator, table, &own, series)
+                            ? lmp_preintegrated_brdf_series(&resolved, own.error, table, series)
                             : LMP_ERROR_MEMORY;
     if (result == LMP_OK) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
-        result = make_from_series(allocator, &info, &own, series, job, plan, brdf);
+        result = make_from_series(host, &info, &own, series, job, plan, brdf);
         lmp_preintegrated_brdf_series_free(series);
     }
     lmp_release(&resolved, plan);

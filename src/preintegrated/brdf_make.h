@@ -64,11 +64,9 @@ static inline float brdf_larger(float a, float b) {
  */
 
 /* The steps of the half angle, and of the view, to hold, and their number. */
-lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series,
-                                       const lmp_preintegrated_brdf_desc *desc, int *nodes,
+lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series, float error, int *nodes,
                                        int *count);
-lmp_result lmp_preintegrated_brdf_view_nodes(const brdf_series *series,
-                                             const lmp_preintegrated_brdf_desc *desc, int *nodes,
+lmp_result lmp_preintegrated_brdf_view_nodes(const brdf_series *series, float error, int *nodes,
                                              int *count);
 
 /* One half angle's slices, of all views: texels in its own memory. */

@@ -3,10 +3,8 @@
  * between which its values are linear, to a part of the error. */
 #include "src/preintegrated/brdf_make.h"
 
-#include "src/base/allocator.h"
-#include "src/base/parallel.h"
+#include "src/base/host.h"
 
-#include <stdatomic.h>
 #include <string.h>
 
 /* Measured as those of brdf_make.h: two probes or eight intervals err more (rms 0.034 % for 0.031
@@ -31,10 +29,9 @@ typedef struct probes {
     brdf_views views;
     float peaks[BRDF_STEPS_MAX + 1][PROBES]; /* largest values, at least the floor */
     bool by_cap;                             /* steps are half angles */
-    atomic_int result;                       /* lmp_result of the tasks */
 } probes;
 
-/* --- gathering ---------------------------------------------------------------------------------
+/* --- probing -----------------------------------------------------------------------------------
  */
 
 static float *values_at(const probes *p, size_t node, size_t probe) {
@@ -42,16 +39,14 @@ static float *values_at(const probes *p, size_t node, size_t probe) {
 }
 
 /* One half angle: of a node with all probes, or of a probe with all nodes. */
-static void probe_task(size_t index, void *data) {
+static lmp_result probe_task(size_t index, void *data) {
     probes *p = data;
     float *values[BRDF_STEPS_MAX + 1];
     const double angle = p->task_angle[index],
                  rim = lmp_preintegrated_brdf_rim_of(p->series, angle);
-    double *g = lmp_allocate(&p->series->allocator, p->rows * sizeof *g);
-    if (!g) {
-        atomic_store(&p->result, LMP_ERROR_MEMORY);
-        return;
-    }
+    double *g = lmp_allocate(&p->series->host, p->rows * sizeof *g);
+    if (!g)
+        return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < p->rows; i++)
         g[i] = p->x[i] + rim;
     for (size_t v = 0; v < p->views.count; v++) {
@@ -59,12 +54,12 @@ static void probe_task(size_t index, void *data) {
         values[v] = values_at(p, node, probe);
         p->rim[node][probe] = rim;
     }
-    if (lmp_preintegrated_brdf_sum(&p->views, angle, g, p->rows, values) != LMP_OK)
-        atomic_store(&p->result, LMP_ERROR_MEMORY);
-    lmp_release(&p->series->allocator, g);
+    const lmp_result result = lmp_preintegrated_brdf_sum(&p->views, angle, g, p->rows, values);
+    lmp_release(&p->series->host, g);
+    return result;
 }
 
-static lmp_result gather(probes *p, const lmp_preintegrated_brdf_desc *desc, size_t tasks) {
+static lmp_result sum_probes(probes *p, double from, double to, size_t tasks) {
     const brdf_series *series = p->series;
     const double first =
         floor(lmp_preintegrated_brdf_row_of(series, -LMP_PREINTEGRATED_PI / 2) / STEP);
@@ -72,15 +67,14 @@ static lmp_result gather(probes *p, const lmp_preintegrated_brdf_desc *desc, siz
     p->rows = (size_t)(last - first) + 1;
     p->columns = (size_t)p->views.columns[0];
     p->size = 3 * p->rows * p->columns;
-    p->x = lmp_allocate(&series->allocator, p->rows * sizeof *p->x);
-    p->values = lmp_allocate(&series->allocator,
-                             ((size_t)p->last + 1) * PROBES * p->size * sizeof *p->values);
+    p->x = lmp_allocate(&series->host, p->rows * sizeof *p->x);
+    p->values =
+        lmp_allocate(&series->host, ((size_t)p->last + 1) * PROBES * p->size * sizeof *p->values);
     if (!p->x || !p->values)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < p->rows; i++)
         p->x[i] = lmp_preintegrated_brdf_x_of(series, STEP * (first + (double)i));
-    lmp_parallel_run(desc->parallel, desc->user, tasks, probe_task, p);
-    return (lmp_result)atomic_load(&p->result);
+    return lmp_host_run(&series->host, from, to, tasks, probe_task, p);
 }
 
 /* --- choosing ----------------------------------------------------------------------------------
@@ -159,15 +153,15 @@ static int choose(probes *p, float error, int *nodes) {
 }
 
 static void release(probes *p) {
-    lmp_release(&p->series->allocator, p->x);
-    lmp_release(&p->series->allocator, p->values);
+    lmp_release(&p->series->host, p->x);
+    lmp_release(&p->series->host, p->values);
     if (p->views.coefficients)
         lmp_preintegrated_brdf_views_free(&p->views);
-    lmp_release(&p->series->allocator, p);
+    lmp_release(&p->series->host, p);
 }
 
 static probes *create(const brdf_series *series, int last, bool by_cap) {
-    probes *p = lmp_allocate(&series->allocator, sizeof *p);
+    probes *p = lmp_allocate(&series->host, sizeof *p);
     if (p)
         memset(p, 0, sizeof *p);
     if (p) {
@@ -184,8 +178,7 @@ static int probe_columns(const brdf_series *series) {
     return series->mirrored ? COLUMNS + 1 : 2 * COLUMNS;
 }
 
-lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series,
-                                       const lmp_preintegrated_brdf_desc *desc, int *nodes,
+lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series, float error, int *nodes,
                                        int *count) {
     probes *p = create(series, BRDF_CAP_STEPS, true);
     if (!p)
@@ -201,15 +194,14 @@ lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series,
     lmp_result result =
         lmp_preintegrated_brdf_views(series, views, PROBES, probe_columns(series), &p->views);
     if (result == LMP_OK)
-        result = gather(p, desc, (size_t)p->last + 1);
+        result = sum_probes(p, BRDF_SERIES_DONE, BRDF_CAPS_DONE, (size_t)p->last + 1);
     if (result == LMP_OK)
-        *count = choose(p, desc->error, nodes);
+        *count = choose(p, error, nodes);
     release(p);
     return result;
 }
 
-lmp_result lmp_preintegrated_brdf_view_nodes(const brdf_series *series,
-                                             const lmp_preintegrated_brdf_desc *desc, int *nodes,
+lmp_result lmp_preintegrated_brdf_view_nodes(const brdf_series *series, float error, int *nodes,
                                              int *count) {
     static const int caps[PROBES] = { 0, BRDF_CAP_STEPS / 8, BRDF_CAP_STEPS / 3,
                                       BRDF_CAP_STEPS * 3 / 4 };
@@ -224,9 +216,9 @@ lmp_result lmp_preintegrated_brdf_view_nodes(const brdf_series *series,
     lmp_result result = lmp_preintegrated_brdf_views(series, all, (size_t)series->view_count,
                                                      probe_columns(series), &p->views);
     if (result == LMP_OK)
-        result = gather(p, desc, PROBES);
+        result = sum_probes(p, BRDF_CAPS_DONE, BRDF_NODES_DONE, PROBES);
     if (result == LMP_OK)
-        *count = choose(p, desc->error, nodes);
+        *count = choose(p, error, nodes);
     release(p);
     return result;
 }

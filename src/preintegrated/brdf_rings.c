@@ -5,7 +5,7 @@
  * then the orders are summed at every azimuth. */
 #include "src/preintegrated/brdf_series.h"
 
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 #include "src/light/cap.h"
 
 #include <stdlib.h>
@@ -34,7 +34,7 @@ lmp_result lmp_preintegrated_brdf_views(const brdf_series *series, const int *vi
     const size_t values = LMP_SH_COUNT(series->bands);
     *views = (brdf_views) { .series = series, .count = count };
     views->coefficients =
-        lmp_allocate(&series->allocator, values * count * 3 * sizeof *views->coefficients);
+        lmp_allocate(&series->host, values * count * 3 * sizeof *views->coefficients);
     if (!views->coefficients)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < count; i++) {
@@ -49,7 +49,7 @@ lmp_result lmp_preintegrated_brdf_views(const brdf_series *series, const int *vi
 }
 
 void lmp_preintegrated_brdf_views_free(brdf_views *views) {
-    lmp_release(&views->series->allocator, views->coefficients);
+    lmp_release(&views->series->host, views->coefficients);
     views->coefficients = NULL;
 }
 
@@ -193,7 +193,7 @@ lmp_result lmp_preintegrated_brdf_sum(const brdf_views *views, double angle, con
     const size_t terms_all = (size_t)(series->mirrored ? r.orders : 2 * r.orders - 1);
     const size_t basis = ROWS * LMP_SH_COUNT(series->bands);
     const size_t sums = terms_all * ROWS * 3 * views->count, waves = terms_all * 2 * COLUMNS_MAX;
-    r.basis = lmp_allocate(&series->allocator, (basis + sums + waves) * sizeof *r.basis);
+    r.basis = lmp_allocate(&series->host, (basis + sums + waves) * sizeof *r.basis);
     if (!r.basis)
         return LMP_ERROR_MEMORY;
     r.sums = r.basis + basis;
@@ -208,6 +208,6 @@ lmp_result lmp_preintegrated_brdf_sum(const brdf_views *views, double angle, con
         r.rows = rows - row < ROWS ? rows - row : ROWS;
         sum_rows(&r, g, row, rows, values);
     }
-    lmp_release(&series->allocator, r.basis);
+    lmp_release(&series->host, r.basis);
     return LMP_OK;
 }

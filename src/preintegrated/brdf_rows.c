@@ -3,7 +3,7 @@
  * choice of how fast rows thin out far from the rim of the cap. */
 #include "src/preintegrated/brdf_make.h"
 
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 
 double lmp_preintegrated_brdf_row_of(const brdf_series *series, double x) {
     const double reach = (double)series->reach;
@@ -60,9 +60,8 @@ static lmp_result probe_create(const brdf_views *views, double angle, row_probe 
     const size_t rows = 2 * (size_t)(ceil(high) - floor(low)) + 1;
     const size_t columns = (size_t)views->columns[0], size = 3 * rows * columns;
     *probe = (row_probe) { .rows = rows, .columns = columns };
-    probe->g = lmp_allocate(&series->allocator, rows * sizeof *probe->g);
-    probe->memory =
-        lmp_allocate(&series->allocator, (views->count + 1) * size * sizeof *probe->memory);
+    probe->g = lmp_allocate(&series->host, rows * sizeof *probe->g);
+    probe->memory = lmp_allocate(&series->host, (views->count + 1) * size * sizeof *probe->memory);
     if (!probe->g || !probe->memory)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < rows; i++)
@@ -87,8 +86,8 @@ static lmp_result check_rows(const brdf_views *views, double angle, float error,
         const float limit = (float)BRDF_TOLERANCE * error * lmp_preintegrated_brdf_largest(&at);
         *hold = lmp_preintegrated_brdf_rows_hold(&at, 2, limit);
     }
-    lmp_release(&views->series->allocator, probe.g);
-    lmp_release(&views->series->allocator, probe.memory);
+    lmp_release(&views->series->host, probe.g);
+    lmp_release(&views->series->host, probe.memory);
     return result;
 }
 

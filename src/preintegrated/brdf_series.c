@@ -4,10 +4,7 @@
  */
 #include "src/preintegrated/brdf_series.h"
 
-#include "src/base/allocator.h"
-#include "src/base/parallel.h"
-
-#include <stdatomic.h>
+#include "src/base/host.h"
 
 #define TAIL_BANDS       0.06 /* of the error: what the bands left out may reach */
 #define TAIL_ORDERS      0.12 /* the same of orders: 0.5 errs by 0.64 % at steel, not by 0.32 */
@@ -37,9 +34,9 @@ typedef struct samples {
     float *basis; /* [sample][bands²] */
 } samples;
 
-static lmp_result samples_create(const lmp_allocator *allocator, int bands, samples *made) {
+static lmp_result samples_create(const lmp_host *host, int bands, samples *made) {
     *made = (samples) { .bands = bands, .count = (size_t)(2 * bands + SAMPLES_MIN) };
-    made->basis = lmp_allocate(allocator, made->count * LMP_SH_COUNT(bands) * sizeof *made->basis);
+    made->basis = lmp_allocate(host, made->count * LMP_SH_COUNT(bands) * sizeof *made->basis);
     if (!made->basis)
         return LMP_ERROR_MEMORY;
     for (size_t i = 0; i < made->count; i++) {
@@ -54,12 +51,11 @@ static lmp_result samples_create(const lmp_allocator *allocator, int bands, samp
 typedef struct rotation {
     const lmp_brdf_table *table;
     brdf_series *series;
-    const lmp_preintegrated_brdf_desc *desc;
+    float error;
     samples samples;
     float floor; /* peaks count as at least that */
     float peaks[BRDF_STEPS_MAX + 1];
     int bands[BRDF_STEPS_MAX + 1]; /* that matter */
-    atomic_int result;             /* lmp_result of the tasks */
 } rotation;
 
 /* The first `bands` bands of a view of the table, rotated: [channel][bands²]. */
@@ -69,9 +65,8 @@ static lmp_result rotate(const rotation *job, int step, int bands, float *rotate
     const size_t count = LMP_SH_COUNT(bands);
     const double theta = LMP_PREINTEGRATED_PI / 2 * step / series->steps;
     const lmp_quat to_mirror = { 0, (float)sin(theta / 2), 0, (float)cos(theta / 2) };
-    float *memory =
-        lmp_allocate(&series->allocator,
-                     (3 * info.count + count + LMP_SH_ROTATION_COUNT(bands)) * sizeof *memory);
+    float *memory = lmp_allocate(
+        &series->host, (3 * info.count + count + LMP_SH_ROTATION_COUNT(bands)) * sizeof *memory);
     if (!memory)
         return LMP_ERROR_MEMORY;
     float *planes = memory, *sh = planes + 3 * info.count, *matrices = sh + count;
@@ -81,7 +76,7 @@ static lmp_result rotate(const rotation *job, int step, int bands, float *rotate
         expand(&info, planes + c * info.count, bands, sh);
         lmp_sh_rotate(bands, matrices, sh, rotated + c * count);
     }
-    lmp_release(&series->allocator, memory);
+    lmp_release(&series->host, memory);
     return LMP_OK;
 }
 
@@ -116,35 +111,35 @@ static void tails(const rotation *job, const float *rotated, float *peaks) {
 }
 
 /* How many bands of one view matter. */
-static void truncate_view(size_t index, void *data) {
+static lmp_result truncate_view(size_t index, void *data) {
     rotation *job = data;
     const int bands = job->samples.bands, step = (int)index * job->series->steps / TRUNCATION_VIEWS;
     float peaks[LMP_BANDS_MAX];
-    float *rotated =
-        lmp_allocate(&job->series->allocator, 3 * LMP_SH_COUNT(bands) * sizeof *rotated);
-    if (!rotated || rotate(job, step, bands, rotated) != LMP_OK) {
-        atomic_store(&job->result, LMP_ERROR_MEMORY);
-    } else {
+    float *rotated = lmp_allocate(&job->series->host, 3 * LMP_SH_COUNT(bands) * sizeof *rotated);
+    const lmp_result result = rotated ? rotate(job, step, bands, rotated) : LMP_ERROR_MEMORY;
+    if (result == LMP_OK) {
         tails(job, rotated, peaks);
         job->peaks[index] = peaks[0];
         job->bands[index] = 1;
         for (int l = 1; l < bands; l++)
-            if (!(peaks[l] <= (float)TAIL_BANDS * job->desc->error * peaks[0]))
+            if (!(peaks[l] <= (float)TAIL_BANDS * job->error * peaks[0]))
                 job->bands[index] = l + 1;
     }
-    lmp_release(&job->series->allocator, rotated);
+    lmp_release(&job->series->host, rotated);
+    return result;
 }
 
 static lmp_result truncate_bands(rotation *job) {
     const size_t views = TRUNCATION_VIEWS + 1;
-    lmp_parallel_run(job->desc->parallel, job->desc->user, views, truncate_view, job);
+    const lmp_result result =
+        lmp_host_run(&job->series->host, 0, BRDF_TRUNCATION_DONE, views, truncate_view, job);
     job->series->bands = 1;
     for (size_t i = 0; i < views; i++) {
         if (job->bands[i] > job->series->bands)
             job->series->bands = job->bands[i];
         job->floor = fmaxf(job->floor, (float)LMP_PREINTEGRATED_BRDF_FLOOR * job->peaks[i]);
     }
-    return (lmp_result)atomic_load(&job->result);
+    return result;
 }
 
 /* What each order of a channel gives at a sample; no sines where the table is mirrored. */
@@ -178,7 +173,7 @@ static int count_orders(const rotation *job, const float *rotated, float *peak) 
             }
             *peak = fmaxf(*peak, fmaxf(fabsf(even + odd), fabsf(even - odd)));
         }
-    const float limit = (float)TAIL_ORDERS * job->desc->error * fmaxf(*peak, job->floor);
+    const float limit = (float)TAIL_ORDERS * job->error * fmaxf(*peak, job->floor);
     float rest = 0;
     for (int m = bands - 1; m > 0; m--) {
         rest += largest[m];
@@ -188,19 +183,19 @@ static int count_orders(const rotation *job, const float *rotated, float *peak) 
     return 1;
 }
 
-static void rotate_view(size_t index, void *data) {
+static lmp_result rotate_view(size_t index, void *data) {
     rotation *job = data;
     brdf_series *series = job->series;
     const size_t count = LMP_SH_COUNT(series->bands);
     float *rotated = series->coefficients + 3 * count * index, ambient[3];
-    if (rotate(job, series->step[index], series->bands, rotated) != LMP_OK) {
-        atomic_store(&job->result, LMP_ERROR_MEMORY);
-        return;
-    }
+    const lmp_result result = rotate(job, series->step[index], series->bands, rotated);
+    if (result != LMP_OK)
+        return result;
     for (size_t c = 0; c < 3; c++)
         ambient[c] = rotated[c * count] * (float)sqrt(4 * LMP_PREINTEGRATED_PI);
     series->ambient[index] = (lmp_rgb) { ambient[0], ambient[1], ambient[2] };
     series->orders[index] = count_orders(job, rotated, &job->peaks[index]);
+    return LMP_OK;
 }
 
 /* The solid angle of a lobe as high as its peak with all that it reflects, of the narrowest. */
@@ -249,15 +244,17 @@ int lmp_preintegrated_brdf_view_at(const brdf_series *series, int part, int part
 static lmp_result rotate_all(rotation *job) {
     brdf_series *series = job->series;
     const size_t views = (size_t)series->view_count;
-    if (truncate_bands(job) != LMP_OK)
-        return LMP_ERROR_MEMORY;
-    series->coefficients = lmp_allocate(
-        &series->allocator, 3 * LMP_SH_COUNT(series->bands) * views * sizeof *series->coefficients);
+    lmp_result result = truncate_bands(job);
+    if (result != LMP_OK)
+        return result;
+    series->coefficients = lmp_allocate(&series->host, 3 * LMP_SH_COUNT(series->bands) * views *
+                                                           sizeof *series->coefficients);
     if (!series->coefficients)
         return LMP_ERROR_MEMORY;
-    lmp_parallel_run(job->desc->parallel, job->desc->user, views, rotate_view, job);
-    if (atomic_load(&job->result) != LMP_OK)
-        return LMP_ERROR_MEMORY;
+    result = lmp_host_run(&series->host, BRDF_TRUNCATION_DONE, BRDF_SERIES_DONE, views, rotate_view,
+                          job);
+    if (result != LMP_OK)
+        return result;
     for (size_t i = 1; i < views; i++)
         if (series->orders[i] < series->orders[i - 1])
             series->orders[i] = series->orders[i - 1];
@@ -267,30 +264,28 @@ static lmp_result rotate_all(rotation *job) {
     return LMP_OK;
 }
 
-lmp_result lmp_preintegrated_brdf_series(const lmp_allocator *allocator,
-                                         const lmp_brdf_table *table,
-                                         const lmp_preintegrated_brdf_desc *desc,
-                                         brdf_series *series) {
+lmp_result lmp_preintegrated_brdf_series(const lmp_host *host, float error,
+                                         const lmp_brdf_table *table, brdf_series *series) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
-    *series = (brdf_series) { .allocator = lmp_allocator_resolve(allocator),
+    *series = (brdf_series) { .host = *host,
                               .steps = count_steps(info.views),
                               .mirrored = info.mirrored };
     choose_steps(series, info.views, info.bands);
-    rotation *job = lmp_allocate(&series->allocator, sizeof *job);
+    rotation *job = lmp_allocate(&series->host, sizeof *job);
     if (!job)
         return LMP_ERROR_MEMORY;
-    *job = (rotation) { .table = table, .series = series, .desc = desc };
-    lmp_result result = samples_create(&series->allocator, info.bands, &job->samples);
+    *job = (rotation) { .table = table, .series = series, .error = error };
+    lmp_result result = samples_create(&series->host, info.bands, &job->samples);
     if (result == LMP_OK)
         result = rotate_all(job);
     if (result != LMP_OK)
         lmp_preintegrated_brdf_series_free(series);
-    lmp_release(&series->allocator, job->samples.basis);
-    lmp_release(&series->allocator, job);
+    lmp_release(&series->host, job->samples.basis);
+    lmp_release(&series->host, job);
     return result;
 }
 
 void lmp_preintegrated_brdf_series_free(brdf_series *series) {
-    lmp_release(&series->allocator, series->coefficients);
+    lmp_release(&series->host, series->coefficients);
     series->coefficients = NULL;
 }

@@ -9,7 +9,7 @@
 /* A table's coefficients at some views, each in its lobe's frame: z the mirror direction, x in the
  * plane of incidence on the side of the normal. Truncated where the rest is negligible. */
 typedef struct brdf_series {
-    lmp_allocator allocator;
+    lmp_host host;
     int bands;                    /* that matter */
     int steps;                    /* of the quarter circle */
     int view_count;               /* the table's own among them, up to 512 */
@@ -22,11 +22,15 @@ typedef struct brdf_series {
     lmp_rgb ambient[BRDF_STEPS_MAX + 1];
 } brdf_series;
 
-/* desc: with its defaults in place. */
-lmp_result lmp_preintegrated_brdf_series(const lmp_allocator *allocator,
-                                         const lmp_brdf_table *table,
-                                         const lmp_preintegrated_brdf_desc *desc,
-                                         brdf_series *series);
+/* What part of the work of making a preintegrated BRDF is done after each of its steps. */
+#define BRDF_TRUNCATION_DONE 0.03
+#define BRDF_SERIES_DONE     0.1
+#define BRDF_CAPS_DONE       0.2
+#define BRDF_NODES_DONE      0.3
+
+/* host must be resolved. */
+lmp_result lmp_preintegrated_brdf_series(const lmp_host *host, float error,
+                                         const lmp_brdf_table *table, brdf_series *series);
 void lmp_preintegrated_brdf_series_free(brdf_series *series);
 
 /* The last of the views that is not past part / parts of the quarter circle. */

@@ -3,7 +3,7 @@
  * splines keep them, then stored as the splines' coefficients. */
 #include "src/preintegrated/brdf_make.h"
 
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 #include "src/preintegrated/spline.h"
 
 #include <string.h>
@@ -141,11 +141,11 @@ lmp_result lmp_preintegrated_brdf_slices(const brdf_views *views, const int *cap
     const room need = room_for(views, range.count);
     float *values[BRDF_STEPS_MAX + 1];
     float *memory =
-        lmp_allocate(&series->allocator, (need.values + need.largest + need.line) * sizeof *memory);
-    double *g = lmp_allocate(&series->allocator, range.count * sizeof *g);
-    int16_t *texels = lmp_allocate(&series->allocator, need.texels * 3 * sizeof *texels);
+        lmp_allocate(&series->host, (need.values + need.largest + need.line) * sizeof *memory);
+    double *g = lmp_allocate(&series->host, range.count * sizeof *g);
+    int16_t *texels = lmp_allocate(&series->host, need.texels * 3 * sizeof *texels);
     *column = (brdf_column) { .texels = texels };
-    column->slices = lmp_allocate(&series->allocator, views->count * sizeof *column->slices);
+    column->slices = lmp_allocate(&series->host, views->count * sizeof *column->slices);
     lmp_result result = memory && g && texels && column->slices ? LMP_OK : LMP_ERROR_MEMORY;
     if (result == LMP_OK) {
         for (size_t i = 0; i < range.count; i++)
@@ -161,15 +161,15 @@ lmp_result lmp_preintegrated_brdf_slices(const brdf_views *views, const int *cap
     }
     if (result == LMP_OK)
         store_all(views, &range, error, values, memory, &need, column);
-    lmp_release(&series->allocator, memory);
-    lmp_release(&series->allocator, g);
+    lmp_release(&series->host, memory);
+    lmp_release(&series->host, g);
     if (result != LMP_OK)
         lmp_preintegrated_brdf_column_free(series, column);
     return result;
 }
 
 void lmp_preintegrated_brdf_column_free(const brdf_series *series, brdf_column *column) {
-    lmp_release(&series->allocator, column->slices);
-    lmp_release(&series->allocator, column->texels);
+    lmp_release(&series->host, column->slices);
+    lmp_release(&series->host, column->texels);
     *column = (brdf_column) { 0 };
 }

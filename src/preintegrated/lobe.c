@@ -1,38 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/preintegrated/lobe.h"
 
-#include "src/base/allocator.h"
-#include "src/base/parallel.h"
+#include "src/base/host.h"
 
-#include <stdatomic.h>
 #include <string.h>
 
 #define BANDS_DEFAULT 10
 
-/* What the tasks of a creation fraction. */
-typedef struct creation {
-    lmp_preintegrated_lobe *lobe;
-    const lmp_preintegrated_lobe_desc *desc;
-    atomic_uint done;
-    atomic_int result; /* lmp_result of the tasks */
-} creation;
-
-static void fill_task(size_t index, void *data) {
-    creation *job = data;
-    const size_t tasks = 2 * (size_t)job->lobe->info.cell_count;
-    if (lmp_preintegrated_lobe_fill(job->lobe, (uint32_t)(index / 2), (uint32_t)(index % 2)) !=
-        LMP_OK)
-        atomic_store(&job->result, LMP_ERROR_MEMORY);
-    const unsigned done = atomic_fetch_add(&job->done, 1) + 1;
-    if (job->desc->progress)
-        job->desc->progress(job->desc->user, (double)done / (double)tasks);
-}
-
-static lmp_result fill_all(lmp_preintegrated_lobe *lobe, const lmp_preintegrated_lobe_desc *desc) {
-    creation job = { .lobe = lobe, .desc = desc };
-    const size_t tasks = 2 * (size_t)lobe->info.cell_count;
-    lmp_parallel_run(desc->parallel, desc->user, tasks, fill_task, &job);
-    return (lmp_result)atomic_load(&job.result);
+static lmp_result fill_task(size_t index, void *data) {
+    return lmp_preintegrated_lobe_fill(data, (uint32_t)(index / 2), (uint32_t)(index % 2));
 }
 
 bool lmp_preintegrated_lobe_valid(const lmp_preintegrated_lobe_info *info) {
@@ -42,25 +18,23 @@ bool lmp_preintegrated_lobe_valid(const lmp_preintegrated_lobe_info *info) {
            info->error <= 0.1f;
 }
 
-lmp_result lmp_preintegrated_lobe_allocate(const lmp_allocator *allocator,
-                                           const lmp_preintegrated_lobe *plan,
+lmp_result lmp_preintegrated_lobe_allocate(const lmp_host *host, const lmp_preintegrated_lobe *plan,
                                            lmp_preintegrated_lobe **lobe) {
-    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     *lobe = lmp_allocate(&resolved, sizeof *plan + plan->info.pair_count * 2 * sizeof(int16_t));
     if (!*lobe)
         return LMP_ERROR_MEMORY;
     memcpy(*lobe, plan, sizeof *plan);
-    (*lobe)->allocator = resolved;
+    (*lobe)->host = resolved;
     (*lobe)->info.cells = (*lobe)->cells;
     (*lobe)->info.coefficients = (*lobe)->coefficients;
     (*lobe)->info.remap = (*lobe)->remap;
     return LMP_OK;
 }
 
-static lmp_result create_planned(const lmp_allocator *allocator,
-                                 const lmp_preintegrated_lobe_info *info,
+static lmp_result create_planned(const lmp_host *host, const lmp_preintegrated_lobe_info *info,
                                  lmp_preintegrated_lobe **lobe) {
-    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     lmp_preintegrated_lobe *plan = lmp_allocate(&resolved, sizeof *plan);
     if (!plan)
         return LMP_ERROR_MEMORY;
@@ -68,12 +42,12 @@ static lmp_result create_planned(const lmp_allocator *allocator,
     plan->info = *info;
     lmp_result result = lmp_preintegrated_lobe_plan(plan);
     if (result == LMP_OK)
-        result = lmp_preintegrated_lobe_allocate(allocator, plan, lobe);
+        result = lmp_preintegrated_lobe_allocate(host, plan, lobe);
     lmp_release(&resolved, plan);
     return result;
 }
 
-lmp_result lmp_preintegrated_lobe_create(const lmp_allocator *allocator,
+lmp_result lmp_preintegrated_lobe_create(const lmp_host *host,
                                          const lmp_preintegrated_lobe_desc *desc,
                                          lmp_preintegrated_lobe **lobe) {
     static const lmp_preintegrated_lobe_desc defaults = { 0 };
@@ -88,10 +62,11 @@ lmp_result lmp_preintegrated_lobe_create(const lmp_allocator *allocator,
     };
     if (!lmp_preintegrated_lobe_valid(&info))
         return LMP_ERROR_ARGUMENT;
-    lmp_result result = create_planned(allocator, &info, lobe);
+    lmp_result result = create_planned(host, &info, lobe);
     if (result != LMP_OK)
         return result;
-    result = fill_all(*lobe, desc);
+    const size_t slices = 2 * (size_t)(*lobe)->info.cell_count;
+    result = lmp_host_run(&(*lobe)->host, 0, 1, slices, fill_task, *lobe);
     if (result != LMP_OK) {
         lmp_preintegrated_lobe_destroy(*lobe);
         *lobe = NULL;
@@ -102,8 +77,8 @@ lmp_result lmp_preintegrated_lobe_create(const lmp_allocator *allocator,
 void lmp_preintegrated_lobe_destroy(lmp_preintegrated_lobe *lobe) {
     if (!lobe)
         return;
-    const lmp_allocator resolved = lobe->allocator;
-    lmp_release(&resolved, lobe);
+    const lmp_host host = lobe->host;
+    lmp_release(&host, lobe);
 }
 
 lmp_preintegrated_lobe_info lmp_preintegrated_lobe_describe(const lmp_preintegrated_lobe *lobe) {

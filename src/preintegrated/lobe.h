@@ -10,7 +10,7 @@
 
 /* One allocation: this, then the coefficients. */
 struct lmp_preintegrated_lobe {
-    lmp_allocator allocator;
+    lmp_host host;
     lmp_preintegrated_lobe_info info;
     float remap[LMP_PREINTEGRATED_LOBE_REMAP_COUNT];
     float exponents[LOBE_CELLS_MAX + 1]; /* of the slices */
@@ -32,8 +32,7 @@ void lmp_preintegrated_lobe_layout(lmp_preintegrated_lobe *plan);
 bool lmp_preintegrated_lobe_valid(const lmp_preintegrated_lobe_info *info);
 
 /* One like the plan, its coefficients not yet set. */
-lmp_result lmp_preintegrated_lobe_allocate(const lmp_allocator *allocator,
-                                           const lmp_preintegrated_lobe *plan,
+lmp_result lmp_preintegrated_lobe_allocate(const lmp_host *host, const lmp_preintegrated_lobe *plan,
                                            lmp_preintegrated_lobe **lobe);
 
 /* Computes slice cell + side, on the grid of `cell`, into every second coefficient of the cell.

@@ -4,7 +4,7 @@
  */
 #include "src/base/bytes.h"
 
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 #include "src/preintegrated/lobe.h"
 
 #define HEADER 32u
@@ -92,21 +92,21 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preinte
                : LMP_ERROR_FORMAT;
 }
 
-lmp_result lmp_preintegrated_lobe_read(const lmp_allocator *allocator, const void *data,
-                                       size_t size, lmp_preintegrated_lobe **lobe) {
+lmp_result lmp_preintegrated_lobe_read(const lmp_host *host, const void *data, size_t size,
+                                       lmp_preintegrated_lobe **lobe) {
     *lobe = NULL;
     const unsigned char *bytes = data;
     lmp_result result = lmp_bytes_check_frame(bytes, size, &format);
     if (result != LMP_OK)
         return result;
-    const lmp_allocator resolved = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     lmp_preintegrated_lobe *plan = lmp_allocate(&resolved, sizeof *plan);
     if (!plan)
         return LMP_ERROR_MEMORY;
     memset(plan, 0, sizeof *plan);
     result = read_plan(bytes, size, plan);
     if (result == LMP_OK)
-        result = lmp_preintegrated_lobe_allocate(allocator, plan, lobe);
+        result = lmp_preintegrated_lobe_allocate(host, plan, lobe);
     lmp_release(&resolved, plan);
     if (result != LMP_OK)
         return result;

@@ -3,7 +3,7 @@
  * at every node, then the coefficients of the cubic B-spline through the nodes. */
 #include "src/preintegrated/lobe.h"
 
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 #include "src/preintegrated/spline.h"
 
 #include <lampion/lobe.h>
@@ -108,8 +108,8 @@ lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t ce
                             1 / (double)lmp_lookup_density(cell->scale, cell->offset, exponent) };
     const size_t bands = (size_t)grid.bands;
     float *memory =
-        lmp_allocate(&lobe->allocator, sizeof(float) * (bands * grid.columns + grid.rows * bands +
-                                                        grid.rows * grid.columns));
+        lmp_allocate(&lobe->host, sizeof(float) * (bands * grid.columns + grid.rows * bands +
+                                                   grid.rows * grid.columns));
     if (!memory)
         return LMP_ERROR_MEMORY;
     grid.band = memory;
@@ -125,6 +125,6 @@ lmp_result lmp_preintegrated_lobe_fill(lmp_preintegrated_lobe *lobe, uint32_t ce
         lmp_spline_coefficients(grid.values + i * grid.columns, grid.columns, 1);
     lmp_spline_coefficients(grid.values, grid.rows, grid.columns);
     store(&grid, cell, lobe->coefficients + 2 * (size_t)cell->first + side);
-    lmp_release(&lobe->allocator, memory);
+    lmp_release(&lobe->host, memory);
     return LMP_OK;
 }

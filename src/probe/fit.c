@@ -4,13 +4,16 @@
  * The normal equations are summed and solved in double from values in float: the condition number
  * may reach 1e7 before digits of the values are lost. A sphere that is sampled at all is far from
  * that; what is not is refused. */
-#include "src/base/allocator.h"
 #include "src/base/element.h"
+#include "src/base/host.h"
 
 #include <lampion/probe.h>
 
 #include <math.h>
 #include <string.h>
+
+/* A sample costs bands⁴ / 2 multiplications, up to half a million. */
+enum { SAMPLES_A_REPORT = 64 };
 
 /* Below this part of the largest pivot a coefficient counts as undetermined. */
 static const double pivot_least = 1e-10;
@@ -82,12 +85,24 @@ static void solve(const normal_equations *equations, float *sh) {
     }
 }
 
-static lmp_result fit(normal_equations *equations, int bands, const lmp_probe_samples *samples,
-                      double smoothness, float *sh) {
+static lmp_result add_samples(const lmp_host *host, normal_equations *equations, int bands,
+                              const lmp_probe_samples *samples) {
     float basis[LMP_SH_COUNT(LMP_PROBE_FIT_BANDS_MAX)];
-    for (size_t i = 0; i < samples->count; i++)
+    lmp_result result = LMP_OK;
+    for (size_t i = 0; i < samples->count && result == LMP_OK; i++) {
+        if (i % SAMPLES_A_REPORT == 0)
+            result = lmp_host_report(host, (double)i / (double)samples->count);
         if (!add_sample(equations, bands, samples, i, basis))
             return LMP_ERROR_ARGUMENT;
+    }
+    return result;
+}
+
+static lmp_result fit(const lmp_host *host, normal_equations *equations, int bands,
+                      double smoothness, const lmp_probe_samples *samples, float *sh) {
+    const lmp_result result = add_samples(host, equations, bands, samples);
+    if (result != LMP_OK)
+        return result;
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++) {
             const double eigenvalue = (double)l * (l + 1);
@@ -97,21 +112,21 @@ static lmp_result fit(normal_equations *equations, int bands, const lmp_probe_sa
     if (!factorize(equations))
         return LMP_ERROR_ARGUMENT;
     solve(equations, sh);
-    return LMP_OK;
+    return lmp_host_report(host, 1);
 }
 
-lmp_result lmp_probe_fit(const lmp_allocator *allocator, int bands,
-                         const lmp_probe_samples *samples, float smoothness, float *sh) {
+lmp_result lmp_probe_fit(const lmp_host *host, int bands, float smoothness,
+                         const lmp_probe_samples *samples, float *sh) {
     if (bands < 1 || bands > LMP_PROBE_FIT_BANDS_MAX || !(smoothness >= 0 && isfinite(smoothness)))
         return LMP_ERROR_ARGUMENT;
-    const lmp_allocator memory = lmp_allocator_resolve(allocator);
+    const lmp_host resolved = lmp_host_resolve(host);
     const size_t count = LMP_SH_COUNT(bands), size = count * (count + 1) * sizeof(double);
-    normal_equations equations = { .count = count, .matrix = lmp_allocate(&memory, size) };
+    normal_equations equations = { .count = count, .matrix = lmp_allocate(&resolved, size) };
     if (!equations.matrix)
         return LMP_ERROR_MEMORY;
     memset(equations.matrix, 0, size);
     equations.right = equations.matrix + count * count;
-    const lmp_result result = fit(&equations, bands, samples, (double)smoothness, sh);
-    lmp_release(&memory, equations.matrix);
+    const lmp_result result = fit(&resolved, &equations, bands, (double)smoothness, samples, sh);
+    lmp_release(&resolved, equations.matrix);
     return result;
 }

@@ -2,7 +2,7 @@
 /* Products of functions. The number of non-zero Γ_ijk grows as n^5, so beyond a few bands the two
  * functions are evaluated on a grid that integrates three harmonics exactly, multiplied there, and
  * projected back: O(n^3), azimuth and height apart. */
-#include "src/base/allocator.h"
+#include "src/base/host.h"
 #include "src/sh/quadrature.h"
 
 #include <lampion/sh.h>
@@ -24,7 +24,7 @@ typedef struct triple {
 } triple;
 
 struct lmp_sh_product {
-    lmp_allocator heap;
+    lmp_host host;
     int bands;
     /* the table */
     size_t triple_count;
@@ -76,10 +76,10 @@ static lmp_result create_grid(lmp_sh_product *product) {
     const size_t columns = (size_t)product->heights * triangle(bands);
     const size_t waves = (size_t)product->azimuths * (size_t)bands;
     const size_t total = (size_t)product->heights + columns + 2 * waves;
-    product->weights = lmp_allocate(&product->heap, total * sizeof(float));
-    double *column = lmp_allocate(&product->heap, triangle(bands) * sizeof(double));
+    product->weights = lmp_allocate(&product->host, total * sizeof(float));
+    double *column = lmp_allocate(&product->host, triangle(bands) * sizeof(double));
     if (!product->weights || !column) {
-        lmp_release(&product->heap, column);
+        lmp_release(&product->host, column);
         return LMP_ERROR_MEMORY;
     }
     product->columns = product->weights + product->heights;
@@ -100,7 +100,7 @@ static lmp_result create_grid(lmp_sh_product *product) {
             product->sines[j * bands + m] = (float)sin(phi);
         }
     }
-    lmp_release(&product->heap, column);
+    lmp_release(&product->host, column);
     return LMP_OK;
 }
 
@@ -195,7 +195,7 @@ static int is_zero(double gamma) {
 static lmp_result create_table(lmp_sh_product *product) {
     const int count = product->bands * product->bands;
     const size_t size = sizeof(double) * TABLE_COUNT * TABLE_COUNT * TABLE_COUNT;
-    double(*gamma)[TABLE_COUNT][TABLE_COUNT] = lmp_allocate(&product->heap, size);
+    double(*gamma)[TABLE_COUNT][TABLE_COUNT] = lmp_allocate(&product->host, size);
     if (!gamma)
         return LMP_ERROR_MEMORY;
     memset(gamma, 0, size);
@@ -205,14 +205,14 @@ static lmp_result create_table(lmp_sh_product *product) {
             for (int k = 0; k < count; k++)
                 product->triple_count += !is_zero(gamma[i][j][k]);
     product->triples =
-        lmp_allocate(&product->heap, product->triple_count * sizeof *product->triples);
+        lmp_allocate(&product->host, product->triple_count * sizeof *product->triples);
     triple *next = product->triples;
     for (int i = 0; next && i < count; i++)
         for (int j = i; j < count; j++)
             for (int k = 0; k < count; k++)
                 if (!is_zero(gamma[i][j][k]))
                     *next++ = (triple) { i, j, k, (float)gamma[i][j][k] };
-    lmp_release(&product->heap, gamma);
+    lmp_release(&product->host, gamma);
     return product->triples ? LMP_OK : LMP_ERROR_MEMORY;
 }
 
@@ -228,16 +228,15 @@ static void multiply_by_table(const lmp_sh_product *product, const float *a, con
 
 /* --- the object ------------------------------------------------------------------------------- */
 
-lmp_result lmp_sh_product_create(const lmp_allocator *allocator, int bands,
-                                 lmp_sh_product **product) {
+lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product **product) {
     *product = NULL;
     if (bands < 1 || bands > LMP_BANDS_MAX)
         return LMP_ERROR_ARGUMENT;
-    const lmp_allocator heap = lmp_allocator_resolve(allocator);
-    lmp_sh_product *created = lmp_allocate(&heap, sizeof *created);
+    const lmp_host resolved = lmp_host_resolve(host);
+    lmp_sh_product *created = lmp_allocate(&resolved, sizeof *created);
     if (!created)
         return LMP_ERROR_MEMORY;
-    *created = (lmp_sh_product) { .heap = heap, .bands = bands };
+    *created = (lmp_sh_product) { .host = resolved, .bands = bands };
     const lmp_result result = bands <= TABLE_BANDS ? create_table(created) : create_grid(created);
     if (result != LMP_OK) {
         lmp_sh_product_destroy(created);
@@ -250,10 +249,10 @@ lmp_result lmp_sh_product_create(const lmp_allocator *allocator, int bands,
 void lmp_sh_product_destroy(lmp_sh_product *product) {
     if (!product)
         return;
-    const lmp_allocator heap = product->heap;
-    lmp_release(&heap, product->triples);
-    lmp_release(&heap, product->weights);
-    lmp_release(&heap, product);
+    const lmp_host host = product->host;
+    lmp_release(&host, product->triples);
+    lmp_release(&host, product->weights);
+    lmp_release(&host, product);
 }
 
 void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b, float *c) {

@@ -149,9 +149,9 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
                                            .rings_max = 64 };
         assert_int_equal(lmp_sgd_find(names[i], &sgd), LMP_OK);
         assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
-        assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &tables[i]), LMP_OK);
+        assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &tables[i]), LMP_OK);
         lmp_brdf_destroy(brdf);
-        assert_int_equal(lmp_preintegrated_brdf_create(NULL, tables[i], NULL, &responses[i]),
+        assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, tables[i], &responses[i]),
                          LMP_OK);
     }
     int uses[8] = { -1, 1, 0 };

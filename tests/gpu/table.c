@@ -13,7 +13,7 @@ static lmp_brdf_table *table_of(lmp_result made, lmp_brdf *brdf) {
         .bands = BANDS, .views = 32, .azimuths = 16, .window = LMP_WINDOW_HANNING, .rings_max = 128
     };
     assert_int_equal(made, LMP_OK);
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     lmp_brdf_destroy(brdf);
     return table;
 }

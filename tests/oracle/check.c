@@ -174,22 +174,46 @@ void check_csv_numbers(const check_csv *csv, int row, int column, int count, dou
         values[i] = check_csv_number(csv, row, column + i);
 }
 
-/* --- memory ----------------------------------------------------------------------------------- */
+/* --- a host ----------------------------------------------------------------------------------- */
 
-static void *heap_allocate(size_t size, void *user) {
-    check_heap *heap = user;
-    if (heap->requests++ == heap->refuse)
+static void *host_allocate(size_t size, void *user) {
+    check_hooks *hooks = user;
+    if (hooks->requests++ == hooks->refuse)
         return NULL;
-    heap->live++;
+    hooks->live++;
     return malloc(size);
 }
 
-static void heap_release(void *memory, void *user) {
-    check_heap *heap = user;
-    heap->live -= memory != NULL;
+static void host_release(void *memory, void *user) {
+    check_hooks *hooks = user;
+    hooks->live -= memory != NULL;
     free(memory);
 }
 
-lmp_allocator check_allocator(check_heap *heap) {
-    return (lmp_allocator) { heap_allocate, heap_release, heap };
+static void host_parallel(size_t count, void (*task)(size_t index, void *data), void *data,
+                          void *user) {
+    check_hooks *hooks = user;
+    hooks->tasks += count;
+    for (size_t i = count; i-- > 0;)
+        task(i, data);
+}
+
+static void host_progress(double done, void *user) {
+    check_hooks *hooks = user;
+    assert_true(done >= hooks->done && done <= 1);
+    hooks->done = done;
+}
+
+static bool host_cancelled(void *user) {
+    check_hooks *hooks = user;
+    return ++hooks->questions == hooks->cancel;
+}
+
+lmp_host check_host(check_hooks *hooks) {
+    return (lmp_host) { .allocate = host_allocate,
+                        .release = host_release,
+                        .parallel = host_parallel,
+                        .progress = host_progress,
+                        .cancelled = host_cancelled,
+                        .user = hooks };
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* check.h - what the tests share: bounds that a NaN fails, seeded random numbers, vector files, an
- * allocator that fails on demand. */
+ * host that fails on demand. */
 #ifndef LAMPION_CHECK_H
 #define LAMPION_CHECK_H
 
@@ -57,12 +57,16 @@ double check_csv_number(const check_csv *csv, int row, int column);
 /* `count` numbers of a row from `column` on. */
 void check_csv_numbers(const check_csv *csv, int row, int column, int count, double *values);
 
-/* --- memory -----------------------------------------------------------------------------------
- * An allocator that counts what is live, and refuses request number `refuse` (from 0; < 0: none).
- */
-typedef struct check_heap {
+/* --- a host -----------------------------------------------------------------------------------
+ * Its hooks count what is live, refuse request number `refuse` for memory (from 0; < 0: none),
+ * cancel at question number `cancel` (from 1; 0: never), run tasks backwards, and end the test if
+ * progress falls. */
+typedef struct check_hooks {
     int refuse, requests, live;
-} check_heap;
-lmp_allocator check_allocator(check_heap *heap);
+    int cancel, questions;
+    size_t tasks; /* of all runs */
+    double done;  /* the last progress */
+} check_hooks;
+lmp_host check_host(check_hooks *hooks);
 
 #endif

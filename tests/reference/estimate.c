@@ -348,7 +348,7 @@ static void tables_reflect_as_the_library_shades_them(void **state) {
     lmp_brdf *brdf = NULL;
     lmp_brdf_table *table = NULL;
     assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     for (int i = 0; i < 6; i++) {
         const reference_vec view = unit(0.4 * i - 1, 1, 0.3 * i);
         const lmp_surface surface = { .normal = { 0, 1, 0 },

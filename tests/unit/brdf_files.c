@@ -12,8 +12,8 @@
 /* --- round trips -------------------------------------------------------------------------------
  */
 
-typedef lmp_result (*writer)(const lmp_brdf *, const lmp_allocator *, void **, size_t *);
-typedef lmp_result (*reader)(const lmp_allocator *, const void *, size_t, lmp_parse_error *,
+typedef lmp_result (*writer)(const lmp_host *, const lmp_brdf *, void **, size_t *);
+typedef lmp_result (*reader)(const lmp_host *, const void *, size_t, lmp_parse_error *,
                              lmp_brdf **);
 
 static lmp_brdf *through(const lmp_brdf *brdf, writer write, reader read) {
@@ -21,7 +21,7 @@ static lmp_brdf *through(const lmp_brdf *brdf, writer write, reader read) {
     size_t size = 0;
     lmp_brdf *copy = NULL;
     lmp_parse_error fault = { 0 };
-    assert_int_equal(write(brdf, NULL, &data, &size), LMP_OK);
+    assert_int_equal(write(NULL, brdf, &data, &size), LMP_OK);
     if (read(NULL, data, size, &fault, &copy) != LMP_OK)
         fail_msg("%s", fault.text);
     free(data);
@@ -142,11 +142,11 @@ static void small_merl(unsigned char bytes[SMALL_MERL]) {
     }
 }
 
-static lmp_result read_small_merl(const lmp_allocator *allocator) {
+static lmp_result read_small_merl(const lmp_host *host) {
     unsigned char bytes[SMALL_MERL];
     small_merl(bytes);
     lmp_brdf *brdf = NULL;
-    const lmp_result result = lmp_brdf_read_merl(allocator, bytes, sizeof bytes, NULL, &brdf);
+    const lmp_result result = lmp_brdf_read_merl(host, bytes, sizeof bytes, NULL, &brdf);
     lmp_brdf_destroy(brdf);
     return result;
 }
@@ -212,18 +212,18 @@ static void negative_merl_cells_are_black(void **state) {
 /* --- memory ------------------------------------------------------------------------------------
  */
 
-typedef lmp_result (*attempt)(const lmp_allocator *allocator);
+typedef lmp_result (*attempt)(const lmp_host *host);
 
-static lmp_result make_every_kind(const lmp_allocator *allocator) {
+static lmp_result make_every_kind(const lmp_host *host) {
     lmp_sgd parameters;
     assert_int_equal(lmp_sgd_find("gold-metallic-paint", &parameters), LMP_OK);
     const lmp_ggx desc = { .alpha_x = 0.5f };
     lmp_brdf *brdfs[4] = { NULL };
     lmp_result results[4] = {
-        lmp_brdf_create_lambert(allocator, (lmp_rgb) { 1, 1, 1 }, &brdfs[0]),
-        lmp_brdf_create_phong(allocator, (lmp_rgb) { 1, 1, 1 }, 5, &brdfs[1]),
-        lmp_brdf_create_ggx(allocator, &desc, &brdfs[2]),
-        lmp_brdf_create_sgd(allocator, &parameters, &brdfs[3]),
+        lmp_brdf_create_lambert(host, (lmp_rgb) { 1, 1, 1 }, &brdfs[0]),
+        lmp_brdf_create_phong(host, (lmp_rgb) { 1, 1, 1 }, 5, &brdfs[1]),
+        lmp_brdf_create_ggx(host, &desc, &brdfs[2]),
+        lmp_brdf_create_sgd(host, &parameters, &brdfs[3]),
     };
     lmp_result worst = LMP_OK;
     for (int i = 0; i < 4; i++) {
@@ -234,24 +234,24 @@ static lmp_result make_every_kind(const lmp_allocator *allocator) {
     return worst;
 }
 
-static lmp_result write_with(const lmp_allocator *allocator, writer write) {
+static lmp_result write_with(const lmp_host *host, writer write) {
     lmp_brdf *brdf = lambert(0.8f, 0.5f, 0.2f);
     void *data = NULL;
     size_t size = 0;
-    const lmp_result result = write(brdf, allocator, &data, &size);
+    const lmp_result result = write(host, brdf, &data, &size);
     assert_true((data == NULL) == (result != LMP_OK));
     if (data)
-        allocator->release(data, allocator->user);
+        host->release(data, host->user);
     lmp_brdf_destroy(brdf);
     return result;
 }
 
-static lmp_result write_merl(const lmp_allocator *allocator) {
-    return write_with(allocator, lmp_brdf_write_merl);
+static lmp_result write_merl(const lmp_host *host) {
+    return write_with(host, lmp_brdf_write_merl);
 }
 
-static lmp_result write_rgl(const lmp_allocator *allocator) {
-    return write_with(allocator, lmp_brdf_write_rgl);
+static lmp_result write_rgl(const lmp_host *host) {
+    return write_with(host, lmp_brdf_write_rgl);
 }
 
 static void every_failing_allocation_is_reported(void **state) {
@@ -259,10 +259,10 @@ static void every_failing_allocation_is_reported(void **state) {
     static const attempt attempts[] = { make_every_kind, read_small_merl, write_merl, write_rgl };
     for (size_t i = 0; i < sizeof attempts / sizeof *attempts; i++)
         for (int refuse = 0;; refuse++) {
-            check_heap heap = { .refuse = refuse };
-            const lmp_allocator allocator = check_allocator(&heap);
-            const lmp_result result = attempts[i](&allocator);
-            assert_int_equal(heap.live, 0);
+            check_hooks hooks = { .refuse = refuse };
+            const lmp_host host = check_host(&hooks);
+            const lmp_result result = attempts[i](&host);
+            assert_int_equal(hooks.live, 0);
             if (result == LMP_OK) {
                 assert_true(refuse > 0);
                 break;

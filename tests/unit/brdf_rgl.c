@@ -223,7 +223,7 @@ static void parts_of_a_turn_are_folded(void **state) {
     void *bytes = NULL;
     size_t size = 0;
     assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &original), LMP_OK);
-    assert_int_equal(lmp_brdf_write_rgl(original, NULL, &bytes, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_write_rgl(NULL, original, &bytes, &size), LMP_OK);
     lmp_brdf *whole = read_bytes(bytes, size);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         tensor t = taken_apart(bytes);

@@ -253,13 +253,13 @@ static void every_failing_allocation_is_reported(void **state) {
         unsigned char *bytes = bytes_of(&tensors[i], &size);
         drop(&tensors[i]);
         for (int refuse = 0;; refuse++) {
-            check_heap heap = { .refuse = refuse };
-            const lmp_allocator allocator = check_allocator(&heap);
+            check_hooks hooks = { .refuse = refuse };
+            const lmp_host host = check_host(&hooks);
             lmp_brdf *brdf = NULL;
             lmp_parse_error fault = { 0 };
-            const lmp_result result = lmp_brdf_read_rgl(&allocator, bytes, size, &fault, &brdf);
+            const lmp_result result = lmp_brdf_read_rgl(&host, bytes, size, &fault, &brdf);
             lmp_brdf_destroy(brdf);
-            assert_int_equal(heap.live, 0);
+            assert_int_equal(hooks.live, 0);
             if (result == LMP_OK) {
                 assert_int_equal(refuse, i + 1); /* the object; for spectra also their weights */
                 break;

@@ -36,7 +36,7 @@ static void lambert_matches_the_vectors(void **state) {
         float sh[300];
         check_csv_numbers(csv, row, 1, 55, expected);
         const lmp_vec3 view = view_at(check_csv_number(csv, row, 0));
-        assert_int_equal(lmp_brdf_project(NULL, brdf, view, 10, 16, sh), LMP_OK);
+        assert_int_equal(lmp_brdf_project(NULL, 10, 16, brdf, view, sh), LMP_OK);
         CHECK_WITHIN(error_of_row(sh, expected), 2e-7);
     }
     lmp_brdf_destroy(brdf);
@@ -55,7 +55,7 @@ static void phong_matches_the_vectors(void **state) {
         const double exponent = check_csv_number(csv, row, 0);
         lmp_brdf *brdf = phong((float)exponent);
         const lmp_vec3 view = view_at(check_csv_number(csv, row, 1));
-        assert_int_equal(lmp_brdf_project(NULL, brdf, view, 10, 128, sh), LMP_OK);
+        assert_int_equal(lmp_brdf_project(NULL, 10, 128, brdf, view, sh), LMP_OK);
         /* the clamp of a wide lobe is an edge that quadrature finds slowly */
         CHECK_WITHIN(error_of_row(sh, expected), exponent < 10 ? 3e-5 : 2e-6);
         lmp_brdf_destroy(brdf);
@@ -68,14 +68,14 @@ static void tables_hold_the_projection_of_each_view(void **state) {
     lmp_brdf *brdf = phong(20);
     lmp_brdf_table *table = NULL;
     const lmp_brdf_table_desc desc = { .bands = 12, .views = 7 };
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     assert_true(info.mirrored && info.azimuths == 1 && info.count == 78);
     assert_true(info.change <= 1e-4f);
     for (int view = 0; view < 7; view++) {
         float sh[3 * 144];
         const lmp_vec3 wo = view_at(view * (double)info.theta_step);
-        assert_int_equal(lmp_brdf_project(NULL, brdf, wo, 12, 256, sh), LMP_OK);
+        assert_int_equal(lmp_brdf_project(NULL, 12, 256, brdf, wo, sh), LMP_OK);
         const float *row = lmp_brdf_table_coefficients(table) + (size_t)view * 3 * info.count;
         for (int l = 0; l < 12; l++)
             for (int m = 0; m <= l; m++)
@@ -92,7 +92,7 @@ static void white_furnace_lambert_reflects_all(void **state) {
     (void)state;
     lmp_brdf *brdf = lambert(1, 1, 1);
     lmp_brdf_table *table = NULL;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, NULL, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, NULL, brdf, &table), LMP_OK);
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     assert_int_equal(info.bands, 10);
     assert_int_equal(info.window, LMP_WINDOW_NONE);
@@ -112,7 +112,7 @@ static void level_views_read_the_last_row(void **state) {
     lmp_brdf *brdf = phong(5);
     lmp_brdf_table *table = NULL;
     const lmp_brdf_table_desc desc = { .bands = 4, .views = 9 };
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     const size_t count = 3 * lmp_brdf_table_describe(table).count;
     float rgb[3 * 10];
     assert_int_equal(count, 3 * 10);
@@ -126,7 +126,7 @@ static void the_albedo_is_that_of_each_channel(void **state) {
     (void)state;
     lmp_brdf *brdf = lambert(0.9f, 0.5f, 0.2f);
     lmp_brdf_table *table = NULL;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, NULL, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, NULL, brdf, &table), LMP_OK);
     lmp_rgb measured, series;
     lmp_brdf_table_albedo(table, 3, 0, &measured, &series);
     CHECK_WITHIN(fabsf(measured.r - 0.9f), 1e-6);
@@ -145,10 +145,10 @@ static void windows_scale_the_bands(void **state) {
     lmp_brdf *brdf = phong(10);
     lmp_brdf_table *plain = NULL, *windowed = NULL;
     lmp_brdf_table_desc desc = { .bands = 8, .views = 3 };
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &plain), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &plain), LMP_OK);
     desc.window = LMP_WINDOW_LANCZOS;
     desc.window_size = 9;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &windowed), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &windowed), LMP_OK);
     float weights[8];
     lmp_sh_window(LMP_WINDOW_LANCZOS, 8, 9, weights);
     const float *a = lmp_brdf_table_coefficients(plain), *b = lmp_brdf_table_coefficients(windowed);
@@ -168,7 +168,7 @@ static double interpolation_error(const lmp_brdf *brdf, int views, int azimuths,
     const lmp_brdf_table_desc desc = {
         .bands = 10, .views = views, .azimuths = azimuths, .symmetry = LMP_BRDF_SYMMETRY_NONE
     };
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     float matrices[LMP_SH_ROTATION_COUNT(10)], sh[300], turned[300], rgb[300];
     const lmp_quat back = { 0, 0, (float)sin(-phi / 2), (float)cos(phi / 2) };
     lmp_sh_rotation(10, back, matrices);
@@ -177,7 +177,7 @@ static double interpolation_error(const lmp_brdf *brdf, int views, int azimuths,
         const double theta = 0.01 + 1.45 * n / 39;
         const lmp_vec3 wo = { (float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)),
                               (float)cos(theta) };
-        assert_int_equal(lmp_brdf_project(NULL, brdf, wo, 10, 128, sh), LMP_OK);
+        assert_int_equal(lmp_brdf_project(NULL, 10, 128, brdf, wo, sh), LMP_OK);
         for (int c = 0; c < 3; c++)
             lmp_sh_rotate(10, matrices, sh + 100 * c, turned + 100 * c);
         lmp_brdf_table_view(table, (float)cos(theta), (float)phi, rgb);
@@ -217,9 +217,9 @@ static void turned_lobes_have_rotated_coefficients(void **state) {
     assert_int_equal(lmp_brdf_create_ggx(NULL, &along, &a), LMP_OK);
     assert_int_equal(lmp_brdf_create_ggx(NULL, &across, &b), LMP_OK);
     float sh_a[300], sh_b[300], turned[100], matrices[LMP_SH_ROTATION_COUNT(10)];
-    assert_int_equal(lmp_brdf_project(NULL, a, (lmp_vec3) { 0.6f, 0, 0.8f }, 10, 128, sh_a),
+    assert_int_equal(lmp_brdf_project(NULL, 10, 128, a, (lmp_vec3) { 0.6f, 0, 0.8f }, sh_a),
                      LMP_OK);
-    assert_int_equal(lmp_brdf_project(NULL, b, (lmp_vec3) { 0, 0.6f, 0.8f }, 10, 128, sh_b),
+    assert_int_equal(lmp_brdf_project(NULL, 10, 128, b, (lmp_vec3) { 0, 0.6f, 0.8f }, sh_b),
                      LMP_OK);
     lmp_sh_rotation(10, (lmp_quat) { 0, 0, sqrtf(0.5f), sqrtf(0.5f) }, matrices);
     lmp_sh_rotate(10, matrices, sh_a, turned);
@@ -247,7 +247,7 @@ static void mirrored_tables_of_measurements_are_their_even_part(void **state) {
     lmp_brdf_table_desc desc = { .bands = BANDS, .views = VIEWS, .rings_max = 64 };
     for (int i = 0; i < 2; i++) {
         desc.symmetry = i == 0 ? LMP_BRDF_SYMMETRY_NONE : LMP_BRDF_SYMMETRY_MIRROR;
-        assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &tables[i]), LMP_OK);
+        assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &tables[i]), LMP_OK);
     }
     const float *whole = lmp_brdf_table_coefficients(tables[0]);
     const float *even = lmp_brdf_table_coefficients(tables[1]);
@@ -270,35 +270,17 @@ static void mirrored_tables_of_measurements_are_their_even_part(void **state) {
 /* --- hooks -------------------------------------------------------------------------------------
  */
 
-typedef struct hooks {
-    int calls;
-    double done;
-} hooks;
-
-static void backwards(void *user, size_t count, void (*task)(size_t, void *), void *data) {
-    ((hooks *)user)->calls++;
-    for (size_t i = count; i > 0; i--)
-        task(i - 1, data);
-}
-
-static void note_progress(void *user, double done) {
-    hooks *own = user;
-    assert_true(done >= own->done && done <= 1);
-    own->done = done;
-}
-
 static void any_order_of_tasks_makes_the_same_table(void **state) {
     (void)state;
-    hooks own = { 0 };
+    check_hooks hooks = { .refuse = -1 };
+    const lmp_host host = check_host(&hooks);
     lmp_brdf *brdf = phong(30);
     lmp_brdf_table *serial = NULL, *shuffled = NULL;
-    lmp_brdf_table_desc desc = { .bands = 6, .views = 40 };
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &serial), LMP_OK);
-    desc.parallel = backwards;
-    desc.progress = note_progress;
-    desc.user = &own;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &shuffled), LMP_OK);
-    assert_true(own.calls > 0 && own.done > 0);
+    const lmp_brdf_table_desc desc = { .bands = 6, .views = 40 };
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &serial), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(&host, &desc, brdf, &shuffled), LMP_OK);
+    assert_true(hooks.tasks > 0);
+    CHECK_WITHIN(fabs(hooks.done - 1), 0);
     assert_memory_equal(lmp_brdf_table_coefficients(serial), lmp_brdf_table_coefficients(shuffled),
                         40 * 3 * 21 * sizeof(float));
     lmp_brdf_table_destroy(serial);
@@ -311,12 +293,12 @@ static void every_failing_allocation_is_reported(void **state) {
     lmp_brdf *brdf = ggx(0.6f, 0.3f);
     const lmp_brdf_table_desc desc = { .bands = 3, .views = 2, .azimuths = 4, .rings_max = 16 };
     for (int refuse = 0;; refuse++) {
-        check_heap heap = { .refuse = refuse };
-        const lmp_allocator allocator = check_allocator(&heap);
+        check_hooks hooks = { .refuse = refuse };
+        const lmp_host host = check_host(&hooks);
         lmp_brdf_table *table = NULL;
-        const lmp_result result = lmp_brdf_table_create(&allocator, brdf, &desc, &table);
+        const lmp_result result = lmp_brdf_table_create(&host, &desc, brdf, &table);
         lmp_brdf_table_destroy(table);
-        assert_int_equal(heap.live, 0);
+        assert_int_equal(hooks.live, 0);
         if (result == LMP_OK)
             break;
         assert_int_equal(result, LMP_ERROR_MEMORY);
@@ -336,7 +318,7 @@ static void descriptions_out_of_range_are_refused(void **state) {
     };
     for (size_t i = 0; i < sizeof descs / sizeof *descs; i++) {
         lmp_brdf_table *table = NULL;
-        assert_int_equal(lmp_brdf_table_create(NULL, brdf, &descs[i], &table), LMP_ERROR_ARGUMENT);
+        assert_int_equal(lmp_brdf_table_create(NULL, &descs[i], brdf, &table), LMP_ERROR_ARGUMENT);
         assert_null(table);
     }
     lmp_brdf_destroy(brdf);
@@ -347,7 +329,7 @@ static void descriptions_out_of_range_are_refused(void **state) {
 
 static unsigned char *written(const lmp_brdf *brdf, const lmp_brdf_table_desc *desc, size_t *size) {
     lmp_brdf_table *table = NULL;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, desc, brdf, &table), LMP_OK);
     *size = lmp_brdf_table_size(table);
     unsigned char *bytes = malloc(*size);
     assert_non_null(bytes);
@@ -445,9 +427,9 @@ static void every_truncation_and_bit_of_a_table_is_noticed(void **state) {
         assert_null(table);
         bytes[bit / 8] = (unsigned char)(bytes[bit / 8] ^ 1u << bit % 8);
     }
-    check_heap heap = { .refuse = 0 };
-    const lmp_allocator allocator = check_allocator(&heap);
-    assert_int_equal(lmp_brdf_table_read(&allocator, bytes, size, NULL, &table), LMP_ERROR_MEMORY);
+    check_hooks hooks = { .refuse = 0 };
+    const lmp_host host = check_host(&hooks);
+    assert_int_equal(lmp_brdf_table_read(&host, bytes, size, NULL, &table), LMP_ERROR_MEMORY);
     assert_null(table);
     assert_int_equal(lmp_brdf_table_read(NULL, bytes, size, NULL, &table), LMP_OK);
     lmp_brdf_table_destroy(table);
@@ -460,12 +442,12 @@ static void every_failing_allocation_of_a_projection_is_reported(void **state) {
     lmp_brdf *brdf = phong(5);
     float sh[12];
     for (int refuse = 0; refuse < 3; refuse++) {
-        check_heap heap = { .refuse = refuse };
-        const lmp_allocator allocator = check_allocator(&heap);
+        check_hooks hooks = { .refuse = refuse };
+        const lmp_host host = check_host(&hooks);
         const lmp_vec3 up = { 0, 0, 1 };
-        assert_int_equal(lmp_brdf_project(&allocator, brdf, up, 2, 16, sh),
+        assert_int_equal(lmp_brdf_project(&host, 2, 16, brdf, up, sh),
                          refuse < 2 ? LMP_ERROR_MEMORY : LMP_OK);
-        assert_int_equal(heap.live, 0);
+        assert_int_equal(hooks.live, 0);
     }
     lmp_brdf_destroy(brdf);
 }

@@ -13,19 +13,6 @@ static lmp_brdf_table *small_table(void) {
     return table_of(sgd_brdf("white-fabric"), &desc);
 }
 
-static void backwards(void *user, size_t count, void (*task)(size_t index, void *data),
-                      void *data) {
-    (void)user;
-    for (size_t i = count; i-- > 0;)
-        task(i, data);
-}
-
-static void progressed(void *user, double done) {
-    double *before = user;
-    assert_true(done > *before && done <= 1);
-    *before = done;
-}
-
 static void *written(const lmp_preintegrated_brdf *response, size_t *size) {
     *size = lmp_preintegrated_brdf_size(response);
     void *bytes = malloc(*size);
@@ -36,14 +23,12 @@ static void *written(const lmp_preintegrated_brdf *response, size_t *size) {
 
 static void tasks_in_any_order_give_the_same_bytes(void **state) {
     (void)state;
-    double done = 0;
-    const lmp_preintegrated_brdf_desc desc = { .parallel = backwards,
-                                               .progress = progressed,
-                                               .user = &done };
+    check_hooks hooks = { .refuse = -1 };
+    const lmp_host host = check_host(&hooks);
     lmp_brdf_table *table = sgd_table("nickel", 5, LMP_WINDOW_NONE);
     lmp_preintegrated_brdf *plain = created(table, 0), *other;
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, &desc, &other), LMP_OK);
-    CHECK_WITHIN(fabs(done - 1), 0);
+    assert_int_equal(lmp_preintegrated_brdf_create(&host, NULL, table, &other), LMP_OK);
+    CHECK_WITHIN(fabs(hooks.done - 1), 0);
     size_t size, other_size;
     void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
     assert_int_equal(size, other_size);
@@ -63,14 +48,14 @@ static void what_cannot_be_made_is_refused(void **state) {
         lmp_preintegrated_brdf *response = (lmp_preintegrated_brdf *)1;
         assert_int_equal(
             lmp_preintegrated_brdf_create(
-                NULL, table, &(lmp_preintegrated_brdf_desc) { .error = wrong[i] }, &response),
+                NULL, &(lmp_preintegrated_brdf_desc) { .error = wrong[i] }, table, &response),
             LMP_ERROR_ARGUMENT);
         assert_null(response);
     }
     lmp_preintegrated_brdf *response;
     assert_int_equal(
-        lmp_preintegrated_brdf_create(
-            NULL, table, &(lmp_preintegrated_brdf_desc) { .bytes_max = 1000 }, &response),
+        lmp_preintegrated_brdf_create(NULL, &(lmp_preintegrated_brdf_desc) { .bytes_max = 1000 },
+                                      table, &response),
         LMP_ERROR_MEMORY);
     lmp_brdf_table_destroy(table);
 
@@ -79,7 +64,7 @@ static void what_cannot_be_made_is_refused(void **state) {
     assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
     const lmp_brdf_table_desc desc = { .bands = 3, .views = 4, .azimuths = 4, .rings_max = 32 };
     table = table_of(brdf, &desc);
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, NULL, &response),
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, table, &response),
                      LMP_ERROR_ARGUMENT);
     lmp_brdf_table_destroy(table);
 }
@@ -89,13 +74,12 @@ static void a_refused_allocation_leaks_nothing(void **state) {
     lmp_brdf_table *table = small_table();
     const lmp_preintegrated_brdf_desc desc = { .error = 0.1f };
     for (int refuse = 0;; refuse += check_count(1 + refuse / 8, 1)) {
-        check_heap heap = { .refuse = refuse };
-        const lmp_allocator allocator = check_allocator(&heap);
+        check_hooks hooks = { .refuse = refuse };
+        const lmp_host host = check_host(&hooks);
         lmp_preintegrated_brdf *response;
-        const lmp_result result =
-            lmp_preintegrated_brdf_create(&allocator, table, &desc, &response);
+        const lmp_result result = lmp_preintegrated_brdf_create(&host, &desc, table, &response);
         lmp_preintegrated_brdf_destroy(response);
-        assert_int_equal(heap.live, 0);
+        assert_int_equal(hooks.live, 0);
         if (result == LMP_OK)
             break;
         assert_int_equal(result, LMP_ERROR_MEMORY);

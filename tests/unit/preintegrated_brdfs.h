@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979324;
 
 static inline lmp_brdf_table *table_of(lmp_brdf *brdf, const lmp_brdf_table_desc *desc) {
     lmp_brdf_table *table;
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, desc, brdf, &table), LMP_OK);
     lmp_brdf_destroy(brdf);
     return table;
 }
@@ -27,7 +27,7 @@ static inline lmp_brdf_table *sgd_table(const char *name, int bands, lmp_window 
 static inline lmp_preintegrated_brdf *created(const lmp_brdf_table *table, float error) {
     lmp_preintegrated_brdf *response;
     const lmp_preintegrated_brdf_desc desc = { .error = error };
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, table, &desc, &response), LMP_OK);
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, &desc, table, &response), LMP_OK);
     return response;
 }
 

@@ -203,24 +203,6 @@ static void slices_join_without_a_step(void **state) {
 
 /* --- building --------------------------------------------------------------------------------- */
 
-typedef struct build_log {
-    size_t tasks;
-    double done;
-} build_log;
-
-static void backwards(void *user, size_t count, void (*task)(size_t index, void *data),
-                      void *data) {
-    ((build_log *)user)->tasks = count;
-    for (size_t i = count; i-- > 0;)
-        task(i, data);
-}
-
-static void progressed(void *user, double done) {
-    build_log *log = user;
-    assert_true(done > log->done && done <= 1);
-    log->done = done;
-}
-
 static void *written(const lmp_preintegrated_lobe *response, size_t *size) {
     *size = lmp_preintegrated_lobe_size(response);
     void *bytes = malloc(*size);
@@ -231,14 +213,13 @@ static void *written(const lmp_preintegrated_lobe *response, size_t *size) {
 
 static void tasks_in_any_order_give_the_same_bytes(void **state) {
     (void)state;
-    build_log seen = { 0, 0 };
-    const lmp_preintegrated_lobe_desc desc = {
-        .bands = 12, .parallel = backwards, .progress = progressed, .user = &seen
-    };
+    check_hooks hooks = { .refuse = -1 };
+    const lmp_host host = check_host(&hooks);
+    const lmp_preintegrated_lobe_desc desc = { .bands = 12 };
     lmp_preintegrated_lobe *plain = created(12, LMP_WINDOW_NONE, 0), *other;
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &other), LMP_OK);
-    assert_true(seen.tasks > 0);
-    CHECK_WITHIN(fabs(seen.done - 1), 0);
+    assert_int_equal(lmp_preintegrated_lobe_create(&host, &desc, &other), LMP_OK);
+    assert_true(hooks.tasks > 0);
+    CHECK_WITHIN(fabs(hooks.done - 1), 0);
     size_t size, other_size;
     void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
     assert_int_equal(size, other_size);
@@ -268,12 +249,12 @@ static void a_refused_allocation_leaks_nothing(void **state) {
     (void)state;
     const lmp_preintegrated_lobe_desc desc = { .bands = 2, .error = 0.1f };
     for (int refuse = 0;; refuse++) {
-        check_heap heap = { .refuse = refuse };
-        const lmp_allocator allocator = check_allocator(&heap);
+        check_hooks hooks = { .refuse = refuse };
+        const lmp_host host = check_host(&hooks);
         lmp_preintegrated_lobe *response;
-        const lmp_result result = lmp_preintegrated_lobe_create(&allocator, &desc, &response);
+        const lmp_result result = lmp_preintegrated_lobe_create(&host, &desc, &response);
         lmp_preintegrated_lobe_destroy(response);
-        assert_int_equal(heap.live, 0);
+        assert_int_equal(hooks.live, 0);
         if (result == LMP_OK)
             break;
         assert_int_equal(result, LMP_ERROR_MEMORY);

@@ -247,10 +247,10 @@ static void samples_of_a_series_give_it_back(void **state) {
     for (int k = 0; k < 36; k++)
         expected[k] = (double)sh[k];
     sample(&s, 6, sh, 120, false);
-    assert_int_equal(lmp_probe_fit(NULL, 6, &s.samples, 0, fitted), LMP_OK);
+    assert_int_equal(lmp_probe_fit(NULL, 6, 0, &s.samples, fitted), LMP_OK);
     CHECK_WITHIN(check_error(36, expected, fitted), 1e-4);
     sample(&s, 3, sh, 200, true); /* half a sphere is enough for a few bands */
-    assert_int_equal(lmp_probe_fit(NULL, 3, &s.samples, 0, fitted), LMP_OK);
+    assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_OK);
     CHECK_WITHIN(check_error(9, expected, fitted), 1e-4);
 }
 
@@ -263,11 +263,11 @@ static void a_weight_of_two_is_a_sample_twice(void **state) {
     s.directions[20] = s.directions[3];
     s.values[20] = s.values[3];
     s.samples.count = 21;
-    assert_int_equal(lmp_probe_fit(NULL, 2, &s.samples, 0, twice), LMP_OK);
+    assert_int_equal(lmp_probe_fit(NULL, 2, 0, &s.samples, twice), LMP_OK);
     s.weights[3] = 2;
     s.samples.weights = (lmp_float_array) { s.weights, sizeof(float) };
     s.samples.count = 20;
-    assert_int_equal(lmp_probe_fit(NULL, 2, &s.samples, 0, weighted), LMP_OK);
+    assert_int_equal(lmp_probe_fit(NULL, 2, 0, &s.samples, weighted), LMP_OK);
     for (int k = 0; k < 4; k++)
         CHECK_WITHIN(fabsf(twice[k] - weighted[k]), 1e-6);
 }
@@ -281,8 +281,8 @@ static void much_smoothness_leaves_the_mean(void **state) {
     sample(&s, 4, sh, 8, false); /* fewer samples than coefficients */
     for (int i = 0; i < 8; i++)
         mean += (double)s.values[i] / 8;
-    assert_int_equal(lmp_probe_fit(NULL, 4, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
-    assert_int_equal(lmp_probe_fit(NULL, 4, &s.samples, 1e6f, fitted), LMP_OK);
+    assert_int_equal(lmp_probe_fit(NULL, 4, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 4, 1e6f, &s.samples, fitted), LMP_OK);
     CHECK_WITHIN(fabs((double)fitted[0] - mean * sqrt(4 * ORACLE_PI)), 1e-4);
     for (int k = 1; k < 16; k++)
         CHECK_WITHIN(fabsf(fitted[k]), 1e-5);
@@ -293,21 +293,21 @@ static void bad_samples_are_refused(void **state) {
     static sampled s;
     float sh[9] = { 1 }, fitted[9];
     sample(&s, 3, sh, 40, false);
-    assert_int_equal(lmp_probe_fit(NULL, 0, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
-    assert_int_equal(lmp_probe_fit(NULL, 33, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
-    assert_int_equal(lmp_probe_fit(NULL, 3, &s.samples, -1, fitted), LMP_ERROR_ARGUMENT);
-    assert_int_equal(lmp_probe_fit(NULL, 3, &s.samples, NAN, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 0, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 33, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 3, -1, &s.samples, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 3, NAN, &s.samples, fitted), LMP_ERROR_ARGUMENT);
     s.values[7] = NAN;
-    assert_int_equal(lmp_probe_fit(NULL, 3, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
     s.values[7] = 0;
     s.weights[39] = -1;
     s.samples.weights = (lmp_float_array) { s.weights, sizeof(float) };
-    assert_int_equal(lmp_probe_fit(NULL, 3, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
     s.samples.weights.at = NULL;
     s.samples.directions = lmp_vec3_array_same(s.directions); /* all in one place */
-    assert_int_equal(lmp_probe_fit(NULL, 3, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
     s.samples.count = 0;
-    assert_int_equal(lmp_probe_fit(NULL, 1, &s.samples, 0, fitted), LMP_ERROR_ARGUMENT);
+    assert_int_equal(lmp_probe_fit(NULL, 1, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
 }
 
 /* --- series that stay positive ------------------------------------------------------------------

@@ -76,15 +76,15 @@ static void gives_back_all_memory_whichever_request_fails(void **state) {
     const int counts[] = { 3, 9 };
     for (int i = 0; i < 2; i++) {
         for (int refuse = 0;; refuse++) {
-            check_heap heap = { .refuse = refuse };
-            const lmp_allocator allocator = check_allocator(&heap);
+            check_hooks hooks = { .refuse = refuse };
+            const lmp_host host = check_host(&hooks);
             lmp_sh_product *product = (lmp_sh_product *)1;
-            const lmp_result result = lmp_sh_product_create(&allocator, counts[i], &product);
-            const int refused = heap.requests > refuse;
+            const lmp_result result = lmp_sh_product_create(&host, counts[i], &product);
+            const int refused = hooks.requests > refuse;
             assert_int_equal(result, refused ? LMP_ERROR_MEMORY : LMP_OK);
             assert_true(refused == (product == NULL));
             lmp_sh_product_destroy(product);
-            assert_int_equal(heap.live, 0);
+            assert_int_equal(hooks.live, 0);
             if (!refused) {
                 assert_true(refuse >= 3);
                 break;

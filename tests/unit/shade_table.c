@@ -29,7 +29,7 @@ static lmp_brdf_table *table_of(lmp_brdf *brdf, int bands, int azimuths) {
     lmp_brdf_table *table = NULL;
     const lmp_brdf_table_desc desc = { .bands = bands, .views = 48, .azimuths = azimuths };
     assert_non_null(brdf);
-    assert_int_equal(lmp_brdf_table_create(NULL, brdf, &desc, &table), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
     lmp_brdf_destroy(brdf);
     return table;
 }

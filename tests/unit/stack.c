@@ -142,7 +142,7 @@ static void shade_all_ways(void) {
     X(lmp_probe_irradiance, lmp_probe_irradiance(N, sh, up)) \
     X(lmp_probe_irradiance_n, lmp_probe_irradiance_n(N, sh, points, COUNT, (lmp_rgb *)(void *)rgb)) \
     X(lmp_probe_constants_of, lmp_probe_constants_of(N, sh, 1, &constants)) \
-    X(lmp_probe_fit, lmp_probe_fit(NULL, 3, &(lmp_probe_samples) { points, floats, { 0 }, COUNT }, 1, out)) \
+    X(lmp_probe_fit, lmp_probe_fit(NULL, 3, 1, &(lmp_probe_samples) { points, floats, { 0 }, COUNT }, out)) \
     X(lmp_probe_window_positive, lmp_probe_window_positive(LMP_PROBE_POSITIVE_BANDS_MAX, sh, 3, weights)) \
     X(lmp_probe_minimum, lmp_probe_minimum(3, sh)) \
     X(lmp_probe_convert, lmp_probe_convert(N, &convention, &convention, sh, out)) \
@@ -156,13 +156,13 @@ static void shade_all_ways(void) {
     X(lmp_brdf_describe, lmp_brdf_describe(brdf)) \
     X(lmp_brdf_eval, lmp_brdf_eval(brdf, up, up)) \
     X(lmp_brdf_eval_double, lmp_brdf_eval_double(brdf, doubles, doubles, (double[3]) { 0 })) \
-    X(lmp_brdf_write_merl, free(merl), (void)lmp_brdf_write_merl(brdf, NULL, &merl, &merl_size)) \
+    X(lmp_brdf_write_merl, free(merl), (void)lmp_brdf_write_merl(NULL, brdf, &merl, &merl_size)) \
     X(lmp_brdf_read_merl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_merl(NULL, merl, merl_size, &wrong, &read_brdf))) \
-    X(lmp_brdf_write_rgl, free(rgl), (void)lmp_brdf_write_rgl(brdf, NULL, &rgl, &rgl_size)) \
+    X(lmp_brdf_write_rgl, free(rgl), (void)lmp_brdf_write_rgl(NULL, brdf, &rgl, &rgl_size)) \
     X(lmp_brdf_read_rgl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_rgl(NULL, rgl, rgl_size, &wrong, &read_brdf))) \
     X(lmp_brdf_destroy, lmp_brdf_destroy(read_brdf), read_brdf = NULL) \
-    X(lmp_brdf_project, lmp_brdf_project(NULL, brdf, up, N, 2, out)) \
-    X(lmp_brdf_table_create, MAKE(lmp_brdf_table_destroy, table, lmp_brdf_table_create(NULL, brdf, &small_table, &table))) \
+    X(lmp_brdf_project, lmp_brdf_project(NULL, N, 2, brdf, up, out)) \
+    X(lmp_brdf_table_create, MAKE(lmp_brdf_table_destroy, table, lmp_brdf_table_create(NULL, &small_table, brdf, &table))) \
     X(lmp_brdf_table_describe, lmp_brdf_table_describe(table)) \
     X(lmp_brdf_table_coefficients, lmp_brdf_table_coefficients(table)) \
     X(lmp_brdf_table_view, lmp_brdf_table_view(table, 0.5f, 0, out)) \
@@ -178,7 +178,7 @@ static void shade_all_ways(void) {
     X(lmp_preintegrated_lobe_write, lmp_preintegrated_lobe_write(lobe, bytes)) \
     X(lmp_preintegrated_lobe_read, MAKE(lmp_preintegrated_lobe_destroy, read_lobe, lmp_preintegrated_lobe_read(NULL, bytes, lmp_preintegrated_lobe_size(lobe), &read_lobe))) \
     X(lmp_preintegrated_lobe_destroy, lmp_preintegrated_lobe_destroy(read_lobe), read_lobe = NULL) \
-    X(lmp_preintegrated_brdf_create, MAKE(lmp_preintegrated_brdf_destroy, preintegrated, lmp_preintegrated_brdf_create(NULL, table, &coarse, &preintegrated))) \
+    X(lmp_preintegrated_brdf_create, MAKE(lmp_preintegrated_brdf_destroy, preintegrated, lmp_preintegrated_brdf_create(NULL, &coarse, table, &preintegrated))) \
     X(lmp_preintegrated_brdf_describe, lmp_preintegrated_brdf_describe(preintegrated)) \
     X(lmp_preintegrated_brdf_eval, lmp_preintegrated_brdf_eval(preintegrated, 0.5f, up, 0.5f)) \
     X(lmp_preintegrated_brdf_ambient, lmp_preintegrated_brdf_ambient(preintegrated, 0.5f)) \
