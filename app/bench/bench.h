@@ -10,7 +10,7 @@ typedef struct bench_options {
     int bands;                 /* 0: many */
     int mask, threads, kernel; /* of cpu; kernel 0: all */
     /* of gpu */
-    int device, method;  /* indices indices of bench_devices and bench_methods */
+    int device, method;  /* indices of bench_devices and bench_methods */
     int lights, size[2]; /* 0: many */
     int seconds;         /* 0: a default, or no limit if `full` */
     const char *scene;   /* NULL: many */

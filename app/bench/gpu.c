@@ -1,80 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion bench gpu - what a frame costs by device, method, bands and lights (docs/benchmarks.md).
  */
+#include "app/bench/gpu.h"
 #include "app/bake/bake.h"
-#include "app/bench/bench.h"
-#include "app/override/override.h"
 #include "app/shade/shade.h"
 #include "app/timing/timing.h"
 
-#include <lampion/cpu.h>
-
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { FRAMES = 9, SECONDS = 180, SEED = 7 };
-
-/* What shades. */
-typedef struct bench_case {
-    method_kind method;
-    device_kind device;
-} bench_case;
-
-enum { SCENES = 2, SIZES = 3, BANDS = 6, LIGHTS = 6, SETTINGS_MAX = SIZES * BANDS * LIGHTS };
-
-/* A row's frame, and what shades it. */
-typedef struct bench_row {
-    const bench_case *by;
-    int bands, lights, width, height;
-} bench_row;
-
-/* What a row reads besides the scene: its bytes, and what making or loading it took. */
-typedef struct bench_tables {
-    size_t bytes;
-    double ms, lobes_ms, responses_ms; /* tables of materials, and responses */
-} bench_tables;
-
-typedef struct bench_result {
-    double ms; /* median of the shading of `frames` */
-    int frames;
-    double compile_ms; /* of the shader */
-} bench_result;
-
-/* One number of bands and lights, and one size, of the rows of some cases. */
-typedef struct bench_setting {
-    int bands, lights;
-    const int *size;
-} bench_setting;
-
-/* The settings in the order of what they tell, and the time for them all. */
-typedef struct bench_plan {
-    bench_case cases[METHODS_TIMED * DEVICES];
-    int case_count;
-    unsigned reads; /* what their methods read: METHOD_READS_… */
-    bench_setting settings[SETTINGS_MAX];
-    int setting_count;
-    int rows_ahead, rows_left_out;
-    double end_ms; /* of now_ms */
-} bench_plan;
-
-/* A scene open on the device, with as many lights as any row asks for. */
-typedef struct bench_stage {
-    const bench_options *options;
-    bench_plan *plan;
-    const char *name;
-    scene world;
-    gpu_context context;
-    gpu_renderer *renderer;
-    lmp_preintegrated_lobe *lobes[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
-    double build_ms[LMP_BANDS_MAX + 1];
-    override_set materials; /* of material_bands */
-    int material_bands;     /* 0: none yet */
-    double bake_ms, integrate_ms;
-    bool first;
-} bench_stage;
+enum { SCENES = 2, SIZES = 3, BANDS = 6, LIGHTS = 6 };
+_Static_assert(SIZES *BANDS *LIGHTS == BENCH_SETTINGS_MAX, "room for all settings");
 
 static double now_ms(void) {
     return 1e3 * timing_now();
@@ -159,93 +97,72 @@ static void plan_rows(bench_plan *plan, const bench_options *o) {
 /* --- one row ------------------------------------------------------------------------------------
  */
 
-static bool find_lobes(bench_stage *stage, int bands, cli_error *error) {
-    if (stage->lobes[bands])
+static bool find_lobes(bench_scene *s, int bands, cli_error *error) {
+    if (s->lobes[bands])
         return true;
     const double start = now_ms();
-    if (!bake_lobes(bands, LMP_WINDOW_HANNING, &stage->lobes[bands], error))
+    if (!bake_lobes(bands, LMP_WINDOW_HANNING, &s->lobes[bands], error))
         return false;
-    stage->build_ms[bands] = now_ms() - start;
+    s->build_ms[bands] = now_ms() - start;
     return true;
 }
 
 /* The materials asked for, with so many bands, in place of the scene's. */
-static bool find_materials(bench_stage *stage, int bands, cli_error *error) {
-    override_set *all = &stage->materials;
-    const bench_options *o = stage->options;
+static bool find_materials(bench_scene *s, int bands, cli_error *error) {
+    override_set *all = &s->materials;
+    const bench_options *o = s->options;
     const cli_list *list = &o->materials;
-    if (list->count == 0 || stage->material_bands == bands)
+    if (list->count == 0 || s->material_bands == bands)
         return true;
     override_free(all);
-    stage->material_bands = bands;
-    bool ok = override_open(list, &stage->world, all, error);
+    s->material_bands = bands;
+    bool ok = override_open(list, &s->world, all, error);
     const double start = now_ms();
     ok = ok && override_bake(all, bands, LMP_WINDOW_HANNING, error);
     const double baked = now_ms();
-    if (ok && stage->plan->reads & METHOD_READS_PREINTEGRATED)
+    if (ok && s->plan->reads & METHOD_READS_PREINTEGRATED)
         ok = override_preintegrate(all, error);
-    stage->bake_ms = baked - start;
-    stage->integrate_ms = now_ms() - baked;
-    return ok && override_apply(all, &stage->world, stage->renderer, error);
+    s->bake_ms = baked - start;
+    s->integrate_ms = now_ms() - baked;
+    return ok && override_apply(all, &s->world, s->renderer, error);
 }
 
 /* A shader that sums a material by its bands takes fewer. */
-static int bands_max(const bench_stage *stage, const bench_case *c) {
+static int bands_max(const bench_scene *s, const bench_case *c) {
     const int most = method_table[c->method].bands_max[c->device];
-    for (int i = 0; i < stage->materials.count && c->device == DEVICE_GPU; i++)
-        if (!stage->materials.preintegrated[i] && most > METHOD_GPU_BANDS_MAX)
+    for (int i = 0; i < s->materials.count && c->device == DEVICE_GPU; i++)
+        if (!s->materials.preintegrated[i] && most > METHOD_GPU_BANDS_MAX)
             return METHOD_GPU_BANDS_MAX;
     return most;
 }
 
-static bench_tables tables_of(const bench_stage *stage, const bench_row *c) {
-    const unsigned reads = method_table[c->by->method].reads;
-    const bool preintegrated = reads & METHOD_READS_PREINTEGRATED;
-    const override_set *all = &stage->materials;
-    bench_tables sum = { .ms = stage->bake_ms };
-    if (reads & METHOD_READS_TABULATED_Z)
-        sum.bytes = gpu_zonal_bytes(c->bands);
-    if (preintegrated) {
-        sum.bytes = lmp_preintegrated_lobe_describe(stage->lobes[c->bands]).bytes;
-        sum.lobes_ms = stage->build_ms[c->bands];
-        sum.responses_ms = stage->integrate_ms;
-    }
-    for (int i = 0; i < all->count; i++)
-        sum.bytes += preintegrated && all->preintegrated[i]
-                         ? lmp_preintegrated_brdf_describe(all->preintegrated[i]).bytes
-                         : lmp_brdf_table_size(all->tables[i]);
-    return sum;
-}
-
 /* In its part of the time left, but one frame at least. */
-static bool time_row(bench_stage *stage, const bench_row *c, bench_result *result,
-                     cli_error *error) {
+static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, cli_error *error) {
     gpu_frame frame = {
         .width = c->width,
         .height = c->height,
-        .camera = scene_default_camera(&stage->world, (float)c->width / (float)c->height),
+        .camera = scene_default_camera(&s->world, (float)c->width / (float)c->height),
         .method = c->by->method,
         .bands = c->bands,
         .window = LMP_WINDOW_HANNING,
-        .lights = stage->world.lights,
+        .lights = s->world.lights,
         .light_count = (size_t)c->lights,
         .host = c->by->device == DEVICE_CPU ? shade_frame : NULL,
     };
     if (method_table[c->by->method].reads & METHOD_READS_PREINTEGRATED) {
-        if (!find_lobes(stage, c->bands, error))
+        if (!find_lobes(s, c->bands, error))
             return false;
-        frame.lobes = stage->lobes[c->bands];
+        frame.lobes = s->lobes[c->bands];
     }
     double samples[FRAMES];
     int count = 0;
     gpu_times times;
-    const double start = now_ms(),
-                 end = start + (stage->plan->end_ms - start) / stage->plan->rows_ahead;
-    if (!gpu_render(stage->renderer, &frame, &times, error))
+    const double start = now_ms(), end = start + (s->plan->end_ms - start) / s->plan->rows_ahead;
+    if (!gpu_render(s->renderer, &frame, &times, error))
         return false;
     result->compile_ms = now_ms() - start - times.total;
     do {
-        if (!gpu_render(stage->renderer, &frame, &times, error))
+        if (!gpu_render(s->renderer, &frame, &times, error))
             return false;
         samples[count++] = times.shade + times.transfer;
     } while (count < FRAMES && now_ms() < end);
@@ -254,157 +171,59 @@ static bool time_row(bench_stage *stage, const bench_row *c, bench_result *resul
     return true;
 }
 
-/* --- printing -----------------------------------------------------------------------------------
- */
-
-/* Four digits. */
-static void add_number(cJSON *row, const char *name, double value) {
-    char text[32];
-    snprintf(text, sizeof text, "%.4g", value);
-    cJSON_AddRawToObject(row, name, text);
-}
-
-static void print_json(const bench_stage *stage, const bench_row *c, const bench_result *result,
-                       double ns, double paper) {
-    const bench_tables tables = tables_of(stage, c);
-    cJSON *row = cJSON_CreateObject();
-    cJSON_AddStringToObject(row, "scene", stage->name);
-    cJSON_AddStringToObject(row, "device", device_table[c->by->device].name);
-    cJSON_AddStringToObject(row, "method", method_table[c->by->method].name);
-    cJSON_AddNumberToObject(row, "bands", c->bands);
-    cJSON_AddNumberToObject(row, "lights", c->lights);
-    cJSON_AddNumberToObject(row, "width", c->width);
-    cJSON_AddNumberToObject(row, "height", c->height);
-    add_number(row, "ms", result->ms);
-    cJSON_AddNumberToObject(row, "frames", result->frames);
-    add_number(row, "ns_per_pixel_light", ns);
-    if (paper > 0)
-        add_number(row, "vs_paper", paper / result->ms);
-    else
-        cJSON_AddNullToObject(row, "vs_paper");
-    add_number(row, "compile_ms", result->compile_ms);
-    cJSON_AddNumberToObject(row, "table_bytes", (double)tables.bytes);
-    add_number(row, "table_ms", tables.ms);
-    add_number(row, "lobes_ms", tables.lobes_ms);
-    add_number(row, "response_ms", tables.responses_ms);
-    char *text = cJSON_PrintUnformatted(row);
-    printf("%s    %s", stage->first ? "" : ",\n", text ? text : "null");
-    cJSON_free(text);
-    cJSON_Delete(row);
-}
-
-static void print_row(bench_stage *stage, const bench_row *c, const bench_result *result,
-                      double paper) {
-    const double ns = 1e6 * result->ms / ((double)c->width * c->height * c->lights);
-    if (stage->options->json) {
-        print_json(stage, c, result, ns, paper);
-    } else {
-        const bench_tables tables = tables_of(stage, c);
-        char ratio[32] = "-";
-        if (paper > 0)
-            snprintf(ratio, sizeof ratio, "%.2f", paper / result->ms);
-        printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %6d %9.3f %9s %9.0f %9zu %8.0f %8.0f "
-               "%8.0f\n",
-               stage->name, device_table[c->by->device].name, method_table[c->by->method].name,
-               c->bands, c->lights, c->width, c->height, result->ms, result->frames, ns, ratio,
-               result->compile_ms, tables.bytes / 1024, tables.ms, tables.lobes_ms,
-               tables.responses_ms);
-    }
-    stage->first = false;
-    fflush(stdout);
-}
-
-static void print_json_header(const bench_stage *stage) {
-    const bench_options *o = stage->options;
-    cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "gpu", stage->context.device);
-    cJSON_AddStringToObject(root, "driver", stage->context.driver);
-    cJSON_AddStringToObject(root, "cpu_kernels", lmp_cpu_name());
-    cJSON_AddStringToObject(root, "commit", LAMPION_COMMIT);
-    cJSON_AddItemToObject(
-        root, "materials",
-        cJSON_CreateStringArray((const char *const *)o->materials.items, o->materials.count));
-    char *text = cJSON_PrintUnformatted(root);
-    if (text) /* the rows go on where it would end */
-        printf("%.*s,\n  \"rows\": [\n", (int)strlen(text) - 1, text);
-    cJSON_free(text);
-    cJSON_Delete(root);
-}
-
-static void print_header(const bench_stage *stage) {
-    const bench_options *o = stage->options;
-    if (o->json) {
-        print_json_header(stage);
-        return;
-    }
-    printf("%s (%s), CPU kernels: %s; commit %s\n", stage->context.device, stage->context.driver,
-           lmp_cpu_name(), LAMPION_COMMIT);
-    for (int i = 0; i < o->materials.count; i++)
-        printf("%s%s", i ? ", " : "materials: ", o->materials.items[i]);
-    printf("%s"
-           "ms: from G-buffer to radiance, to the CPU and back where it shades, median of the "
-           "frames (%s); x paper: against the paper's fragment shader in the same run; ms at the "
-           "end: making or reading the materials' tables, the lobes, the materials' responses\n",
-           o->materials.count ? "\n" : "",
-           stage->context.software ? "wall clock" : "timer queries");
-    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene", "dev",
-           "method", "bands", "lights", "size", "ms", "frames", "ns/pair", "x paper", "compile",
-           "table KB", "table", "lobes", "response");
-}
-
 /* --- all rows -----------------------------------------------------------------------------------
  */
 
 /* Everything that is chosen, at one setting. */
-static bool time_setting(bench_stage *stage, const bench_setting *setting, cli_error *error) {
-    bench_plan *plan = stage->plan;
+static bool time_setting(bench_scene *s, const bench_setting *setting, cli_error *error) {
+    bench_plan *plan = s->plan;
     double paper = 0;
     for (int i = 0; i < plan->case_count; i++) {
         const bench_row row = { &plan->cases[i], setting->bands, setting->lights, setting->size[0],
                                 setting->size[1] };
         bench_result result;
-        if (!is_chosen(stage->options, row.by, row.bands))
+        if (!is_chosen(s->options, row.by, row.bands))
             continue;
         if (now_ms() > plan->end_ms) {
             plan->rows_left_out++;
             continue;
         }
-        if (!find_materials(stage, row.bands, error))
+        if (!find_materials(s, row.bands, error))
             return false;
-        if (row.bands <= bands_max(stage, row.by)) {
-            if (!time_row(stage, &row, &result, error))
+        if (row.bands <= bands_max(s, row.by)) {
+            if (!time_row(s, &row, &result, error))
                 return false;
             paper = method_table[row.by->method].baseline ? result.ms : paper;
-            print_row(stage, &row, &result, paper);
+            bench_print_row(s, &row, &result, paper);
         }
         plan->rows_ahead--;
     }
     return true;
 }
 
-static bool time_all(bench_stage *stage, cli_error *error) {
-    for (int i = 0; i < stage->plan->setting_count; i++)
-        if (!time_setting(stage, &stage->plan->settings[i], error))
+static bool time_all(bench_scene *s, cli_error *error) {
+    for (int i = 0; i < s->plan->setting_count; i++)
+        if (!time_setting(s, &s->plan->settings[i], error))
             return false;
     return true;
 }
 
-static bool open_stage(bench_stage *stage, cli_error *error) {
-    return scene_load(stage->name, &(scene_options) { 0 }, &stage->world, error) &&
-           scene_add_random_lights(&stage->world, SCENE_LIGHTS_MAX - (int)stage->world.light_count,
-                                   SEED, error) &&
-           override_open(&stage->options->materials, &stage->world, &stage->materials, error) &&
-           gpu_context_create(stage->options->gl_device, &stage->context, error) &&
-           (stage->renderer = gpu_renderer_create(&stage->context, &stage->world, error));
+static bool open_scene(bench_scene *s, cli_error *error) {
+    return scene_load(s->name, &(scene_options) { 0 }, &s->world, error) &&
+           scene_add_random_lights(&s->world, SCENE_LIGHTS_MAX - (int)s->world.light_count, SEED,
+                                   error) &&
+           override_open(&s->options->materials, &s->world, &s->materials, error) &&
+           gpu_context_create(s->options->gl_device, &s->context, error) &&
+           (s->renderer = gpu_renderer_create(&s->context, &s->world, error));
 }
 
-static void close_stage(bench_stage *stage) {
-    gpu_renderer_destroy(stage->renderer);
-    override_free(&stage->materials);
-    gpu_context_destroy(&stage->context);
-    scene_free(&stage->world);
+static void close_scene(bench_scene *s) {
+    gpu_renderer_destroy(s->renderer);
+    override_free(&s->materials);
+    gpu_context_destroy(&s->context);
+    scene_free(&s->world);
     for (int n = 0; n <= LMP_BANDS_MAX; n++)
-        lmp_preintegrated_lobe_destroy(stage->lobes[n]);
+        lmp_preintegrated_lobe_destroy(s->lobes[n]);
 }
 
 /* What the table of options cannot say. */
@@ -433,15 +252,15 @@ int bench_gpu(const cli_command *command, const bench_options *o) {
         plan.end_ms = now_ms() + 1e3 * (o->seconds ? o->seconds : SECONDS);
     bool ok = true, first = true;
     for (int i = 0; i < scenes && ok; i++) {
-        bench_stage stage = {
+        bench_scene s = {
             .options = o, .plan = &plan, .name = o->scene ? o->scene : all_scenes[i], .first = first
         };
-        ok = open_stage(&stage, &error);
+        ok = open_scene(&s, &error);
         if (ok && i == 0)
-            print_header(&stage);
-        ok = ok && time_all(&stage, &error);
-        first = stage.first;
-        close_stage(&stage);
+            bench_print_header(&s);
+        ok = ok && time_all(&s, &error);
+        first = s.first;
+        close_scene(&s);
     }
     if (o->json && ok)
         printf("\n  ]\n}\n");

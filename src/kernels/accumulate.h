@@ -78,6 +78,16 @@ LMP_INLINE cap_lanes lights_cap(const lmp_kernel_lights *lights, size_t i, const
                     vf_set(lights_at(lights->radius.at, lights->radius.stride, i)), gradient);
 }
 
+/* A light's radiance at +m, then at -m: times the cosine and the sine of m times its azimuth. */
+LMP_INLINE void accumulate_colors(lmp_rgb rgb, vf c, vf s, vf color[6]) {
+    color[0] = rgb.r * c;
+    color[1] = rgb.g * c;
+    color[2] = rgb.b * c;
+    color[3] = rgb.r * s;
+    color[4] = rgb.g * s;
+    color[5] = rgb.b * s;
+}
+
 /* Adds `at_once` lights to the sums of a tile: of a pair (l, m) six, red, green, blue of +m, then
  * of -m; pairs follow one another by m, then l. Monic recurrences leave the norm N_lm to the end,
  * and are for LMP_TABLE_MONIC_BANDS (tables.h). */
@@ -107,12 +117,7 @@ LMP_INLINE void accumulate_lights(accumulate_tile tile, int monic, int at_once,
         LMP_UNROLL for (int k = 0; k < at_once; k++) {
             if (m > 0)
                 basis_turn(m, axis[k][0], axis[k][1], &c[k], &s[k]);
-            color[k][0] = rgb[k].r * c[k];
-            color[k][1] = rgb[k].g * c[k];
-            color[k][2] = rgb[k].b * c[k];
-            color[k][3] = rgb[k].r * s[k];
-            color[k][4] = rgb[k].g * s[k];
-            color[k][5] = rgb[k].b * s[k];
+            accumulate_colors(rgb[k], c[k], s[k], color[k]);
             q0[k] = vf_set(0);
             q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);
         }

@@ -91,23 +91,11 @@ static inputs *inputs_create(uint64_t seed) {
         for (int k = 0; k < 3; k++)
             in->axis[k][i] = length > 0 ? in->axis[k][i] / sqrtf(length) : k == 2 ? 1.0f : 0.0f;
         in->distance[i] = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        const float share = 0.5f + grid(1.0f / 2200);
-        in->radius[i] = i < SPECIAL ? special[i][3] : in->distance[i] * share * share;
+        const float fraction = 0.5f + grid(1.0f / 2200);
+        in->radius[i] = i < SPECIAL ? special[i][3] : in->distance[i] * fraction * fraction;
     }
     surfaces_create(in);
     return in;
-}
-
-#define VECTOR(array) ((const float *const[3]) { (array)[0], (array)[1], (array)[2] })
-
-static void widen(const float *const from[3], int i, double to[3]) {
-    for (int k = 0; k < 3; k++)
-        to[k] = (double)from[k][i];
-}
-
-/* What rounding does to cos a near the surface, where d - r cancels; alpha2 = cos² a. */
-static double surface_bound(double alpha2) {
-    return fmin(1.2e-7 / sqrt(fmax(alpha2, 1e-30)), 3e-4);
 }
 
 #endif

@@ -6,6 +6,18 @@
 
 #include "tests/kernels/shading.h"
 
+#define VECTOR(array) ((const float *const[3]) { (array)[0], (array)[1], (array)[2] })
+
+static void widen(const float *const from[3], int i, double to[3]) {
+    for (int k = 0; k < 3; k++)
+        to[k] = (double)from[k][i];
+}
+
+/* What rounding does to cos a near the surface, where d - r cancels; alpha2 = cos² a. */
+static double surface_bound(double alpha2) {
+    return fmin(1.2e-7 / sqrt(fmax(alpha2, 1e-30)), 3e-4);
+}
+
 static double dot3(const double a[3], const double b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -122,15 +134,15 @@ static void spline(double x, double w[4]) {
     w[3] = x * x * x / 6;
 }
 
-/* The steepest that splines of coefficients in -1 … 1 can be, and the integers' share of the error:
+/* The steepest that splines of coefficients in -1 … 1 can be, and the integers' part of the error:
  * weights in 1/32767. */
 #define STEEPEST 2.0
 #define WHOLE    4e-5
 
 /* One lobe's reading: the mean over the cap. */
-static double read_lobe(const shading *s, uint32_t first, uint32_t columns, const float place[3],
+static double read_lobe(const shading *s, uint32_t first, uint32_t columns, const float position[3],
                         double cosine, double t) {
-    const double share = (double)place[0], density = (double)place[1];
+    const double weight = (double)position[0], density = (double)position[1];
     const double x = acos(fmin(fmax(cosine, -1), 1)) * density, y = acos(1 - t) * density;
     const size_t column = (size_t)x, row = (size_t)y;
     double wx[4], wy[4], sum = 0;
@@ -139,9 +151,9 @@ static double read_lobe(const shading *s, uint32_t first, uint32_t columns, cons
     for (size_t k = 0; k < 4; k++)
         for (size_t j = 0; j < 4; j++) {
             const int16_t *pair = s->pairs + 2 * (first + (row + k) * columns + column + j);
-            sum += wy[k] * wx[j] * ((1 - share) * pair[0] + share * pair[1]);
+            sum += wy[k] * wx[j] * ((1 - weight) * pair[0] + weight * pair[1]);
         }
-    return sum * 2 / 32767 / (2 * ORACLE_PI * t + (double)place[2]);
+    return sum * 2 / 32767 / (2 * ORACLE_PI * t + (double)position[2]);
 }
 
 /* From everywhere less the mean, or the mean, times the cap's solid angle. */
@@ -155,7 +167,7 @@ static void add_mean(const seen_light *one, const lmp_kernel_light *light, int f
     shaded_add(to, first, light->radiance, one->scale, value);
 }
 
-static void expect_response(const shading *s, int i, shaded *to) {
+static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
     seen surface;
     see(s, i, &surface);
     *to = (shaded) { { 0 }, 0 };
@@ -165,28 +177,29 @@ static void expect_response(const shading *s, int i, shaded *to) {
         if (one.nothing)
             continue;
         for (int lobe = 0; lobe < 2; lobe++) {
-            const float place[3] = { lobe ? s->share[i] : s->broad[0][0],
-                                     lobe ? s->density[i] : s->broad[1][0],
-                                     lobe ? s->angle[i] : s->broad[2][0] };
+            const float position[3] = { lobe ? s->weight[i] : s->diffuse_weights[0][0],
+                                        lobe ? s->density[i] : s->diffuse_weights[1][0],
+                                        lobe ? s->angle[i] : s->diffuse_weights[2][0] };
             const double cosine = dot3(lobe ? surface.mirror : surface.normal, one.axis);
             const double mean =
-                read_lobe(s, lobe ? s->first[i] : s->broad_first[0],
-                          lobe ? s->columns[i] : s->broad_columns[0], place, cosine, one.t);
+                read_lobe(s, lobe ? s->first[i] : s->diffuse_first[0],
+                          lobe ? s->columns[i] : s->diffuse_columns[0], position, cosine, one.t);
             add_mean(&one, &s->lights[light], 3 * lobe, (double[3]) { mean, mean, mean },
                      (double[3]) { 1, 1, 1 }, to);
             /* acos near 1 has half of the digits, where the response is flat */
-            const double density = (double)place[1];
+            const double density = (double)position[1];
             to->bound += one.scale * (WHOLE + STEEPEST * density * surface_bound(one.alpha2) +
                                       STEEPEST * density * density * 1e-7);
         }
     }
 }
 
-/* Where a warp puts a share: the slice before, and the share of the next. */
-static size_t seek_warp(const float *warp, int steps, int count, double share, double *second) {
-    const double at = fmin(fmax(share, 0), 1) * steps;
+/* Where a remap puts a fraction: the slice before, and the weight of the next. */
+static size_t lookup_remap(const float *remap, int steps, int count, double position,
+                           double *second) {
+    const double at = fmin(fmax(position, 0), 1) * steps;
     const size_t i = (size_t)fmin(at, steps - 1);
-    const double low = (double)warp[i], high = (double)warp[i + 1];
+    const double low = (double)remap[i], high = (double)remap[i + 1];
     const double slice = low + (at - (double)i) * (high - low);
     const size_t first = (size_t)fmin(slice, count - 2);
     *second = slice - (double)first;
@@ -243,9 +256,9 @@ static double mirror_frame(const seen *surface, double frame[3][3]) {
     return acos(cosine);
 }
 
-static void read_measured(const shading *s, const seen_light *one, double frame[3][3], size_t view,
-                          double later, double mean[3]) {
-    const lmp_kernel_preintegrated_brdf *m = &s->measured;
+static void read_brdf(const shading *s, const seen_light *one, double frame[3][3], size_t view,
+                      double later, double mean[3]) {
+    const lmp_kernel_preintegrated_brdf *m = &s->brdf;
     const double x = dot3(frame[0], one->axis), y = dot3(frame[1], one->axis);
     const double z = dot3(frame[2], one->axis), a = acos(1 - one->t);
     double azimuth = atan2(y, x), larger;
@@ -256,8 +269,8 @@ static void read_measured(const shading *s, const seen_light *one, double frame[
         from_rim * ((double)m->reach / ((double)m->width * hypot(from_rim, (double)m->reach)) +
                     (double)m->slope);
     const double quarter = ORACLE_PI / 2;
-    const size_t cap = seek_warp(s->cap_remap, CAP_STEPS, CAPS,
-                                 a / (a + 0.5) * (quarter + 0.5) / quarter, &larger);
+    const size_t cap = lookup_remap(s->cap_remap, CAP_STEPS, CAPS,
+                                    a / (a + 0.5) * (quarter + 0.5) / quarter, &larger);
     memset(mean, 0, 3 * sizeof *mean);
     for (size_t k = 0; k < 4; k++)
         add_slice(s, (view + k / 2) * CAPS + cap + k % 2, row, azimuth,
@@ -266,13 +279,13 @@ static void read_measured(const shading *s, const seen_light *one, double frame[
         mean[c] /= 2 * ORACLE_PI * one->t + (double)m->lobe_angle;
 }
 
-static void expect_measured(const shading *s, int i, shaded *to) {
+static void expect_preintegrated_brdf(const shading *s, int i, shaded *to) {
     seen surface;
     double frame[3][3], later;
     see(s, i, &surface);
     const double theta = mirror_frame(&surface, frame);
     const size_t view =
-        seek_warp(s->view_remap, VIEW_STEPS, VIEWS, theta / (ORACLE_PI / 2), &later);
+        lookup_remap(s->view_remap, VIEW_STEPS, VIEWS, theta / (ORACLE_PI / 2), &later);
     const lmp_rgb *color = &s->colors[view];
     const double all[3] = {
         (1 - later) * (double)color[0].r + later * (double)color[1].r,
@@ -287,7 +300,7 @@ static void expect_measured(const shading *s, int i, shaded *to) {
         see_light(s, &surface, light, i, &one);
         if (one.nothing)
             continue;
-        read_measured(s, &one, frame, view, later, mean);
+        read_brdf(s, &one, frame, view, later, mean);
         add_mean(&one, &s->lights[light], 0, mean, all, to);
         to->bound += one.scale * (WHOLE + STEEPEST * surface_bound(one.alpha2));
     }

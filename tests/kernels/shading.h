@@ -25,15 +25,15 @@ typedef struct shading {
     int16_t *pairs;
     uint32_t cell_first[CELLS], cell_columns[CELLS];
     _Alignas(64) uint32_t first[COUNT + 16], columns[COUNT + 16];
-    _Alignas(64) float share[COUNT + 16], density[COUNT + 16], angle[COUNT + 16];
-    _Alignas(64) uint32_t broad_first[16], broad_columns[16];
-    _Alignas(64) float broad[3][16];
+    _Alignas(64) float weight[COUNT + 16], density[COUNT + 16], angle[COUNT + 16];
+    _Alignas(64) uint32_t diffuse_first[16], diffuse_columns[16];
+    _Alignas(64) float diffuse_weights[3][16];
 
     lmp_kernel_slice slices[VIEWS * CAPS];
     float view_remap[VIEW_STEPS + 1], cap_remap[CAP_STEPS + 1];
     lmp_rgb colors[VIEWS];
     int16_t *texels;
-    lmp_kernel_preintegrated_brdf measured;
+    lmp_kernel_preintegrated_brdf brdf;
 } shading;
 
 /* Spheres, of which point i sees number i in the way of special[i]; caps alike from every point;
@@ -78,7 +78,7 @@ static size_t fold(size_t node, size_t count) {
 }
 
 /* Cells of 8 to 40 steps, rows of half as many. */
-static void make_response(shading *s) {
+static void make_preintegrated_lobe(shading *s) {
     uint32_t count = 0, steps[CELLS];
     for (uint32_t k = 0; k < CELLS; k++) {
         steps[k] = 8 + (uint32_t)s->bands % 5 + 14 * k;
@@ -104,16 +104,16 @@ static void make_response(shading *s) {
         const int k = i % CELLS;
         s->first[i] = s->cell_first[k];
         s->columns[i] = s->cell_columns[k];
-        s->share[i] = 0.5f + grid(1.0f / 2048);
+        s->weight[i] = 0.5f + grid(1.0f / 2048);
         s->density[i] = (float)steps[k] * (float)(1 / ORACLE_PI);
         s->angle[i] = 1.25f + grid(1.0f / 1024);
     }
     for (int i = 0; i < 16; i++) {
-        s->broad_first[i] = s->first[1];
-        s->broad_columns[i] = s->columns[1];
-        s->broad[0][i] = s->share[1];
-        s->broad[1][i] = s->density[1];
-        s->broad[2][i] = s->angle[1];
+        s->diffuse_first[i] = s->first[1];
+        s->diffuse_columns[i] = s->columns[1];
+        s->diffuse_weights[0][i] = s->weight[1];
+        s->diffuse_weights[1][i] = s->density[1];
+        s->diffuse_weights[2][i] = s->angle[1];
     }
 }
 
@@ -124,7 +124,7 @@ static void make_warp(float *warp, int steps, int count) {
 
 /* Slices of 4 to 17 rows and 4 columns and more; some end before the coordinates do. Odd bands: of
  * half a turn. */
-static void make_measured(shading *s) {
+static void make_preintegrated_brdf(shading *s) {
     const bool mirrored = s->bands % 2 != 0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < VIEWS * CAPS; i++) {
@@ -159,21 +159,21 @@ static void make_measured(shading *s) {
     make_warp(s->cap_remap, CAP_STEPS, CAPS);
     for (int i = 0; i < VIEWS; i++)
         s->colors[i] = (lmp_rgb) { 0.5f, 0.25f * (float)i, 1 - 0.125f * (float)i };
-    s->measured = (lmp_kernel_preintegrated_brdf) { .mirrored = mirrored,
-                                                    .width = 0.2f,
-                                                    .radius = 0.3f,
-                                                    .reach = 0.5f,
-                                                    .slope = 1,
-                                                    .lobe_angle = 0.75f,
-                                                    .view_count = VIEWS,
-                                                    .cap_count = CAPS,
-                                                    .view_steps = VIEW_STEPS,
-                                                    .cap_steps = CAP_STEPS,
-                                                    .view_remap = s->view_remap,
-                                                    .cap_remap = s->cap_remap,
-                                                    .ambient = s->colors,
-                                                    .slices = s->slices,
-                                                    .texels = s->texels };
+    s->brdf = (lmp_kernel_preintegrated_brdf) { .mirrored = mirrored,
+                                                .width = 0.2f,
+                                                .radius = 0.3f,
+                                                .reach = 0.5f,
+                                                .slope = 1,
+                                                .lobe_angle = 0.75f,
+                                                .view_count = VIEWS,
+                                                .cap_count = CAPS,
+                                                .view_steps = VIEW_STEPS,
+                                                .cap_steps = CAP_STEPS,
+                                                .view_remap = s->view_remap,
+                                                .cap_remap = s->cap_remap,
+                                                .ambient = s->colors,
+                                                .slices = s->slices,
+                                                .texels = s->texels };
 }
 
 static shading *shading_create(const inputs *in, int bands) {
@@ -184,8 +184,8 @@ static shading *shading_create(const inputs *in, int bands) {
     s->bands = bands;
     set_seed((uint64_t)bands * 77 + 5);
     make_lights(s);
-    make_response(s);
-    make_measured(s);
+    make_preintegrated_lobe(s);
+    make_preintegrated_brdf(s);
     lmp_lobe_diffuse(bands, s->diffuse);
     for (int l = 0; l < bands; l++) {
         s->diffuse[l] *= (float)(1 / ORACLE_PI);

@@ -15,7 +15,7 @@ app/reference/texture.c reference.texture
 app/reference/lobe.c reference.texture reference.estimate
 app/compare/ssim.c reference.compare
 app/gpu/renderer.c gpu.draw
-src/brdf/table.c unit.brdf_table
+src/brdf/table.c unit.brdf_table unit.brdf_table_bytes
 src/brdf/rgl_read.c unit.brdf_rgl unit.brdf_rgl_refusals
 END
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/bytes.h"
-#include "tests/oracle/check.h"
+#include "tests/unit/damage.h"
 
 #include <lampion/lampion.h>
 
@@ -286,40 +286,26 @@ static void bytes_read_back_are_the_same_response(void **state) {
     lmp_preintegrated_lobe_destroy(copy);
 }
 
-static void sign(unsigned char *bytes, size_t size) {
-    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
+static lmp_result read_and_use(const unsigned char *bytes, size_t size) {
+    lmp_preintegrated_lobe *copy;
+    const lmp_result result = lmp_preintegrated_lobe_read(NULL, bytes, size, &copy);
+    assert_int_equal(result == LMP_OK, copy != NULL);
+    for (float e = 0; copy && e < INFINITY; e = 2 * e + 0.3f)
+        (void)lmp_preintegrated_lobe_eval(copy, e, 1, -1);
+    lmp_preintegrated_lobe_destroy(copy);
+    return result;
 }
 
 static void damaged_bytes_are_refused(void **state) {
     (void)state;
     const lmp_preintegrated_lobe_desc desc = { .bands = 2, .error = 0.1f };
-    lmp_preintegrated_lobe *response, *copy;
+    lmp_preintegrated_lobe *response;
     assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
     size_t size;
     unsigned char *bytes = written(response, &size);
     lmp_preintegrated_lobe_destroy(response);
-
-    for (size_t cut = 0; cut < size; cut += 1 + cut / 16)
-        assert_int_not_equal(lmp_preintegrated_lobe_read(NULL, bytes, cut, &copy), LMP_OK);
-    bytes[size / 2] ^= 1;
-    assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, &copy), LMP_ERROR_CHECKSUM);
-    bytes[size / 2] ^= 1;
-    bytes[8] = 99;
-    assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, &copy), LMP_ERROR_VERSION);
-    assert_null(copy);
-    bytes[8] = 1;
-    /* Any change of the plan either is refused or gives a response that stays in bounds. */
-    for (int i = 0; i < 20000; i++) {
-        const size_t at = 12 + (size_t)(check_random() * 1600);
-        const unsigned char was = bytes[at];
-        bytes[at] = (unsigned char)(check_random() * 256);
-        sign(bytes, size);
-        if (lmp_preintegrated_lobe_read(NULL, bytes, size, &copy) == LMP_OK)
-            for (float e = 0; e < INFINITY; e = 2 * e + 0.3f)
-                (void)lmp_preintegrated_lobe_eval(copy, e, 1, -1);
-        lmp_preintegrated_lobe_destroy(copy);
-        bytes[at] = was;
-    }
+    damage_is_refused(bytes, size, read_and_use);
+    damage_stays_in_bounds(bytes, size, 12, 1612, 20000, read_and_use); /* the plan */
     free(bytes);
 }
 
@@ -331,7 +317,7 @@ static void every_bit_of_the_header_counts(void **state) {
     unsigned char *bytes = written(response, &size);
     for (size_t bit = 8 * 8; bit < 8 * 32; bit++) {
         bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
-        sign(bytes, size);
+        damage_sign(bytes, size);
         if (lmp_preintegrated_lobe_read(NULL, bytes, size, &copy) == LMP_OK) {
             unsigned char *again = written(copy, &(size_t) { 0 });
             assert_memory_equal(bytes, again, size);
@@ -365,7 +351,7 @@ static void cells_that_outgrow_their_count_are_refused(void **state) {
         p = lmp_bytes_store_f32(p, (float)(CELLS * i) / (LMP_PREINTEGRATED_LOBE_REMAP_COUNT - 1));
     for (int k = 0; k < CELLS; k++)
         p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 0), 1015.42f);
-    sign(bytes, size);
+    damage_sign(bytes, size);
     assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, &copy), LMP_ERROR_FORMAT);
     assert_null(copy);
     free(bytes);

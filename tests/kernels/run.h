@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: MIT */
+/* run.h - runs any kernel on the same inputs, into guarded memory, in either layout. */
+#ifndef LAMPION_RUN_H
+#define LAMPION_RUN_H
+
+#include "tests/kernels/shading.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GUARD = 64 };
+
+typedef enum kind {
+    EVAL,
+    DOT,
+    ROTATE,
+    ZONAL,
+    PROJECT,
+    ACCUMULATE,
+    GRADIENT,
+    LOBE,
+    SHADE_ZONAL,
+    SHADE_PREINTEGRATED_LOBE,
+    SHADE_PREINTEGRATED_BRDF,
+    KINDS
+} kind;
+static const char *const kind_names[] = { "eval",
+                                          "dot",
+                                          "rotate",
+                                          "zonal",
+                                          "project",
+                                          "accumulate",
+                                          "gradient",
+                                          "lobe",
+                                          "shade_zonal",
+                                          "shade_preintegrated_lobe",
+                                          "shade_preintegrated_brdf" };
+
+static size_t values_of(kind which, int bands) {
+    const size_t n = LMP_SH_COUNT(bands);
+    switch (which) {
+    case DOT:
+        return 1;
+    case ZONAL:
+        return (size_t)bands;
+    case ACCUMULATE:
+        return 3 * n;
+    case GRADIENT:
+        return 12 * n;
+    case LOBE:
+    case SHADE_PREINTEGRATED_BRDF:
+        return 3;
+    case SHADE_ZONAL:
+    case SHADE_PREINTEGRATED_LOBE:
+        return 6;
+    default:
+        return n;
+    }
+}
+
+/* Lobes and coefficients that the kernels of those take. */
+static void make_lambda(int bands, float *lambda) {
+    for (int l = 0; l < bands; l++)
+        lambda[l] = 1 / (1 + 0.25f * (float)l);
+}
+
+static float *make_matrices(int bands) {
+    float *matrices = malloc(LMP_SH_ROTATION_COUNT(bands) * sizeof *matrices);
+    assert_non_null(matrices);
+    set_seed(bands > 0 ? (uint64_t)bands : 1);
+    for (size_t i = 0; i < LMP_SH_ROTATION_COUNT(bands); i++)
+        matrices[i] = grid(1.0f / 1024);
+    return matrices;
+}
+
+/* Coefficients are the same for both layouts: of element e, value v. */
+static float coefficient(size_t e, size_t v) {
+    set_seed(e * 7919 + v);
+    grid(1);
+    return grid(1.0f / 1024);
+}
+
+static float *make_vectors(size_t values, size_t count, int planar, size_t stride, size_t shift) {
+    float *at = malloc((planar ? values : count) * stride * sizeof *at + 64);
+    assert_non_null(at);
+    for (size_t e = 0; e < count; e++)
+        for (size_t v = 0; v < values; v++)
+            at[planar ? v * stride + e : e * stride + v] = coefficient(e + shift, v);
+    return at;
+}
+
+static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t count, int planar,
+                        const lmp_kernel_out *out) {
+    const size_t values = LMP_SH_COUNT(bands), stride = (planar ? count : values) + 3;
+    float *a = make_vectors(values, count, planar, stride, 0);
+    const lmp_kernel_in from_a = { a, stride, planar };
+    if (which == DOT) {
+        float *b = make_vectors(values, count, planar, stride, 1000);
+        const lmp_kernel_in from_b = { b, stride, planar };
+        k->dot(values, &from_a, &from_b, count, out->at);
+        free(b);
+    } else {
+        float *matrices = make_matrices(bands);
+        k->rotate(bands, matrices, &from_a, count, out);
+        free(matrices);
+    }
+    free(a);
+}
+
+/* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
+ * guarded here. */
+enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * GUARD };
+
+static void call_shading(const lmp_kernels *k, kind which, const shading *s, size_t count,
+                         float *const planes[6]) {
+    const inputs *in = s->in;
+    const lmp_kernel_accumulated sums = { { planes[0], planes[1], planes[2] },
+                                          { planes[3], planes[4], planes[5] } };
+    const lmp_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
+                                           { in->normal[0], in->normal[1], in->normal[2] },
+                                           { in->view[0], in->view[1], in->view[2] },
+                                           in->exponent };
+    const lmp_kernel_preintegrated_lobe lobe = { s->pairs };
+    const lmp_kernel_lobe_positions diffuse = { s->diffuse_first, s->diffuse_columns,
+                                                s->diffuse_weights[0], s->diffuse_weights[1],
+                                                s->diffuse_weights[2] };
+    const lmp_kernel_lobe_positions specular = { s->first, s->columns, s->weight, s->density,
+                                                 s->angle };
+    if (which == SHADE_ZONAL)
+        k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
+                       &sums);
+    else if (which == SHADE_PREINTEGRATED_LOBE)
+        k->shade_preintegrated_lobe(&lobe, &diffuse, &specular, &surfaces, s->lights, SHADE_LIGHTS,
+                                    count, &sums);
+    else
+        k->shade_preintegrated_brdf(&s->brdf, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
+                                    sums.diffuse);
+}
+
+static void run_shading(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                        const lmp_kernel_out *out) {
+    _Alignas(64) float memory[6][PLANE];
+    float *planes[6];
+    const size_t whole =
+        (count + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
+    const size_t values = values_of(which, bands);
+    shading *s = shading_create(in, bands);
+    for (size_t v = 0; v < 6; v++) {
+        planes[v] = memory[v] + GUARD;
+        for (size_t i = 0; i < PLANE; i++)
+            memory[v][i] = (float)v; /* what the kernel adds to */
+    }
+    call_shading(k, which, s, count, planes);
+    shading_free(s);
+    for (size_t v = 0; v < 6; v++) {
+        for (size_t e = 0; v < values && e < count; e++)
+            out->at[out->planar ? v * out->stride + e : e * out->stride + v] = planes[v][e];
+        for (size_t i = 0; i < PLANE; i++)
+            if ((v >= values || i < GUARD || i >= GUARD + whole) &&
+                (memory[v][i] < (float)v || memory[v][i] > (float)v))
+                out->at[-1] = 0; /* seen as memory that is not the kernel's */
+    }
+}
+
+static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                int planar, const lmp_kernel_out *out) {
+    const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
+    const lmp_kernel_vec3 center = { in->center[0], in->center[1], in->center[2] };
+    const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
+    const lmp_kernel_pairs pairs = { center, point, in->radius };
+    const lmp_kernel_lights lights = { { center.x, center.y, center.z, sizeof(float) },
+                                       { in->radius, sizeof(float) },
+                                       { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
+                                       LIGHTS };
+    /* Gradients follow the values: further on in a row, or in the planes after them. */
+    lmp_kernel_out gradient = *out;
+    gradient.at += 3 * LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
+    float lambda[LMP_BANDS_MAX];
+    make_lambda(bands, lambda);
+    switch (which) {
+    case EVAL:
+        k->eval(bands, &axis, count, out);
+        break;
+    case DOT:
+    case ROTATE:
+        run_vectors(k, which, bands, count, planar, out);
+        break;
+    case ZONAL:
+        k->zonal(bands, in->radius, in->distance, count, out);
+        break;
+    case PROJECT:
+        k->project(bands, &pairs, count, out);
+        break;
+    case ACCUMULATE:
+        k->accumulate(bands, &lights, &point, count, out);
+        break;
+    case GRADIENT:
+        k->gradient(bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
+        break;
+    case LOBE:
+        k->lobe(bands, lambda, &axis, &lights, &point, count, out);
+        break;
+    case SHADE_ZONAL:
+    case SHADE_PREINTEGRATED_LOBE:
+    case SHADE_PREINTEGRATED_BRDF:
+        run_shading(k, which, bands, in, count, out);
+        break;
+    case KINDS:
+        break;
+    }
+}
+
+/* Runs a kernel into guarded memory and returns its values as tight rows, or NULL if it wrote
+ * outside the output or left a value unwritten. */
+static float *results(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                      int planar) {
+    const size_t values = values_of(which, bands);
+    const size_t pad = which == DOT ? 0 : 5;
+    const size_t stride = (planar ? count : values) + pad, rows = planar ? values : count;
+    const size_t size = rows * stride + 2 * GUARD;
+    const uint32_t mark = 0x7fc0beef; /* a NaN that no kernel makes */
+    float *memory = aligned_alloc(64, (size * sizeof(float) + 63) / 64 * 64);
+    float *tight = malloc((count * values + 1) * sizeof(float));
+    assert_non_null(memory);
+    assert_non_null(tight);
+    for (size_t i = 0; i < size; i++)
+        memcpy(memory + i, &mark, sizeof mark);
+    const lmp_kernel_out out = { memory + GUARD, stride, planar };
+    run(k, which, bands, in, count, planar, &out);
+    int clean = 1;
+    for (size_t i = 0; i < size; i++) {
+        const size_t at = i < GUARD || stride == 0 ? size : i - GUARD;
+        const size_t row = stride ? at / stride : rows, column = stride ? at % stride : 0;
+        const int inside = row < rows && column < stride - pad;
+        uint32_t bits;
+        memcpy(&bits, memory + i, sizeof bits);
+        clean = clean && inside == (bits != mark);
+        if (inside)
+            tight[planar ? column * values + row : row * values + column] = memory[i];
+    }
+    free(memory);
+    if (!clean) {
+        free(tight);
+        return NULL;
+    }
+    return tight;
+}
+
+/* LAMPION_SEED draws others. */
+static uint64_t drawn_seed(void) {
+    const uint64_t seed = (uint64_t)(check_random() * 1e9);
+    printf("inputs of seed %llu\n", (unsigned long long)seed);
+    return seed;
+}
+
+#endif
