@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT */
+/* An image is stored once, by however many names, images, samplers and materials a scene uses it.
+ */
+#include "app/scene/scene.h"
+#include "tests/program/folder.h"
+
+/* A PNG of one white pixel. */
+static const unsigned char pixel_png[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00,
+    0x00, 0x1f, 0x15, 0xc4, 0x89, 0x00, 0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0x9c, 0x63, 0xf8, 0x0f, 0x04, 0x00, 0x09, 0xfb, 0x03, 0xfd, 0xfb, 0x5e, 0x6b, 0x2b,
+    0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82
+};
+
+static scene load(const char *name) {
+    scene world;
+    cli_error error;
+    if (!scene_load(in_folder(name), &(scene_options) { .no_cache = true }, &world, &error))
+        fail_msg("%s", error.text);
+    return world;
+}
+
+/* Base colors by three images of one file and four samplers, two of them alike, and one of the
+ * images as metallic and roughness, which is another color space. */
+static void a_gltf_stores_an_image_once(void **state) {
+    (void)state;
+    folder_write_text(
+        "scene.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"a.png\"},{\"uri\":\"./a.png\"}],"
+        "\"samplers\":[{},{\"wrapS\":33071},{\"wrapS\":10497},{\"wrapT\":33648}],"
+        "\"textures\":[{\"source\":0,\"sampler\":0},{\"source\":1,\"sampler\":1},"
+        "{\"source\":2,\"sampler\":2},{\"source\":0,\"sampler\":3},{\"source\":2}],"
+        "\"materials\":["
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},"
+        "\"metallicRoughnessTexture\":{\"index\":0}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":2}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":3}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":4}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
+    scene world = load("scene.gltf");
+    assert_int_equal(world.texel_bytes, 4);
+    assert_int_equal(world.texture_count, 4); /* repeat, clamp, mirror, repeat and linear */
+    static const int expected[] = { 0, 2, 0, 3, 0 };
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(world.materials[i].base_color_map.texture, expected[i]);
+    assert_int_equal(world.materials[0].metallic_roughness_map.texture, 1);
+    scene_free(&world);
+}
+
+static void an_obj_stores_an_image_once(void **state) {
+    (void)state;
+    folder_write_text("scene.obj", "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                   "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\n"
+                                   "usemtl c\nf 1/1 2/1 3/1\n");
+    folder_write_text("scene.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd -clamp on a.png\n"
+                                   "newmtl c\nmap_Kd ./A.PNG\n");
+    scene world = load("scene.obj");
+    assert_int_equal(world.texel_bytes, 4);
+    assert_int_equal(world.texture_count, 2);
+    scene_free(&world);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    if (!mkdtemp(folder))
+        return 1;
+    folder_write("a.png", pixel_png, sizeof pixel_png);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_gltf_stores_an_image_once),
+        cmocka_unit_test(an_obj_stores_an_image_once),
+    };
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+}
