@@ -19,7 +19,7 @@ enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 409
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device, *animate, *from;
-    int size[2], bands, method, window, device_kind, repeat, samples;
+    int size[2], bands, method, window, device_kind, repeat, samples, pixels_max;
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
     bool exposure_given, frames_given, shard_given, stats, compare;
@@ -348,6 +348,9 @@ static int repeat_shot(const render_options *o, const char *name) {
               view_read_shot(o->from, settings, &error);
     if (ok && name && strlen(name) >= sizeof settings->scene)
         ok = cli_fail(&error, name, "is too long a name");
+    if (ok && (long)settings->width * settings->height > o->pixels_max)
+        ok = cli_fail(&error, o->from, "asks for %d x %d pixels (at most %d; see --max-pixels)",
+                      settings->width, settings->height, o->pixels_max);
     if (ok && name)
         strcpy(settings->scene, name);
     ok = ok && view_render(settings, o->device, o->output, &error);
@@ -359,6 +362,7 @@ static const render_options defaults = { .size = { 1280, 720 },
                                          .bands = LMP_SHADE_BANDS_DEFAULT,
                                          .window = LMP_WINDOW_HANNING,
                                          .samples = 1,
+                                         .pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
                                          .repeat = 5,
                                          .fps = 24 };
@@ -385,9 +389,12 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
           NULL, NULL },
         { "from", 0, CLI_TEXT, &o.from, "FILE",
-          "repeat a screenshot of lampion view: its settings count, beside -o and --gl-device none "
-          "of these; without SCENE its scene",
+          "repeat a screenshot of lampion view: its settings count, beside -o, --gl-device and "
+          "--max-pixels none of these; without SCENE its scene",
           0, 0, NULL, NULL },
+        { "max-pixels", 0, CLI_INT, &o.pixels_max, "N",
+          "refuse a screenshot of more, which takes 85 bytes a pixel", 1, IMAGE_PIXELS_MAX, NULL,
+          NULL },
         { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
           NULL, NULL },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",

@@ -43,7 +43,7 @@ static bool read_map(const struct aiMaterial *from, enum aiTextureType type, uin
         path.length == 0)
         return true;
     if (path.data[0] == '*') {
-        builder_left_out(files->builder, "embedded texture", "material", 1);
+        builder_left_out(files->images.builder, "embedded texture", "material", 1);
         return true;
     }
     return texture_file_use(files, path.data, srgb, wrap_of(modes[0]), wrap_of(modes[1]), use,
@@ -59,7 +59,7 @@ static bool read_material(const struct aiMaterial *from, texture_files *files, c
     read_color(from, "$clr.diffuse", factors.diffuse);
     read_color(from, "$clr.specular", factors.specular);
     read_color(from, "$clr.emissive", factors.emission);
-    scene_material *to = builder_material(files->builder, name.data);
+    scene_material *to = builder_material(files->images.builder, name.data);
     if (!to)
         return cli_fail(error, files->sources->subject, "does not fit into memory");
     phong_apply(&factors, to);
@@ -70,10 +70,10 @@ static bool read_material(const struct aiMaterial *from, texture_files *files, c
 
 bool assimp_add_materials(const struct aiScene *imported, source_set *sources,
                           scene_builder *builder, cli_error *error) {
-    texture_files files = { .sources = sources, .builder = builder };
+    texture_files files = { .sources = sources, .images.builder = builder };
     bool ok = true;
     for (unsigned i = 0; ok && i < imported->mNumMaterials; i++)
         ok = read_material(imported->mMaterials[i], &files, error);
-    free(files.names);
+    free(files.images.items);
     return ok;
 }

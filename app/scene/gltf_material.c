@@ -11,15 +11,11 @@
 
 #define FILTER_NEAREST 9728
 
-/* Textures already made: which image, sampler and color space became which texture. */
 typedef struct texture_pool {
     const gltf *document;
     scene_builder *builder;
     scene_texture *decoded; /* of each image; width 0: not yet */
-    struct made {
-        long image, sampler;
-        uint32_t srgb;
-    } * made;
+    texture_images images;  /* those whose bytes lie in a file */
     cli_error *error;
 } texture_pool;
 
@@ -52,9 +48,14 @@ static bool decode_image(texture_pool *pool, size_t image) {
     scene_texture *texture = &pool->decoded[image];
     gltf_bytes bytes = { 0 };
     char name[512];
-    const bool ok = find_image(pool, image, &bytes, name, sizeof name) &&
-                    texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF,
-                                   pool->document->subject, name, texture, pool->error);
+    const char *const subject = pool->document->subject;
+    bool ok = find_image(pool, image, &bytes, name, sizeof name);
+    if (ok && bytes.owned)
+        ok = texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF, subject, name,
+                            texture, pool->error);
+    else if (ok)
+        ok = texture_decode_once(&pool->images, bytes.bytes, bytes.size, TEXTURE_GLTF, subject,
+                                 name, texture, pool->error);
     if (ok)
         scene_clean_name(texture->name, name);
     free(bytes.owned);
@@ -74,29 +75,18 @@ static uint32_t wrap_mode(const cJSON *sampler, const char *name) {
 
 /* The texture for `image` with `sampler`, made if need be; -1 on failure. */
 static int32_t find_texture(texture_pool *pool, long image, long sampler, uint32_t srgb) {
-    const size_t count = builder_count(pool->builder, BLOB_TEXTURES);
-    for (size_t i = 0; i < count; i++)
-        if (pool->made[i].image == image && pool->made[i].sampler == sampler &&
-            pool->made[i].srgb == srgb)
-            return (int32_t)i;
     if (pool->decoded[image].width == 0 && !decode_image(pool, (size_t)image))
         return -1;
-    struct made *made = realloc(pool->made, (count + 1) * sizeof *made);
-    if (made)
-        pool->made = made;
-    scene_texture *texture = made ? builder_append(pool->builder, BLOB_TEXTURES, 1) : NULL;
-    if (!texture) {
-        cli_fail(pool->error, pool->document->subject, "does not fit into memory");
-        return -1;
-    }
-    made[count] = (struct made) { image, sampler, srgb };
-    *texture = pool->decoded[image];
-    texture->srgb = srgb;
     const cJSON *entry =
         sampler < 0 ? NULL : gltf_item(pool->document, GLTF_SAMPLERS, (size_t)sampler);
-    texture->wrap_u = wrap_mode(entry, "wrapS");
-    texture->wrap_v = wrap_mode(entry, "wrapT");
-    return (int32_t)count;
+    scene_texture texture = pool->decoded[image];
+    texture.srgb = srgb;
+    texture.wrap_u = wrap_mode(entry, "wrapS");
+    texture.wrap_v = wrap_mode(entry, "wrapT");
+    const int32_t number = texture_use(pool->builder, &texture);
+    if (number < 0)
+        cli_fail(pool->error, pool->document->subject, "does not fit into memory");
+    return number;
 }
 
 /* uv' = translation * rotation * scale * uv; the rotation is counter-clockwise with v down. */
@@ -250,7 +240,9 @@ static void note_filters(const gltf *document, scene_builder *builder) {
 }
 
 bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error *error) {
-    texture_pool pool = { .document = document, .builder = builder, .error = error };
+    texture_pool pool = {
+        .document = document, .builder = builder, .images.builder = builder, .error = error
+    };
     pool.decoded = calloc(gltf_count(document, GLTF_IMAGES) + 1, sizeof *pool.decoded);
     bool ok = pool.decoded || cli_fail(error, document->subject, "does not fit into memory");
     for (size_t i = 0; ok && i < gltf_count(document, GLTF_MATERIALS); i++)
@@ -266,6 +258,6 @@ bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error 
         note_filters(document, builder);
     }
     free(pool.decoded);
-    free(pool.made);
+    free(pool.images.items);
     return ok;
 }

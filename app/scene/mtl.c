@@ -28,7 +28,7 @@ static bool fail(const mtl_reader *r, const char *wrong) {
 }
 
 static scene_material *material_of(const mtl_reader *r) {
-    return (scene_material *)builder_items(r->files->builder, BLOB_MATERIALS) + r->material;
+    return (scene_material *)builder_items(r->files->images.builder, BLOB_MATERIALS) + r->material;
 }
 
 static void finish_material(mtl_reader *r) {
@@ -55,10 +55,10 @@ static bool new_material(mtl_reader *r) {
         r->names->items = items;
         r->names->capacity = capacity;
     }
-    r->material = builder_count(r->files->builder, BLOB_MATERIALS);
+    r->material = builder_count(r->files->images.builder, BLOB_MATERIALS);
     mtl_name *own = &r->names->items[r->names->count];
     *own = (mtl_name) { .name = strdup(name), .material = (uint32_t)r->material };
-    if (!own->name || !builder_material(r->files->builder, name)) {
+    if (!own->name || !builder_material(r->files->images.builder, name)) {
         free(own->name);
         return cli_fail(r->error, r->files->sources->subject, "does not fit into memory");
     }
@@ -147,7 +147,7 @@ static void skip_options(mtl_reader *r, scene_wrap *wrap) {
             return;
         words_next(&r->words);
         if (options[i].changes)
-            builder_left_out(r->files->builder, options[i].name, "map", 1);
+            builder_left_out(r->files->images.builder, options[i].name, "map", 1);
         for (int k = 0; k < options[i].arguments; k++) {
             /* Three numbers, of which the last two may be missing. */
             char *at = r->words.words + strspn(r->words.words, " \t");
@@ -174,7 +174,7 @@ static bool read_map(mtl_reader *r, const char *keyword) {
     while (i < sizeof maps / sizeof *maps && strcasecmp(maps[i].keyword, keyword) != 0)
         i++;
     if (i == sizeof maps / sizeof *maps) {
-        builder_left_out(r->files->builder, keyword, "material", 1);
+        builder_left_out(r->files->images.builder, keyword, "material", 1);
         return true;
     }
     scene_wrap wrap = SCENE_WRAP_REPEAT;

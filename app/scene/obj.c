@@ -332,7 +332,7 @@ bool obj_add(const char *text, size_t size, source_set *sources, scene_builder *
     obj_reader r = { .builder = builder,
                      .sources = sources,
                      .words = { .at = text, .end = text + size },
-                     .textures = { .sources = sources, .builder = builder },
+                     .textures = { .sources = sources, .images.builder = builder },
                      .error = error };
     const bool ok = read_all(&r);
     run *runs = r.runs.items;
@@ -342,7 +342,7 @@ bool obj_add(const char *text, size_t size, source_set *sources, scene_builder *
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         free(lists[i]->items);
     mtl_names_free(&r.materials);
-    free(r.textures.names);
+    free(r.textures.images.items);
     free(r.words.buffer);
     return ok;
 }

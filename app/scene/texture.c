@@ -3,6 +3,7 @@
 
 #include <limits.h>
 #include <stb_image.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What the first bytes say; the decoder would take more formats than the documented ones. */
@@ -45,4 +46,50 @@ bool texture_decode(scene_builder *builder, const void *data, size_t size, textu
         memcpy(texels, pixels, bytes);
     stbi_image_free(pixels);
     return texels || cli_fail(error, subject, "has textures that do not fit into memory");
+}
+
+struct texture_image {
+    const void *data;
+    size_t size;
+    scene_texture texture;
+};
+
+bool texture_decode_once(texture_images *images, const void *data, size_t size,
+                         texture_format formats, const char *subject, const char *name,
+                         scene_texture *texture, cli_error *error) {
+    for (size_t i = 0; i < images->count; i++) {
+        const struct texture_image *known = &images->items[i];
+        if (known->data == data && known->size == size) {
+            texture->first_byte = known->texture.first_byte;
+            texture->width = known->texture.width;
+            texture->height = known->texture.height;
+            return true;
+        }
+    }
+    struct texture_image *items = realloc(images->items, (images->count + 1) * sizeof *items);
+    if (!items)
+        return cli_fail(error, subject, "has textures that do not fit into memory");
+    images->items = items;
+    if (!texture_decode(images->builder, data, size, formats, subject, name, texture, error))
+        return false;
+    items[images->count++] = (struct texture_image) { data, size, *texture };
+    return true;
+}
+
+static bool is_same(const scene_texture *a, const scene_texture *b) {
+    return a->first_byte == b->first_byte && a->width == b->width && a->height == b->height &&
+           a->srgb == b->srgb && a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v;
+}
+
+int32_t texture_use(scene_builder *builder, const scene_texture *texture) {
+    const scene_texture *known = builder_items(builder, BLOB_TEXTURES);
+    const size_t count = builder_count(builder, BLOB_TEXTURES);
+    for (size_t i = 0; i < count; i++)
+        if (is_same(&known[i], texture))
+            return (int32_t)i;
+    scene_texture *added = builder_append(builder, BLOB_TEXTURES, 1);
+    if (!added)
+        return -1;
+    *added = *texture;
+    return (int32_t)count;
 }

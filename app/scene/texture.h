@@ -17,10 +17,27 @@ typedef enum texture_format {
     TEXTURE_ANY = TEXTURE_GLTF | TEXTURE_TGA | TEXTURE_BMP,
 } texture_format;
 
+/* Images that have been decoded into a builder's texels. Zero-initialize but for the builder;
+ * free() the items. */
+typedef struct texture_images {
+    scene_builder *builder;
+    struct texture_image *items;
+    size_t count;
+} texture_images;
+
 /* Decodes an image of one of `formats` to RGBA and appends its texels; *texture gets their place
  * and size. `subject` and `name` are for messages. */
 bool texture_decode(scene_builder *builder, const void *data, size_t size, texture_format formats,
                     const char *subject, const char *name, scene_texture *texture,
                     cli_error *error);
+
+/* The same of data that stay where they are as long as `images`: decoded once, whoever asks. */
+bool texture_decode_once(texture_images *images, const void *data, size_t size,
+                         texture_format formats, const char *subject, const char *name,
+                         scene_texture *texture, cli_error *error);
+
+/* The number of the builder's texture of the same texels, color space and wrap modes, which is
+ * added where there is none; -1 without memory. */
+int32_t texture_use(scene_builder *builder, const scene_texture *texture);
 
 #endif

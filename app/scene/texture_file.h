@@ -3,16 +3,12 @@
 #ifndef LAMPION_SCENE_TEXTURE_FILE_H
 #define LAMPION_SCENE_TEXTURE_FILE_H
 
-#include "app/scene/builder.h"
 #include "app/scene/sources.h"
+#include "app/scene/texture.h"
 
-typedef struct texture_name texture_name;
-
-/* Zero-initialize but for the first two; free() the names. */
 typedef struct texture_files {
     source_set *sources;
-    scene_builder *builder;
-    texture_name *names; /* of the builder's textures */
+    texture_images images;
 } texture_files;
 
 /* Finds or makes the texture of a file; one that is not there is noted as left out, and *use stays

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/* A screenshot repeated by the program asks for no more than its user allows, however small it is
+ * itself. */
+#include "app/image/png.h"
+#include "tests/program/refused.h"
+#include "tests/program/view.h"
+
+#include "app/file/file.h"
+
+/* An image of one pixel whose settings ask for so many. */
+static void write_shot(const char *name, int width, int height) {
+    static const unsigned char pixel[3];
+    cli_error error;
+    state.now.width = width;
+    state.now.height = height;
+    state.now.samples = 1;
+    char *text = file_json_text(view_settings_to_json(&state.now), false, name, &error);
+    assert_non_null(text);
+    if (!image_write_png8_text(pixel, 1, 1, &(image_text) { "lampion", text }, in_folder(name),
+                               &error))
+        fail_msg("%s", error.text);
+    free(text);
+}
+
+/* Runs `lampion render --from NAME -o out.png --max-pixels N`, or without the last. */
+static int repeat(const char *name, const char *pixels_max) {
+    char shot[64], output[64];
+    snprintf(shot, sizeof shot, "%s/%s", folder, name);
+    snprintf(output, sizeof output, "%s/out.png", folder);
+    unlink(output);
+    const char *const arguments[] = { "lampion", "render",       "--from",   shot, "-o",
+                                      output,    "--max-pixels", pixels_max, NULL };
+    const char *const usual[] = { "lampion", "render", "--from", shot, "-o", output, NULL };
+    return run_program(pixels_max ? arguments : usual);
+}
+
+static void large_ones_are_refused_unless_allowed(void **unused) {
+    (void)unused;
+    write_shot("large.png", 8192, 8192);
+    assert_one_line(repeat("large.png", NULL), "large.png", "asks for 8192 x 8192 pixels");
+    assert_int_not_equal(access(in_folder("out.png"), F_OK), 0);
+    write_shot("small.png", 40, 30);
+    assert_one_line(repeat("small.png", "1199"), "small.png", "(at most 1199; see --max-pixels)");
+    assert_int_equal(repeat("small.png", "1200"), 0);
+    assert_int_equal(access(in_folder("out.png"), F_OK), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed) };
+    return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
+}
