@@ -78,7 +78,8 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
                                         : 16;
     /* An odd number of cache lines, for planes whose distance is a power of two collide. */
     b.stride =
-        layout == LMP_SH_PLANAR ? (b.count / 16 | 1) * 16 + (b.count / 16 % 2 ? 32 : 0) : values;
+        sizeof(float) *
+        (layout == LMP_SH_PLANAR ? (b.count / 16 | 1) * 16 + (b.count / 16 % 2 ? 32 : 0) : values);
     b.axes = planes_of(in->axis);
     b.points = planes_of(in->point);
     b.spheres = (lmp_spheres) { planes_of(in->center),

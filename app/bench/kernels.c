@@ -27,8 +27,8 @@ static void run_accumulate(const bench_batch *b) {
 }
 static void run_gradient(const bench_batch *b) {
     const size_t n = LMP_SH_COUNT(b->bands);
-    float *slopes = b->out + 3 * n * (b->layout == LMP_SH_PLANAR ? b->stride : b->count);
     const size_t stride = b->layout == LMP_SH_PLANAR ? b->stride : 0;
+    float *slopes = b->out + 3 * n * (stride ? stride / sizeof(float) : b->count);
     lmp_sphere_accumulate_gradient_n(b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count,
                                      b->layout, stride, b->out, stride, slopes);
 }

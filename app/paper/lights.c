@@ -60,7 +60,7 @@ static bool draw(image *pixels, cli_error *error) {
     figure_fill(pixels, (figure_box) { 0, 0, KINDS * CELL, CELL }, (lmp_rgb) { 1, 1, 1 });
     for (int i = 0; i < KINDS; i++) {
         series s = { .scale = 1 };
-        lmp_light_project(&lights[i].light, 1, (lmp_vec3) { 0, 0, 0 }, BANDS, s.sh);
+        lmp_light_project(BANDS, &lights[i].light, 1, (lmp_vec3) { 0, 0, 0 }, s.sh);
         s.scale = 1 / (1.02f * peak(&s));
         const figure_lobe lobe = { value, &s, { 0.72f, 0.045f, 0.035f }, { 0.05f, 0.4f, 0.075f } };
         if (!figure_draw_lobe(pixels, (figure_box) { i * CELL, 0, CELL, CELL }, &lobe, error))
@@ -73,7 +73,7 @@ static bool draw(image *pixels, cli_error *error) {
 static double dirac_error(const lmp_light *light, float strength) {
     float sh[3 * LMP_SH_COUNT(BANDS)], y[LMP_SH_COUNT(BANDS)];
     double worst = 0, largest = 0;
-    lmp_light_project(light, 1, (lmp_vec3) { 0, 0, 0 }, BANDS, sh);
+    lmp_light_project(BANDS, light, 1, (lmp_vec3) { 0, 0, 0 }, sh);
     lmp_sh_eval(BANDS, (lmp_vec3) { 0.70710678f, 0, 0.70710678f }, y);
     for (size_t i = 0; i < LMP_SH_COUNT(BANDS); i++) {
         worst = fmax(worst, fabs((double)sh[i] - (double)strength * (double)y[i]));

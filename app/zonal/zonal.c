@@ -47,7 +47,7 @@ static void tabulate(int bands, double position, float *zonal) {
     lmp_light cap = { .kind = LMP_LIGHT_CAP, .direction = { 0, 0, 1 } };
     lmp_vec3 axis;
     cap.angle = fminf((float)(2 * acos(sqrt(position))), pi);
-    lmp_light_zonal(&cap, (lmp_vec3) { 0, 0, 0 }, bands, zonal, &axis);
+    lmp_light_zonal(bands, &cap, (lmp_vec3) { 0, 0, 0 }, zonal, &axis);
 }
 
 zonal_table *zonal_table_create(int bands, int size) {

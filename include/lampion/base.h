@@ -2,7 +2,12 @@
 /* lampion/base.h - what every other header needs: version, results, vectors, the host.
  *
  * Conventions of the whole library
- *   - A function `lmp_<topic>_<verb>` lives in `<topic>.h`. Inputs first, destination last.
+ *   - A function `lmp_<topic>_<verb>` lives in `<topic>.h`. Arguments have one order: the host or
+ *     the object; how (bands, desc or settings, numbers); what is read; what is written. An array
+ *     is followed by its count, a result preceded by its layout and stride.
+ *   - Strides are in bytes, from one element to the next, and multiples of sizeof(float). 0 repeats
+ *     the same element where that is of use (lmp_vec3_array, lmp_float_array, materials); elsewhere
+ *     (coefficients, images, results) it means tight.
  *   - Pure mathematics returns void or a value, allocates nothing and asserts its preconditions.
  *     What touches the heap or untrusted bytes returns lmp_result and sets its out-parameter to
  *     NULL on failure. Nothing prints, nothing exits.
@@ -57,9 +62,8 @@ typedef struct lmp_quat {
     float x, y, z, w;
 } lmp_quat;
 
-/* Many vectors or numbers, wherever they are: element i is `stride` bytes after element i-1. Stride
- * sizeof(float) reads three planes, sizeof(my_struct) the members of an array of structures, and 0
- * the same element for every i. */
+/* Many vectors or numbers, wherever they are: stride sizeof(float) reads three planes,
+ * sizeof(my_struct) the members of an array of structures, and 0 the same element for every i. */
 typedef struct lmp_vec3_array {
     const float *x, *y, *z;
     size_t stride;

@@ -112,13 +112,13 @@ LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radiu
  *
  * zonal receives `bands` values for radiance, intensity or irradiance 1 (a hemisphere light: for
  * radiance 1 above and 0 below); multiply by the light's color */
-LMP_API void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *zonal,
+LMP_API void lmp_light_zonal(int bands, const lmp_light *light, lmp_vec3 point, float *zonal,
                              lmp_vec3 *axis);
 
 /* RGB coefficients at `point` of the sum of `count` lights.
  *
  * sh receives three planes, red green blue, of LMP_SH_COUNT(bands) values; count may be 0 */
-LMP_API void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, int bands,
+LMP_API void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                                float *sh);
 
 /* --- batches (sh.h) -----------------------------------------------------------------------------

@@ -39,7 +39,7 @@ typedef struct lmp_probe_constants {
 
 /* Constants of a probe of at least 3 bands, multiplied by `scale`: 1 for irradiance, 1/pi for what
  * a white diffuse surface reflects. sh holds three planes. */
-LMP_API void lmp_probe_constants_of(int bands, const float *sh, float scale,
+LMP_API void lmp_probe_constants_of(int bands, float scale, const float *sh,
                                     lmp_probe_constants *constants);
 
 /* --- from samples ----------------------------------------------------------------------------- */
@@ -115,7 +115,7 @@ LMP_API void lmp_probe_convert(int bands, const lmp_probe_convention *from,
  * among several the first in the order of the enumerations (a function of one band tells little).
  *
  * ours and theirs hold LMP_SH_COUNT(bands) values */
-LMP_API bool lmp_probe_recognize(int bands, const float *ours, const float *theirs, float tolerance,
+LMP_API bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                                  lmp_probe_convention *convention);
 
 #ifdef __cplusplus

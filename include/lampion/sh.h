@@ -95,13 +95,13 @@ typedef enum lmp_window {
  * size > 0 is the band whose weight falls to 0; 0 means bands, as in the paper (§4.2). Bands at and
  * past size get weight 0. LMP_WINDOW_NONE gives 1 to every band, whatever the size.
  * weights receives `bands` values */
-LMP_API void lmp_sh_window(lmp_window window, int bands, float size, float *weights);
+LMP_API void lmp_sh_window(int bands, lmp_window window, float size, float *weights);
 
 /* Weights that minimize the squared Laplacian of the function sh (Sloan 2008): the window
  * 1 / (1 + mu l^2 (l+1)^2) whose mu leaves the fraction `keep` of the squared Laplacian.
  *
  * keep is in (0, 1]; 1 gives weights of 1; sh holds LMP_SH_COUNT(bands), weights receives bands */
-LMP_API void lmp_sh_window_laplacian(int bands, const float *sh, float keep, float *weights);
+LMP_API void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weights);
 
 /* Scales band l of sh by weights[l]; in and out may be the same array. */
 LMP_API void lmp_sh_window_apply(int bands, const float *weights, const float *sh, float *windowed);
@@ -115,11 +115,11 @@ typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
  * nodes >= 1 Gauss-Legendre nodes and 2*nodes azimuths: function is called 2*nodes*nodes times;
  * nodes = bands suffices for a function of `bands` bands. 0 means bands.
  * sh receives LMP_SH_COUNT(bands) values */
-LMP_API void lmp_sh_project_function(int bands, lmp_sh_function function, void *user, int nodes,
+LMP_API void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
                                      float *sh);
 
-/* Texels of an image: any number of channels, interleaved or planar. Strides are in bytes; 0 means
- * tight and interleaved. A texel counts as a constant seen at its center, weighted by its exact
+/* Texels of an image: any number of channels, interleaved or planar. Strides 0 mean tight and
+ * interleaved. A texel counts as a constant seen at its center, weighted by its exact
  * solid angle: take images of at least 4 * bands rows. Sums are in double, whatever the size. The
  * cost is that of bands² / 2 multiplications and additions a texel and channel. */
 typedef enum lmp_texel { LMP_TEXEL_FLOAT = 0, LMP_TEXEL_HALF } lmp_texel;
@@ -180,12 +180,14 @@ LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, cons
  * threads as you like: no split changes a bit.
  *
  * A result of V values an element is laid out
- *   LMP_SH_INTERLEAVED    element after element, as engines store it: value v at out[i * stride +
- * v] LMP_SH_PLANAR  value after value, the faster one: out[v * stride + i]. Where 4 * stride is a
- *                  power of two, planes compete for the same places of the cache: pad it.
- * stride is in floats, 0 means tight: V for rows, count for planes. What lies between the elements
- * is left alone. Any alignment will do; planes that all begin at multiples of 64 bytes spare the
- * widest stores a crossing of cache lines. */
+ *   LMP_SH_INTERLEAVED  element after element, as engines store it: `stride` bytes from one element
+ *                       to the next, its values side by side
+ *   LMP_SH_PLANAR       value after value, the faster one: `stride` bytes from one value's plane to
+ *                       the next, the elements side by side. Where that is a power of two, planes
+ *                       compete for the same lines of the cache: pad it
+ * Stride 0 means tight: V or `count` floats. What lies between is left alone. Any alignment of
+ * floats will do; planes that all begin at multiples of 64 bytes spare the widest stores a crossing
+ * of cache lines. */
 typedef enum lmp_sh_layout { LMP_SH_INTERLEAVED = 0, LMP_SH_PLANAR } lmp_sh_layout;
 
 /* lmp_sh_eval of many directions: LMP_SH_COUNT(bands) values an element. */

@@ -100,8 +100,7 @@ typedef struct lmp_surface {
 LMP_API lmp_rgb lmp_shade(const lmp_shade_settings *settings, const lmp_material *material,
                           const lmp_surface *surface, const lmp_light *lights, size_t count);
 
-/* Many surfaces, wherever their members are (base.h). Materials are read at `material_stride` bytes
- * from one surface to the next; 0 means the same for all. */
+/* Many surfaces, wherever their members are (base.h); material_stride 0: the same for all. */
 typedef struct lmp_surfaces {
     lmp_vec3_array position, normal, view;
     lmp_vec3_array tangent; /* x NULL: zero for all */
@@ -122,8 +121,8 @@ typedef struct lmp_surfaces {
  * Sums of coefficients go one surface after another. Positions: light.h, batches.
  *
  * settings may be NULL (zero-initialized); lights may be NULL if light_count is 0
- * rgb_stride is the number of bytes from one surface's red to the next one's; 0 means tight, 3
- * floats. rgb must not overlap what is read */
+ * rgb_stride is from one surface's red to the next one's; 0 means tight, 3 floats. rgb must not
+ * overlap what is read */
 LMP_API void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
                          size_t count, const lmp_light *lights, size_t light_count,
                          size_t rgb_stride, float *rgb);

@@ -139,7 +139,7 @@ static lmp_result refine(table_job *job, int rings_max) {
 static void apply_window(lmp_brdf_table *table) {
     const lmp_brdf_table_info *info = &table->info;
     float weights[LMP_BANDS_MAX];
-    lmp_sh_window(info->window, info->bands, info->window_size, weights);
+    lmp_sh_window(info->bands, info->window, info->window_size, weights);
     const size_t planes = 3 * (size_t)info->views * (size_t)info->azimuths;
     float *value = table->coefficients;
     for (size_t plane = 0; plane < planes; plane++)

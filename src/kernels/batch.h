@@ -5,6 +5,7 @@
 
 #include "src/kernels/kernels.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. */
@@ -43,12 +44,16 @@ static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, siz
     return vectors;
 }
 
+/* A caller's stride, in bytes and 0 for tight, as the kernels': in floats. */
+static inline size_t lmp_batch_stride(size_t stride, size_t tight) {
+    assert(stride % sizeof(float) == 0);
+    return stride ? stride / sizeof(float) : tight;
+}
+
 /* The elements from `first` on of a result of `values` values an element. */
 static inline lmp_kernel_out lmp_batch_out(float *at, size_t values, size_t count, int planar,
                                            size_t stride, size_t first) {
-    lmp_kernel_out out = { at, stride, planar };
-    if (!stride)
-        out.stride = planar ? count : values;
+    lmp_kernel_out out = { at, lmp_batch_stride(stride, planar ? count : values), planar };
     out.at += planar ? first : first * out.stride;
     return out;
 }

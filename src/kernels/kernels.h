@@ -14,7 +14,8 @@
 
 #define LMP_KERNEL_LANES_MAX 16
 
-/* Value v of element e lies at at[e * stride + v], or at at[v * stride + e] if planar. */
+/* Value v of element e lies at at[e * stride + v], or at at[v * stride + e] if planar; here alone
+ * strides are in floats. */
 typedef struct lmp_kernel_out {
     float *at;
     size_t stride;

@@ -96,7 +96,7 @@ void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
 
 /* --- coefficients ----------------------------------------------------------------------------- */
 
-void lmp_light_zonal(const lmp_light *light, lmp_vec3 point, int bands, float *zonal,
+void lmp_light_zonal(int bands, const lmp_light *light, lmp_vec3 point, float *zonal,
                      lmp_vec3 *axis) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     lmp_light unit = *light;
@@ -141,7 +141,7 @@ void lmp_cap_add(int low, int high, const lmp_cap *cap, float *sh) {
     }
 }
 
-void lmp_light_project(const lmp_light *lights, size_t count, lmp_vec3 point, int bands,
+void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                        float *sh) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     memset(sh, 0, 3 * LMP_SH_COUNT(bands) * sizeof *sh);

@@ -92,7 +92,7 @@ static void store(const slice_grid *grid, const lmp_preintegrated_lobe_cell *cel
 static void lobe_series(const lmp_preintegrated_lobe_info *info, float exponent, float *series) {
     float weights[LMP_BANDS_MAX];
     lmp_lobe_phong(info->bands, exponent, series);
-    lmp_sh_window(info->window, info->bands, info->window_size, weights);
+    lmp_sh_window(info->bands, info->window, info->window_size, weights);
     for (int l = 0; l < info->bands; l++)
         series[l] *= weights[l] * (float)((2 * l + 1) / (4 * LMP_PREINTEGRATED_PI));
 }

@@ -105,7 +105,7 @@ static bool agrees(int bands, const lmp_probe_convention *convention, const floa
     return true;
 }
 
-bool lmp_probe_recognize(int bands, const float *ours, const float *theirs, float tolerance,
+bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                          lmp_probe_convention *convention) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)

@@ -25,7 +25,7 @@ lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
     return rgb;
 }
 
-void lmp_probe_constants_of(int bands, const float *sh, float scale,
+void lmp_probe_constants_of(int bands, float scale, const float *sh,
                             lmp_probe_constants *constants) {
     assert(bands >= 3 && bands <= LMP_BANDS_MAX);
     float lambda[3];

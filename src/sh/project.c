@@ -24,7 +24,7 @@ static void add_azimuth(int bands, double c, double s, double value, double *cos
     }
 }
 
-void lmp_sh_project_function(int bands, lmp_sh_function function, void *user, int nodes,
+void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
                              float *sh) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     assert(nodes >= 0);

@@ -21,10 +21,9 @@ void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_la
 
 static lmp_kernel_in batch_in(int bands, const float *at, size_t count, lmp_sh_layout layout,
                               size_t stride) {
-    lmp_kernel_in in = { at, stride, layout == LMP_SH_PLANAR };
-    if (!stride)
-        in.stride = in.planar ? count : LMP_SH_COUNT(bands);
-    return in;
+    const int planar = layout == LMP_SH_PLANAR;
+    return (lmp_kernel_in) { at, lmp_batch_stride(stride, planar ? count : LMP_SH_COUNT(bands)),
+                             planar };
 }
 
 void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count, lmp_sh_layout layout,

@@ -15,7 +15,7 @@ static double window_weight(lmp_window window, double place) {
                                         : sin(pi * place) / (pi * place);
 }
 
-void lmp_sh_window(lmp_window window, int bands, float size, float *weights) {
+void lmp_sh_window(int bands, lmp_window window, float size, float *weights) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     assert(size >= 0);
     const double last = size > 0 ? (double)size : bands;
@@ -44,7 +44,7 @@ static double squared_laplacian(int bands, const double *energy, double mu) {
     return sum;
 }
 
-void lmp_sh_window_laplacian(int bands, const float *sh, float keep, float *weights) {
+void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weights) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     assert(keep > 0 && keep <= 1);
     double energy[LMP_BANDS_MAX] = { 0 };

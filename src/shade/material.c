@@ -48,7 +48,7 @@ void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *mat
     float window[LMP_BANDS_MAX];
     lobes->bands = bands;
     lobes->count = 2;
-    lmp_sh_window(resolved->window, bands, resolved->window_size, window);
+    lmp_sh_window(bands, resolved->window, resolved->window_size, window);
     lmp_lobe_diffuse(bands, diffuse->lambda);
     lmp_lobe_phong(bands, phong.exponent, specular->lambda);
     for (int l = 0; l < bands; l++) {

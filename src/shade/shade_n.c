@@ -329,7 +329,7 @@ static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces
 }
 
 static void prepare_zonal(const lmp_shade_settings *settings, shade_method *method) {
-    lmp_sh_window(settings->window, settings->bands, settings->window_size, method->window);
+    lmp_sh_window(settings->bands, settings->window, settings->window_size, method->window);
     lmp_lobe_diffuse(settings->bands, method->diffuse);
     for (int l = 0; l < settings->bands; l++)
         method->diffuse[l] /= pi;

@@ -144,7 +144,7 @@ static void irradiance_agrees_with_the_library(void **state) {
         const lmp_vec3 n = check_random_direction();
         memcpy(normals[i], (const float[4]) { n.x, n.y, n.z }, sizeof normals[i]);
     }
-    lmp_probe_constants_of(3, sh, 1, &constants);
+    lmp_probe_constants_of(3, 1, sh, &constants);
     const GLuint program = build("#version 450 core\n", "probe.glsl", probe_main);
     GLuint buffers[3];
     glCreateBuffers(3, buffers);

@@ -53,11 +53,11 @@ static void project_takes_structures_and_gives_rows(void **test) {
 static void planes_are_rows_transposed(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    const size_t stride = COUNT + 8;
+    const size_t stride = COUNT + 8; /* of planes, in floats */
     lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_INTERLEAVED, 0,
                          out);
-    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_PLANAR, stride,
-                         other);
+    lmp_sphere_project_n(BANDS, &spheres, lmp_vec3_array_of(points), COUNT, LMP_SH_PLANAR,
+                         stride * sizeof(float), other);
     for (size_t i = 0; i < COUNT; i++)
         for (size_t v = 0; v < VALUES; v++)
             assert_memory_equal(&out[i * VALUES + v], &other[v * stride + i], sizeof(float));
@@ -95,7 +95,7 @@ static void accumulate_is_the_sum_of_the_lights(void **test) {
                             LMP_SH_INTERLEAVED, 0, out);
     for (int i = 0; i < COUNT; i += 17) {
         float sh[3 * VALUES];
-        lmp_light_project(lights, 11, points[i], BANDS, sh);
+        lmp_light_project(BANDS, lights, 11, points[i], sh);
         check_same(sh, out + i * 3 * VALUES, 3 * VALUES);
     }
     lmp_sphere_accumulate_n(BANDS, &spheres, 0, lmp_vec3_array_of(points), 3, LMP_SH_INTERLEAVED, 0,

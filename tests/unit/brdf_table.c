@@ -149,7 +149,7 @@ static void windows_scale_the_bands(void **state) {
     desc.window_size = 9;
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &windowed), LMP_OK);
     float weights[8];
-    lmp_sh_window(LMP_WINDOW_LANCZOS, 8, 9, weights);
+    lmp_sh_window(8, LMP_WINDOW_LANCZOS, 9, weights);
     const float *a = lmp_brdf_table_coefficients(plain), *b = lmp_brdf_table_coefficients(windowed);
     for (int plane = 0; plane < 9; plane++)
         for (int l = 0; l < 8; l++)

@@ -25,7 +25,7 @@ static void check_planes(const lmp_light *light, lmp_vec3 point, const double *u
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < COUNT; k++)
             expected[c * COUNT + k] = channels[c] * unit[k];
-    lmp_light_project(light, 1, point, BANDS, sh);
+    lmp_light_project(BANDS, light, 1, point, sh);
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-5);
 }
 
@@ -37,8 +37,8 @@ static void check_zonal(const lmp_light *light, lmp_vec3 point) {
     float sh[3 * COUNT], zonal[BANDS], turned[COUNT];
     double expected[COUNT];
     lmp_vec3 axis;
-    lmp_light_project(&white, 1, point, BANDS, sh);
-    lmp_light_zonal(light, point, BANDS, zonal, &axis);
+    lmp_light_project(BANDS, &white, 1, point, sh);
+    lmp_light_zonal(BANDS, light, point, zonal, &axis);
     lmp_sh_from_zonal(BANDS, zonal, axis, turned);
     for (int k = 0; k < COUNT; k++)
         expected[k] = (double)sh[k];
@@ -68,7 +68,7 @@ static void a_sphere_is_the_cap_it_covers(void **state) {
             wide_sh[k] = (double)sh[k];
         check_planes(&light, point, wide_sh, light.radiance);
         lmp_vec3 axis;
-        lmp_light_zonal(&light, point, BANDS, zonal, &axis);
+        lmp_light_zonal(BANDS, &light, point, zonal, &axis);
         CHECK_WITHIN(fabsf(axis.x - w.x) + fabsf(axis.y - w.y) + fabsf(axis.z - w.z), 2e-6);
     }
 }
@@ -132,7 +132,7 @@ static void a_point_light_stays_finite_where_it_is(void **state) {
     (void)state;
     const lmp_light light = { .kind = LMP_LIGHT_POINT, .intensity = { 1, 1, 1 } };
     float sh[3 * COUNT];
-    lmp_light_project(&light, 1, origin, BANDS, sh);
+    lmp_light_project(BANDS, &light, 1, origin, sh);
     for (int k = 0; k < 3 * COUNT; k++)
         CHECK_WITHIN(fabsf(sh[k]), 1e13);
     assert_true(sh[0] > 0);
@@ -155,7 +155,7 @@ static void a_spot_light_fades_between_its_cones(void **state) {
         bulb.kind = LMP_LIGHT_POINT;
         float sh[3 * COUNT];
         double expected[COUNT];
-        lmp_light_project(&bulb, 1, point, BANDS, sh);
+        lmp_light_project(BANDS, &bulb, 1, point, sh);
         for (int k = 0; k < COUNT; k++)
             expected[k] = falloff * (double)sh[k];
         check_planes(&spot, point, expected, spot.intensity);
@@ -172,13 +172,13 @@ static void a_spot_light_with_equal_cones_has_a_hard_edge(void **state) {
                        .outer = 0.5f,
                        .intensity = { 1, 1, 1 } };
     float sh[3 * COUNT];
-    lmp_light_project(&spot, 1, (lmp_vec3) { tanf(0.49f), 0, 0 }, BANDS, sh);
+    lmp_light_project(BANDS, &spot, 1, (lmp_vec3) { tanf(0.49f), 0, 0 }, sh);
     assert_true(sh[0] > 0.1f);
     const float full = sh[0];
-    lmp_light_project(&spot, 1, (lmp_vec3) { tanf(0.51f), 0, 0 }, BANDS, sh);
+    lmp_light_project(BANDS, &spot, 1, (lmp_vec3) { tanf(0.51f), 0, 0 }, sh);
     assert_true(sh[0] == 0);
     /* half way over the 1e-3 that the difference of the cosines is held to */
-    lmp_light_project(&spot, 1, (lmp_vec3) { (float)tan(acos(cos(0.5) + 5e-4)), 0, 0 }, BANDS, sh);
+    lmp_light_project(BANDS, &spot, 1, (lmp_vec3) { (float)tan(acos(cos(0.5) + 5e-4)), 0, 0 }, sh);
     CHECK_WITHIN(fabsf(sh[0] / full - 0.25f), 0.01);
 }
 
@@ -208,7 +208,7 @@ static void a_hemisphere_light_is_sky_and_ground(void **state) {
             expected[c * COUNT + k] = (sky_color[c] - ground_color[c]) * upper[k] +
                                       (k == 0 ? ground_color[c] * 2 * sqrt(ORACLE_PI) : 0);
     float sh[3 * COUNT];
-    lmp_light_project(&light, 1, origin, BANDS, sh);
+    lmp_light_project(BANDS, &light, 1, origin, sh);
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-4);
 
     /* any axis: two caps of a right angle, exactly */
@@ -223,7 +223,7 @@ static void a_hemisphere_light_is_sky_and_ground(void **state) {
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < COUNT; k++)
             expected[c * COUNT + k] = sky_color[c] * upper[k] + ground_color[c] * lower[k];
-    lmp_light_project(&turned, 1, origin, BANDS, sh);
+    lmp_light_project(BANDS, &turned, 1, origin, sh);
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-6);
     check_zonal(&turned, origin);
 }
@@ -240,13 +240,13 @@ static void lights_add_up(void **state) {
             .radius = (float)check_random(),
             .radiance = { (float)check_random(), (float)check_random(), (float)check_random() }
         };
-        lmp_light_project(&lights[i], 1, origin, BANDS, sh);
+        lmp_light_project(BANDS, &lights[i], 1, origin, sh);
         for (int k = 0; k < 3 * COUNT; k++)
             expected[k] += (double)sh[k];
     }
-    lmp_light_project(lights, 20, origin, BANDS, sh);
+    lmp_light_project(BANDS, lights, 20, origin, sh);
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-6);
-    lmp_light_project(NULL, 0, origin, BANDS, sh);
+    lmp_light_project(BANDS, NULL, 0, origin, sh);
     for (int k = 0; k < 3 * COUNT; k++)
         assert_true(sh[k] == 0);
 }

@@ -135,7 +135,7 @@ static void answers_lights_as_the_dot_product_of_coefficients_does(void **state)
             const lmp_vec3 axis = check_random_direction();
             lmp_lobe_phong(bands, (float)(trial * trial), lambda);
             lmp_lobe_project(bands, lambda, axis, lobe);
-            lmp_light_project(lights, LIGHT_COUNT, point, bands, sh);
+            lmp_light_project(bands, lights, LIGHT_COUNT, point, sh);
             const lmp_rgb answer =
                 lmp_lobe_response(bands, lambda, axis, lights, LIGHT_COUNT, point);
             const float channels[3] = { answer.r, answer.g, answer.b };

@@ -30,7 +30,7 @@ static probe probe_make(int bands, lmp_window window, float exponent, float radi
     probe p = { .bands = bands, .exponent = exponent };
     float weights[LMP_BANDS_MAX];
     lmp_lobe_phong(bands, exponent, p.lambda);
-    lmp_sh_window(window, bands, 0, weights);
+    lmp_sh_window(bands, window, 0, weights);
     for (int l = 0; l < bands; l++)
         p.lambda[l] *= weights[l];
     p.light = (lmp_light) { .position = { 0, 0, 1 }, .radius = radius, .radiance = { 1, 1, 1 } };

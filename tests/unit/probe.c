@@ -26,7 +26,7 @@ static void irradiance_of_a_sphere_is_its_closed_form(void **state) {
     const lmp_light light = { .position = { 0.5f, 2, 0.3f },
                               .radius = 0.4f,
                               .radiance = { 10, 5, 0 } };
-    lmp_light_project(&light, 1, (lmp_vec3) { 0, 0, 0 }, BANDS, sh);
+    lmp_light_project(BANDS, &light, 1, (lmp_vec3) { 0, 0, 0 }, sh);
     const double d2 = 0.25 + 4 + 0.09, cosine = 2 / sqrt(d2);
     const double expected = ORACLE_PI * 10 * 0.16 / d2 * cosine;
     const lmp_rgb e = lmp_probe_irradiance(BANDS, sh, (lmp_vec3) { 0, 1, 0 });
@@ -71,7 +71,7 @@ static void constants_are_the_published_polynomial(void **state) {
     float sh[3 * 16];
     randomize(sh, 3 * 16);
     lmp_probe_constants k;
-    lmp_probe_constants_of(4, sh, 1, &k);
+    lmp_probe_constants_of(4, 1, sh, &k);
     assert_true(k.last[3] == 1);
     for (int i = 0; i < 50; i++) {
         const lmp_vec3 d = check_random_direction();
@@ -87,7 +87,7 @@ static void constants_are_the_published_polynomial(void **state) {
         }
     }
     lmp_probe_constants half;
-    lmp_probe_constants_of(4, sh, 0.5f, &half);
+    lmp_probe_constants_of(4, 0.5f, sh, &half);
     assert_true(half.linear[1][3] == k.linear[1][3] / 2);
     assert_true(half.quadratic[2][1] == k.quadratic[2][1] / 2);
     assert_true(half.last[0] == k.last[0] / 2 && half.last[3] == 1);
@@ -204,13 +204,13 @@ static void conventions_are_recognized(void **state) {
                                                 .normalization = (lmp_probe_normalization)norm };
             lmp_probe_convention found = { 0 };
             lmp_probe_convert(5, &(lmp_probe_convention) { 0 }, &made, ours, theirs);
-            assert_true(lmp_probe_recognize(5, ours, theirs, 1e-5f, &found));
+            assert_true(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
             assert_int_equal(found.sign, sign);
             assert_int_equal(found.normalization, norm);
             theirs[7] += 0.5f;
-            assert_false(lmp_probe_recognize(5, ours, theirs, 1e-5f, &found));
+            assert_false(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
             theirs[7] = NAN;
-            assert_false(lmp_probe_recognize(5, ours, theirs, 1e-5f, &found));
+            assert_false(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
         }
 }
 

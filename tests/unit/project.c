@@ -31,9 +31,9 @@ static void returns_the_coefficients_of_a_series(void **state) {
             expected[k] = (double)sh[k];
         }
         series f = { bands, sh };
-        lmp_sh_project_function(bands, series_value, &f, 0, projected);
+        lmp_sh_project_function(bands, 0, series_value, &f, projected);
         CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), expected, projected), 1e-4);
-        lmp_sh_project_function(bands, series_value, &f, bands + 3, projected);
+        lmp_sh_project_function(bands, bands + 3, series_value, &f, projected);
         CHECK_WITHIN(check_error(LMP_SH_COUNT(bands), expected, projected), 1e-4);
     }
 }
@@ -48,9 +48,9 @@ static void is_exact_up_to_the_documented_degree(void **state) {
     for (int k = 0; k < 16; k++)
         expected[k] = (double)sh[k];
     series f = { 16, sh };
-    lmp_sh_project_function(4, series_value, &f, 10, projected);
+    lmp_sh_project_function(4, 10, series_value, &f, projected);
     CHECK_WITHIN(check_error(16, expected, projected), 1e-5);
-    lmp_sh_project_function(4, series_value, &f, 8, projected);
+    lmp_sh_project_function(4, 8, series_value, &f, projected);
     assert_true(check_error(16, expected, projected) > 1e-3);
 }
 
@@ -64,13 +64,13 @@ static void calls_the_function_as_often_as_documented(void **state) {
     (void)state;
     int calls = 0;
     float sh[16];
-    lmp_sh_project_function(4, constant, &calls, 7, sh);
+    lmp_sh_project_function(4, 7, constant, &calls, sh);
     assert_int_equal(calls, 2 * 7 * 7);
     CHECK_WITHIN(fabs((double)sh[0] - 2 * sqrt(ORACLE_PI)), 1e-6);
     for (int k = 1; k < 16; k++)
         CHECK_WITHIN(fabsf(sh[k]), 1e-6);
     static float all[LMP_BANDS_MAX * LMP_BANDS_MAX];
-    lmp_sh_project_function(LMP_BANDS_MAX, constant, &calls, 0, all);
+    lmp_sh_project_function(LMP_BANDS_MAX, 0, constant, &calls, all);
     CHECK_WITHIN(fabs((double)all[0] - 2 * sqrt(ORACLE_PI)), 1e-5);
     for (int k = 1; k < LMP_BANDS_MAX * LMP_BANDS_MAX; k++)
         CHECK_WITHIN(fabsf(all[k]), 1e-4);

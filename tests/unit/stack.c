@@ -102,10 +102,10 @@ static void shade_all_ways(void) {
     X(lmp_sh_rotation_from_matrix, lmp_sh_rotation_from_matrix(N, unturned, matrices)) \
     X(lmp_sh_rotate_z, lmp_sh_rotate_z(N, 0.5f, sh, out)) \
     X(lmp_sh_rotate, lmp_sh_rotate(N, matrices, sh, out)) \
-    X(lmp_sh_window, lmp_sh_window(LMP_WINDOW_HANNING, N, 0, weights)) \
-    X(lmp_sh_window_laplacian, lmp_sh_window_laplacian(N, sh, 0.5f, weights)) \
+    X(lmp_sh_window, lmp_sh_window(N, LMP_WINDOW_HANNING, 0, weights)) \
+    X(lmp_sh_window_laplacian, lmp_sh_window_laplacian(N, 0.5f, sh, weights)) \
     X(lmp_sh_window_apply, lmp_sh_window_apply(N, weights, sh, out)) \
-    X(lmp_sh_project_function, lmp_sh_project_function(N, ramp, NULL, 4, out)) \
+    X(lmp_sh_project_function, lmp_sh_project_function(N, 4, ramp, NULL, out)) \
     X(lmp_sh_project_latlong, lmp_sh_project_latlong(N, &(lmp_latlong) { .pixels = texels, .width = 4, .height = 4, .channels = 3 }, out)) \
     X(lmp_sh_project_cubemap, lmp_sh_project_cubemap(N, &(lmp_cubemap) { .faces = { texels, texels, texels, texels, texels, texels }, .size = 4, .channels = 3 }, out)) \
     X(lmp_sh_product_create, MAKE(lmp_sh_product_destroy, product, lmp_sh_product_create(NULL, N, &product))) \
@@ -115,8 +115,8 @@ static void shade_all_ways(void) {
     X(lmp_sh_dot_n, LAYOUTS(lmp_sh_dot_n(N, sh, sh, COUNT, layout, 0, rgb))) \
     X(lmp_sh_rotate_n, LAYOUTS(lmp_sh_rotate_n(N, matrices, sh, COUNT, layout, 0, out))) \
     X(lmp_light_cap, lmp_light_cap(lights, at, &cap)) \
-    X(lmp_light_zonal, lmp_light_zonal(lights, at, N, lambda, &vectors[0])) \
-    X(lmp_light_project, lmp_light_project(lights, LIGHTS, at, N, out)) \
+    X(lmp_light_zonal, lmp_light_zonal(N, lights, at, lambda, &vectors[0])) \
+    X(lmp_light_project, lmp_light_project(N, lights, LIGHTS, at, out)) \
     X(lmp_sphere_zonal, lmp_sphere_zonal(N, 0.5f, 1, lambda)) \
     X(lmp_sphere_project, lmp_sphere_project(N, up, 0.5f, at, out)) \
     X(lmp_sphere_project_gradient, lmp_sphere_project_gradient(N, up, 0.5f, at, out, slopes)) \
@@ -141,12 +141,12 @@ static void shade_all_ways(void) {
     X(lmp_lobe_ggx_texels, lmp_lobe_ggx_texels(ggx_texels)) \
     X(lmp_probe_irradiance, lmp_probe_irradiance(N, sh, up)) \
     X(lmp_probe_irradiance_n, lmp_probe_irradiance_n(N, sh, points, COUNT, (lmp_rgb *)(void *)rgb)) \
-    X(lmp_probe_constants_of, lmp_probe_constants_of(N, sh, 1, &constants)) \
+    X(lmp_probe_constants_of, lmp_probe_constants_of(N, 1, sh, &constants)) \
     X(lmp_probe_fit, lmp_probe_fit(NULL, 3, 1, &(lmp_probe_samples) { points, floats, { 0 }, COUNT }, out)) \
     X(lmp_probe_window_positive, lmp_probe_window_positive(LMP_PROBE_POSITIVE_BANDS_MAX, sh, 3, weights)) \
     X(lmp_probe_minimum, lmp_probe_minimum(3, sh)) \
     X(lmp_probe_convert, lmp_probe_convert(N, &convention, &convention, sh, out)) \
-    X(lmp_probe_recognize, lmp_probe_recognize(N, sh, sh, 0.1f, &convention)) \
+    X(lmp_probe_recognize, lmp_probe_recognize(N, 0.1f, sh, sh, &convention)) \
     X(lmp_brdf_create_lambert, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_lambert(NULL, (lmp_rgb) { 1, 1, 1 }, &brdf))) \
     X(lmp_brdf_create_phong, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 1, 1 }, 20, &brdf))) \
     X(lmp_sgd_name, lmp_sgd_name(0)) \

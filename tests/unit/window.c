@@ -10,13 +10,13 @@ static void hanning_and_lanczos_give_the_known_weights(void **state) {
     const double hanning[] = { 1, .9755, .9045, .7939, .6545, .5, .3455, .2061, .0955, .0245 };
     const double lanczos[] = { 1, .9836, .9355, .8584, .7568, .6366, .5046, .3679, .2339, .1093 };
     float weights[10];
-    lmp_sh_window(LMP_WINDOW_HANNING, 10, 0, weights);
+    lmp_sh_window(10, LMP_WINDOW_HANNING, 0, weights);
     for (int l = 0; l < 10; l++)
         CHECK_WITHIN(fabs((double)weights[l] - hanning[l]), 5.1e-5);
-    lmp_sh_window(LMP_WINDOW_LANCZOS, 10, 10, weights);
+    lmp_sh_window(10, LMP_WINDOW_LANCZOS, 10, weights);
     for (int l = 0; l < 10; l++)
         CHECK_WITHIN(fabs((double)weights[l] - lanczos[l]), 5.1e-5);
-    lmp_sh_window(LMP_WINDOW_NONE, 10, 3, weights);
+    lmp_sh_window(10, LMP_WINDOW_NONE, 3, weights);
     for (int l = 0; l < 10; l++)
         assert_true(weights[l] == 1);
 }
@@ -28,12 +28,12 @@ static void falls_to_zero_at_its_size_and_stays_there(void **state) {
     for (int k = 0; k < 2; k++) {
         const float sizes[] = { 6.5f, 7 };
         for (int i = 0; i < 2; i++) {
-            lmp_sh_window(kinds[k], LMP_BANDS_MAX, sizes[i], weights);
+            lmp_sh_window(LMP_BANDS_MAX, kinds[k], sizes[i], weights);
             for (int l = 0; l < LMP_BANDS_MAX; l++)
                 assert_true(l < 7 ? weights[l] > 0 : weights[l] == 0);
         }
         /* the window of all bands: falling, and positive up to the last of them */
-        lmp_sh_window(kinds[k], LMP_BANDS_MAX, 0, weights);
+        lmp_sh_window(LMP_BANDS_MAX, kinds[k], 0, weights);
         for (int l = 1; l < LMP_BANDS_MAX; l++)
             assert_true(weights[l] > 0 && weights[l] < weights[l - 1]);
         CHECK_WITHIN(fabsf(weights[LMP_BANDS_MAX - 1]), 0.01);
@@ -55,7 +55,7 @@ static void minimum_laplacian_keeps_the_asked_fraction(void **state) {
     for (int k = 0; k < 400; k++)
         sh[k] = (float)check_random_between(-1, 1);
     for (int i = 0; i < 4; i++) {
-        lmp_sh_window_laplacian(20, sh, keeps[i], weights);
+        lmp_sh_window_laplacian(20, keeps[i], sh, weights);
         lmp_sh_window_apply(20, weights, sh, windowed);
         const double kept = squared_laplacian(20, windowed) / squared_laplacian(20, sh);
         CHECK_WITHIN(fabs(kept / (double)keeps[i] - 1), 1e-5);
@@ -75,13 +75,13 @@ static void minimum_laplacian_leaves_alone_what_needs_no_window(void **state) {
     (void)state;
     float weights[4];
     const float constant[16] = { 3 };
-    lmp_sh_window_laplacian(4, constant, 0.5f, weights);
+    lmp_sh_window_laplacian(4, 0.5f, constant, weights);
     for (int l = 0; l < 4; l++)
         assert_true(weights[l] == 1);
     float sh[16];
     for (int k = 0; k < 16; k++)
         sh[k] = 1;
-    lmp_sh_window_laplacian(4, sh, 1, weights);
+    lmp_sh_window_laplacian(4, 1, sh, weights);
     for (int l = 0; l < 4; l++)
         assert_true(weights[l] == 1);
 }
