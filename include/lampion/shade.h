@@ -127,6 +127,35 @@ LMP_API void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces 
                          size_t count, const lmp_light *lights, size_t light_count,
                          size_t rgb_stride, float *rgb);
 
+/* --- an environment ------------------------------------------------------------------------------
+ * Light from all around, far away: the coefficients of its radiance, three planes, red, green,
+ * blue, of LMP_SH_COUNT(bands), as lmp_sh_project_latlong and lmp_sh_project_cubemap make them.
+ *
+ * What a surface reflects of it is an integral like that of lmp_shade, clamped at 0 by itself: add
+ * it to what the lights give. An occlusion map weakens this sum alone. */
+typedef struct lmp_environment {
+    const float *sh;
+    int bands; /* 1 … LMP_BANDS_MAX; those past the bands of the settings are not read */
+} lmp_environment;
+
+/* Reflected radiance, W·sr⁻¹·m⁻². Of the settings, bands and window count, those of settings.lobe
+ * under LMP_SHADE_PREINTEGRATED; all methods give the same, for a lobe of n bands takes n² terms
+ * whatever the light is. Of LMP_MATERIAL_TABLE the table is read, by its first
+ * LMP_ENVIRONMENT_TABLE_BANDS bands; LMP_MATERIAL_PREINTEGRATED has none, and reflects nothing.
+ *
+ * settings may be NULL */
+#define LMP_ENVIRONMENT_TABLE_BANDS 16
+LMP_API lmp_rgb lmp_shade_environment(const lmp_shade_settings *settings,
+                                      const lmp_material *material, const lmp_surface *surface,
+                                      const lmp_environment *environment);
+
+/* The same of many surfaces, with the bits of any number of them; positions are not read, and the
+ * rest is as for lmp_shade_n. */
+LMP_API void lmp_shade_environment_n(const lmp_shade_settings *settings,
+                                     const lmp_surfaces *surfaces, size_t count,
+                                     const lmp_environment *environment, size_t rgb_stride,
+                                     float *rgb);
+
 #ifdef __cplusplus
 }
 #endif

@@ -6,6 +6,7 @@
 #include "src/sh/column.h"
 #include "src/shade/material.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -125,25 +126,54 @@ static void add_products(band_range range, bool mirrored, const float *light, co
             *sum += light[LMP_SH_INDEX(l, m) - LMP_SH_COUNT(range.low)] * *table++;
 }
 
-lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
-                        const lmp_light *lights, size_t count) {
-    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+/* The frame of a table: z the normal, x toward the viewer; phi is the view's azimuth from the
+ * material's x axis. */
+static frame frame_of(const lmp_surface *surface, float *phi) {
     const lmp_vec3 n = surface->normal, material_x = across(surface->tangent, n);
     frame view = { .x = material_x, .z = n };
     flatten(surface->view, n, &view.x);
     view.y = cross(n, view.x);
-    const float phi = atan2f(scalar(view.x, cross(n, material_x)), scalar(view.x, material_x));
+    *phi = atan2f(scalar(view.x, cross(n, material_x)), scalar(view.x, material_x));
+    return view;
+}
 
-    float light[3 * WAITING], row[3 * WAITING], rgb[3] = { 0, 0, 0 };
+lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
+                        const lmp_light *lights, size_t count) {
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    const float cosine = scalar(surface->view, surface->normal);
+    float light[3 * WAITING], row[3 * WAITING], rgb[3] = { 0, 0, 0 }, phi;
+    const frame view = frame_of(surface, &phi);
     for (band_range range = bands_after(info.bands, (band_range) { 0 }); range.low < info.bands;
          range = bands_after(info.bands, range)) {
         memset(light, 0, 3 * range.count * sizeof *light);
         for (size_t i = 0; i < count; i++)
             add_light_in_frame(range, &view, surface->position, &lights[i], light);
-        const size_t each =
-            lmp_brdf_table_bands(table, scalar(surface->view, n), phi, range.low, range.high, row);
+        const size_t each = lmp_brdf_table_bands(table, cosine, phi, range.low, range.high, row);
         for (size_t c = 0; c < 3; c++)
             add_products(range, info.mirrored, light + c * range.count, row + c * each, &rgb[c]);
+    }
+    return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
+}
+
+lmp_rgb lmp_shade_table_environment(const lmp_brdf_table *table, const lmp_surface *surface,
+                                    const lmp_environment *environment) {
+    enum { MOST = LMP_ENVIRONMENT_TABLE_BANDS };
+    static_assert(LMP_SH_COUNT(MOST) <= WAITING, "an environment is rotated at once");
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    const int known = environment->bands < info.bands ? environment->bands : info.bands;
+    const band_range range = { 0, known < MOST ? known : MOST,
+                               LMP_SH_COUNT(known < MOST ? known : MOST) };
+    float matrices[LMP_SH_ROTATION_COUNT(MOST)], light[LMP_SH_COUNT(MOST)];
+    float row[3 * LMP_SH_COUNT(MOST)], rgb[3] = { 0, 0, 0 }, phi;
+    const frame f = frame_of(surface, &phi);
+    const float into_frame[9] = { f.x.x, f.x.y, f.x.z, f.y.x, f.y.y, f.y.z, f.z.x, f.z.y, f.z.z };
+    lmp_sh_rotation_from_matrix(range.high, into_frame, matrices);
+    const size_t each = lmp_brdf_table_bands(table, scalar(surface->view, surface->normal), phi, 0,
+                                             range.high, row);
+    for (size_t c = 0; c < 3; c++) {
+        const float *plane = environment->sh + c * LMP_SH_COUNT(environment->bands);
+        lmp_sh_rotate(range.high, matrices, plane, light);
+        add_products(range, info.mirrored, light, row + c * each, &rgb[c]);
     }
     return (lmp_rgb) { rgb[0], rgb[1], rgb[2] };
 }

@@ -58,5 +58,7 @@ lmp_rgb lmp_shade_lobes_coefficients(const shade_lobes *lobes, lmp_vec3 point,
                                      const lmp_light *lights, size_t count);
 lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,
                         const lmp_light *lights, size_t count);
+lmp_rgb lmp_shade_table_environment(const lmp_brdf_table *table, const lmp_surface *surface,
+                                    const lmp_environment *environment);
 
 #endif

@@ -188,7 +188,9 @@ static void shade_all_ways(void) {
     X(lmp_preintegrated_brdf_destroy, lmp_preintegrated_brdf_destroy(read_preintegrated), read_preintegrated = NULL) \
     X(lmp_material_from_metallic_roughness, lmp_material_from_metallic_roughness((lmp_rgb) { 1, 1, 1 }, 0, 0.5f)) \
     X(lmp_shade, shade_all_ways()) \
-    X(lmp_shade_n, shade_all_ways())
+    X(lmp_shade_n, shade_all_ways()) \
+    X(lmp_shade_environment, lmp_shade_environment(&(lmp_shade_settings) { .bands = N }, &(lmp_material) { .exponent = 20 }, &(lmp_surface) { at, up, up, up }, &(lmp_environment) { sh, N })) \
+    X(lmp_shade_environment_n, lmp_shade_environment_n(NULL, &(lmp_surfaces) { points, points, points, { 0 }, &(lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table }, 0 }, COUNT, &(lmp_environment) { sh, N }, 0, rgb))
 /* clang-format on */
 
 #define DEFINE(name, ...)                                                                          \
