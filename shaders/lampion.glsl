@@ -7,8 +7,9 @@
  * Define before including
  *   LMP_BANDS                1 … 32, an integer literal: degrees l = 0 … LMP_BANDS-1
  *   LMP_WINDOW               LMP_WINDOW_NONE (default), LMP_WINDOW_HANNING, LMP_WINDOW_LANCZOS:
- *                            damps the ringing of the material's cut series
+ *                            damps the ringing of the material's truncated series
  *   LMP_WINDOW_SIZE          the band whose weight falls to 0; default LMP_BANDS
+ *   LMP_WINDOW_WEIGHTS       in place of these two, LMP_BANDS weights separated by commas
  *   LMP_ALPHA_MIN            floor of the squared roughness; default 0.01
  * and, to have the two lmp_shade_… functions,
  *   LMP_LIGHT_COUNT          int: number of lights
@@ -144,6 +145,12 @@ struct lmp_cap {
 #define LMP_HALF_INDEX(l, m) (LMP_INSIDE(l, m) ? l * (l + 1) / 2 + m : 0)
 
 /* Weight of band l under LMP_WINDOW; a constant for a constant l. */
+#ifdef LMP_WINDOW_WEIGHTS
+const float lmp_window_weights[LMP_BANDS] = float[LMP_BANDS](LMP_WINDOW_WEIGHTS);
+float lmp_window_weight(int l) {
+    return lmp_window_weights[l];
+}
+#else
 float lmp_window_weight(int l) {
 #if LMP_WINDOW == LMP_WINDOW_NONE
     return 1.0;
@@ -160,6 +167,7 @@ float lmp_window_weight(int l) {
 #endif
 #endif
 }
+#endif
 
 /* The cap of the sphere (center, radius) seen from `point`. radius >= 0. */
 lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 point) {

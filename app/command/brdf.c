@@ -23,7 +23,7 @@ static void print_table_info(const lmp_brdf_table *table) {
     printf("bands      %d\n", info.bands);
     printf("views      %d x %d azimuths%s\n", info.views, info.azimuths,
            info.mirrored ? ", mirrored (m >= 0)" : "");
-    printf("window     %s of %g bands\n", method_window_names[info.window],
+    printf("window     %s of %g bands\n", lmp_sh_window_name(info.window),
            (double)info.window_size);
     printf("quadrature %d rings, last doubling changed a view by %.2g of its largest\n", info.rings,
            (double)info.change);
@@ -289,7 +289,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "azimuths", 0, CLI_INT, &o.table.azimuths, "N", "view azimuths of an anisotropic table",
           4, 256, NULL, NULL },
         { "window", 0, CLI_CHOICE, &window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          method_window_names, NULL },
+          method_window_names(), NULL },
         { "window-size", 0, CLI_FLOAT, &o.table.window_size, "BANDS",
           "where the window falls to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
         { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },

@@ -175,7 +175,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "cut the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX, NULL,
           NULL },
         { "window", 0, CLI_CHOICE, &a.window, "KIND", "window of lobes cut by --bands", 0, 0,
-          method_window_names, NULL },
+          method_window_names(), NULL },
         { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR",
           "of radiance in a .png; without it, automatic", 1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,

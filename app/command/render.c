@@ -222,7 +222,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
     cJSON_AddStringToObject(stats, "method", method_table[o->method].name);
-    cJSON_AddStringToObject(stats, "window", method_window_names[o->window]);
+    cJSON_AddStringToObject(stats, "window", lmp_sh_window_name(o->window));
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
     cJSON_AddNumberToObject(stats, "exposure", (double)j->exposure);
@@ -379,7 +379,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE", device_help(), 0, 0, device_names(),
           NULL },
         { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          method_window_names, NULL },
+          method_window_names(), NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
         SCENE_STRICT_OPTION_ROW(o.load),

@@ -95,7 +95,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL, NULL },
         { "method", 0, CLI_CHOICE, &a.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
         { "window", 0, CLI_CHOICE, &a.window, "WINDOW", "damps the ringing of few bands", 0, 0,
-          method_window_names, NULL },
+          method_window_names(), NULL },
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         SCENE_CAMERA_OPTION_ROWS(o->camera),
         SCENE_STRICT_OPTION_ROW(o->load),

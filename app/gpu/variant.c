@@ -23,15 +23,26 @@ static gpu_variant variant_of(const gpu_renderer *r, const gpu_frame *frame) {
                            .preintegrated_brdfs = preintegrated && gpu_has_preintegrated_brdf(r) };
 }
 
+/* The weights of the windowing filter, as the shader's list of numbers. */
+static void print_weights(const gpu_variant *v, char *text, size_t size) {
+    float weights[METHOD_GPU_BANDS_MAX];
+    size_t used = 0;
+    lmp_sh_window(v->bands, v->window, 0, weights);
+    for (int l = 0; l < v->bands; l++)
+        used +=
+            (size_t)snprintf(text + used, size - used, "%s%.9f", l ? ", " : "", (double)weights[l]);
+}
+
 static GLuint compile_variant(const gpu_variant *v, cli_error *error) {
     static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
                                                  "#define TABLE_FULL 1\n" };
     const method_row *row = &method_table[v->method];
-    char defines[256];
+    char weights[16 * METHOD_GPU_BANDS_MAX], defines[sizeof weights + 256];
+    print_weights(v, weights, sizeof weights);
     snprintf(defines, sizeof defines,
-             "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW %d\n"
+             "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
              "#define LMP_ALPHA_MIN %.9g\n%s%s",
-             row->defines, row->function, v->bands, (int)v->window, (double)LMP_ALPHA_MIN,
+             row->defines, row->function, v->bands, weights, (double)LMP_ALPHA_MIN,
              table_defines[v->tables],
              v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };

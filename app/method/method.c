@@ -54,11 +54,12 @@ const method_row method_table[METHODS_TIMED] = {
                              .defines = "#define SHADE_TABULATED_Z\n" },
 };
 
-const char *const method_window_names[METHOD_WINDOWS + 1] = {
-    [LMP_WINDOW_NONE] = "none",
-    [LMP_WINDOW_HANNING] = "hanning",
-    [LMP_WINDOW_LANCZOS] = "lanczos",
-};
+const char *const *method_window_names(void) {
+    static const char *names[LMP_WINDOWS + 1];
+    for (int window = 0; window <= LMP_WINDOWS; window++)
+        names[window] = lmp_sh_window_name((lmp_window)window);
+    return names;
+}
 
 const char *const *method_names(void) {
     static const char *names[METHODS + 1];

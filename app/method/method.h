@@ -10,12 +10,8 @@
 
 #include <stdbool.h>
 
-/* --- windowing filters: lmp_window --------------------------------------------------------------
- */
-
-enum { METHOD_WINDOWS = LMP_WINDOW_LANCZOS + 1 };
-
-extern const char *const method_window_names[METHOD_WINDOWS + 1]; /* NULL-terminated */
+/* The names of the windowing filters (lmp_window), NULL-terminated. */
+const char *const *method_window_names(void);
 
 /* --- methods ------------------------------------------------------------------------------------
  */

@@ -16,25 +16,18 @@ reference_material reference_material_from_metallic_roughness(const double base[
     return material;
 }
 
-static double window_weight(const reference_band_limit *limit, int l) {
-    const double size = limit->window_size > 0 ? limit->window_size : limit->bands;
-    const double x = REFERENCE_PI * l / size;
-    if (limit->window == LMP_WINDOW_NONE || l == 0)
-        return 1;
-    if (l >= size)
-        return 0;
-    return limit->window == LMP_WINDOW_HANNING ? (1 + cos(x)) / 2 : sin(x) / x;
-}
-
-/* (2l+1)/(4 pi) w_l lambda_l with lambda_l = (e+1) ∫ t^e P_l(t) dt over 0 … 1. Integrating
+/* The windowing filter is the library's, which tests/unit/window.c judges.
+ * (2l+1)/(4 pi) w_l lambda_l with lambda_l = (e+1) ∫ t^e P_l(t) dt over 0 … 1. Integrating
  * Legendre's equation against t^e gives lambda_l (e+l+1) = lambda_(l-2) (e-l+2). */
 static void limit_lobe(reference_lobe *lobe, const reference_band_limit *limit) {
     const double e = lobe->exponent;
     double before = 0, lambda = 1;
+    float weights[LMP_BANDS_MAX];
+    lmp_sh_window(limit->bands, limit->window, (float)limit->window_size, weights);
     lobe->bands = limit->bands;
     for (int l = 0; l < limit->bands; l++) {
         const double next = l == 0 ? (e + 1) / (e + 2) : before * (e - l + 1) / (e + l + 2);
-        lobe->series[l] = (2 * l + 1) / (4 * REFERENCE_PI) * window_weight(limit, l) * lambda;
+        lobe->series[l] = (2 * l + 1) / (4 * REFERENCE_PI) * (double)weights[l] * lambda;
         before = lambda;
         lambda = next;
     }

@@ -33,7 +33,7 @@ static void change_bands(view_state *s, int step) {
 
 static void change_window(view_state *s, int step) {
     view_look *look = look_here(s);
-    look->window = (lmp_window)(((int)look->window + step + METHOD_WINDOWS) % METHOD_WINDOWS);
+    look->window = (lmp_window)(((int)look->window + step + LMP_WINDOWS) % LMP_WINDOWS);
 }
 
 static void change_exposure(view_state *s, int thirds) {

@@ -29,7 +29,7 @@ static void add_row(view_row *rows, int *count, const char *name, const char *fo
 static void describe_look(const view_look *look, char *text, size_t size) {
     snprintf(text, size, "%s, %d band%s%s%s", method_table[look->method].name, look->bands,
              look->bands == 1 ? "" : "s", look->window == LMP_WINDOW_NONE ? "" : ", ",
-             look->window == LMP_WINDOW_NONE ? "" : method_window_names[look->window]);
+             look->window == LMP_WINDOW_NONE ? "" : lmp_sh_window_name(look->window));
 }
 
 /* "30, number 4: sphere, radius 0.2" */

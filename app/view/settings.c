@@ -64,7 +64,7 @@ static void add_look(cJSON *array, const view_look *look) {
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "method", method_table[look->method].name);
     cJSON_AddNumberToObject(object, "bands", look->bands);
-    cJSON_AddStringToObject(object, "window", method_window_names[look->window]);
+    cJSON_AddStringToObject(object, "window", lmp_sh_window_name(look->window));
     cJSON_AddItemToArray(array, object);
 }
 
@@ -148,7 +148,7 @@ static bool read_camera(const cJSON *root, scene_camera *camera) {
 static bool read_look(const cJSON *object, view_look *look) {
     int method, window;
     if (!read_choice(object, "method", method_names(), &method) ||
-        !read_choice(object, "window", method_window_names, &window))
+        !read_choice(object, "window", method_window_names(), &window))
         return false;
     look->method = (method_kind)method;
     look->window = (lmp_window)window;

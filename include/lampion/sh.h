@@ -82,13 +82,17 @@ LMP_API void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rot
  * sh and rotated hold LMP_SH_COUNT(bands) values and must not overlap */
 LMP_API void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated);
 
-/* Windows damp the ringing of a cut series by scaling band l by a weight (Sloan 2008). Apply one
- * once, to the material, never to light and material both. */
+/* Windowing filters damp the ringing of a truncated series by scaling band l by a weight (Sloan
+ * 2008). Apply one once, to the material, never to light and material both. */
 typedef enum lmp_window {
     LMP_WINDOW_NONE = 0,
     LMP_WINDOW_HANNING, /* (1 + cos(pi l / size)) / 2 */
-    LMP_WINDOW_LANCZOS  /* sin(pi l / size) / (pi l / size) */
+    LMP_WINDOW_LANCZOS, /* sin(pi l / size) / (pi l / size) */
+    LMP_WINDOWS         /* how many there are */
 } lmp_window;
+
+/* "none", "hanning" …; NULL from LMP_WINDOWS on. */
+LMP_API const char *lmp_sh_window_name(lmp_window window);
 
 /* Weights of a window.
  *

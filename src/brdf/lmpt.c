@@ -67,7 +67,7 @@ static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_
     if (result == LMP_OK)
         result = take(bytes, 24, "mirrored", 0, info->azimuths == 1, &mirrored, fault);
     if (result == LMP_OK)
-        result = take(bytes, 28, "window", LMP_WINDOW_NONE, LMP_WINDOW_LANCZOS, &window, fault);
+        result = take(bytes, 28, "window", LMP_WINDOW_NONE, LMP_WINDOWS - 1, &window, fault);
     if (result == LMP_OK)
         result = take(bytes, 36, "rings", 1, 1 << 20, &info->rings, fault);
     info->mirrored = mirrored != 0;

@@ -206,7 +206,7 @@ static bool resolve(const lmp_brdf *brdf, lmp_brdf_table_desc *desc) {
                           (within(desc->azimuths, 4, BRDF_AZIMUTHS_MAX) && desc->azimuths % 2 == 0);
     return within(desc->bands, 1, LMP_BANDS_MAX) && within(desc->views, 2, BRDF_VIEWS_MAX) &&
            azimuths && desc->tolerance > 0 && within(desc->rings_max, RINGS_MIN, RINGS_MAX) &&
-           within((int)desc->window, LMP_WINDOW_NONE, LMP_WINDOW_LANCZOS) &&
+           within((int)desc->window, LMP_WINDOW_NONE, LMP_WINDOWS - 1) &&
            within((int)desc->symmetry, LMP_BRDF_SYMMETRY_AUTO, LMP_BRDF_SYMMETRY_NONE) &&
            desc->window_size >= 0 && isfinite(desc->window_size);
 }

@@ -76,7 +76,7 @@ static bool read_header(const unsigned char *bytes, size_t size,
     const unsigned char *p = bytes + LMP_BYTES_BEGIN;
     const uint32_t bands = lmp_bytes_load_u32(&p);
     const uint16_t window = lmp_bytes_load_u16(&p), mirrored = lmp_bytes_load_u16(&p);
-    if (bands < 1 || bands > LMP_BANDS_MAX || window > LMP_WINDOW_LANCZOS || mirrored > 1)
+    if (bands < 1 || bands > LMP_BANDS_MAX || window >= LMP_WINDOWS || mirrored > 1)
         return false;
     info->bands = (int)bands;
     info->window = (lmp_window)window;

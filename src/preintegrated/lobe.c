@@ -13,9 +13,8 @@ static lmp_result fill_task(size_t index, void *data) {
 
 bool lmp_preintegrated_lobe_valid(const lmp_preintegrated_lobe_info *info) {
     return info->bands >= 1 && info->bands <= LMP_BANDS_MAX && info->window >= LMP_WINDOW_NONE &&
-           info->window <= LMP_WINDOW_LANCZOS && info->window_size >= 0 &&
-           info->window_size <= 1e6f && info->error >= LMP_PREINTEGRATED_LOBE_ERROR_MIN &&
-           info->error <= 0.1f;
+           info->window < LMP_WINDOWS && info->window_size >= 0 && info->window_size <= 1e6f &&
+           info->error >= LMP_PREINTEGRATED_LOBE_ERROR_MIN && info->error <= 0.1f;
 }
 
 lmp_result lmp_preintegrated_lobe_allocate(const lmp_host *host, const lmp_preintegrated_lobe *plan,

@@ -64,7 +64,7 @@ static lmp_result read_plan(const unsigned char *bytes, size_t size, lmp_preinte
     lmp_preintegrated_lobe_info *info = &plan->info;
     const unsigned char *p = bytes + LMP_BYTES_BEGIN;
     const uint32_t bands = lmp_bytes_load_u32(&p), window = lmp_bytes_load_u32(&p);
-    if (bands > LMP_BANDS_MAX || window > LMP_WINDOW_LANCZOS)
+    if (bands > LMP_BANDS_MAX || window >= LMP_WINDOWS)
         return LMP_ERROR_FORMAT;
     info->bands = (int)bands;
     info->window = (lmp_window)window;

@@ -3,24 +3,47 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdbool.h>
 
 static const double pi = 3.14159265358979323846;
 
-static double window_weight(lmp_window window, double place) {
-    if (window == LMP_WINDOW_NONE || place == 0)
-        return 1;
-    if (place >= 1)
-        return 0;
-    return window == LMP_WINDOW_HANNING ? (1 + cos(pi * place)) / 2
-                                        : sin(pi * place) / (pi * place);
+/* Of a band's position l / size inside 0 … 1. */
+static double none(double position) {
+    (void)position;
+    return 1;
+}
+
+static double hanning(double position) {
+    return (1 + cos(pi * position)) / 2;
+}
+
+static double lanczos(double position) {
+    return sin(pi * position) / (pi * position);
+}
+
+static const struct {
+    const char *name;
+    double (*weight)(double position);
+    bool ends; /* past `size` the weights are 0 */
+} windows[LMP_WINDOWS] = {
+    [LMP_WINDOW_NONE] = { "none", none, false },
+    [LMP_WINDOW_HANNING] = { "hanning", hanning, true },
+    [LMP_WINDOW_LANCZOS] = { "lanczos", lanczos, true },
+};
+
+const char *lmp_sh_window_name(lmp_window window) {
+    return (unsigned)window < LMP_WINDOWS ? windows[window].name : NULL;
 }
 
 void lmp_sh_window(int bands, lmp_window window, float size, float *weights) {
+    assert((unsigned)window < LMP_WINDOWS);
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     assert(size >= 0);
     const double last = size > 0 ? (double)size : bands;
-    for (int l = 0; l < bands; l++)
-        weights[l] = (float)window_weight(window, l / last);
+    weights[0] = 1;
+    for (int l = 1; l < bands; l++)
+        weights[l] =
+            windows[window].ends && l >= last ? 0 : (float)windows[window].weight(l / last);
 }
 
 /* --- minimum squared Laplacian ---------------------------------------------------------------- */

@@ -8,12 +8,15 @@ command -v glslangValidator >/dev/null || {
     exit 0
 }
 
-# shader VERSION BANDS WINDOW: a compute shader
+# shader VERSION BANDS WINDOW: a compute shader; the window by its number, or as weights
 shader() {
     echo "#version $1"
     echo "precision highp float; precision highp int;"
     echo "#define LMP_BANDS $2"
-    echo "#define LMP_WINDOW $3"
+    case $3 in
+    [0-9]) echo "#define LMP_WINDOW $3" ;;
+    *) echo "#define LMP_WINDOW_WEIGHTS $3" ;;
+    esac
     cat <<'GLSL'
 layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform lights_block { vec4 lights[64]; };
@@ -78,6 +81,7 @@ for form in "1 0" "2 1" "6 2"; do
     check "450 core" "$1" "$2" -V
 done
 check "450 core" 20 1
+check "310 es" 3 "1.0, 0.75, 0.25"
 for version in "450 core" "300 es"; do
     {
         echo "#version $version"

@@ -103,6 +103,7 @@ static void shade_all_ways(void) {
     X(lmp_sh_rotate_z, lmp_sh_rotate_z(N, 0.5f, sh, out)) \
     X(lmp_sh_rotate, lmp_sh_rotate(N, matrices, sh, out)) \
     X(lmp_sh_window, lmp_sh_window(N, LMP_WINDOW_HANNING, 0, weights)) \
+    X(lmp_sh_window_name, lmp_sh_window_name(LMP_WINDOW_HANNING)) \
     X(lmp_sh_window_laplacian, lmp_sh_window_laplacian(N, 0.5f, sh, weights)) \
     X(lmp_sh_window_apply, lmp_sh_window_apply(N, weights, sh, out)) \
     X(lmp_sh_project_function, lmp_sh_project_function(N, 4, ramp, NULL, out)) \

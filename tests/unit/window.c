@@ -21,6 +21,15 @@ static void hanning_and_lanczos_give_the_known_weights(void **state) {
         assert_true(weights[l] == 1);
 }
 
+static void windows_have_names_up_to_the_last(void **state) {
+    (void)state;
+    assert_string_equal(lmp_sh_window_name(LMP_WINDOW_NONE), "none");
+    assert_string_equal(lmp_sh_window_name(LMP_WINDOW_HANNING), "hanning");
+    assert_string_equal(lmp_sh_window_name(LMP_WINDOW_LANCZOS), "lanczos");
+    assert_null(lmp_sh_window_name(LMP_WINDOWS));
+    assert_null(lmp_sh_window_name((lmp_window)-1));
+}
+
 static void falls_to_zero_at_its_size_and_stays_there(void **state) {
     (void)state;
     const lmp_window kinds[] = { LMP_WINDOW_HANNING, LMP_WINDOW_LANCZOS };
@@ -97,6 +106,7 @@ static void applies_in_place(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(windows_have_names_up_to_the_last),
         cmocka_unit_test(hanning_and_lanczos_give_the_known_weights),
         cmocka_unit_test(falls_to_zero_at_its_size_and_stays_there),
         cmocka_unit_test(minimum_laplacian_keeps_the_asked_fraction),
