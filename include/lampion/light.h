@@ -96,7 +96,11 @@ LMP_API void lmp_sphere_zonal(int bands, float radius, float distance, float *zo
 LMP_API void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
                                 float *sh);
 
-/* The same, with the derivatives of every coefficient by the point's position.
+/* The same in double, for research (sh.h). */
+LMP_API void lmp_sphere_project_double(int bands, const double center[3], double radius,
+                                       const double point[3], double *sh);
+
+/* lmp_sphere_project, with the derivatives of every coefficient by the point's position.
  *
  * gradient receives three planes of LMP_SH_COUNT(bands) values: d/dx, d/dy, d/dz. The derivative
  * is infinite on the sphere's surface: its 1/|cos a| is held to 1/LMP_COS_MIN. At the center the

@@ -207,6 +207,22 @@ LMP_API void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t coun
 LMP_API void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, size_t count,
                              lmp_sh_layout layout, size_t stride, float *rotated);
 
+/* --- in double -----------------------------------------------------------------------------------
+ * For research: within 1e-13 of exact values to 20 bands (docs/accuracy.md), the same bits on every
+ * machine but for rotations, which take sines of the C library. One element a call and no vectors,
+ * because the kernels' tables are floats. Contracts are those of the functions without _double. */
+
+LMP_API void lmp_sh_eval_double(int bands, const double direction[3], double *sh);
+
+/* gradient may be NULL: then it is not found. */
+LMP_API void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *sh,
+                                         double *gradient);
+
+/* rotation is a quaternion x, y, z, w. */
+LMP_API void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrices);
+LMP_API void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh,
+                                  double *rotated);
+
 #ifdef __cplusplus
 }
 #endif

@@ -20,8 +20,8 @@ typedef struct euler {
     double gamma_cos[LMP_BANDS_MAX], gamma_sin[LMP_BANDS_MAX]; /* of k gamma */
 } euler;
 
-static void turn_prepare(euler *turn, int bands, lmp_quat q) {
-    const double x = (double)q.x, y = (double)q.y, z = (double)q.z, w = (double)q.w;
+static void turn_prepare(euler *turn, int bands, const double q[4]) {
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
     const double c = hypot(z, w), s = hypot(x, y), length = hypot(c, s);
     assert(length > 0);
     /* q = qz(alpha) qy(beta) qz(gamma): the half angles come from q itself, without cancellation */
@@ -71,13 +71,23 @@ static void wigner(const euler *turn, int bands, int m, int k, double *d) {
     }
 }
 
-static float *entry(float *matrices, int l, int m, int k) {
-    return matrices + LMP_SH_ROTATION_COUNT(l) + (size_t)((l + m) * (2 * l + 1) + l + k);
+/* Where the entries go: to floats or to doubles, the other NULL. */
+typedef struct matrices_of {
+    float *floats;
+    double *doubles;
+} matrices_of;
+
+static void put(const matrices_of *matrices, int l, int m, int k, double value) {
+    const size_t at = LMP_SH_ROTATION_COUNT(l) + (size_t)((l + m) * (2 * l + 1) + l + k);
+    if (matrices->floats)
+        matrices->floats[at] = (float)value;
+    else
+        matrices->doubles[at] = value;
 }
 
 /* The entries (±m, ±k) of all bands. From Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w)
  * for the complex harmonics, and Y_l,±m = sqrt(2) {Re, Im} Y^m. */
-static void fill(const euler *turn, int bands, int m, int k, float *matrices) {
+static void fill(const euler *turn, int bands, int m, int k, const matrices_of *matrices) {
     double plus[LMP_BANDS_MAX], minus[LMP_BANDS_MAX];
     wigner(turn, bands, m, k, plus);
     wigner(turn, bands, m, -k, minus);
@@ -91,19 +101,19 @@ static void fill(const euler *turn, int bands, int m, int k, float *matrices) {
         if (m == 0 || k == 0) {
             /* one of ±m, ±k is one entry, where p = s */
             const double scale = m == 0 && k == 0 ? 1 : sqrt(2);
-            *entry(matrices, l, -m, k) = (float)(scale * p * sum_s);
-            *entry(matrices, l, m, -k) = (float)(scale * p * -sum_s);
-            *entry(matrices, l, m, k) = (float)(scale * p * sum_c);
+            put(matrices, l, -m, k, scale * p * sum_s);
+            put(matrices, l, m, -k, scale * p * -sum_s);
+            put(matrices, l, m, k, scale * p * sum_c);
         } else {
-            *entry(matrices, l, m, k) = (float)(p * sum_c + s * difference_c);
-            *entry(matrices, l, m, -k) = (float)(s * difference_s - p * sum_s);
-            *entry(matrices, l, -m, k) = (float)(p * sum_s + s * difference_s);
-            *entry(matrices, l, -m, -k) = (float)(p * sum_c - s * difference_c);
+            put(matrices, l, m, k, p * sum_c + s * difference_c);
+            put(matrices, l, m, -k, s * difference_s - p * sum_s);
+            put(matrices, l, -m, k, p * sum_s + s * difference_s);
+            put(matrices, l, -m, -k, p * sum_c - s * difference_c);
         }
     }
 }
 
-void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {
+static void rotation_of(int bands, const double rotation[4], const matrices_of *matrices) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     euler turn;
     turn_prepare(&turn, bands, rotation);
@@ -112,12 +122,35 @@ void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {
             fill(&turn, bands, m, k, matrices);
 }
 
+void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {
+    const double q[4] = { (double)rotation.x, (double)rotation.y, (double)rotation.z,
+                          (double)rotation.w };
+    rotation_of(bands, q, &(matrices_of) { .floats = matrices });
+}
+
+void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrices) {
+    rotation_of(bands, rotation, &(matrices_of) { .doubles = matrices });
+}
+
 void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated) {
     assert(bands >= 1 && bands <= LMP_BANDS_MAX);
     for (int l = 0; l < bands; l++) {
         const float *in = sh + LMP_SH_COUNT(l);
         for (int m = 0; m <= 2 * l; m++) {
             float sum = 0;
+            for (int k = 0; k <= 2 * l; k++)
+                sum += *matrices++ * in[k];
+            *rotated++ = sum;
+        }
+    }
+}
+
+void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh, double *rotated) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    for (int l = 0; l < bands; l++) {
+        const double *in = sh + LMP_SH_COUNT(l);
+        for (int m = 0; m <= 2 * l; m++) {
+            double sum = 0;
             for (int k = 0; k <= 2 * l; k++)
                 sum += *matrices++ * in[k];
             *rotated++ = sum;

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT */
+/* The basis in double. Its recurrences are those of tables.h, whose floats would spoil it: the
+ * factors are found where they are used, by roots and quotients that IEEE 754 rounds alike on every
+ * machine. */
+#include <lampion/sh.h>
+
+#include <assert.h>
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* q[l] = q_l^m(z) for l = m … bands-1, from q_m^m = first. */
+static void column(int bands, int m, double z, double first, double *q) {
+    const double mm = (double)m * m;
+    double root = 0; /* sqrt(((l-1)² - m²) / (4 (l-1)² - 1)) */
+    q[m] = first;
+    for (int l = m + 1; l < bands; l++) {
+        const double next = sqrt(((double)l * l - mm) / (4.0 * l * l - 1));
+        const double before = l > m + 1 ? root * q[l - 2] : 0;
+        q[l] = (z * q[l - 1] - before) / next;
+        root = next;
+    }
+}
+
+/* q_(m+1)^(m+1) from q_m^m = first. */
+static double next_first(int m, double first) {
+    return -first * sqrt(m == 0 ? 3 : (2 * m + 3) / (2.0 * m + 2));
+}
+
+/* Stores the tangent part of a polynomial's derivative g at the direction w. */
+static void store_gradient(const double w[3], const double g[3], size_t plane, double *gradient) {
+    const double along = g[0] * w[0] + g[1] * w[1] + g[2] * w[2];
+    for (size_t i = 0; i < 3; i++)
+        gradient[i * plane] = g[i] - along * w[i];
+}
+
+void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *sh,
+                                 double *gradient) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const double *w = direction;
+    const size_t plane = LMP_SH_COUNT(bands);
+    double columns[2][LMP_BANDS_MAX + 1] = { { 0 } }, first = sqrt(1 / (4 * pi));
+    double c = 1, s = 0, c_below = 0, s_below = 0; /* (x + iy)^m and ^(m-1) */
+    column(bands, 0, w[2], first, columns[0]);
+    for (int m = 0; m < bands; m++) {
+        const double *q = columns[m % 2];
+        double *above = columns[(m + 1) % 2]; /* q_l^(m+1), 0 at l = m */
+        first = next_first(m, first);
+        if (m + 1 < bands)
+            column(bands, m + 1, w[2], first, above);
+        above[m] = 0;
+        for (int l = m; l < bands; l++) {
+            const size_t minus = LMP_SH_INDEX(l, -m), plus = LMP_SH_INDEX(l, m);
+            /* -m first: at m = 0 both are one coefficient, and cosine wins */
+            sh[minus] = q[l] * s;
+            sh[plus] = q[l] * c;
+            if (!gradient)
+                continue;
+            const double scale = sqrt((l - m) * (l + m + 1.0) * (m == 0 ? 0.5 : 1));
+            const double slope = -scale * above[l], side = m * q[l];
+            const double sine[3] = { side * s_below, side * c_below, slope * s };
+            const double cosine[3] = { side * c_below, -side * s_below, slope * c };
+            store_gradient(w, sine, plane, gradient + minus);
+            store_gradient(w, cosine, plane, gradient + plus);
+        }
+        c_below = c, s_below = s;
+        c = w[0] * c_below - w[1] * s_below;
+        s = w[0] * s_below + w[1] * c_below;
+    }
+}
+
+void lmp_sh_eval_double(int bands, const double direction[3], double *sh) {
+    lmp_sh_eval_gradient_double(bands, direction, sh, NULL);
+}
