@@ -218,6 +218,11 @@ LMP_API void lmp_sh_eval_double(int bands, const double direction[3], double *sh
 LMP_API void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *sh,
                                          double *gradient);
 
+/* The second derivatives of Y_lm(v / |v|) by x, y, z at v = direction: six planes of
+ * LMP_SH_COUNT(bands) values, d²/dx², dx dy, dx dz, dy², dy dz, dz². Their trace is -l(l+1) Y_lm.
+ */
+LMP_API void lmp_sh_eval_hessian_double(int bands, const double direction[3], double *hessian);
+
 /* rotation is a quaternion x, y, z, w. */
 LMP_API void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrices);
 LMP_API void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh,

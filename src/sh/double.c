@@ -27,6 +27,11 @@ static double next_first(int m, double first) {
     return -first * sqrt(m == 0 ? 3 : (2 * m + 3) / (2.0 * m + 2));
 }
 
+/* dq_l^m/dz = this times q_l^(m+1). */
+static double slope_factor(int l, int m) {
+    return -sqrt((l - m) * (l + m + 1.0) * (m == 0 ? 0.5 : 1));
+}
+
 /* Stores the tangent part of a polynomial's derivative g at the direction w. */
 static void store_gradient(const double w[3], const double g[3], size_t plane, double *gradient) {
     const double along = g[0] * w[0] + g[1] * w[1] + g[2] * w[2];
@@ -56,8 +61,7 @@ void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *s
             sh[plus] = q[l] * c;
             if (!gradient)
                 continue;
-            const double scale = sqrt((l - m) * (l + m + 1.0) * (m == 0 ? 0.5 : 1));
-            const double slope = -scale * above[l], side = m * q[l];
+            const double slope = slope_factor(l, m) * above[l], side = m * q[l];
             const double sine[3] = { side * s_below, side * c_below, slope * s };
             const double cosine[3] = { side * c_below, -side * s_below, slope * c };
             store_gradient(w, sine, plane, gradient + minus);
@@ -71,4 +75,76 @@ void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *s
 
 void lmp_sh_eval_double(int bands, const double direction[3], double *sh) {
     lmp_sh_eval_gradient_double(bands, direction, sh, NULL);
+}
+
+/* --- second derivatives -------------------------------------------------------------------------
+ */
+
+/* Those of the polynomial p = q_l^m(z) {C_m, S_m}, and its first: what one coefficient needs. */
+typedef struct slopes {
+    double first[3];     /* x, y, z */
+    double second[3][3]; /* symmetric */
+} slopes;
+
+/* The derivatives of p(v / |v|) at the unit vector w: with P = 1 - w w^T and g' = P g,
+ * P H P - (g·w) P - g' w^T - w g'^T. */
+static void store_hessian(const double w[3], const slopes *p, size_t plane, double *hessian) {
+    const double *g = p->first;
+    const double along = g[0] * w[0] + g[1] * w[1] + g[2] * w[2];
+    double hw[3], whw = 0;
+    for (int i = 0; i < 3; i++)
+        hw[i] = p->second[i][0] * w[0] + p->second[i][1] * w[1] + p->second[i][2] * w[2];
+    for (int i = 0; i < 3; i++)
+        whw += w[i] * hw[i];
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
+            const double tangent = p->second[i][j] - w[i] * hw[j] - hw[i] * w[j];
+            const double crossed = (g[i] - along * w[i]) * w[j] + w[i] * (g[j] - along * w[j]);
+            *hessian = tangent + whw * w[i] * w[j] - along * ((i == j) - w[i] * w[j]) - crossed;
+            hessian += plane;
+        }
+}
+
+/* The polynomial q(z) A(x, y), A harmonic: A_yy = -A_xx. q holds its first two derivatives too. */
+static slopes slopes_of(const double q[3], double a, double a_x, double a_y, double a_xx,
+                        double a_xy) {
+    return (slopes) { { q[0] * a_x, q[0] * a_y, q[1] * a },
+                      { { q[0] * a_xx, q[0] * a_xy, q[1] * a_x },
+                        { q[0] * a_xy, -q[0] * a_xx, q[1] * a_y },
+                        { q[1] * a_x, q[1] * a_y, q[2] * a } } };
+}
+
+void lmp_sh_eval_hessian_double(int bands, const double direction[3], double *hessian) {
+    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const double *w = direction;
+    const size_t plane = LMP_SH_COUNT(bands);
+    double columns[3][LMP_BANDS_MAX] = { { 0 } }, first = sqrt(1 / (4 * pi));
+    double c[3] = { 1, 0, 0 }, s[3] = { 0, 0, 0 }; /* (x + iy)^m, ^(m-1), ^(m-2) */
+    column(bands, 0, w[2], first, columns[0]);
+    first = next_first(0, first);
+    if (bands > 1)
+        column(bands, 1, w[2], first, columns[1]);
+    for (int m = 0; m < bands; m++) {
+        const double *q = columns[m % 3], *above = columns[(m + 1) % 3];
+        double *twice = columns[(m + 2) % 3];
+        first = next_first(m + 1, first);
+        if (m + 2 < bands)
+            column(bands, m + 2, w[2], first, twice);
+        const double one = m, two = (double)m * (m - 1);
+        for (int l = m; l < bands; l++) {
+            const double dz = l > m ? slope_factor(l, m) : 0;
+            const double dzz = l > m + 1 ? dz * slope_factor(l, m + 1) : 0;
+            const double z[3] = { q[l], dz != 0 ? dz * above[l] : 0,
+                                  dzz != 0 ? dzz * twice[l] : 0 };
+            const slopes sine = slopes_of(z, s[0], one * s[1], one * c[1], two * s[2], two * c[2]);
+            const slopes cosine =
+                slopes_of(z, c[0], one * c[1], -one * s[1], two * c[2], -two * s[2]);
+            /* -m first: at m = 0 both are one coefficient, and cosine wins */
+            store_hessian(w, &sine, plane, hessian + LMP_SH_INDEX(l, -m));
+            store_hessian(w, &cosine, plane, hessian + LMP_SH_INDEX(l, m));
+        }
+        c[2] = c[1], c[1] = c[0], s[2] = s[1], s[1] = s[0];
+        c[0] = w[0] * c[1] - w[1] * s[1];
+        s[0] = w[0] * s[1] + w[1] * c[1];
+    }
 }

@@ -104,6 +104,46 @@ static void gradients_are_those_of_differences(void **state) {
     }
 }
 
+static void second_derivatives_are_those_of_the_gradient(void **state) {
+    (void)state;
+    static const int plane_of[3][3] = { { 0, 1, 2 }, { 1, 3, 4 }, { 2, 4, 5 } };
+    static double hessian[6 * COUNT], ahead[3 * COUNT], behind[3 * COUNT];
+    for (int trial = 0; trial < 20; trial++) {
+        const double step = 1e-5;
+        double w[3], sh[COUNT], trace[COUNT];
+        random_direction(w);
+        lmp_sh_eval_hessian_double(BANDS, w, hessian);
+        lmp_sh_eval_double(BANDS, w, sh);
+        for (int l = 0; l < BANDS; l++)
+            for (int i = l * l; i < (l + 1) * (l + 1); i++) {
+                sh[i] *= -l * (l + 1);
+                trace[i] = hessian[i] + hessian[3 * COUNT + i] + hessian[5 * COUNT + i];
+            }
+        CHECK_WITHIN(check_error_double(COUNT, sh, trace), 1e-12);
+        /* along the direction the function does not change, and its gradient falls as 1 / |v| */
+        for (int axis = 0; axis < 3; axis++) {
+            double expected[3 * COUNT];
+            for (int side = -1; side <= 1; side += 2) {
+                double v[3] = { w[0], w[1], w[2] };
+                v[axis] += side * step;
+                const double length = hypot(hypot(v[0], v[1]), v[2]);
+                for (int i = 0; i < 3; i++)
+                    v[i] /= length;
+                double *gradient = side < 0 ? behind : ahead;
+                lmp_sh_eval_gradient_double(BANDS, v, sh, gradient);
+                for (int i = 0; i < 3 * COUNT; i++)
+                    gradient[i] /= length;
+            }
+            for (int i = 0; i < 3 * COUNT; i++)
+                expected[i] = (ahead[i] - behind[i]) / (2 * step);
+            for (int other = 0; other < 3; other++)
+                CHECK_WITHIN(check_error_double(COUNT, expected + other * COUNT,
+                                                hessian + plane_of[axis][other] * COUNT),
+                             1e-6);
+        }
+    }
+}
+
 static void rotated_coefficients_are_those_of_the_rotated_direction(void **state) {
     (void)state;
     static double matrices[LMP_SH_ROTATION_COUNT(BANDS)];
@@ -133,6 +173,7 @@ int main(void) {
         cmocka_unit_test(projects_the_vector_files),
         cmocka_unit_test(agrees_with_the_oracle_at_any_number_of_bands),
         cmocka_unit_test(gradients_are_those_of_differences),
+        cmocka_unit_test(second_derivatives_are_those_of_the_gradient),
         cmocka_unit_test(rotated_coefficients_are_those_of_the_rotated_direction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -27,7 +27,8 @@ static const float unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 static float sh[COUNT * 3 * N * N], out[COUNT * 3 * N * N], slopes[COUNT * 9 * N * N];
 static float matrices[LMP_SH_ROTATION_COUNT(N)], weights[N], lambda[N], rgb[3 * COUNT];
 static const double up_double[3] = { 0, 0, 1 }, turned_double[4] = { 0.1, 0.2, 0.3, 0.9 };
-static double sh_double[N * N], out_double[N * N], slopes_double[3 * N * N];
+static double sh_double[N * N], out_double[N * N], slopes_double[3 * N * N],
+    hessian_double[6 * N * N];
 static double matrices_double[LMP_SH_ROTATION_COUNT(N)];
 static float numbers[COUNT], texels[6 * 3 * 4 * 4];
 static float ggx_texels[4 * LMP_GGX_TEXELS];
@@ -107,6 +108,7 @@ static void shade_all_ways(void) {
     X(lmp_sh_rotate, lmp_sh_rotate(N, matrices, sh, out)) \
     X(lmp_sh_eval_double, lmp_sh_eval_double(N, up_double, out_double)) \
     X(lmp_sh_eval_gradient_double, lmp_sh_eval_gradient_double(N, up_double, out_double, slopes_double)) \
+    X(lmp_sh_eval_hessian_double, lmp_sh_eval_hessian_double(N, up_double, hessian_double)) \
     X(lmp_sh_rotation_double, lmp_sh_rotation_double(N, turned_double, matrices_double)) \
     X(lmp_sh_rotate_double, lmp_sh_rotate_double(N, matrices_double, sh_double, out_double)) \
     X(lmp_sphere_project_double, lmp_sphere_project_double(N, up_double, 0.5, turned_double, out_double)) \
