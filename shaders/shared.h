@@ -8,7 +8,6 @@
 #ifdef LAMPION_SHADER
 #define SHARED_BLOCK(type, name, slot) layout(std140, binding = slot) uniform type
 #define SHARED_END(name)
-#define SHARED_FUNCTION
 #else
 #include <assert.h>
 #include <stddef.h>
@@ -16,7 +15,6 @@ typedef float vec4[4];
 typedef float mat4[16]; /* column-major */
 #define SHARED_BLOCK(type, name, slot) typedef struct name
 #define SHARED_END(name)               name
-#define SHARED_FUNCTION                static inline
 #endif
 
 #define SHARED_LIGHTS_MAX 1025 /* one of them holds what all skies have in common */
@@ -152,37 +150,5 @@ static_assert(offsetof(shared_material, offset) == 128, "std140");
 static_assert(sizeof(shared_material) == 208, "std140");
 static_assert(sizeof(shared_pixel) == 96, "std430");
 #endif
-
-/* The filmic curve: Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab,
- * 2016), scaled so that middle gray stays 0.18. A channel follows the curve by itself, which turns
- * bright colors white as film does, but for a part SHARED_TONE_HUE that keeps its share of the
- * brightest channel: a lamp shows its color however bright it is. shared_tone_in goes to its
- * working primaries, shared_tone (of a channel and the largest of the three) is the curve,
- * shared_tone_out comes back to linear sRGB (clamp it to 0 … 1). Clamp exposed radiance to 0 …
- * SHARED_TONE_MAX before. row: 0 red, 1 green, 2 blue. */
-#define SHARED_TONE_SCALE 1.4627f
-#define SHARED_TONE_HUE   0.4f
-#define SHARED_TONE_MAX   65504.0f
-
-SHARED_FUNCTION float shared_tone_in(int row, float r, float g, float b) {
-    return SHARED_TONE_SCALE * (row == 0   ? 0.59719f * r + 0.35458f * g + 0.04823f * b
-                                : row == 1 ? 0.07600f * r + 0.90834f * g + 0.01566f * b
-                                           : 0.02840f * r + 0.13383f * g + 0.83777f * b);
-}
-
-SHARED_FUNCTION float shared_tone_curve(float x) {
-    return (x * (x + 0.0245786f) - 0.000090537f) / (x * (0.983729f * x + 0.4329510f) + 0.238081f);
-}
-
-SHARED_FUNCTION float shared_tone(float x, float peak) {
-    return (1.0f - SHARED_TONE_HUE) * shared_tone_curve(x) +
-           (peak > 0.0f ? SHARED_TONE_HUE * shared_tone_curve(peak) * (x / peak) : 0.0f);
-}
-
-SHARED_FUNCTION float shared_tone_out(int row, float r, float g, float b) {
-    return row == 0   ? 1.60475f * r - 0.53108f * g - 0.07367f * b
-           : row == 1 ? -0.10208f * r + 1.10813f * g - 0.00605f * b
-                      : -0.00327f * r - 0.07276f * g + 1.07602f * b;
-}
 
 #endif

@@ -99,6 +99,11 @@ bool cli_fail_member(cli_error *error, const char *subject, const char *kind, co
  * the first row, stride the bytes from one row to the next; names receives count + 1 entries. */
 void cli_row_names(const char *const *first, size_t stride, int count, const char **names);
 
+/* "what: NAME HELP, NAME HELP", the help of such an option; name and help are those of the first
+ * row. Returns text. */
+const char *cli_row_help(const char *what, const char *const *name, const char *const *help,
+                         size_t stride, int count, char *text, size_t size);
+
 /* The same as cli_usage of an operand, which is none of what the command's operands begin with. */
 int cli_usage_operand(const cli_command *command, const char *word);
 

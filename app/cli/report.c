@@ -66,10 +66,24 @@ bool cli_fail_member(cli_error *error, const char *subject, const char *kind, co
                  : cli_fail(error, place, "\"%s\", for there is none", word);
 }
 
+/* A member of the row `index` of a table; `first` is that of its first row. */
+static const char *row_member(const char *const *first, size_t stride, int index) {
+    return *(const char *const *)(const void *)((const char *)first + (size_t)index * stride);
+}
+
 void cli_row_names(const char *const *first, size_t stride, int count, const char **names) {
     for (int i = 0; i < count; i++)
-        names[i] = *(const char *const *)(const void *)((const char *)first + (size_t)i * stride);
+        names[i] = row_member(first, stride, i);
     names[count] = NULL;
+}
+
+const char *cli_row_help(const char *what, const char *const *name, const char *const *help,
+                         size_t stride, int count, char *text, size_t size) {
+    size_t used = (size_t)snprintf(text, size, "%s", what);
+    for (int i = 0; i < count && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s %s", i ? ", " : ": ",
+                                 row_member(name, stride, i), row_member(help, stride, i));
+    return text;
 }
 
 int cli_report(const cli_error *error) {

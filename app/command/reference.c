@@ -19,6 +19,7 @@ typedef struct reference_arguments {
     int bands, window;
     float error, exposure, stops;
     bool exposure_given;
+    int tone;
     /* One point instead of an image. */
     bool point_given;
     float point[3], normal[3], view[3], diffuse[3], specular[3], exponent;
@@ -33,7 +34,8 @@ static bool write_image(const reference_arguments *a, const image *radiance,
     if (image_format_of(a->output) == IMAGE_EXR)
         return image_write_exr_layers(a->output, layers, 2, error);
     const float exposure = a->exposure_given ? a->exposure : image_auto_exposure(radiance);
-    return image_write(radiance, a->output, exposure * image_exposure_of_stops(a->stops), error);
+    const image_display display = { exposure * image_exposure_of_stops(a->stops), a->tone };
+    return image_write(radiance, a->output, &display, error);
 }
 
 /* The materials as the oracle takes them: cut ones as tables. The array is the caller's. */
@@ -180,6 +182,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "of radiance in a .png; without it, automatic", 1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
           NULL, NULL },
+        IMAGE_TONE_OPTION_ROW(a.tone),
         { "threads", 0, CLI_INT, &a.settings.threads, "N",
           "0 means all processors; the result is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),

@@ -19,7 +19,7 @@ enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 409
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device, *animate, *from;
-    int size[2], bands, method, window, device_kind, repeat, samples, pixels_max;
+    int size[2], bands, method, window, tone, device_kind, repeat, samples, pixels_max;
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
     bool exposure_given, frames_given, shard_given, stats, compare;
@@ -41,7 +41,7 @@ typedef struct job {
     animation *path;               /* of the lights */
     scene_light *moved;
     override_set materials;
-    float exposure;
+    image_display display;
 } job;
 
 /* --- names of the frames ------------------------------------------------------------------------
@@ -81,7 +81,7 @@ static bool write_exr(const job *j, const char *path, cli_error *error) {
     image pixels;
     if (!gpu_read_image(j->renderer, &pixels, error))
         return false;
-    const bool ok = image_write(&pixels, path, j->exposure, error);
+    const bool ok = image_write(&pixels, path, &j->display, error);
     image_free(&pixels);
     return ok;
 }
@@ -91,7 +91,7 @@ static bool write_png(const job *j, const char *path, cli_error *error) {
     unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");
-    const bool ok = gpu_read_rgb8(j->renderer, j->exposure, rgb8, NULL, error) &&
+    const bool ok = gpu_read_rgb8(j->renderer, &j->display, rgb8, NULL, error) &&
                     image_write_png8(rgb8, width, height, path, error);
     free(rgb8);
     return ok;
@@ -120,9 +120,10 @@ static bool settle_exposure(job *j, cli_error *error) {
         factor = image_auto_exposure(&pixels);
         image_free(&pixels);
     }
-    j->exposure = factor * image_exposure_of_stops(o->stops);
+    j->display.tone = o->tone;
+    j->display.exposure = factor * image_exposure_of_stops(o->stops);
     if (image_format_of(o->output) == IMAGE_PNG)
-        j->frame.samples_exposure = j->exposure;
+        j->frame.samples_exposure = j->display.exposure;
     return true;
 }
 
@@ -173,7 +174,7 @@ static bool measure(job *j, method_kind method, double medians[PASSES], cli_erro
     for (int i = 0; i < j->options->repeat && ok; i++) {
         gpu_times times;
         ok = gpu_render(j->renderer, &frame, &times, error) &&
-             gpu_read_rgb8(j->renderer, j->exposure, rgb8, &times, error);
+             gpu_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
         if (ok) {
             const double passes[PASSES] = { times.gbuffer, times.transfer, times.shade, times.tone,
                                             times.total };
@@ -225,7 +226,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddStringToObject(stats, "window", lmp_sh_window_name(o->window));
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
-    cJSON_AddNumberToObject(stats, "exposure", (double)j->exposure);
+    cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
     cJSON_AddStringToObject(stats, "device", j->context.device);
     cJSON_AddStringToObject(stats, "driver", j->context.driver);
     cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
@@ -388,6 +389,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           1e-12, 1e12, NULL, &o.exposure_given },
         { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
           NULL, NULL },
+        IMAGE_TONE_OPTION_ROW(o.tone),
         { "from", 0, CLI_TEXT, &o.from, "FILE",
           "repeat a screenshot of lampion view: its settings count, beside -o, --gl-device and "
           "--max-pixels none of these; without SCENE its scene",

@@ -15,6 +15,7 @@ typedef struct view_arguments {
     int size[2], bands, method, window;
     float exposure, stops;
     bool exposure_given;
+    int tone;
     const char *from;
     cli_list materials;
 } view_arguments;
@@ -43,6 +44,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
             return false;
         o->keep_lights = true;
     } else {
+        s->tone = a->tone;
         s->exposure = (a->exposure_given ? a->exposure : 1) * image_exposure_of_stops(a->stops);
         o->expose = !a->exposure_given;
         o->camera_wanted = true;
@@ -104,6 +106,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
           NULL, NULL },
+        IMAGE_TONE_OPTION_ROW(a.tone),
         { "samples", 0, CLI_INT, &o->settings.samples, "N", "samples a pixel, when nothing moves",
           1, VIEW_SAMPLES_MAX, NULL, NULL },
         { "animate", 0, CLI_TEXT, &o->animate, ANIMATION_ARGUMENT,

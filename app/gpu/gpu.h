@@ -98,11 +98,12 @@ bool gpu_refine(gpu_renderer *renderer, const gpu_frame *frame, int index, gpu_t
                 cli_error *error);
 
 /* Draws the HDR target, tone-mapped, into framebuffer 0's window or another of the same size. */
-void gpu_present(gpu_renderer *renderer, unsigned framebuffer, float exposure, bool rows_from_top);
+void gpu_present(gpu_renderer *renderer, unsigned framebuffer, const image_display *display,
+                 bool rows_from_top);
 
 /* The same into 8-bit RGB of 3 * width * height bytes, rows from the top. */
-bool gpu_read_rgb8(gpu_renderer *renderer, float exposure, unsigned char *rgb8, gpu_times *times,
-                   cli_error *error);
+bool gpu_read_rgb8(gpu_renderer *renderer, const image_display *display, unsigned char *rgb8,
+                   gpu_times *times, cli_error *error);
 
 /* The HDR target, linear; *image is created. */
 bool gpu_read_image(gpu_renderer *renderer, image *image, cli_error *error);
@@ -117,7 +118,8 @@ gpu_screen *gpu_screen_create(cli_error *error);
 void gpu_screen_destroy(gpu_screen *screen);
 
 /* Copies the renderer's image, tone-mapped, as the screen's `side`, 0 or 1. */
-void gpu_screen_take(gpu_screen *screen, gpu_renderer *renderer, int side, float exposure);
+void gpu_screen_take(gpu_screen *screen, gpu_renderer *renderer, int side,
+                     const image_display *display);
 
 typedef enum gpu_split {
     GPU_SPLIT_NONE,

@@ -2,23 +2,24 @@
 /* The HDR target to a window, to 8 bits, and as it is. */
 #include "app/gpu/internal.h"
 
-void gpu_present(gpu_renderer *r, unsigned framebuffer, float exposure, bool rows_from_top) {
+void gpu_present(gpu_renderer *r, unsigned framebuffer, const image_display *display,
+                 bool rows_from_top) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, r->width, r->height);
     glBindVertexArray(r->empty_array);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
     glBindTextureUnit(SHARED_HDR, r->hdr);
-    glUseProgram(r->tone);
-    glUniform1f(0, exposure);
+    glUseProgram(r->tones[display->tone]);
+    glUniform1f(0, display->exposure);
     glUniform1i(1, rows_from_top ? 0 : 1);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-bool gpu_read_rgb8(gpu_renderer *r, float exposure, unsigned char *rgb8, gpu_times *times,
-                   cli_error *error) {
+bool gpu_read_rgb8(gpu_renderer *r, const image_display *display, unsigned char *rgb8,
+                   gpu_times *times, cli_error *error) {
     if (times)
         gpu_mark(r, 3);
-    gpu_present(r, r->ldr_framebuffer, exposure, true);
+    gpu_present(r, r->ldr_framebuffer, display, true);
     if (times) {
         gpu_mark(r, 4);
         times->tone = gpu_marked(r, 4) - gpu_marked(r, 3);

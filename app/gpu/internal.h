@@ -138,7 +138,8 @@ size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
 struct gpu_renderer {
     gpu_context context;
     gpu_mesh mesh;
-    GLuint surface, surface_masked, light, tone, surfaces, resolve; /* programs */
+    GLuint surface, surface_masked, light, surfaces, resolve; /* programs */
+    GLuint tones[IMAGE_TONES_MAX];                            /* of the rows of image_tones */
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, empty_array;

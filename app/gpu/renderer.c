@@ -14,13 +14,23 @@ static const float near_of_extent = 1e-4f;
 /* --- creation -----------------------------------------------------------------------------------
  */
 
+static bool create_tones(gpu_renderer *r, cli_error *error) {
+    const gpu_stage tone[] = { { GL_VERTEX_SHADER, "screen.vert" },
+                               { GL_FRAGMENT_SHADER, "tone.frag" } };
+    for (int i = 0; image_tones[i].name; i++) {
+        char define[64];
+        snprintf(define, sizeof define, "#define TONE %s\n", image_tones[i].function);
+        if (!(r->tones[i] = gpu_program(tone, 2, define, error)))
+            return false;
+    }
+    return true;
+}
+
 static bool create_programs(gpu_renderer *r, cli_error *error) {
     const gpu_stage surface[] = { { GL_VERTEX_SHADER, "surface.vert" },
                                   { GL_FRAGMENT_SHADER, "surface.frag" } };
     const gpu_stage light[] = { { GL_VERTEX_SHADER, "light.vert" },
                                 { GL_FRAGMENT_SHADER, "light.frag" } };
-    const gpu_stage tone[] = { { GL_VERTEX_SHADER, "screen.vert" },
-                               { GL_FRAGMENT_SHADER, "tone.frag" } };
     const gpu_stage surfaces[] = { { GL_COMPUTE_SHADER, "surfaces.comp" } };
     const gpu_stage resolve[] = { { GL_COMPUTE_SHADER, "resolve.comp" } };
     char defines[128];
@@ -28,8 +38,7 @@ static bool create_programs(gpu_renderer *r, cli_error *error) {
              (double)LMP_ALPHA_MIN);
     return (r->surface = gpu_program(surface, 2, "", error)) &&
            (r->surface_masked = gpu_program(surface, 2, "#define SURFACE_MASKED\n", error)) &&
-           (r->light = gpu_program(light, 2, "", error)) &&
-           (r->tone = gpu_program(tone, 2, "", error)) &&
+           (r->light = gpu_program(light, 2, "", error)) && create_tones(r, error) &&
            (r->resolve = gpu_program(resolve, 1, "", error)) &&
            (r->surfaces = gpu_program(surfaces, 1, defines, error));
 }
@@ -66,11 +75,13 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     gpu_mesh_destroy(&r->mesh);
     for (int i = 0; i < r->variant_count; i++)
         glDeleteProgram(r->variants[i].program);
-    const GLuint programs[] = { r->surface, r->surface_masked, r->light,
-                                r->tone,    r->surfaces,       r->resolve };
+    const GLuint programs[] = { r->surface, r->surface_masked, r->light, r->surfaces, r->resolve };
     for (size_t i = 0; i < sizeof programs / sizeof programs[0]; i++)
         if (programs[i])
             glDeleteProgram(programs[i]);
+    for (int i = 0; i < IMAGE_TONES_MAX; i++)
+        if (r->tones[i])
+            glDeleteProgram(r->tones[i]);
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
     gpu_set_responses(r, NULL);

@@ -77,9 +77,10 @@ static void size_side(screen_side *side, int width, int height) {
     side->height = height;
 }
 
-void gpu_screen_take(gpu_screen *s, gpu_renderer *renderer, int side, float exposure) {
+void gpu_screen_take(gpu_screen *s, gpu_renderer *renderer, int side,
+                     const image_display *display) {
     size_side(&s->sides[side], renderer->width, renderer->height);
-    gpu_present(renderer, s->sides[side].framebuffer, exposure, true);
+    gpu_present(renderer, s->sides[side].framebuffer, display, true);
 }
 
 static void compose(gpu_screen *s, const gpu_layout *layout, GLuint framebuffer, bool flip) {

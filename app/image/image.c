@@ -30,8 +30,8 @@ bool image_check_path(const char *path, cli_error *error) {
     return true;
 }
 
-/* exposure 0: no filmic curve. */
-static bool write_by_extension(const image *pixels, const char *path, float exposure,
+/* display NULL: as it is. */
+static bool write_by_extension(const image *pixels, const char *path, const image_display *display,
                                cli_error *error) {
     const image_format format = image_format_of(path);
     if (format == IMAGE_EXR)
@@ -41,8 +41,8 @@ static bool write_by_extension(const image *pixels, const char *path, float expo
     unsigned char *rgb8 = malloc(3 * (size_t)pixels->width * (size_t)pixels->height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");
-    if (exposure > 0)
-        image_tone_map(pixels, exposure, rgb8);
+    if (display)
+        image_tone_map(pixels, display, rgb8);
     else
         image_encode(pixels, rgb8);
     const bool ok = image_write_png8(rgb8, pixels->width, pixels->height, path, error);
@@ -50,10 +50,11 @@ static bool write_by_extension(const image *pixels, const char *path, float expo
     return ok;
 }
 
-bool image_write(const image *pixels, const char *path, float exposure, cli_error *error) {
-    return write_by_extension(pixels, path, exposure, error);
+bool image_write(const image *pixels, const char *path, const image_display *display,
+                 cli_error *error) {
+    return write_by_extension(pixels, path, display, error);
 }
 
 bool image_write_figure(const image *pixels, const char *path, cli_error *error) {
-    return write_by_extension(pixels, path, 0, error);
+    return write_by_extension(pixels, path, NULL, error);
 }

@@ -7,8 +7,10 @@
 #include "app/image/png.h"
 #include "app/image/tone.h"
 
-/* Writes by the extension of path: .png (tone-mapped with exposure) or .exr (linear, unexposed). */
-bool image_write(const image *image, const char *path, float exposure, cli_error *error);
+/* Writes by the extension of path: .png (tone-mapped for the display) or .exr (linear, unexposed).
+ */
+bool image_write(const image *image, const char *path, const image_display *display,
+                 cli_error *error);
 
 /* By the extension of path, whatever its case. */
 typedef enum image_format { IMAGE_UNKNOWN, IMAGE_PNG, IMAGE_EXR } image_format;
@@ -16,7 +18,7 @@ image_format image_format_of(const char *path);
 bool image_fail_format(const char *path, cli_error *error); /* what to say of an unknown one */
 
 /* The same for a drawing, whose colors (0 … 1) are meant to be seen as they are: no exposure and
- * no filmic curve. */
+ * no tone curve. */
 bool image_write_figure(const image *image, const char *path, cli_error *error);
 
 /* True if image_write will know what to do with path and its folder can be written: ask before the

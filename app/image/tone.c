@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/image/tone.h"
 
-#include "shaders/shared.h"
+#include "app/cli/cli.h"
+#include "shaders/tone.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* --- exposure -----------------------------------------------------------------------------------
  */
@@ -59,8 +61,40 @@ float image_exposure_of_stops(float stops) {
     return exp2f(stops);
 }
 
-/* --- tone ---------------------------------------------------------------------------------------
+/* --- tone curves --------------------------------------------------------------------------------
  */
+
+static void filmic(const float from[3], float to[3]) {
+    for (int c = 0; c < 3; c++)
+        to[c] = tone_filmic(c, from[0], from[1], from[2]);
+}
+
+static void linear(const float from[3], float to[3]) {
+    for (int c = 0; c < 3; c++)
+        to[c] = tone_linear(c, from[0], from[1], from[2]);
+}
+
+const image_tone_row image_tones[] = {
+    { "filmic", "makes bright colors white as film does", filmic, "tone_filmic" },
+    { "linear", "shows radiance up to 1 as it is", linear, "tone_linear" },
+    { NULL, NULL, NULL, NULL },
+};
+_Static_assert(sizeof image_tones / sizeof *image_tones <= IMAGE_TONES_MAX + 1,
+               "room for programs");
+
+const char *const *image_tone_names(void) {
+    static const char *names[IMAGE_TONES_MAX + 1];
+    cli_row_names(&image_tones[0].name, sizeof *image_tones,
+                  sizeof image_tones / sizeof *image_tones - 1, names);
+    return names;
+}
+
+const char *image_tone_help(void) {
+    static char text[256];
+    return cli_row_help("how a .png shows radiance", &image_tones[0].name, &image_tones[0].help,
+                        sizeof *image_tones, sizeof image_tones / sizeof *image_tones - 1, text,
+                        sizeof text);
+}
 
 static float transfer(float x) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
@@ -75,20 +109,17 @@ static float limit(float x) {
     return x > 0 ? fminf(x, SHARED_TONE_MAX) : 0;
 }
 
-void image_tone_map(const image *pixels, float exposure, unsigned char *rgb8) {
+void image_tone_map(const image *pixels, const image_display *display, unsigned char *rgb8) {
     const size_t count = (size_t)pixels->width * (size_t)pixels->height;
+    const image_tone_row *curve = &image_tones[display->tone];
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < count; i++) {
         float x[3], y[3];
         for (int c = 0; c < 3; c++)
-            x[c] = limit(pixels->rgb[3 * i + (size_t)c] * exposure);
+            x[c] = limit(pixels->rgb[3 * i + (size_t)c] * display->exposure);
+        curve->apply(x, y);
         for (int c = 0; c < 3; c++)
-            y[c] = shared_tone_in(c, x[0], x[1], x[2]);
-        const float peak = fmaxf(y[0], fmaxf(y[1], y[2]));
-        for (int c = 0; c < 3; c++)
-            y[c] = shared_tone(y[c], peak);
-        for (int c = 0; c < 3; c++)
-            rgb8[3 * i + (size_t)c] = to_byte(shared_tone_out(c, y[0], y[1], y[2]));
+            rgb8[3 * i + (size_t)c] = to_byte(y[c]);
     }
 }
 

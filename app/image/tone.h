@@ -13,9 +13,31 @@ float image_auto_exposure(const image *image);
 /* The factor that an exposure of `stops` EV means: 2^stops. */
 float image_exposure_of_stops(float stops);
 
-/* The filmic curve of shaders/shared.h and the sRGB transfer to 8 bits: rgb8 receives 3 * width *
- * height bytes. */
-void image_tone_map(const image *image, float exposure, unsigned char *rgb8);
+/* A tone curve: `apply` takes exposed linear RGB to what is displayed of it, `function` is the same
+ * in shaders/tone.h. The first row is the default. */
+typedef struct image_tone_row {
+    const char *name, *help;
+    void (*apply)(const float from[3], float to[3]);
+    const char *function;
+} image_tone_row;
+
+#define IMAGE_TONES_MAX 8
+extern const image_tone_row image_tones[]; /* ended by a row of NULLs */
+
+/* The names of the rows, NULL-terminated, and the option that chooses among them. */
+const char *const *image_tone_names(void);
+const char *image_tone_help(void);
+#define IMAGE_TONE_OPTION_ROW(tone)                                                                \
+    { "tone", 0, CLI_CHOICE, &(tone), "CURVE", image_tone_help(), 0, 0, image_tone_names(), NULL }
+
+/* How radiance is shown. */
+typedef struct image_display {
+    float exposure; /* a factor */
+    int tone;       /* a row of image_tones */
+} image_display;
+
+/* Exposure, tone curve and the sRGB transfer to 8 bits: rgb8 receives 3 * width * height bytes. */
+void image_tone_map(const image *image, const image_display *display, unsigned char *rgb8);
 
 /* The sRGB transfer alone. */
 void image_encode(const image *image, unsigned char *rgb8);

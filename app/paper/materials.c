@@ -110,7 +110,7 @@ static bool show_material(paper *p, int number, cli_error *error) {
         if (!image_read(from, IMAGE_READ_PIXELS, &pixels, error))
             return false;
         exposure = k == 0 ? image_auto_exposure(&pixels) : exposure;
-        const bool ok = image_write(&pixels, to, exposure, error);
+        const bool ok = image_write(&pixels, to, &(image_display) { .exposure = exposure }, error);
         image_free(&pixels);
         if (!ok)
             return false;

@@ -135,7 +135,7 @@ static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *e
         return false;
     *exposure = image_auto_exposure(&truth);
     snprintf(file, sizeof file, "%s-truth.png", f->name);
-    const bool ok = image_write(&truth, file, *exposure, error);
+    const bool ok = image_write(&truth, file, &(image_display) { .exposure = *exposure }, error);
     image_free(&truth);
     snprintf(caption, sizeof caption, "Ground truth: whole lobes, no harmonics, %d samples a pixel",
              f->samples);

@@ -41,6 +41,14 @@ static void change_exposure(view_state *s, int thirds) {
     s->now.exposure = fminf(fmaxf(s->now.exposure, 1e-12f), 1e12f);
 }
 
+static void change_tone(view_state *s, int step) {
+    int count = 0;
+    while (image_tones[count].name)
+        count++;
+    s->now.tone = (s->now.tone + step + count) % count;
+    view_say(s, "Tone curve: %s", image_tones[s->now.tone].name);
+}
+
 static void expose(view_state *s, int unused) {
     (void)unused;
     s->wishes.expose = true;
@@ -199,11 +207,13 @@ const view_key view_keys[] = {
     { "Down", NULL, NULL, change_bands, -1 },
     { "Page_Up", "Page Up  Page Down", "bands, ten by ten", change_bands, 10 },
     { "Page_Down", NULL, NULL, change_bands, -10 },
-    { "g", "G", "window function", change_window, 1 },
+    { "g", "G", "windowing filter", change_window, 1 },
     { "G", NULL, NULL, change_window, -1 },
     { ",", ",  .", "darker, brighter by 1/3 stop", change_exposure, -1 },
     { ".", NULL, NULL, change_exposure, 1 },
     { "0", "0", "exposure to suit the image", expose, 0 },
+    { "u", "U", "tone curve", change_tone, 1 },
+    { "U", NULL, NULL, change_tone, -1 },
     { "t", "T", "material of the object pointed at", change_material, 1 },
     { "T", NULL, NULL, change_material, -1 },
     { NULL, "drop a file", "its material: .binary .bsdf .lmpt", NULL, 0 },

@@ -75,6 +75,7 @@ cJSON *view_settings_to_json(const view_settings *s) {
     cJSON_AddNumberToObject(root, "height", s->height);
     cJSON_AddNumberToObject(root, "samples", s->samples);
     file_json_add_floats(root, "exposure", &s->exposure, 1);
+    cJSON_AddStringToObject(root, "tone", image_tones[s->tone].name);
     file_json_add_floats(root, "background", s->background, 3);
     add_camera(root, &s->camera);
     cJSON *looks = cJSON_AddArrayToObject(root, "looks");
@@ -134,6 +135,12 @@ static bool read_choice(const cJSON *object, const char *name, const char *const
             return true;
         }
     return false;
+}
+
+/* Absent from the screenshots of before there was a choice. */
+static bool read_tone(const cJSON *root, int *tone) {
+    *tone = 0;
+    return !file_json_member(root, "tone") || read_choice(root, "tone", image_tone_names(), tone);
 }
 
 static bool read_camera(const cJSON *root, scene_camera *camera) {
@@ -210,6 +217,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
                         : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
+                        : !read_tone(root, &s->tone)                                   ? "tone"
                         : !read_floats(root, "background", 0, 1e30, s->background) ? "background"
                         : !read_camera(root, &s->camera)                           ? "camera"
                         : !read_looks(root, s->looks)                              ? "looks"

@@ -22,6 +22,7 @@ typedef struct view_settings {
     int width, height;
     int samples;    /* a pixel */
     float exposure; /* a factor on radiance */
+    int tone;       /* a row of image_tones */
     float background[3];
     scene_camera camera;
     view_look looks[2]; /* the second one of a split image */

@@ -15,7 +15,8 @@ static float exposure;
 
 static void read_pixels(gpu_renderer *renderer, unsigned char *rgb8) {
     cli_error error = { "" };
-    expect(gpu_read_rgb8(renderer, exposure, rgb8, NULL, &error), &error);
+    expect(gpu_read_rgb8(renderer, &(image_display) { .exposure = exposure }, rgb8, NULL, &error),
+           &error);
 }
 
 static void draw(gpu_renderer *renderer, const gpu_frame *frame, unsigned char *rgb8) {

@@ -277,7 +277,9 @@ static void check_bytes(scene *world, gpu_renderer *renderer) {
     for (int m = 0; m < METHOD_PREINTEGRATED; m++) {
         frame.method = (method_kind)m;
         expect(gpu_render(renderer, &frame, NULL, &error), &error);
-        expect(gpu_read_rgb8(renderer, exposure, bytes[m], NULL, &error), &error);
+        expect(gpu_read_rgb8(renderer, &(image_display) { .exposure = exposure }, bytes[m], NULL,
+                             &error),
+               &error);
     }
     int worst_difference = 0;
     for (size_t i = 0; i < 3 * PIXELS; i++) {

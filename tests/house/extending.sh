@@ -31,3 +31,4 @@ has app/bench/kernels.c bench_kernels
 has app/material/material.c formats
 has app/material/material.c kinds
 has src/kernels/kernels.h lmp_kernels
+has app/image/tone.c image_tones

@@ -184,13 +184,13 @@ static void exposure_puts_what_is_lit_at_middle_grey(void **state) {
     image_free(&pixels);
 }
 
-static void the_curve_keeps_black_and_grey_rises_and_ends_white(void **state) {
+static void the_curve_keeps_black_and_gray_rises_and_ends_white(void **state) {
     (void)state;
     static unsigned char bytes[VALUES];
     image pixels = noise();
     for (size_t i = 0; i < VALUES; i++)
         pixels.rgb[i] = powf(10, -4 + 8 * (float)(i / 3) / (float)(VALUES / 3));
-    image_tone_map(&pixels, 1, bytes);
+    image_tone_map(&pixels, &(image_display) { .exposure = 1 }, bytes);
     for (size_t i = 3; i < VALUES; i++)
         assert_true(bytes[i] >= bytes[i - 3]);
     assert_int_equal(bytes[0], 0);
@@ -199,11 +199,27 @@ static void the_curve_keeps_black_and_grey_rises_and_ends_white(void **state) {
     pixels.rgb[3] = pixels.rgb[4] = pixels.rgb[5] = NAN;
     pixels.rgb[6] = pixels.rgb[7] = pixels.rgb[8] = INFINITY;
     pixels.rgb[9] = pixels.rgb[10] = pixels.rgb[11] = -1;
-    image_tone_map(&pixels, 1, bytes);
+    image_tone_map(&pixels, &(image_display) { .exposure = 1 }, bytes);
     assert_true(abs(bytes[0] - 118) <= 1); /* sRGB of 0.18 */
     assert_int_equal(bytes[3], 0);
     assert_int_equal(bytes[6], 255);
     assert_int_equal(bytes[9], 0);
+    image_free(&pixels);
+}
+
+static void every_curve_is_chosen_by_its_name_and_the_linear_one_does_nothing(void **state) {
+    (void)state;
+    static unsigned char mapped[VALUES], encoded[VALUES];
+    image pixels = noise();
+    image_display display = { .exposure = 1 };
+    assert_string_equal(image_tone_names()[display.tone], "filmic");
+    while (strcmp(image_tone_names()[display.tone], "linear") != 0)
+        display.tone++;
+    for (size_t i = 0; i < VALUES; i++)
+        pixels.rgb[i] = (float)i / (float)VALUES;
+    image_encode(&pixels, encoded);
+    image_tone_map(&pixels, &display, mapped);
+    assert_memory_equal(mapped, encoded, VALUES);
     image_free(&pixels);
 }
 
@@ -216,7 +232,8 @@ int main(void) {
         cmocka_unit_test(more_pixels_than_wanted_are_refused),
         cmocka_unit_test(paths_that_cannot_be_written_are_refused_at_once),
         cmocka_unit_test(exposure_puts_what_is_lit_at_middle_grey),
-        cmocka_unit_test(the_curve_keeps_black_and_grey_rises_and_ends_white),
+        cmocka_unit_test(the_curve_keeps_black_and_gray_rises_and_ends_white),
+        cmocka_unit_test(every_curve_is_chosen_by_its_name_and_the_linear_one_does_nothing),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
