@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/page.h"
 
-#include <errno.h>
 #include <stdarg.h>
-#include <string.h>
 
 static const char style[] =
     "body{font:16px/1.5 system-ui,sans-serif;max-width:1060px;margin:0 auto;padding:1em;"
@@ -93,27 +91,26 @@ void page_image(paper_page *page, const char *file, const char *caption) {
  */
 
 static void put_row(page_table *table, const char *cells, const char *tag) {
-    FILE *html = table->page->html;
+    FILE *const html = table->page->html, *const csv = table->csv.stream;
     fprintf(html, "<tr><%s>", tag);
     for (const char *c = cells; *c; c++)
         if (*c == '|') {
             fprintf(html, "</%s><%s>", tag, tag);
-            fputc(',', table->csv);
+            fputc(',', csv);
         } else {
             fputc(*c, html);
-            fputc(*c == ',' ? ';' : *c, table->csv);
+            fputc(*c == ',' ? ';' : *c, csv);
         }
     fprintf(html, "</%s></tr>\n", tag);
-    fputc('\n', table->csv);
+    fputc('\n', csv);
 }
 
 bool page_table_begin(paper_page *page, page_table *table, const char *file, const char *heads,
                       cli_error *error) {
     table->page = page;
     snprintf(table->file, sizeof table->file, "%s.csv", file);
-    table->csv = fopen(table->file, "w");
-    if (!table->csv)
-        return cli_fail(error, table->file, "%s", strerror(errno));
+    if (!file_write_begin(&table->csv, table->file, error))
+        return false;
     fputs("<div class=\"wide\"><table>\n", page->html);
     put_row(table, heads, "th");
     return true;
@@ -129,10 +126,7 @@ void page_table_row(page_table *table, const char *format, ...) {
 }
 
 bool page_table_end(page_table *table, cli_error *error) {
-    const bool failed = ferror(table->csv) != 0;
     fprintf(table->page->html, "</table></div>\n<p><a href=\"%s\">%s</a></p>\n", table->file,
             table->file);
-    if (fclose(table->csv) != 0 || failed)
-        return cli_fail(error, table->file, "cannot be written");
-    return true;
+    return file_write_commit(&table->csv, error);
 }
