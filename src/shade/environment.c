@@ -94,7 +94,7 @@ static lmp_surface surface_at(const lmp_surfaces *surfaces, size_t i) {
 /* Lobe k of surface i in the run; of weight 0 where the material has fewer. */
 static void take_lobe(const shade_lobes *lobes, int k, int bands, size_t i, lobe_run *run) {
     const shade_lobe *lobe = &lobes->lobe[k];
-    const float there = k < lobes->count;
+    const bool there = k < lobes->count;
     run->x[i] = there ? lobe->axis.x : 0;
     run->y[i] = there ? lobe->axis.y : 0;
     run->z[i] = there ? lobe->axis.z : 0;
