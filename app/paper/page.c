@@ -2,6 +2,7 @@
 #include "app/paper/page.h"
 
 #include <stdarg.h>
+#include <string.h>
 
 static const char style[] =
     "body{font:16px/1.5 system-ui,sans-serif;max-width:1060px;margin:0 auto;padding:1em;"
@@ -90,18 +91,34 @@ void page_image(paper_page *page, const char *file, const char *caption) {
 /* --- tables -------------------------------------------------------------------------------------
  */
 
+/* A cell of a CSV file (RFC 4180). */
+static void put_cell(FILE *csv, const char *cell, size_t length) {
+    if (!memchr(cell, ',', length)) {
+        fwrite(cell, 1, length, csv);
+        return;
+    }
+    fputc('"', csv);
+    for (size_t i = 0; i < length; i++) {
+        if (cell[i] == '"')
+            fputc('"', csv);
+        fputc(cell[i], csv);
+    }
+    fputc('"', csv);
+}
+
 static void put_row(page_table *table, const char *cells, const char *tag) {
     FILE *const html = table->page->html, *const csv = table->csv.stream;
-    fprintf(html, "<tr><%s>", tag);
-    for (const char *c = cells; *c; c++)
-        if (*c == '|') {
-            fprintf(html, "</%s><%s>", tag, tag);
-            fputc(',', csv);
-        } else {
-            fputc(*c, html);
-            fputc(*c == ',' ? ';' : *c, csv);
-        }
-    fprintf(html, "</%s></tr>\n", tag);
+    fprintf(html, "<tr>");
+    for (const char *cell = cells;; cell++) {
+        const size_t length = strcspn(cell, "|");
+        fprintf(html, "<%s>%.*s</%s>", tag, (int)length, cell, tag);
+        put_cell(csv, cell, length);
+        cell += length;
+        if (!*cell)
+            break;
+        fputc(',', csv);
+    }
+    fprintf(html, "</tr>\n");
     fputc('\n', csv);
 }
 
