@@ -17,7 +17,9 @@ float hit_sphere(vec3 eye, vec3 ray, vec4 sphere) {
 
 vec3 shade(vec3 position, vec3 normal, vec3 ray, vec3 base, float metallic, float roughness) {
     lmp_surface surface = lmp_surface(position, normal, -ray);
-    return lmp_shade_zonal(surface, lmp_material_from_metallic_roughness(base, metallic, roughness));
+    float alpha = roughness * roughness;
+    return lmp_shade_zonal(surface, lmp_material(base * (1.0 - metallic), mix(vec3(0.04), base, metallic),
+                                                 0.5 / (alpha * alpha)));
 }
 
 void main() {

@@ -32,11 +32,11 @@ vec3 gbuffer_decode_normal(vec2 stored) {
 }
 
 float gbuffer_encode_kind(int kind) {
-    return float(kind) / 255.0;
+    return float(kind) / 65535.0;
 }
 
 int gbuffer_decode_kind(float stored) {
-    return int(stored * 255.0 + 0.5);
+    return int(stored * 65535.0 + 0.5);
 }
 
 float gbuffer_encode_light(int index) {

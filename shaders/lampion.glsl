@@ -10,7 +10,6 @@
  *                            damps the ringing of the material's truncated series
  *   LMP_WINDOW_SIZE          the band whose weight falls to 0; default LMP_BANDS
  *   LMP_WINDOW_WEIGHTS       in place of these two, LMP_BANDS weights separated by commas
- *   LMP_ALPHA_MIN            floor of the squared roughness; default 0.01
  * and, to have the two lmp_shade_… functions,
  *   LMP_LIGHT_COUNT          int: number of lights
  *   LMP_LIGHT_SPHERE(i)      vec4: center and radius of light i, 0 <= i < LMP_LIGHT_COUNT
@@ -45,12 +44,13 @@
  * What there is
  *   lmp_shade_zonal          radiance to the viewer under all lights: O(LMP_BANDS) a light
  *   lmp_shade_coefficients   the same by the paper's method: O(LMP_BANDS²) a light
- *   lmp_material_from_…      glTF's metallic-roughness as a lmp_material
+ *   lmp_lobes_of             what a surface reflects by, for passes of your own
  *   lmp_sphere_project       the LMP_SH_COUNT coefficients of a sphere light, for probes
  *   lmp_sh_eval              Y_lm of a direction
  *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
  *   lmp_cap_of_light, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
  * and in preintegrated_lobe.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
+ * All of them also take a lmp_metallic_roughness, glTF's material, where ggx.glsl stands before.
  * All names begin with lmp_ or LMP_. Nothing is kept: no uniforms, buffers or bindings.
  *
  * Conventions: directions are unit and point away from the shaded point; lengths are in any one
@@ -79,9 +79,6 @@
 #ifndef LMP_WINDOW_SIZE
 #define LMP_WINDOW_SIZE float(LMP_BANDS)
 #endif
-#ifndef LMP_ALPHA_MIN
-#define LMP_ALPHA_MIN 0.01
-#endif
 
 #define LMP_PI       3.14159265358979
 #define LMP_SH_COUNT (LMP_BANDS * LMP_BANDS)
@@ -100,6 +97,31 @@ struct lmp_material {
     vec3 diffuse;
     vec3 specular;
     float exponent;
+};
+
+/* Phong lobes of a surface: one, or those of GGX. What each of them has is a LMP_EACH or, of three
+ * numbers, a column of a LMP_EACH_VEC3; LMP_LOBE is that of lobe k, LMP_DOT(v, m) v times each
+ * column. */
+#ifdef LAMPION_GGX_GLSL
+#define LMP_LOBES       LMP_GGX_LOBES
+#define LMP_EACH        vec3
+#define LMP_EACH_VEC3   mat3
+#define LMP_LOBE(of, k) of[k]
+#define LMP_DOT(v, m)   ((v) * (m))
+#else
+#define LMP_LOBES       1
+#define LMP_EACH        float
+#define LMP_EACH_VEC3   vec3
+#define LMP_LOBE(of, k) of
+#define LMP_DOT(v, m)   dot(v, m)
+#endif
+
+/* What a surface reflects by: diffuse/pi max(n.w, 0), and of each lobe
+ * weight (exponent+1)/(2 pi) max(axis.w, 0)^exponent. */
+struct lmp_lobes {
+    vec3 diffuse;
+    LMP_EACH_VEC3 axis, weight;
+    LMP_EACH exponent;
 };
 
 /* What a sphere light is from one point. Its coefficients for radiance 1 are, by paper Eq. 12 and
@@ -205,15 +227,45 @@ lmp_cap lmp_cap_of_light(vec4 sphere, bool fixed_cap, vec3 point) {
     return lmp_cap_of_sphere(sphere, point);
 }
 
-/* glTF's metallic-roughness as two lobes; metallic and roughness in 0 … 1. */
-lmp_material lmp_material_from_metallic_roughness(vec3 base, float metallic, float roughness) {
-    float alpha = max(roughness * roughness, LMP_ALPHA_MIN);
-    lmp_material material;
-    material.diffuse = base * (1.0 - metallic);
-    material.specular = mix(vec3(0.04), base, metallic);
-    material.exponent = 2.0 / (alpha * alpha) - 2.0;
-    return material;
+lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_material material) {
+    vec3 mirror = reflect(-surface.view, surface.normal);
+    lmp_lobes lobes;
+    lobes.diffuse = material.diffuse;
+    lobes.exponent = LMP_EACH(material.exponent);
+#if LMP_LOBES == 1
+    lobes.axis = mirror;
+    lobes.weight = material.specular;
+#else
+    lobes.axis = mat3(mirror, mirror, mirror);
+    lobes.weight = mat3(material.specular, vec3(0.0), vec3(0.0));
+#endif
+    return lobes;
 }
+
+#ifdef LAMPION_GGX_GLSL
+/* glTF's; metallic and roughness in 0 … 1. */
+struct lmp_metallic_roughness {
+    vec3 base_color;
+    float metallic, roughness;
+};
+
+/* A metal, whose F0 is the base color, mixed with a dielectric, whose base color is under a layer of
+ * reflectance 0.04. */
+lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material) {
+    lmp_ggx_place place = lmp_ggx_lookup(surface.normal, surface.view, material.roughness);
+    vec3 f0 = mix(vec3(0.04), material.base_color, material.metallic);
+    float f90 = lmp_ggx_diffuse_f90(place);
+    lmp_lobes lobes;
+    lobes.diffuse = material.base_color * ((1.0 - material.metallic) * (0.96 - 0.96 * f90));
+    for (int k = 0; k < LMP_LOBES; k++) {
+        lmp_ggx_lobe lobe = lmp_ggx_lobe_at(place, surface.normal, surface.view, k);
+        lobes.axis[k] = lobe.axis;
+        lobes.weight[k] = lobe.f0 * f0 + lobe.f90;
+        lobes.exponent[k] = lobe.exponent;
+    }
+    return lobes;
+}
+#endif
 
 /* lambda_l of max(t, 0), windowed: a diffuse lobe's coefficients are lambda_l Y_lm(normal). */
 void lmp_lobe_diffuse(out float lambda[LMP_BANDS]) {
@@ -231,9 +283,9 @@ void lmp_lobe_diffuse(out float lambda[LMP_BANDS]) {
 #undef LMP_STEP
 }
 
-/* lambda_l of (e+1)/(2 pi) max(t, 0)^e, windowed; exponent e >= 0. */
-void lmp_lobe_phong(float e, out float lambda[LMP_BANDS]) {
-    float l0 = 1.0, l1 = (e + 1.0) / (e + 2.0), l2;
+/* lambda_l of (e+1)/(2 pi) max(t, 0)^e, windowed; exponent e >= 0, of one lobe or of each. */
+void lmp_lobe_phong(LMP_EACH e, out LMP_EACH lambda[LMP_BANDS]) {
+    LMP_EACH l0 = LMP_EACH(1.0), l1 = (e + 1.0) / (e + 2.0), l2;
     lambda[0] = l0;
     if (LMP_BANDS > 1)
         lambda[LMP_BAND(1)] = lmp_window_weight(1) * l1;
@@ -345,19 +397,30 @@ void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
 #ifndef LMP_LIGHT_COLOR
 #define LMP_LIGHT_COLOR(i, p) LMP_LIGHT_RADIANCE(i)
 #endif
+/* A function of a surface and its lobes, of a surface and a material. */
+#define LMP_SHADE_MATERIAL(shade, type)                                                            \
+    vec3 shade(lmp_surface surface, type material) {                                               \
+        return shade(surface, lmp_lobes_of(surface, material));                                    \
+    }
+#ifdef LAMPION_GGX_GLSL
+#define LMP_SHADE_MATERIALS(shade)                                                                 \
+    LMP_SHADE_MATERIAL(shade, lmp_material) LMP_SHADE_MATERIAL(shade, lmp_metallic_roughness)
+#else
+#define LMP_SHADE_MATERIALS(shade) LMP_SHADE_MATERIAL(shade, lmp_material)
+#endif
 #define LMP_LIGHT_CAP(i, p) lmp_cap_of_light(LMP_LIGHT_SPHERE(i), LMP_LIGHT_FIXED(i), p)
 
 /* Radiance to the viewer under all lights, by the addition theorem: O(LMP_BANDS) a light.
  *
  *     sum_l (2l+1)/4 lambda_l R_l P_l(axis.lobe)
  *
- * for both lobes in one pass. P_l is carried monic (p_l = u p_(l-1) - b_l p_(l-2)) and the
+ * for all lobes in one pass. P_l is carried monic (p_l = u p_(l-1) - b_l p_(l-2)) and the
  * differences of R_l scaled, which saves four products a band; the scales are in the weights. */
-vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
-    vec3 mirror = reflect(-surface.view, surface.normal);
-    float diffuse[LMP_BANDS], glossy[LMP_BANDS];
+vec3 lmp_shade_zonal(lmp_surface surface, lmp_lobes lobes) {
+    float diffuse[LMP_BANDS];
+    LMP_EACH glossy[LMP_BANDS];
     lmp_lobe_diffuse(diffuse);
-    lmp_lobe_phong(material.exponent, glossy);
+    lmp_lobe_phong(lobes.exponent, glossy);
     float leading = 1.0; /* coefficient of u^l in P_l */
     diffuse[0] *= 0.25 / LMP_PI;
     glossy[0] *= 0.25;
@@ -377,10 +440,10 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
         lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
-        float u = dot(cap.axis, surface.normal), v = dot(cap.axis, mirror);
-        float r = 1.0, difference = 0.0;
-        float p0 = 1.0, p1 = u, p2, q0 = 1.0, q1 = v, q2;
-        float d = 0.0, g = 0.0;
+        float u = dot(cap.axis, surface.normal), r = 1.0, difference = 0.0;
+        float p0 = 1.0, p1 = u, p2, d = 0.0;
+        LMP_EACH v = LMP_DOT(cap.axis, lobes.axis), q0 = LMP_EACH(1.0), q1 = v, q2;
+        LMP_EACH g = LMP_EACH(0.0);
         if (LMP_BANDS > 1) {
             d = diffuse[LMP_BAND(1)] * u;
             g = glossy[LMP_BAND(1)] * v;
@@ -405,7 +468,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_material material) {
 #undef LMP_STEP
         d = diffuse[0] * cap.base + cap.strength * d;
         g = glossy[0] * cap.base + cap.strength * g;
-        sum += LMP_LIGHT_COLOR(i, surface.position) * (material.diffuse * d + material.specular * g);
+        sum += LMP_LIGHT_COLOR(i, surface.position) * (lobes.diffuse * d + lobes.weight * g);
     }
     return max(sum, vec3(0.0));
 }
@@ -420,9 +483,9 @@ mat3 lmp_view_frame(lmp_surface surface) {
     return transpose(mat3(tangent, cross(normal, tangent), normal));
 }
 
-/* The next q_l(z), monic, from the two before it. */
+/* The next q_l(z), monic, from the two before it, which begin as 0. */
 #define LMP_MONIC(l, m, z, q, q1, q2)                                                              \
-    q = l == m ? 1.0                                                                               \
+    q = l == m ? q1 + 1.0                                                                          \
                : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
     q2 = q1;                                                                                       \
     q1 = q;
@@ -435,12 +498,12 @@ mat3 lmp_view_frame(lmp_surface surface) {
 /* The same by the paper's method: the coefficients of all lights are summed, then multiplied with
  * those of the material.
  *
- * Both lobes lie in the plane of normal and view. In a frame whose z is the normal and whose x lies
+ * All lobes lie in the plane of normal and view. In a frame whose z is the normal and whose x lies
  * in that plane their coefficients vanish for m < 0, so only the others are summed; the lights'
  * directions are brought into that frame, which is cheaper than rotating coefficients. Y_lm is
  * carried as q_l(z) times the real part of (x + iy)^m, with q_l monic; the squares of its norms are
  * applied once, to the sums. */
-vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
+vec3 lmp_shade_coefficients(lmp_surface surface, lmp_lobes lobes) {
     mat3 world_to_local = lmp_view_frame(surface);
 
     vec3 sum[LMP_HALF_COUNT];
@@ -452,7 +515,7 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
 #undef LMP_COLUMN
 #undef LMP_ROW
 
-    float q, q1, q2, c, d, s, t;
+    float q, q1, q2, c, d, t;
     /* Two lights at once: each sum is read and written half as often. An odd last light is paired
      * with darkness. */
     for (int i = 0; i < LMP_LIGHT_COUNT; i += 2) {
@@ -491,41 +554,45 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_material material) {
 #undef LMP_ROW
     }
 
-    float diffuse[LMP_BANDS], glossy[LMP_BANDS];
+    float diffuse[LMP_BANDS];
+    LMP_EACH glossy[LMP_BANDS];
     lmp_lobe_diffuse(diffuse);
-    lmp_lobe_phong(material.exponent, glossy);
-    /* x and z of the mirror direction; its y is 0 */
-    vec2 mirror = vec2(-1.0, 1.0) * (world_to_local * surface.view).xz;
+    lmp_lobe_phong(lobes.exponent, glossy);
+    /* x and z of the lobes' axes; y is 0 */
+    LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0) * world_to_local, lobes.axis);
+    LMP_EACH z = LMP_DOT(surface.normal, lobes.axis), power = LMP_EACH(1.0), p, p1, p2;
     vec3 gathered_diffuse = vec3(0.0), gathered_glossy = vec3(0.0);
-    float power = 1.0, diagonal = 0.25, norm = 0.0;
+    float diagonal = 0.25, norm = 0.0;
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        LMP_MONIC(l, m, mirror.y, q, q1, q2)                                                       \
+        LMP_MONIC(l, m, z, p, p1, p2)                                                              \
         norm = l == m ? diagonal                                                                   \
                       : norm * float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m);           \
-        gathered_glossy +=                                                                         \
-            sum[LMP_HALF_INDEX(l, m)] * (power * norm * q * glossy[LMP_BAND(l)]);                  \
+        gathered_glossy += sum[LMP_HALF_INDEX(l, m)] *                                             \
+                           (lobes.weight * (norm * power * p * glossy[LMP_BAND(l)]));              \
         if (m == 0) {                                                                              \
-            LMP_MONIC(l, m, 1.0, c, s, t)                                                          \
-            gathered_diffuse += sum[LMP_HALF_INDEX(l, m)] * (norm * c * diffuse[LMP_BAND(l)]);     \
+            LMP_MONIC(l, m, 1.0, q, q1, q2)                                                        \
+            gathered_diffuse += sum[LMP_HALF_INDEX(l, m)] * (norm * q * diffuse[LMP_BAND(l)]);     \
         }                                                                                          \
     }
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
-        q1 = q2 = s = t = 0.0;                                                                     \
+        p1 = p2 = LMP_EACH(0.0);                                                                   \
+        q1 = q2 = 0.0;                                                                             \
         LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
         diagonal *= m == 0 ? 3.0 : float(2 * m + 3) / float(2 * m + 2);                            \
-        power *= mirror.x;                                                                         \
+        power *= x;                                                                                \
     }
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
 #undef LMP_ROW
-    vec3 reflected =
-        material.diffuse / LMP_PI * gathered_diffuse + material.specular * gathered_glossy;
-    return max(reflected, vec3(0.0));
+    return max(lobes.diffuse / LMP_PI * gathered_diffuse + gathered_glossy, vec3(0.0));
 }
 #undef LMP_POWER
 #undef LMP_MONIC
+
+LMP_SHADE_MATERIALS(lmp_shade_zonal)
+LMP_SHADE_MATERIALS(lmp_shade_coefficients)
 
 #endif
 #endif

@@ -7,15 +7,18 @@
 #include "shared.h"
 
 #include "light.glsl"
+#include "material.glsl"
 #include "lampion.glsl"
 
 #include "pixel.glsl"
 
 layout(location = 0) out vec4 radiance;
 
-vec3 paper_shade(lmp_surface surface, lmp_material material) {
+vec3 paper_shade(lmp_surface surface, lmp_metallic_roughness material) {
+    lmp_lobes lobes = lmp_lobes_of(surface, material);
     vec3 sum[LMP_SH_COUNT];
-    float sh[LMP_SH_COUNT], diffuse[LMP_BANDS], glossy[LMP_BANDS];
+    float sh[LMP_SH_COUNT], diffuse[LMP_BANDS];
+    LMP_EACH glossy[LMP_BANDS];
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m))                                                                          \
         sum[LMP_INDEX(l, m)] = sum[LMP_INDEX(l, -m)] = vec3(0.0);
@@ -37,8 +40,8 @@ vec3 paper_shade(lmp_surface surface, lmp_material material) {
     }
 
     lmp_lobe_diffuse(diffuse);
-    lmp_lobe_phong(material.exponent, glossy);
-    vec3 gathered_diffuse = vec3(0.0), gathered_glossy = vec3(0.0);
+    lmp_lobe_phong(lobes.exponent, glossy);
+    vec3 gathered_diffuse = vec3(0.0), gathered_glossy[LMP_LOBES];
     lmp_sh_eval(surface.normal, sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
@@ -48,18 +51,24 @@ vec3 paper_shade(lmp_surface surface, lmp_material material) {
     }
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW
-    lmp_sh_eval(reflect(-surface.view, surface.normal), sh);
+    for (int k = 0; k < LMP_LOBES; k++) {
+        lmp_sh_eval(LMP_LOBE(lobes.axis, k), sh);
+        gathered_glossy[k] = vec3(0.0);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        gathered_glossy += glossy[LMP_BAND(l)] * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];       \
+        float factor = LMP_LOBE(glossy[LMP_BAND(l)], k);                                           \
+        gathered_glossy[k] += factor * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];                 \
         if (m > 0)                                                                                 \
-            gathered_glossy += glossy[LMP_BAND(l)] * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)]; \
+            gathered_glossy[k] += factor * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)];           \
     }
-    LMP_FOR_COLUMNS(LMP_COLUMN)
+        LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW
 #undef LMP_COLUMN
-    return max(material.diffuse / LMP_PI * gathered_diffuse + material.specular * gathered_glossy,
-               vec3(0.0));
+    }
+    vec3 reflected = lobes.diffuse / LMP_PI * gathered_diffuse;
+    for (int k = 0; k < LMP_LOBES; k++)
+        reflected += LMP_LOBE(lobes.weight, k) * gathered_glossy[k];
+    return max(reflected, vec3(0.0));
 }
 
 void main() {

@@ -8,7 +8,7 @@ layout(binding = SHARED_DEPTH) uniform sampler2D depth_texture;
 
 struct pixel {
     lmp_surface surface;
-    lmp_material material;
+    lmp_metallic_roughness material;
 };
 
 int pixel_kind(ivec2 at) {
@@ -31,7 +31,7 @@ pixel pixel_read(ivec2 at) {
     p.surface.position = eye.xyz + ray * (eye.w / texelFetch(depth_texture, at, 0).r);
     p.surface.normal = gbuffer_decode_normal(texelFetch(normal_texture, at, 0).rg);
     p.surface.view = -normalize(ray);
-    p.material = lmp_material_from_metallic_roughness(
-        gbuffer_decode_color(base_metallic.rgb), base_metallic.a, texelFetch(roughness_kind_texture, at, 0).r);
+    p.material = lmp_metallic_roughness(gbuffer_decode_color(base_metallic.rgb), base_metallic.a,
+                                        texelFetch(roughness_kind_texture, at, 0).r);
     return p;
 }

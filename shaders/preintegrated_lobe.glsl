@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* preintegrated_lobe.glsl - shading from a preintegrated lobe (lampion/preintegrated.h): two readings
- * a light, whatever the number of bands. Include it after lampion.glsl and preintegrated_lookup.h.
+/* preintegrated_lobe.glsl - shading from a preintegrated lobe (lampion/preintegrated.h): a reading a
+ * lobe and light, whatever the number of bands. Include it after lampion.glsl and preintegrated_lookup.h.
  *
  * Put the cells' pairs into a texture of two signed normalized 16-bit channels, `columns` texels a
  * row, cells side by side as you like. Define before including, the rest of what
@@ -59,24 +59,33 @@ float lmp_preintegrated_lobe_read(lmp_lobe_position position, float g, float a) 
 }
 
 #ifdef LMP_LIGHT_COUNT
+/* What a lobe gathers from a cap of radiance 1, whose axis has this cosine with the lobe's. */
+float lmp_preintegrated_lobe_gather(lmp_lobe_position position, lmp_cap cap, float cosine) {
+    /* more than a hemisphere: ambient light less the complementary cap */
+    bool inside = cap.base > 2.0;
+    float covered = 2.0 * LMP_PI * cap.one_minus_cos;
+    float read = lmp_preintegrated_lobe_read(position, lmp_lookup_acos(cosine), lmp_lookup_arc(cap.one_minus_cos));
+    float part = read * covered / (covered + position.angle);
+    return inside ? 1.0 - part : part;
+}
+
 /* lmp_shade_zonal, within its error. */
-vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_material material) {
-    lmp_lobe_position diffuse = lmp_preintegrated_lobe_lookup(1.0), specular = lmp_preintegrated_lobe_lookup(material.exponent);
-    vec3 mirror = reflect(-surface.view, surface.normal), sum = vec3(0.0);
+vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_lobes lobes) {
+    lmp_lobe_position diffuse = lmp_preintegrated_lobe_lookup(1.0), specular[LMP_LOBES];
+    for (int k = 0; k < LMP_LOBES; k++)
+        specular[k] = lmp_preintegrated_lobe_lookup(LMP_LOBE(lobes.exponent, k));
+    vec3 sum = vec3(0.0);
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
         lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
-        /* more than a hemisphere: ambient light less the complementary cap */
-        bool inside = cap.base > 2.0;
-        float t = cap.one_minus_cos, ambient = inside ? 1.0 : 0.0;
-        float covered = 2.0 * LMP_PI * t, mean = inside ? -covered : covered;
-        float a = lmp_lookup_arc(t);
-        float d = lmp_preintegrated_lobe_read(diffuse, lmp_lookup_acos(dot(cap.axis, surface.normal)), a);
-        float s = lmp_preintegrated_lobe_read(specular, lmp_lookup_acos(dot(cap.axis, mirror)), a);
-        d = d * mean / (covered + diffuse.angle) + ambient;
-        s = s * mean / (covered + specular.angle) + ambient;
-        sum += LMP_LIGHT_COLOR(i, surface.position) * (material.diffuse * d + material.specular * s);
+        vec3 reflected = lobes.diffuse * lmp_preintegrated_lobe_gather(diffuse, cap, dot(cap.axis, surface.normal));
+        for (int k = 0; k < LMP_LOBES; k++)
+            reflected += LMP_LOBE(lobes.weight, k) *
+                         lmp_preintegrated_lobe_gather(specular[k], cap, dot(cap.axis, LMP_LOBE(lobes.axis, k)));
+        sum += LMP_LIGHT_COLOR(i, surface.position) * reflected;
     }
     return max(sum, vec3(0.0));
 }
+
+LMP_SHADE_MATERIALS(lmp_shade_preintegrated)
 #endif
 #endif

@@ -13,6 +13,7 @@ layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
                     (float(k) + 0.5) / float((LMP_BANDS + 3) / 4)),                                \
                0.0)
 #endif
+#include "material.glsl"
 #include "lampion.glsl"
 
 #ifdef SHADE_PREINTEGRATED

@@ -24,8 +24,9 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_LIGHTS   1
 #define SHARED_MATERIAL 2
 
-/* Storage block of the tables (table.glsl). */
+/* Storage blocks of the tables (table.glsl), and of the lobes of GGX (material.glsl). */
 #define SHARED_TABLES 1
+#define SHARED_GGX    2
 
 /* Texture units of the materials' maps, and of the G-buffer in the passes that read it. */
 #define SHARED_BASE_COLOR         0
@@ -35,12 +36,13 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_DEPTH              4
 #define SHARED_HDR                5
 
-/* Fragment outputs, in the order of the G-buffer's attachments (16 bytes a pixel, and depth):
- *   0  RGBA8           root of the base color, metallic
+/* Fragment outputs, in the order of the G-buffer's attachments (20 bytes a pixel, and depth):
+ *   0  RGBA16          root of the base color, metallic
  *   1  RG16            octahedral normal; of a light, its index in r
- *   2  RG8             roughness, kind
+ *   2  RG16            roughness, kind
  *   3  R11F_G11F_B10F  emitted radiance
- * The root is nearly as even to the eye as sRGB's curve, and every device squares it alike. */
+ * The root keeps dark colors: of 0.0005 to 7e-4, of brighter ones to less. Every device squares it
+ * alike. */
 #define SHARED_KIND_NONE    0
 #define SHARED_KIND_SURFACE 1
 #define SHARED_KIND_LIGHT   2
@@ -122,10 +124,9 @@ struct shared_pixel {
 typedef struct shared_pixel {
 #endif
     vec4 position_kind;
-    vec4 normal_exponent;
-    vec4 view;
-    vec4 diffuse;
-    vec4 specular;
+    vec4 normal_metallic;
+    vec4 view_roughness;
+    vec4 base_color;
     vec4 emission;
 #ifdef LAMPION_SHADER
 };
@@ -148,7 +149,7 @@ static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
 static_assert(offsetof(shared_material, matrix) == 64, "std140");
 static_assert(offsetof(shared_material, offset) == 128, "std140");
 static_assert(sizeof(shared_material) == 208, "std140");
-static_assert(sizeof(shared_pixel) == 96, "std430");
+static_assert(sizeof(shared_pixel) == 80, "std430");
 #endif
 
 #endif

@@ -3,6 +3,7 @@
 #include "gbuffer.glsl"
 #include "shared.h"
 
+#include "material.glsl"
 #include "lampion.glsl"
 
 #include "pixel.glsl"
@@ -21,10 +22,9 @@ void main() {
     pixel p = pixel_read(at);
     shared_pixel o;
     o.position_kind = vec4(p.surface.position, float(kind));
-    o.normal_exponent = vec4(p.surface.normal, p.material.exponent);
-    o.view = vec4(p.surface.view, 0.0);
-    o.diffuse = vec4(p.material.diffuse, 0.0);
-    o.specular = vec4(p.material.specular, 0.0);
+    o.normal_metallic = vec4(p.surface.normal, p.material.metallic);
+    o.view_roughness = vec4(p.surface.view, p.material.roughness);
+    o.base_color = vec4(p.material.base_color, 0.0);
     o.emission = vec4(kind == SHARED_KIND_LIGHT     ? pixel_light_radiance(at)
                       : kind != SHARED_KIND_NONE    ? pixel_emission(at)
                                                     : background.rgb,

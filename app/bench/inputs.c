@@ -35,7 +35,11 @@ bool bench_inputs_create(bench_inputs *in) {
         in->normal[1][i] = y / length;
         in->normal[2][i] = z / length;
         const lmp_rgb color = { in->radiance[0][i], in->radiance[1][i], in->radiance[2][i] };
-        in->material[i] = (lmp_material) { .diffuse = color, .specular = color, .exponent = 20 };
+        in->phong[i] = (lmp_material) { .diffuse = color, .specular = color, .exponent = 20 };
+        in->ggx[i] = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                      .base_color = color,
+                                      .metallic = 0.5f,
+                                      .roughness = 0.5f };
     }
     for (int i = 0; i < BENCH_LIGHTS; i++)
         in->lights[i] =
@@ -95,8 +99,8 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     b.surfaces = (lmp_surfaces) { .position = b.points,
                                   .normal = planes_of(in->normal),
                                   .view = b.axes,
-                                  .material = in->material,
-                                  .material_stride = sizeof *in->material };
+                                  .material = kernel->ggx ? in->ggx : in->phong,
+                                  .material_stride = sizeof *in->phong };
     if (kernel->table == BENCH_TABLE_MEASURED) {
         in->tabulated = (lmp_material) { .kind = LMP_MATERIAL_TABLE,
                                          .table = in->table,

@@ -12,7 +12,7 @@ typedef struct bench_inputs {
     float center[3][BENCH_ELEMENTS_MAX], point[3][BENCH_ELEMENTS_MAX], axis[3][BENCH_ELEMENTS_MAX];
     float radiance[3][BENCH_ELEMENTS_MAX], radius[BENCH_ELEMENTS_MAX], distance[BENCH_ELEMENTS_MAX];
     float normal[3][BENCH_ELEMENTS_MAX];
-    lmp_material material[BENCH_ELEMENTS_MAX], tabulated;
+    lmp_material phong[BENCH_ELEMENTS_MAX], ggx[BENCH_ELEMENTS_MAX], tabulated;
     float lambda[LMP_BANDS_MAX];
     float *out, *vectors, *matrices;
     lmp_light lights[BENCH_LIGHTS];

@@ -113,12 +113,19 @@ static double slots_shade_zonal(int n) {
     const double band = n <= 48 ? 9 + 3.5 : 12 + 4;
     return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 8 + band * later(n);
 }
-/* Floats alone: the products of 16-bit coefficients with their weights are integers. */
+static double slots_shade_ggx(int n) {
+    /* Two lobes more: direction, P_l, sum, three channels. */
+    return slots_shade_zonal(n) + 2 * (6 + 4 + 6 + (n <= 48 ? 6 : 7) * later(n));
+}
+/* Floats alone: the products of 16-bit coefficients with their weights are integers. A reading:
+ * coordinates, two splines' weights, rounded, four rows; and an angle before. */
+enum { SLOTS_READING = 21 + 4 + 30 + 19 + 9 };
 static double slots_shade_response(int n) {
     (void)n;
-    /* Three angles; two readings: coordinates, two splines' weights, rounded, four rows. */
-    return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 17 + 2 * 21 + 2 * (4 + 30 + 19 + 9) +
-           10;
+    return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 17 + 2 * SLOTS_READING + 10;
+}
+static double slots_shade_ggx_response(int n) {
+    return slots_shade_response(n) + 2 * (6 + 6 + SLOTS_READING) + 10;
 }
 static double slots_shade_measured(int n) {
     (void)n;
@@ -132,24 +139,28 @@ static double slots_shade_measured(int n) {
 
 const bench_kernel bench_kernels[BENCH_KERNELS] = {
     { "project", values_basis, slots_project, run_project, bench_paper_project, 1, false,
-      BENCH_TABLE_NONE },
+      BENCH_TABLE_NONE, false },
     { "accumulate", values_rgb, slots_accumulate, run_accumulate, bench_paper_accumulate,
-      BENCH_LIGHTS, false, BENCH_TABLE_NONE },
+      BENCH_LIGHTS, false, BENCH_TABLE_NONE, false },
     { "gradient", values_gradient, slots_gradient, run_gradient, bench_paper_gradient, BENCH_LIGHTS,
-      false, BENCH_TABLE_NONE },
+      false, BENCH_TABLE_NONE, false },
     { "lobe", values_lobe, slots_lobe, run_lobe, bench_paper_lobe, BENCH_LIGHTS, false,
-      BENCH_TABLE_NONE },
-    { "zonal", values_zonal, slots_zonal, run_zonal, bench_paper_zonal, 1, false,
-      BENCH_TABLE_NONE },
-    { "basis", values_basis, slots_basis, run_basis, bench_paper_basis, 1, false,
-      BENCH_TABLE_NONE },
+      BENCH_TABLE_NONE, false },
+    { "zonal", values_zonal, slots_zonal, run_zonal, bench_paper_zonal, 1, false, BENCH_TABLE_NONE,
+      false },
+    { "basis", values_basis, slots_basis, run_basis, bench_paper_basis, 1, false, BENCH_TABLE_NONE,
+      false },
     { "rotate", values_basis, slots_rotate, run_rotate, bench_paper_rotate, 1, false,
-      BENCH_TABLE_NONE },
-    { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, 1, false, BENCH_TABLE_NONE },
+      BENCH_TABLE_NONE, false },
+    { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, 1, false, BENCH_TABLE_NONE, false },
     { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, bench_paper_shade,
-      BENCH_LIGHTS, true, BENCH_TABLE_NONE },
+      BENCH_LIGHTS, true, BENCH_TABLE_NONE, false },
     { "shade-response", values_lobe, slots_shade_response, run_shade_preintegrated,
-      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES },
+      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES, false },
     { "shade-measured", values_lobe, slots_shade_measured, run_shade_preintegrated,
-      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_MEASURED },
+      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_MEASURED, false },
+    { "shade-ggx", values_lobe, slots_shade_ggx, run_shade_zonal, bench_paper_shade, BENCH_LIGHTS,
+      true, BENCH_TABLE_NONE, true },
+    { "shade-ggx-response", values_lobe, slots_shade_ggx_response, run_shade_preintegrated,
+      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES, true },
 };

@@ -38,9 +38,10 @@ typedef struct bench_kernel {
     int lights;  /* pairs an element */
     bool shades; /* its output has one layout */
     bench_table table;
+    bool ggx; /* it shades glTF's metallic-roughness */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 11 };
+enum { BENCH_KERNELS = 13 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- paper.c: elements of the same work by the paper's formulas, one by one ----------------------

@@ -52,10 +52,10 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
         void *to;
     } planes[] = {
         { r->depth, GL_DEPTH_COMPONENT, GL_FLOAT, sizeof *g->depth, g->depth },
-        { r->attachments[0], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->base_metallic,
+        { r->attachments[0], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->base_metallic,
           g->base_metallic },
         { r->attachments[1], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->normal, g->normal },
-        { r->attachments[2], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->roughness_kind,
+        { r->attachments[2], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->roughness_kind,
           g->roughness_kind },
         { r->attachments[3], GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, sizeof *g->emission,
           g->emission },
@@ -154,7 +154,7 @@ static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
 
 /* Octahedral: where z < 0 the triangles are folded outwards. */
 static void decode_normals(const gpu_gbuffer *g, int y, const gpu_row *row) {
-    const gpu_normal16 *restrict normal = g->normal + (size_t)y * (size_t)g->width;
+    const gpu_pair16 *restrict normal = g->normal + (size_t)y * (size_t)g->width;
     float *restrict nx = row->normal[0], *restrict ny = row->normal[1];
     float *restrict nz = row->normal[2];
     const int width = g->width;
@@ -171,27 +171,25 @@ static void decode_normals(const gpu_gbuffer *g, int y, const gpu_row *row) {
     }
 }
 
-static float squared(unsigned char stored) {
-    const float root = (float)stored / 255;
-    return root * root;
+static float unit(uint16_t stored) {
+    return (float)stored / 65535;
+}
+
+static float squared(uint16_t stored) {
+    return unit(stored) * unit(stored);
 }
 
 static void decode_materials(const gpu_gbuffer *g, int y, gpu_row *row) {
     const size_t first = (size_t)y * (size_t)g->width;
-    lmp_material m = { .exponent = 0 };
-    uint32_t held = 0, held_roughness = 256; /* what m is made of: neighbors are often alike */
     for (size_t x = 0; x < (size_t)g->width; x++) {
-        const unsigned char *base = g->base_metallic[first + x];
-        const unsigned roughness = g->roughness_kind[first + x][0];
-        uint32_t bits;
-        memcpy(&bits, base, sizeof bits);
-        if (bits != held || roughness != held_roughness)
-            m = lmp_material_from_metallic_roughness(
-                (lmp_rgb) { squared(base[0]), squared(base[1]), squared(base[2]) },
-                (float)base[3] / 255, (float)roughness / 255);
-        held = bits;
-        held_roughness = roughness;
-        row->material[x] = m;
+        const gpu_base16 *base = &g->base_metallic[first + x];
+        row->material[x] = (lmp_material) {
+            .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+            .base_color = { squared(base->root[0]), squared(base->root[1]),
+                            squared(base->root[2]) },
+            .metallic = unit(base->metallic),
+            .roughness = unit(g->roughness_kind[first + x].u),
+        };
     }
 }
 
@@ -201,7 +199,7 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
     decode_normals(g, y, row);
     decode_materials(g, y, row);
     for (size_t x = 0; x < (size_t)g->width; x++) {
-        const int kind = g->roughness_kind[first + x][1];
+        const int kind = g->roughness_kind[first + x].v;
         row->kind[x] = (unsigned char)(kind >= SHARED_KIND_TABLE ? GPU_KIND_SURFACE : kind);
         if (kind >= SHARED_KIND_TABLE)
             row->material[x] =

@@ -8,13 +8,6 @@
 
 #include <epoxy/gl.h>
 
-/* --- crash.c ------------------------------------------------------------------------------------
- */
-
-/* Where the address space is limited, a crash of the driver becomes a line and an end: drivers do
- * not ask whether they were given the memory that they then use. */
-void gpu_expect_crashes(void);
-
 /* --- program.c: shaders -------------------------------------------------------------------------
  */
 
@@ -108,17 +101,20 @@ bool gpu_bind_zonal(gpu_renderer *renderer, int bands, cli_error *error);
 /* --- gbuffer.c ----------------------------------------------------------------------------------
  */
 
-typedef struct gpu_normal16 {
+typedef struct gpu_pair16 {
     uint16_t u, v;
-} gpu_normal16;
+} gpu_pair16;
+
+typedef struct gpu_base16 {
+    uint16_t root[3], metallic;
+} gpu_base16;
 
 /* The attachments as they are stored (shared.h), and what decoding them needs. */
 struct gpu_gbuffer {
     int width, height;
     float *depth;
-    unsigned char (*base_metallic)[4];
-    gpu_normal16 *normal;
-    unsigned char (*roughness_kind)[2];
+    gpu_base16 *base_metallic;
+    gpu_pair16 *normal, *roughness_kind;
     uint32_t *emission;
     vec4 *rgba; /* for what the host makes of it */
     shared_frame block;
@@ -149,7 +145,7 @@ struct gpu_renderer {
     GLuint tones[IMAGE_TONES_MAX];                            /* of the rows of image_tones */
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
-    GLuint frame_block, lights_block, empty_array;
+    GLuint frame_block, lights_block, ggx_block, empty_array;
     size_t shaded_lights; /* in lights_block */
     GLuint zonal;         /* texture of the tabulated Z_l */
     int zonal_bands;

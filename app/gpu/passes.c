@@ -64,6 +64,7 @@ void gpu_bind_gbuffer(const gpu_renderer *r) {
     for (int i = 0; i < GPU_ATTACHMENTS; i++)
         glBindTextureUnit(units[i], r->attachments[i]);
     glBindTextureUnit(SHARED_DEPTH, r->depth);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_GGX, r->ggx_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
 }

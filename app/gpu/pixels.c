@@ -21,12 +21,12 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
         to[i] = (gpu_pixel) {
             .kind = by_table ? GPU_KIND_SURFACE : (gpu_kind)kind,
             .surface = { .position = as_vec3(from[i].position_kind),
-                         .normal = as_vec3(from[i].normal_exponent),
-                         .view = as_vec3(from[i].view) },
-            .material = { .diffuse = as_rgb(from[i].diffuse),
-                          .specular = as_rgb(from[i].specular),
-                          .exponent = from[i].normal_exponent[3],
-                          .kind = by_table ? LMP_MATERIAL_TABLE : LMP_MATERIAL_LOBES,
+                         .normal = as_vec3(from[i].normal_metallic),
+                         .view = as_vec3(from[i].view_roughness) },
+            .material = { .kind = by_table ? LMP_MATERIAL_TABLE : LMP_MATERIAL_METALLIC_ROUGHNESS,
+                          .base_color = as_rgb(from[i].base_color),
+                          .metallic = from[i].normal_metallic[3],
+                          .roughness = from[i].view_roughness[3],
                           .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL,
                           .preintegrated =
                               by_table ? r->responses[kind - SHARED_KIND_TABLE] : NULL },

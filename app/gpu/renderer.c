@@ -33,14 +33,21 @@ static bool create_programs(gpu_renderer *r, cli_error *error) {
                                 { GL_FRAGMENT_SHADER, "light.frag" } };
     const gpu_stage surfaces[] = { { GL_COMPUTE_SHADER, "surfaces.comp" } };
     const gpu_stage resolve[] = { { GL_COMPUTE_SHADER, "resolve.comp" } };
-    char defines[128];
-    snprintf(defines, sizeof defines, "#define LMP_BANDS 1\n#define LMP_ALPHA_MIN %.9g\n",
-             (double)LMP_ALPHA_MIN);
     return (r->surface = gpu_program(surface, 2, "", error)) &&
            (r->surface_masked = gpu_program(surface, 2, "#define SURFACE_MASKED\n", error)) &&
            (r->light = gpu_program(light, 2, "", error)) && create_tones(r, error) &&
            (r->resolve = gpu_program(resolve, 1, "", error)) &&
-           (r->surfaces = gpu_program(surfaces, 1, defines, error));
+           (r->surfaces = gpu_program(surfaces, 1, "#define LMP_BANDS 1\n", error));
+}
+
+/* The table of lmp_lobe_ggx, for ggx.glsl. */
+static GLuint create_ggx_block(void) {
+    float texels[LMP_GGX_TEXELS * 4];
+    GLuint block = 0;
+    lmp_lobe_ggx_texels(texels);
+    glCreateBuffers(1, &block);
+    glNamedBufferStorage(block, sizeof texels, texels, 0);
+    return block;
 }
 
 gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world,
@@ -60,6 +67,7 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
     glNamedBufferStorage(r->frame_block, sizeof(shared_frame), NULL, GL_DYNAMIC_STORAGE_BIT);
     glCreateBuffers(1, &r->lights_block);
     glNamedBufferStorage(r->lights_block, sizeof(shared_lights), NULL, GL_DYNAMIC_STORAGE_BIT);
+    r->ggx_block = create_ggx_block();
     glCreateQueries(GL_TIMESTAMP, GPU_TIMESTAMPS, r->timestamps);
     float extent = 0;
     for (int i = 0; i < 3; i++)
@@ -84,6 +92,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
             glDeleteProgram(r->tones[i]);
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
+    glDeleteBuffers(1, &r->ggx_block);
     gpu_set_responses(r, NULL);
     glDeleteBuffers(1, &r->response_block);
     glDeleteTextures(1, &r->response_pairs);

@@ -41,9 +41,8 @@ static GLuint compile_variant(const gpu_variant *v, cli_error *error) {
     print_weights(v, weights, sizeof weights);
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
-             "#define LMP_ALPHA_MIN %.9g\n%s%s",
-             row->defines, row->function, v->bands, weights, (double)LMP_ALPHA_MIN,
-             table_defines[v->tables],
+             "%s%s",
+             row->defines, row->function, v->bands, weights, table_defines[v->tables],
              v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };
     const gpu_stage screen[] = { { GL_VERTEX_SHADER, "screen.vert" },

@@ -11,6 +11,10 @@
  *
  *     k(w) = diffuse/pi max(n·w, 0)  +  specular (e+1)/(2 pi) max(r·w, 0)^e.
  *
+ * Of glTF's metallic-roughness (glTF 2.0, appendix B) the specular part is the lobes of
+ * lmp_lobe_ggx with F0 = mix(0.04, base_color, metallic) and F90 = 1, and the albedo of the diffuse
+ * one base_color (1 - metallic) (1 - 0.04 diffuse_f0 - diffuse_f90).
+ *
  * The sum over all lights is then clamped at 0, channel by channel, for a truncated series rings.
  * No visibility. */
 #ifndef LAMPION_SHADE_H
@@ -48,15 +52,6 @@ typedef struct lmp_material {
     /* The same integrated beforehand: what LMP_SHADE_PREINTEGRATED reads in the table's place. */
     const lmp_preintegrated_brdf *preintegrated;
 } lmp_material;
-
-/* The two lobes that stand for glTF's metallic-roughness: diffuse = base (1 - metallic), specular =
- * Schlick's F0 = mix(0.04, base, metallic), exponent = 2/α² - 2 with α = roughness², held to
- * LMP_ALPHA_MIN and up. Shading a material of that kind is shading these lobes.
- *
- * metallic and roughness are clamped to 0 … 1 */
-#define LMP_ALPHA_MIN 0.01f
-LMP_API lmp_material lmp_material_from_metallic_roughness(lmp_rgb base, float metallic,
-                                                          float roughness);
 
 /* How the sum is taken. They differ by rounding, but that a preintegrated lobe or BRDF has an error
  * of its own (preintegrated.h). */

@@ -76,10 +76,20 @@ typedef struct lmp_kernel_preintegrated_brdf {
     const int16_t *texels;
 } lmp_kernel_preintegrated_brdf;
 
-/* Surfaces to shade. */
+#define LMP_KERNEL_LOBES_MAX 3
+
+/* A Phong lobe of every surface. */
+typedef struct lmp_kernel_lobe {
+    lmp_kernel_vec3 axis;
+    const float *exponent;
+} lmp_kernel_lobe;
+
+/* Surfaces to shade. Those that have lobes have a diffuse one around the normal, and of Phong's 1
+ * or LMP_KERNEL_LOBES_MAX; a BRDF is seen from `view` instead. */
 typedef struct lmp_kernel_surfaces {
     lmp_kernel_vec3 point, normal, view;
-    const float *exponent;
+    int lobe_count;
+    lmp_kernel_lobe lobe[LMP_KERNEL_LOBES_MAX];
 } lmp_kernel_surfaces;
 
 /* A sphere; or with w = 0 a cap of any kind, seen alike from every point: x, y, z its direction,
@@ -95,7 +105,7 @@ typedef struct lmp_kernel_light {
 
 /* What the lobes gather, in planes of red, green, blue; added to. */
 typedef struct lmp_kernel_accumulated {
-    float *diffuse[3], *specular[3];
+    float *diffuse[3], *specular[LMP_KERNEL_LOBES_MAX][3];
 } lmp_kernel_accumulated;
 
 typedef struct lmp_kernels {
@@ -134,7 +144,8 @@ typedef struct lmp_kernels {
     void (*shade_zonal)(int bands, const float *window, const float *diffuse,
                         const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                         size_t light_count, size_t count, const lmp_kernel_accumulated *gathered);
-    /* The same from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX times. */
+    /* The same from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX times,
+     * `specular` are those of each Phong lobe. */
     void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *lobe,
                                      const lmp_kernel_lobe_positions *diffuse,
                                      const lmp_kernel_lobe_positions *specular,
@@ -142,7 +153,7 @@ typedef struct lmp_kernels {
                                      const lmp_kernel_light *lights, size_t light_count,
                                      size_t count, const lmp_kernel_accumulated *gathered);
     /* Adds what a BRDF reflects, in planes of red, green, blue, of the lights and of
-     * ambient radiance. Exponents are not read. */
+     * ambient radiance. Lobes are not read. */
     void (*shade_preintegrated_brdf)(const lmp_kernel_preintegrated_brdf *material,
                                      const lmp_kernel_surfaces *surfaces,
                                      const lmp_kernel_light *lights, size_t light_count,

@@ -9,6 +9,8 @@
 
 #include "shaders/preintegrated_lookup.h"
 
+#include <assert.h>
+
 /* The cubic B-spline's weights of four neighbors, the point x past the second, times 6. */
 LMP_INLINE void spline_weights(vf x, vf w[4]) {
     w[0] = lmp_lookup_outer(1 - x);
@@ -101,6 +103,58 @@ LMP_INLINE void lobe_lanes_load(const lmp_kernel_preintegrated_lobe *lobe,
     lanes->angle = vf_load(positions->lobe_angle + e);
 }
 
+/* What a light, a cap of solid angle `covered`, gives two lobes that read `first` and `second`: the
+ * mean over the cap, reading / (cap's + lobe's angle), times that angle, by one division. */
+LMP_INLINE void lobe_weigh(const lobe_lanes lobes[2], const shade_aim *aim, vf covered,
+                           vf readings[2]) {
+    const vf first = covered + lobes[0].angle, second = covered + lobes[1].angle;
+    const vf each = 2 * LMP_KERNEL_PI * aim->weight / (first * second);
+    readings[0] = readings[0] * second * each;
+    readings[1] = readings[1] * first * each;
+    if (__builtin_expect(aim->everywhere, 0)) {
+        readings[0] = readings[0] + aim->ambient;
+        readings[1] = readings[1] + aim->ambient;
+    }
+}
+
+/* lobes: the diffuse one first. */
+LMP_INLINE void lobe_answer(int count, const lobe_lanes *lobes, const shade_aim *aim, lmp_rgb rgb,
+                            shade_sums *sums) {
+    /* A NaN becomes 0, which reads inside the table. */
+    const vf t = vf_max(aim->t, vf_set(0)), a = lmp_lookup_arc(t), covered = 2 * LMP_KERNEL_PI * t;
+    vf readings[1 + LMP_KERNEL_LOBES_MAX];
+    readings[0] = lobe_read(&lobes[0], lmp_lookup_acos(aim->u), a);
+    LMP_UNROLL for (int k = 0; k < count; k++) readings[1 + k] =
+        lobe_read(&lobes[1 + k], lmp_lookup_acos(aim->v[k]), a);
+    LMP_UNROLL for (int k = 0; k < count; k += 2) lobe_weigh(lobes + k, aim, covered, readings + k);
+    shade_gather(rgb, readings[0], sums->diffuse);
+    LMP_UNROLL for (int k = 0; k < count; k++)
+        shade_gather(rgb, readings[1 + k], sums->specular[k]);
+}
+
+static_assert(LMP_KERNEL_LOBES_MAX % 2 == 1, "lobes, the diffuse one among them, go two by two");
+
+LMP_INLINE void lobe_surfaces(int count, const lmp_kernel_preintegrated_lobe *lobe,
+                              const lmp_kernel_lobe_positions *diffuse,
+                              const lmp_kernel_lobe_positions *specular,
+                              const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                              size_t light_count, size_t surface_count,
+                              const lmp_kernel_accumulated *accumulated) {
+    lobe_lanes lobes[1 + LMP_KERNEL_LOBES_MAX];
+    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
+    lobe_lanes_load(lobe, diffuse, 0, &lobes[0]);
+    for (size_t e = 0; e < surface_count; e += LMP_LANES) {
+        shade_sums sums;
+        shade_sums_load(count, accumulated, e, &sums);
+        shade_aim_all(count, surfaces, lights, light_count, e, aims);
+        LMP_UNROLL for (int k = 0; k < count; k++)
+            lobe_lanes_load(lobe, &specular[k], e, &lobes[1 + k]);
+        for (size_t i = 0; i < light_count; i++)
+            lobe_answer(count, lobes, &aims[i], lights[i].radiance, &sums);
+        shade_sums_store(count, &sums, e, accumulated);
+    }
+}
+
 static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *lobe,
                                             const lmp_kernel_lobe_positions *diffuse,
                                             const lmp_kernel_lobe_positions *specular,
@@ -108,32 +162,12 @@ static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe 
                                             const lmp_kernel_light *lights, size_t light_count,
                                             size_t count,
                                             const lmp_kernel_accumulated *accumulated) {
-    lobe_lanes normal_lobe, mirror_lobe;
-    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
-    lobe_lanes_load(lobe, diffuse, 0, &normal_lobe);
-    for (size_t e = 0; e < count; e += LMP_LANES) {
-        shade_sums sums;
-        shade_sums_load(accumulated, e, &sums);
-        shade_aim_all(surfaces, lights, light_count, e, aims);
-        lobe_lanes_load(lobe, specular, e, &mirror_lobe);
-        for (size_t i = 0; i < light_count; i++) {
-            /* A NaN becomes 0, which reads inside the table. */
-            const vf t = vf_max(aims[i].t, vf_set(0)), a = lmp_lookup_arc(t),
-                     covered = 2 * LMP_KERNEL_PI * t;
-            const vf d = lobe_read(&normal_lobe, lmp_lookup_acos(aims[i].u), a);
-            const vf s = lobe_read(&mirror_lobe, lmp_lookup_acos(aims[i].v), a);
-            /* One division for both: mean over the cap = reading / (cap's + lobe's angle). */
-            const vf first = covered + normal_lobe.angle, second = covered + mirror_lobe.angle;
-            const vf each = 2 * LMP_KERNEL_PI * aims[i].weight / (first * second);
-            vf of_diffuse = d * second * each, of_specular = s * first * each;
-            if (__builtin_expect(aims[i].everywhere, 0)) {
-                of_diffuse = of_diffuse + aims[i].ambient;
-                of_specular = of_specular + aims[i].ambient;
-            }
-            shade_gather(lights[i].radiance, of_diffuse, of_specular, &sums);
-        }
-        shade_sums_store(&sums, e, accumulated);
-    }
+    if (surfaces->lobe_count == 1)
+        lobe_surfaces(1, lobe, diffuse, specular, surfaces, lights, light_count, count,
+                      accumulated);
+    else
+        lobe_surfaces(LMP_KERNEL_LOBES_MAX, lobe, diffuse, specular, surfaces, lights, light_count,
+                      count, accumulated);
 }
 
 #endif

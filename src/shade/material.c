@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/shade/material.h"
-#include "src/base/precondition.h"
 
+#include <assert.h>
 #include <math.h>
 
 static const float pi = 3.14159265f;
@@ -10,30 +10,12 @@ static float saturate(float x) {
     return fminf(fmaxf(x, 0), 1);
 }
 
-lmp_material lmp_material_from_metallic_roughness(lmp_rgb base, float metallic, float roughness) {
-    const float m = saturate(metallic), rough = saturate(roughness);
-    const float alpha = fmaxf(rough * rough, LMP_ALPHA_MIN), dielectric = 0.04f * (1 - m);
-    return (lmp_material) {
-        .diffuse = { base.r * (1 - m), base.g * (1 - m), base.b * (1 - m) },
-        .specular = { dielectric + base.r * m, dielectric + base.g * m, dielectric + base.b * m },
-        .exponent = 2 / (alpha * alpha) - 2,
-    };
-}
-
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings) {
     lmp_shade_settings resolved = settings ? *settings : (lmp_shade_settings) { 0 };
     if (resolved.bands == 0)
         resolved.bands = LMP_SHADE_BANDS_DEFAULT;
-    assert(lmp_is_bands(resolved.bands));
-    assert(resolved.method >= LMP_SHADE_ZONAL && resolved.method <= LMP_SHADE_PREINTEGRATED);
+    assert(resolved.bands >= 1 && resolved.bands <= LMP_BANDS_MAX);
     return resolved;
-}
-
-lmp_material lmp_shade_phong(const lmp_material *material) {
-    if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
-        return lmp_material_from_metallic_roughness(material->base_color, material->metallic,
-                                                    material->roughness);
-    return *material;
 }
 
 static lmp_vec3 mirrored(lmp_vec3 n, lmp_vec3 v) {
@@ -41,24 +23,62 @@ static lmp_vec3 mirrored(lmp_vec3 n, lmp_vec3 v) {
     return (lmp_vec3) { twice * n.x - v.x, twice * n.y - v.y, twice * n.z - v.z };
 }
 
+static lmp_rgb plus(lmp_rgb color, float gray) {
+    return (lmp_rgb) { color.r + gray, color.g + gray, color.b + gray };
+}
+
+static lmp_rgb times(lmp_rgb color, float factor) {
+    return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
+}
+
+/* glTF 2.0, appendix B: a metal, whose F0 is the base color, mixed with a dielectric, whose base
+ * color is under a layer of reflectance 0.04. */
+static void reflect_metallic_roughness(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
+                                       shade_reflection *reflection) {
+    const float metal = saturate(material->metallic), dielectric = 1 - metal, layer = 0.04f;
+    lmp_ggx_lobes ggx;
+    lmp_lobe_ggx(normal, view, material->roughness, &ggx);
+    const float passed = 1 - layer * ggx.diffuse_f0 - ggx.diffuse_f90;
+    const lmp_rgb f0 = plus(times(material->base_color, metal), layer * dielectric);
+    reflection->diffuse = times(material->base_color, dielectric * passed);
+    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+        const lmp_ggx_lobe *lobe = &ggx.lobe[k];
+        reflection->lobe[k] =
+            (shade_phong) { lobe->axis, lobe->exponent, plus(times(f0, lobe->f0), lobe->f90) };
+    }
+}
+
+void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
+                          shade_reflection *reflection) {
+    if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS) {
+        reflect_metallic_roughness(material, normal, view, reflection);
+        return;
+    }
+    reflection->diffuse = material->diffuse;
+    reflection->lobe[0] =
+        (shade_phong) { mirrored(normal, view), material->exponent, material->specular };
+}
+
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
                      const lmp_surface *surface, shade_lobes *lobes) {
-    const lmp_material phong = lmp_shade_phong(material);
     const int bands = resolved->bands;
-    shade_lobe *diffuse = &lobes->lobe[0], *specular = &lobes->lobe[1];
+    shade_reflection reflection;
     float window[LMP_BANDS_MAX];
     lobes->bands = bands;
-    lobes->count = 2;
-    lmp_sh_window(bands, resolved->window, resolved->window_size, window);
-    lmp_lobe_diffuse(bands, diffuse->lambda);
-    lmp_lobe_phong(bands, phong.exponent, specular->lambda);
-    for (int l = 0; l < bands; l++) {
-        diffuse->lambda[l] *= window[l];
-        specular->lambda[l] *= window[l];
+    lobes->count = 1 + lmp_shade_source(material, resolved->method).phong_count;
+    lmp_shade_reflection(material, surface->normal, surface->view, &reflection);
+    lmp_lobe_diffuse(bands, lobes->lobe[0].lambda);
+    lobes->lobe[0].axis = surface->normal;
+    lobes->lobe[0].weight = (lmp_rgb) { reflection.diffuse.r / pi, reflection.diffuse.g / pi,
+                                        reflection.diffuse.b / pi };
+    for (int k = 1; k < lobes->count; k++) {
+        const shade_phong *phong = &reflection.lobe[k - 1];
+        lmp_lobe_phong(bands, phong->exponent, lobes->lobe[k].lambda);
+        lobes->lobe[k].axis = phong->axis;
+        lobes->lobe[k].weight = phong->weight;
     }
-    diffuse->axis = surface->normal;
-    diffuse->weight =
-        (lmp_rgb) { phong.diffuse.r / pi, phong.diffuse.g / pi, phong.diffuse.b / pi };
-    specular->axis = mirrored(surface->normal, surface->view);
-    specular->weight = phong.specular;
+    lmp_sh_window(bands, resolved->window, resolved->window_size, window);
+    for (int k = 0; k < lobes->count; k++)
+        for (int l = 0; l < bands; l++)
+            lobes->lobe[k].lambda[l] *= window[l];
 }

@@ -4,11 +4,22 @@
 #ifndef LAMPION_SHADE_MATERIAL_H
 #define LAMPION_SHADE_MATERIAL_H
 
-#include "src/base/precondition.h"
-
 #include <lampion/shade.h>
 
-#define SHADE_LOBES_MAX 2
+/* What a surface reflects by, as long as nothing is cut: a diffuse lobe of an albedo around the
+ * normal, and Phong lobes, as many as lmp_shade_phong_count says. */
+typedef struct shade_phong {
+    lmp_vec3 axis;
+    float exponent;
+    lmp_rgb weight;
+} shade_phong;
+
+typedef struct shade_reflection {
+    lmp_rgb diffuse;
+    shade_phong lobe[LMP_GGX_LOBES];
+} shade_reflection;
+
+#define SHADE_LOBES_MAX (1 + LMP_GGX_LOBES)
 
 /* weight times the kernel around `axis` of Funk-Hecke factors lambda (lobe.h). */
 typedef struct shade_lobe {
@@ -22,15 +33,21 @@ typedef struct shade_lobes {
     shade_lobe lobe[SHADE_LOBES_MAX];
 } shade_lobes;
 
-/* What a surface is shaded from under one method: at most one of the two, else lobes. */
+/* What a surface is shaded from under one method: a table, a preintegrated BRDF, or lobes, of which
+ * so many are Phong's. */
 typedef struct shade_source {
     const lmp_brdf_table *table;
     const lmp_preintegrated_brdf *preintegrated;
+    int phong_count;
 } shade_source;
 
 static inline shade_source lmp_shade_source(const lmp_material *material, lmp_shade_method method) {
-    shade_source source = { NULL, NULL };
-    if (material->kind == LMP_MATERIAL_PREINTEGRATED)
+    shade_source source = { NULL, NULL, 0 };
+    if (material->kind == LMP_MATERIAL_LOBES)
+        source.phong_count = 1;
+    else if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
+        source.phong_count = LMP_GGX_LOBES;
+    else if (material->kind == LMP_MATERIAL_PREINTEGRATED)
         source.preintegrated = material->preintegrated;
     else if (material->kind == LMP_MATERIAL_TABLE && method == LMP_SHADE_PREINTEGRATED &&
              material->preintegrated)
@@ -40,46 +57,14 @@ static inline shade_source lmp_shade_source(const lmp_material *material, lmp_sh
     return source;
 }
 
-/* Whether the members that the material's kind names are in their ranges (shade.h). */
-static inline bool lmp_is_material(const lmp_material *material) {
-    switch (material->kind) {
-    case LMP_MATERIAL_LOBES:
-        return material->exponent >= 0 && isfinite(material->exponent);
-    case LMP_MATERIAL_METALLIC_ROUGHNESS:
-        return isfinite(material->metallic) && isfinite(material->roughness);
-    case LMP_MATERIAL_TABLE:
-        return material->table || material->preintegrated;
-    case LMP_MATERIAL_PREINTEGRATED:
-        return material->preintegrated;
-    }
-    return false;
-}
-
-static inline const lmp_material *lmp_material_at(const lmp_surfaces *surfaces, size_t i) {
-    const char *first = (const char *)surfaces->material;
-    return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
-}
-
-static inline bool lmp_are_surfaces(const lmp_surfaces *surfaces, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (!lmp_is_material(lmp_material_at(surfaces, i)))
-            return false;
-    return lmp_are_finite(surfaces->position, count) && lmp_are_unit(surfaces->normal, count) &&
-           lmp_are_unit(surfaces->view, count);
-}
-
-/* A truncated series rings below 0; NaN stays. */
-static inline float lmp_shade_clamped(float sum) {
-    return sum <= 0 ? 0 : sum;
-}
-
 /* The settings with every default filled in. */
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings);
 
-/* A diffuse and a Phong lobe, for a material of any kind that has lobes. */
-lmp_material lmp_shade_phong(const lmp_material *material);
+/* For a material of a kind that has lobes. */
+void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
+                          shade_reflection *reflection);
 
-/* The lobes of one surface. */
+/* The same cut to bands. */
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
                      const lmp_surface *surface, shade_lobes *lobes);
 

@@ -2,10 +2,10 @@
 /* shade_n.c - shading many surfaces: chunks of planes, every light as a sphere or a fixed cap. */
 #include "src/base/tables.h"
 #include "src/kernels/batch.h"
-#include "src/light/cap.h"
 #include "src/preintegrated/lobe_eval.h"
 #include "src/shade/material.h"
 
+#include <assert.h>
 #include <math.h>
 
 /* A Dirac is a cap this wide, or a sphere this large, of the same strength. That takes (n a)²/15
@@ -21,18 +21,31 @@ static const float pi = 3.14159265f;
 /* Spots that one call of a kernel takes at most: each needs a plane of its own. */
 enum { SPOTS_MAX = 4 };
 
+static_assert(LMP_KERNEL_LOBES_MAX == LMP_GGX_LOBES, "the kernels take all lobes of GGX");
+
+typedef struct lobe_planes {
+    lmp_batch_vec3 axis, weight;
+    lmp_batch_plane exponent;
+    lmp_batch_plane accumulated[3];
+} lobe_planes;
+
 /* Surfaces near each other that are shaded from the same. */
 typedef struct chunk {
     shade_source source;
     size_t count;
     size_t at[LMP_BATCH]; /* among the caller's; rising */
-    lmp_batch_vec3 point, normal, view, diffuse, specular;
-    lmp_batch_plane exponent;
-    lmp_batch_plane accumulated[6];
+    lmp_batch_vec3 point, normal, view, diffuse;
+    lmp_batch_plane accumulated[3];
+    lobe_planes lobe[LMP_KERNEL_LOBES_MAX];
     float ambient[3];
     lmp_kernel_surfaces surfaces;
     lmp_kernel_accumulated sums;
 } chunk_planes;
+
+static const lmp_material *material_at(const lmp_surfaces *surfaces, size_t i) {
+    const char *first = (const char *)surfaces->material;
+    return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
+}
 
 /* Moves from `left` what is like its first; returns how many stay. */
 static size_t take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
@@ -40,11 +53,12 @@ static size_t take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, 
     size_t others = 0;
     chunk->count = 0;
     for (size_t i = 0; i < count; i++) {
-        const shade_source source = lmp_shade_source(lmp_material_at(surfaces, left[i]), method);
+        const shade_source source = lmp_shade_source(material_at(surfaces, left[i]), method);
         if (i == 0)
             chunk->source = source;
         if (source.table == chunk->source.table &&
-            source.preintegrated == chunk->source.preintegrated)
+            source.preintegrated == chunk->source.preintegrated &&
+            source.phong_count == chunk->source.phong_count)
             chunk->at[chunk->count++] = left[i];
         else
             left[others++] = left[i];
@@ -73,26 +87,44 @@ static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const chunk_pla
                                load_floats(array->z, array->stride, chunk, &planes->z) };
 }
 
-/* Neighbors are often of one material. */
+static void store_vector(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
+    planes->x.at[i] = x;
+    planes->y.at[i] = y;
+    planes->z.at[i] = z;
+}
+
+static lmp_vec3 from_planes(const lmp_batch_vec3 *planes, size_t i) {
+    return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
+}
+
+static void store_lobe(const shade_phong *from, size_t i, lobe_planes *lobe) {
+    store_vector(from->axis.x, from->axis.y, from->axis.z, &lobe->axis, i);
+    store_vector(from->weight.r, from->weight.g, from->weight.b, &lobe->weight, i);
+    lobe->exponent.at[i] = from->exponent;
+}
+
 static void load_lobes(const lmp_surfaces *surfaces, chunk_planes *chunk) {
-    const lmp_material *before = NULL;
-    lmp_material phong = { 0 };
+    const int lobes = chunk->source.phong_count;
+    chunk->surfaces.lobe_count = lobes;
     for (size_t i = 0; i < chunk->count; i++) {
-        const lmp_material *material = lmp_material_at(surfaces, chunk->at[i]);
-        if (material != before)
-            phong = lmp_shade_phong(material);
-        before = material;
-        chunk->diffuse.x.at[i] = phong.diffuse.r;
-        chunk->diffuse.y.at[i] = phong.diffuse.g;
-        chunk->diffuse.z.at[i] = phong.diffuse.b;
-        chunk->specular.x.at[i] = phong.specular.r;
-        chunk->specular.y.at[i] = phong.specular.g;
-        chunk->specular.z.at[i] = phong.specular.b;
-        chunk->exponent.at[i] = phong.exponent;
+        shade_reflection r;
+        lmp_shade_reflection(material_at(surfaces, chunk->at[i]), from_planes(&chunk->normal, i),
+                             from_planes(&chunk->view, i), &r);
+        store_vector(r.diffuse.r, r.diffuse.g, r.diffuse.b, &chunk->diffuse, i);
+        for (int k = 0; k < lobes; k++)
+            store_lobe(&r.lobe[k], i, &chunk->lobe[k]);
     }
-    for (size_t i = chunk->count; i % LMP_KERNEL_LANES_MAX; i++)
-        chunk->exponent.at[i] = 0;
-    chunk->surfaces.exponent = chunk->exponent.at;
+    for (int k = 0; k < lobes; k++) {
+        lobe_planes *lobe = &chunk->lobe[k];
+        for (size_t i = chunk->count; i % LMP_KERNEL_LANES_MAX; i++)
+            store_lobe(&(shade_phong) { .exponent = 0 }, i, lobe);
+        chunk->surfaces.lobe[k] =
+            (lmp_kernel_lobe) { { lobe->axis.x.at, lobe->axis.y.at, lobe->axis.z.at },
+                                lobe->exponent.at };
+        memset(lobe->accumulated, 0, sizeof lobe->accumulated);
+        for (int c = 0; c < 3; c++)
+            chunk->sums.specular[k][c] = lobe->accumulated[c].at;
+    }
 }
 
 static void load_chunk(const lmp_surfaces *surfaces, chunk_planes *chunk) {
@@ -103,24 +135,35 @@ static void load_chunk(const lmp_surfaces *surfaces, chunk_planes *chunk) {
         load_lobes(surfaces, chunk);
     memset(chunk->accumulated, 0, sizeof chunk->accumulated);
     memset(chunk->ambient, 0, sizeof chunk->ambient);
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         chunk->sums.diffuse[c] = chunk->accumulated[c].at;
-        chunk->sums.specular[c] = chunk->accumulated[3 + c].at;
+}
+
+static const float *plane_of(const lmp_batch_vec3 *planes, size_t c) {
+    return c == 0 ? planes->x.at : c == 1 ? planes->y.at : planes->z.at;
+}
+
+/* What the lobes have gathered, weighted: into what the diffuse one has. */
+static void sum_lobes(chunk_planes *chunk) {
+    for (size_t c = 0; c < 3; c++) {
+        const float ambient = chunk->ambient[c];
+        const float *albedo = plane_of(&chunk->diffuse, c);
+        float *sum = chunk->accumulated[c].at;
+        for (size_t i = 0; i < chunk->count; i++)
+            sum[i] = albedo[i] * (sum[i] + ambient);
+        for (int k = 0; k < chunk->source.phong_count; k++) {
+            const lobe_planes *lobe = &chunk->lobe[k];
+            const float *weight = plane_of(&lobe->weight, c);
+            for (size_t i = 0; i < chunk->count; i++)
+                sum[i] += weight[i] * (lobe->accumulated[c].at[i] + ambient);
+        }
     }
 }
 
 static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
-    const float *diffuse[3] = { chunk->diffuse.x.at, chunk->diffuse.y.at, chunk->diffuse.z.at };
-    const float *specular[3] = { chunk->specular.x.at, chunk->specular.y.at, chunk->specular.z.at };
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < chunk->count; i++) {
-            const float first = chunk->accumulated[c].at[i], ambient = chunk->ambient[c];
-            const float sum =
-                chunk->source.preintegrated
-                    ? first
-                    : diffuse[c][i] * (first + ambient) +
-                          specular[c][i] * (chunk->accumulated[3 + c].at[i] + ambient);
-            const float color = lmp_shade_clamped(sum);
+            const float sum = chunk->accumulated[c].at[i], color = sum > 0 ? sum : 0;
             memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
         }
 }
@@ -144,8 +187,8 @@ static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *s
                                       vector_at(&surfaces->normal, at[i]),
                                       vector_at(&surfaces->view, at[i]),
                                       vector_at(&surfaces->tangent, at[i]) };
-        const lmp_rgb color = lmp_shade_sum(resolved, lmp_material_at(surfaces, at[i]), &surface,
-                                            lights, light_count);
+        const lmp_rgb color =
+            lmp_shade_sum(resolved, material_at(surfaces, at[i]), &surface, lights, light_count);
         memcpy((char *)rgb + at[i] * stride, &color, sizeof color);
     }
 }
@@ -225,12 +268,13 @@ typedef struct chunk_places {
 } chunk_places;
 
 static lmp_kernel_lobe_positions find_places(const lmp_preintegrated_lobe_info *info,
-                                             const chunk_planes *chunk, chunk_places *places) {
+                                             const lobe_planes *lobe, size_t count,
+                                             chunk_places *places) {
     lmp_preintegrated_lobe_position place = { 0 };
     float exponent = -1;
     for (size_t i = 0; i < LMP_BATCH; i++) {
         /* Past the last surface, its place again: a kernel reads whole vectors. */
-        const float e = chunk->exponent.at[i < chunk->count ? i : chunk->count - 1];
+        const float e = lobe->exponent.at[i < count ? i : count - 1];
         if (e < exponent || e > exponent)
             lmp_preintegrated_lobe_lookup(info, e, &place);
         exponent = e;
@@ -239,26 +283,35 @@ static lmp_kernel_lobe_positions find_places(const lmp_preintegrated_lobe_info *
         places->share.at[i] = place.fraction;
         places->density.at[i] = place.density;
         places->lobe_angle.at[i] = place.lobe_angle;
-        if (i >= chunk->count && i % LMP_KERNEL_LANES_MAX == LMP_KERNEL_LANES_MAX - 1)
+        if (i >= count && i % LMP_KERNEL_LANES_MAX == LMP_KERNEL_LANES_MAX - 1)
             break;
     }
     return (lmp_kernel_lobe_positions) { places->first, places->columns, places->share.at,
                                          places->density.at, places->lobe_angle.at };
 }
 
+/* A function of its own: under the zonal kernel its arrays would be too much stack. */
+static __attribute__((noinline)) void shade_by_readings(const shade_method *method,
+                                                        const chunk_planes *chunk,
+                                                        const lmp_kernel_light *lights,
+                                                        size_t count) {
+    chunk_places places[LMP_KERNEL_LOBES_MAX];
+    lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
+    const lmp_kernel_preintegrated_lobe lobe = { method->info.coefficients };
+    for (int k = 0; k < chunk->source.phong_count; k++)
+        specular[k] = find_places(&method->info, &chunk->lobe[k], chunk->count, &places[k]);
+    lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &method->diffuse_position, specular,
+                                                &chunk->surfaces, lights, count, chunk->count,
+                                                &chunk->sums);
+}
+
 static void shade_lobe_planes(const shade_method *method, const chunk_planes *chunk,
                               const lmp_kernel_light *lights, size_t count) {
-    const lmp_kernels *kernels = lmp_kernels_get();
-    if (method->settings->method != LMP_SHADE_PREINTEGRATED) {
-        kernels->shade_zonal(method->settings->bands, method->window, method->diffuse,
-                             &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
-        return;
-    }
-    chunk_places places;
-    const lmp_kernel_preintegrated_lobe response = { method->info.coefficients };
-    const lmp_kernel_lobe_positions specular = find_places(&method->info, chunk, &places);
-    kernels->shade_preintegrated_lobe(&response, &method->diffuse_position, &specular,
-                                      &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
+    if (method->settings->method == LMP_SHADE_PREINTEGRATED)
+        shade_by_readings(method, chunk, lights, count);
+    else
+        lmp_kernels_get()->shade_zonal(method->settings->bands, method->window, method->diffuse,
+                                       &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
 }
 
 static_assert(sizeof(lmp_kernel_slice) == sizeof(lmp_preintegrated_brdf_slice) &&
@@ -320,6 +373,8 @@ static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
     }
+    if (chunk->source.phong_count)
+        sum_lobes(chunk);
     store_chunk(chunk, stride, rgb);
 }
 
@@ -351,8 +406,6 @@ void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surface
                  const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
-    assert(lmp_are_surfaces(surfaces, count) && lmp_are_lights(lights, light_count));
-    assert(stride >= sizeof(lmp_rgb) && stride % sizeof(float) == 0);
     shade_method method = { .settings = &resolved };
     chunk_planes chunk;
     if (resolved.method != LMP_SHADE_PREINTEGRATED)
@@ -365,7 +418,7 @@ void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surface
             left[i] = first + i;
         while (left_count > 0) {
             left_count = take_alike(surfaces, resolved.method, left, left_count, &chunk);
-            const bool lobes = !chunk.source.table && !chunk.source.preintegrated;
+            const bool lobes = chunk.source.phong_count > 0;
             assert(!lobes || resolved.method != LMP_SHADE_PREINTEGRATED || resolved.lobe);
             if (chunk.source.table || (lobes && resolved.method == LMP_SHADE_COEFFICIENTS))
                 shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,

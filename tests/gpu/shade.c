@@ -28,18 +28,31 @@ static double largest(lmp_rgb c) {
     return (double)fmaxf(fabsf(c.r), fmaxf(fabsf(c.g), fabsf(c.b)));
 }
 
+static double scale_of(int bands, const float *lambda) {
+    double sum = 0;
+    for (int l = 0; l < bands; l++)
+        sum += (2 * l + 1) * 0.25 * fabs((double)lambda[l]);
+    return sum;
+}
+
 /* What each light alone would reflect with every term of its series positive: the scale of
- * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of both lobes, times the
+ * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of all lobes, times the
  * strength of the light's cap over pi, and four times what shines from everywhere. */
-static double magnitude(const gpu_pixel *p, const gpu_frame *frame, const float *diffuse,
-                        const float *glossy) {
-    double d = 0, g = 0, sum = 0;
-    for (int l = 0; l < frame->bands; l++) {
-        d += (2 * l + 1) * 0.25 * fabs((double)diffuse[l]) / 3.14159265;
-        g += (2 * l + 1) * 0.25 * fabs((double)glossy[l]);
+static double magnitude(const gpu_pixel *p, const gpu_frame *frame) {
+    float lambda[LMP_BANDS_MAX];
+    lmp_ggx_lobes ggx;
+    const lmp_rgb base = p->material.base_color;
+    const float metal = p->material.metallic, brightest = fmaxf(base.r, fmaxf(base.g, base.b));
+    lmp_lobe_ggx(p->surface.normal, p->surface.view, p->material.roughness, &ggx);
+    lmp_lobe_diffuse(frame->bands, lambda);
+    double lobes = (double)(brightest * (1 - metal)) / 3.14159265 * scale_of(frame->bands, lambda);
+    double sum = 0;
+    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+        const lmp_ggx_lobe *lobe = &ggx.lobe[k];
+        const float f0 = 0.04f + (brightest - 0.04f) * metal;
+        lmp_lobe_phong(frame->bands, lobe->exponent, lambda);
+        lobes += (double)(f0 * fabsf(lobe->f0) + lobe->f90) * scale_of(frame->bands, lambda);
     }
-    const double lobes = d * (double)fmaxf(p->material.diffuse.r, p->material.diffuse.g) +
-                         g * (double)fmaxf(p->material.specular.r, p->material.specular.g);
     for (size_t i = 0; i < frame->light_count; i++) {
         lmp_cap cap;
         lmp_light light = frame->lights[i].emitter;
@@ -59,8 +72,6 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
         lights[i] = frame->lights[i].emitter;
     image drawn = render_image(renderer, frame);
     gpu_pixel *pixels = render_pixels(renderer, frame);
-    float diffuse[LMP_BANDS_MAX], glossy[LMP_BANDS_MAX];
-    lmp_lobe_diffuse(frame->bands, diffuse);
     worst w = { 0 };
     double peak = 0, difference = 0;
     for (size_t i = 0; i < (size_t)frame->width * (size_t)frame->height; i++) {
@@ -69,8 +80,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
         double scale = 1;
         if (p->kind == GPU_KIND_SURFACE) {
             c = lmp_shade(&settings, &p->material, &p->surface, lights, frame->light_count);
-            lmp_lobe_phong(frame->bands, p->material.exponent, glossy);
-            scale = magnitude(p, frame, diffuse, glossy);
+            scale = magnitude(p, frame);
             w.surfaces++;
         }
         const float expected[3] = { c.r + p->emission.r, c.g + p->emission.g, c.b + p->emission.b };

@@ -8,7 +8,8 @@ command -v glslangValidator >/dev/null || {
     exit 0
 }
 
-# shader VERSION BANDS WINDOW: a compute shader; the window by its number, or as weights
+# shader VERSION BANDS WINDOW: a compute shader; the window by its number, or as weights; materials of
+# odd bands are glTF's
 shader() {
     echo "#version $1"
     echo "precision highp float; precision highp int;"
@@ -25,6 +26,13 @@ layout(std430, binding = 0) buffer out_block { vec4 values[]; };
 #define LMP_LIGHT_SPHERE(i)   lights[2 * (i)]
 #define LMP_LIGHT_RADIANCE(i) lights[2 * (i) + 1].rgb
 GLSL
+    material="lmp_material(vec3(0.5), vec3(0.04), 20.0)"
+    if [ $(($2 % 2)) = 1 ]; then
+        echo "layout(std430, binding = 5) readonly buffer ggx_block { vec4 ggx_texels[]; };"
+        echo "#define LMP_GGX_TEXEL(i) ggx_texels[i]"
+        cat shaders/ggx.glsl
+        material="lmp_metallic_roughness(vec3(0.5), 0.5, 0.4)"
+    fi
     cat shaders/lampion.glsl shaders/preintegrated_lookup.h
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D pairs;
@@ -42,16 +50,17 @@ layout(std430, binding = 4) readonly buffer brdf_block { float brdf_values[]; };
 #define LMP_PREINTEGRATED_BRDF_VALUE(i) brdf_values[i]
 GLSL
     cat shaders/preintegrated_brdf.glsl
+    echo "#define MATERIAL $material"
     cat <<'GLSL'
 void main() {
     lmp_surface s;
     s.position = vec3(gl_GlobalInvocationID);
     s.normal = s.view = vec3(0.0, 0.0, 1.0);
-    lmp_material m = lmp_material_from_metallic_roughness(vec3(0.5), 0.5, 0.4);
     float sh[LMP_SH_COUNT];
     lmp_sphere_project(lights[0], s.position, sh);
     values[gl_GlobalInvocationID.x] =
-        vec4(lmp_shade_zonal(s, m) + lmp_shade_coefficients(s, m) + lmp_shade_preintegrated(s, m) +
+        vec4(lmp_shade_zonal(s, MATERIAL) + lmp_shade_coefficients(s, MATERIAL) +
+                 lmp_shade_preintegrated(s, MATERIAL) +
                  lmp_shade_preintegrated_brdf(s, 0),
              sh[0]);
 }
@@ -81,6 +90,8 @@ for form in "1 0" "2 1" "6 2"; do
     check "450 core" "$1" "$2" -V
 done
 check "450 core" 20 1
+check "450 core" 9 1
+check "310 es" 5 1
 check "310 es" 3 "1.0, 0.75, 0.25"
 for version in "450 core" "300 es"; do
     {

@@ -145,7 +145,7 @@ static void spoil(const lmp_kernel_out *out) {
 }
 
 static void spoil_accumulated(const lmp_kernel_accumulated *sums) {
-    float *const *planes = flaw.value < 3 ? sums->diffuse : sums->specular;
+    float *const *planes = flaw.value < 3 ? sums->diffuse : sums->specular[flaw.value / 3 - 1];
     float *at = planes[flaw.value % 3] + flaw.element;
     *at = nextafterf(*at, 1e9f);
 }
@@ -223,7 +223,7 @@ static void wrong_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *
                                            const lmp_kernel_light *lights, size_t light_count,
                                            lmp_rgb ambient, size_t count, float *const rgb[3]) {
     honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
-    spoil_accumulated(&(lmp_kernel_accumulated) { { rgb[0], rgb[1], rgb[2] }, { NULL } });
+    spoil_accumulated(&(lmp_kernel_accumulated) { .diffuse = { rgb[0], rgb[1], rgb[2] } });
 }
 static void long_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
                                           const lmp_kernel_surfaces *surfaces,

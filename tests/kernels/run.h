@@ -23,6 +23,8 @@ typedef enum kind {
     SHADE_ZONAL,
     SHADE_PREINTEGRATED_LOBE,
     SHADE_PREINTEGRATED_BRDF,
+    SHADE_ZONAL_GGX,
+    SHADE_PREINTEGRATED_LOBE_GGX,
     KINDS
 } kind;
 static const char *const kind_names[] = { "eval",
@@ -35,7 +37,16 @@ static const char *const kind_names[] = { "eval",
                                           "lobe",
                                           "shade_zonal",
                                           "shade_preintegrated_lobe",
-                                          "shade_preintegrated_brdf" };
+                                          "shade_preintegrated_brdf",
+                                          "shade_zonal of all lobes",
+                                          "shade_preintegrated_lobe of all lobes" };
+
+/* Of Phong's, that a kernel of shading takes. */
+static int lobes_of(kind which) {
+    return which == SHADE_ZONAL_GGX || which == SHADE_PREINTEGRATED_LOBE_GGX ? LMP_KERNEL_LOBES_MAX
+                                                                             : 1;
+}
+enum { PLANES = 3 + 3 * LMP_KERNEL_LOBES_MAX };
 
 static size_t values_of(kind which, int bands) {
     const size_t n = LMP_SH_COUNT(bands);
@@ -54,6 +65,9 @@ static size_t values_of(kind which, int bands) {
     case SHADE_ZONAL:
     case SHADE_PREINTEGRATED_LOBE:
         return 6;
+    case SHADE_ZONAL_GGX:
+    case SHADE_PREINTEGRATED_LOBE_GGX:
+        return PLANES;
     default:
         return n;
     }
@@ -113,25 +127,33 @@ static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t coun
 enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * GUARD };
 
 static void call_shading(const lmp_kernels *k, kind which, const shading *s, size_t count,
-                         float *const planes[6]) {
+                         float *const planes[PLANES]) {
     const inputs *in = s->in;
-    const lmp_kernel_accumulated sums = { { planes[0], planes[1], planes[2] },
-                                          { planes[3], planes[4], planes[5] } };
-    const lmp_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
-                                           { in->normal[0], in->normal[1], in->normal[2] },
-                                           { in->view[0], in->view[1], in->view[2] },
-                                           in->exponent };
-    const lmp_kernel_preintegrated_lobe lobe = { s->pairs };
+    lmp_kernel_accumulated sums = { .diffuse = { planes[0], planes[1], planes[2] } };
+    lmp_kernel_surfaces surfaces = { { in->point[0], in->point[1], in->point[2] },
+                                     { in->normal[0], in->normal[1], in->normal[2] },
+                                     { in->view[0], in->view[1], in->view[2] },
+                                     .lobe_count = s->lobes };
+    lmp_kernel_lobe_positions positions[LMP_KERNEL_LOBES_MAX];
+    for (int lobe = 0; lobe < s->lobes; lobe++) {
+        for (int c = 0; c < 3; c++)
+            sums.specular[lobe][c] = planes[3 + 3 * lobe + c];
+        surfaces.lobe[lobe] =
+            (lmp_kernel_lobe) { { s->axis[lobe][0], s->axis[lobe][1], s->axis[lobe][2] },
+                                s->exponent[lobe] };
+        positions[lobe] =
+            (lmp_kernel_lobe_positions) { s->first[lobe], s->columns[lobe], s->weight[lobe],
+                                          s->density[lobe], s->angle[lobe] };
+    }
+    const lmp_kernel_preintegrated_lobe table = { s->pairs };
     const lmp_kernel_lobe_positions diffuse = { s->diffuse_first, s->diffuse_columns,
                                                 s->diffuse_weights[0], s->diffuse_weights[1],
                                                 s->diffuse_weights[2] };
-    const lmp_kernel_lobe_positions specular = { s->first, s->columns, s->weight, s->density,
-                                                 s->angle };
-    if (which == SHADE_ZONAL)
+    if (which == SHADE_ZONAL || which == SHADE_ZONAL_GGX)
         k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
                        &sums);
-    else if (which == SHADE_PREINTEGRATED_LOBE)
-        k->shade_preintegrated_lobe(&lobe, &diffuse, &specular, &surfaces, s->lights, SHADE_LIGHTS,
+    else if (which == SHADE_PREINTEGRATED_LOBE || which == SHADE_PREINTEGRATED_LOBE_GGX)
+        k->shade_preintegrated_lobe(&table, &diffuse, positions, &surfaces, s->lights, SHADE_LIGHTS,
                                     count, &sums);
     else
         k->shade_preintegrated_brdf(&s->brdf, &surfaces, s->lights, SHADE_LIGHTS, s->ambient, count,
@@ -140,20 +162,20 @@ static void call_shading(const lmp_kernels *k, kind which, const shading *s, siz
 
 static void run_shading(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
                         const lmp_kernel_out *out) {
-    _Alignas(64) float memory[6][PLANE];
-    float *planes[6];
+    _Alignas(64) float memory[PLANES][PLANE];
+    float *planes[PLANES];
     const size_t whole =
         (count + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
     const size_t values = values_of(which, bands);
-    shading *s = shading_create(in, bands);
-    for (size_t v = 0; v < 6; v++) {
+    shading *s = shading_create(in, bands, lobes_of(which));
+    for (size_t v = 0; v < PLANES; v++) {
         planes[v] = memory[v] + GUARD;
         for (size_t i = 0; i < PLANE; i++)
             memory[v][i] = (float)v; /* what the kernel adds to */
     }
     call_shading(k, which, s, count, planes);
     shading_free(s);
-    for (size_t v = 0; v < 6; v++) {
+    for (size_t v = 0; v < PLANES; v++) {
         for (size_t e = 0; v < values && e < count; e++)
             out->at[out->planar ? v * out->stride + e : e * out->stride + v] = planes[v][e];
         for (size_t i = 0; i < PLANE; i++)
@@ -204,6 +226,8 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case SHADE_ZONAL:
     case SHADE_PREINTEGRATED_LOBE:
     case SHADE_PREINTEGRATED_BRDF:
+    case SHADE_ZONAL_GGX:
+    case SHADE_PREINTEGRATED_LOBE_GGX:
         run_shading(k, which, bands, in, count, out);
         break;
     case KINDS:

@@ -24,7 +24,7 @@ static double dot3(const double a[3], const double b[3]) {
 
 /* A surface and what it sees. */
 typedef struct seen {
-    double point[3], normal[3], view[3], mirror[3];
+    double point[3], normal[3], view[3], axis[LMP_KERNEL_LOBES_MAX][3];
 } seen;
 
 static void see(const shading *s, int i, seen *surface) {
@@ -32,9 +32,8 @@ static void see(const shading *s, int i, seen *surface) {
     widen(VECTOR(in->point), i, surface->point);
     widen(VECTOR(in->normal), i, surface->normal);
     widen(VECTOR(in->view), i, surface->view);
-    const double twice = 2 * dot3(surface->normal, surface->view);
-    for (int k = 0; k < 3; k++)
-        surface->mirror[k] = twice * surface->normal[k] - surface->view[k];
+    for (int k = 0; k < s->lobes; k++)
+        widen(VECTOR(s->axis[k]), i, surface->axis[k]);
 }
 
 /* A light seen from a surface as lmp_light_cap puts it: a cap of at most a hemisphere, and inside a
@@ -70,7 +69,7 @@ static void see_light(const shading *s, const seen *surface, int light, int i, s
 
 /* What is expected of an element, and how far rounding may take it. */
 typedef struct shaded {
-    double values[6], bound;
+    double values[3 + 3 * LMP_KERNEL_LOBES_MAX], bound;
 } shaded;
 
 static void shaded_add(shaded *sum, int first, lmp_rgb rgb, double scale, const double answer[3]) {
@@ -88,28 +87,33 @@ static double lobe_of(int bands, const double *lambda, const double *sh, const d
     return sum;
 }
 
-/* By bands: dot products with both lobes' coefficients. */
+/* lambda_l of the lobe that integrates to 1. */
+static void phong_of(int bands, double e, double *lambda) {
+    for (int l = 0; l < bands; l++)
+        lambda[l] = l == 0   ? 1
+                    : l == 1 ? (e + 1) / (e + 2)
+                             : lambda[l - 2] * (e - l + 2) / (e + l + 1);
+}
+
+/* By bands: dot products with all lobes' coefficients. */
 static void expect_zonal(const shading *s, int i, shaded *to) {
-    static double sh[128 * 128], around[2][128 * 128], lambda[2][128];
+    enum { LOBES = 1 + LMP_KERNEL_LOBES_MAX };
+    static double sh[128 * 128], around[LOBES][128 * 128], lambda[LOBES][128];
     seen surface;
     double size = 0;
     see(s, i, &surface);
     oracle_sh_eval(s->bands, surface.normal, around[0]);
-    oracle_sh_eval(s->bands, surface.mirror, around[1]);
-    const double e = (double)s->in->exponent[i];
-    for (int l = 0; l < s->bands; l++) {
-        /* of the lobe that integrates to 1 */
-        const double phong = l == 0   ? 1
-                             : l == 1 ? (e + 1) / (e + 2)
-                                      : lambda[1][l - 2] * (e - l + 2) / (e + l + 1);
-        lambda[1][l] = phong;
+    for (int l = 0; l < s->bands; l++)
         lambda[0][l] = (double)s->diffuse[l];
+    for (int k = 0; k < s->lobes; k++) {
+        oracle_sh_eval(s->bands, surface.axis[k], around[1 + k]);
+        phong_of(s->bands, (double)s->exponent[k][i], lambda[1 + k]);
     }
-    for (int l = 0; l < s->bands; l++) {
-        lambda[0][l] *= (double)s->window[l];
-        lambda[1][l] *= (double)s->window[l];
-        size += (fabs(lambda[0][l]) + fabs(lambda[1][l])) * (2 * l + 1);
-    }
+    for (int k = 0; k <= s->lobes; k++)
+        for (int l = 0; l < s->bands; l++) {
+            lambda[k][l] *= (double)s->window[l];
+            size += fabs(lambda[k][l]) * (2 * l + 1);
+        }
     *to = (shaded) { { 0 }, 0 };
     for (int light = 0; light < SHADE_LIGHTS; light++) {
         seen_light one;
@@ -117,7 +121,7 @@ static void expect_zonal(const shading *s, int i, shaded *to) {
         if (one.nothing)
             continue;
         oracle_sphere(s->bands, one.center, one.radius, one.point, sh, NULL);
-        for (int lobe = 0; lobe < 2; lobe++) {
+        for (int lobe = 0; lobe <= s->lobes; lobe++) {
             const double value = lobe_of(s->bands, lambda[lobe], sh, around[lobe]);
             shaded_add(to, 3 * lobe, s->lights[light].radiance, one.scale,
                        (double[3]) { value, value, value });
@@ -176,14 +180,15 @@ static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
         see_light(s, &surface, light, i, &one);
         if (one.nothing)
             continue;
-        for (int lobe = 0; lobe < 2; lobe++) {
-            const float position[3] = { lobe ? s->weight[i] : s->diffuse_weights[0][0],
-                                        lobe ? s->density[i] : s->diffuse_weights[1][0],
-                                        lobe ? s->angle[i] : s->diffuse_weights[2][0] };
-            const double cosine = dot3(lobe ? surface.mirror : surface.normal, one.axis);
+        for (int lobe = 0; lobe <= s->lobes; lobe++) {
+            const int k = lobe ? lobe - 1 : 0;
+            const float position[3] = { lobe ? s->weight[k][i] : s->diffuse_weights[0][0],
+                                        lobe ? s->density[k][i] : s->diffuse_weights[1][0],
+                                        lobe ? s->angle[k][i] : s->diffuse_weights[2][0] };
+            const double cosine = dot3(lobe ? surface.axis[k] : surface.normal, one.axis);
             const double mean =
-                read_lobe(s, lobe ? s->first[i] : s->diffuse_first[0],
-                          lobe ? s->columns[i] : s->diffuse_columns[0], position, cosine, one.t);
+                read_lobe(s, lobe ? s->first[k][i] : s->diffuse_first[0],
+                          lobe ? s->columns[k][i] : s->diffuse_columns[0], position, cosine, one.t);
             add_mean(&one, &s->lights[light], 3 * lobe, (double[3]) { mean, mean, mean },
                      (double[3]) { 1, 1, 1 }, to);
             /* acos near 1 has half of the digits, where the response is flat */

@@ -16,7 +16,9 @@ enum { SHADE_LIGHTS = 11, CELLS = 3, VIEWS = 5, CAPS = 4, VIEW_STEPS = 16, CAP_S
 
 typedef struct shading {
     const inputs *in;
-    int bands;
+    int bands, lobes; /* of Phong's */
+    _Alignas(64) float axis[LMP_KERNEL_LOBES_MAX][3][COUNT + 16];
+    _Alignas(64) float exponent[LMP_KERNEL_LOBES_MAX][COUNT + 16];
     lmp_kernel_light lights[SHADE_LIGHTS];
     lmp_rgb ambient;
     _Alignas(64) float scale[2][COUNT + 16];
@@ -24,8 +26,11 @@ typedef struct shading {
 
     int16_t *pairs;
     uint32_t cell_first[CELLS], cell_columns[CELLS];
-    _Alignas(64) uint32_t first[COUNT + 16], columns[COUNT + 16];
-    _Alignas(64) float weight[COUNT + 16], density[COUNT + 16], angle[COUNT + 16];
+    _Alignas(64) uint32_t first[LMP_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) uint32_t columns[LMP_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) float weight[LMP_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) float density[LMP_KERNEL_LOBES_MAX][COUNT + 16];
+    _Alignas(64) float angle[LMP_KERNEL_LOBES_MAX][COUNT + 16];
     _Alignas(64) uint32_t diffuse_first[16], diffuse_columns[16];
     _Alignas(64) float diffuse_weights[3][16];
 
@@ -102,21 +107,41 @@ static void make_preintegrated_lobe(shading *s) {
     }
     for (int i = 0; i < COUNT + 16; i++) {
         const int k = i % CELLS;
-        s->first[i] = s->cell_first[k];
-        s->columns[i] = s->cell_columns[k];
-        s->weight[i] = 0.5f + grid(1.0f / 2048);
-        s->density[i] = (float)steps[k] * (float)(1 / ORACLE_PI);
-        s->angle[i] = 1.25f + grid(1.0f / 1024);
+        s->first[0][i] = s->cell_first[k];
+        s->columns[0][i] = s->cell_columns[k];
+        s->weight[0][i] = 0.5f + grid(1.0f / 2048);
+        s->density[0][i] = (float)steps[k] * (float)(1 / ORACLE_PI);
+        s->angle[0][i] = 1.25f + grid(1.0f / 1024);
     }
     for (int i = 0; i < 16; i++) {
-        s->diffuse_first[i] = s->first[1];
-        s->diffuse_columns[i] = s->columns[1];
-        s->diffuse_weights[0][i] = s->weight[1];
-        s->diffuse_weights[1][i] = s->density[1];
-        s->diffuse_weights[2][i] = s->angle[1];
+        s->diffuse_first[i] = s->first[0][1];
+        s->diffuse_columns[i] = s->columns[0][1];
+        s->diffuse_weights[0][i] = s->weight[0][1];
+        s->diffuse_weights[1][i] = s->density[0][1];
+        s->diffuse_weights[2][i] = s->angle[0][1];
     }
 }
 
+/* The first lobe is around the mirror direction; the others are where a neighbor's numbers lie. */
+static void make_lobes(shading *s) {
+    const inputs *in = s->in;
+    for (int i = 0; i < COUNT + 16; i++) {
+        const float n[3] = { in->normal[0][i], in->normal[1][i], in->normal[2][i] };
+        const float v[3] = { in->view[0][i], in->view[1][i], in->view[2][i] };
+        const float twice = 2 * (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
+        for (int k = 0; k < LMP_KERNEL_LOBES_MAX; k++) {
+            const int from = (i + k) % (COUNT + 16);
+            for (int c = 0; c < 3; c++)
+                s->axis[k][c][i] = k ? in->axis[(c + k) % 3][i] : twice * n[c] - v[c];
+            s->exponent[k][i] = in->exponent[from];
+            s->first[k][i] = s->first[0][from];
+            s->columns[k][i] = s->columns[0][from];
+            s->weight[k][i] = s->weight[0][from];
+            s->density[k][i] = s->density[0][from];
+            s->angle[k][i] = s->angle[0][from];
+        }
+    }
+}
 static void make_warp(float *warp, int steps, int count) {
     for (int i = 0; i <= steps; i++)
         warp[i] = (float)(count - 1) * (float)(i * i) / (float)(steps * steps);
@@ -176,16 +201,18 @@ static void make_preintegrated_brdf(shading *s) {
                                                 .texels = s->texels };
 }
 
-static shading *shading_create(const inputs *in, int bands) {
+static shading *shading_create(const inputs *in, int bands, int lobes) {
     shading *s = aligned_alloc(64, (sizeof *s + 63) / 64 * 64);
     assert_non_null(s);
     memset(s, 0, sizeof *s);
     s->in = in;
     s->bands = bands;
+    s->lobes = lobes;
     set_seed((uint64_t)bands * 77 + 5);
     make_lights(s);
     make_preintegrated_lobe(s);
     make_preintegrated_brdf(s);
+    make_lobes(s);
     lmp_lobe_diffuse(bands, s->diffuse);
     for (int l = 0; l < bands; l++) {
         s->diffuse[l] *= (float)(1 / ORACLE_PI);

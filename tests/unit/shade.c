@@ -53,48 +53,106 @@ static void to_array(lmp_rgb color, float *channels) {
 
 /* --- the definition, in double ---------------------------------------------------------------- */
 
-/* Dot products of n² coefficients by the oracle; sphere lights. */
+/* weight times the kernel max(axis·w, 0), or of a Phong lobe that integrates to 1. */
+typedef struct defined_lobe {
+    bool diffuse;
+    double axis[3], exponent, weight[3];
+} defined_lobe;
+
+enum { DEFINED_LOBES = 1 + LMP_GGX_LOBES };
+
+static void widen(const float *from, double to[3]) {
+    for (int k = 0; k < 3; k++)
+        to[k] = (double)from[k];
+}
+
+static int define_phong(const lmp_material *material, const double n[3], const double v[3],
+                        defined_lobe *lobes) {
+    const double twice = 2 * (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
+    widen(&material->diffuse.r, lobes[0].weight);
+    widen(&material->specular.r, lobes[1].weight);
+    lobes[1].exponent = (double)material->exponent;
+    for (int k = 0; k < 3; k++)
+        lobes[1].axis[k] = twice * n[k] - v[k];
+    return 2;
+}
+
+static int define_ggx(const lmp_material *material, const lmp_surface *surface,
+                      defined_lobe *lobes) {
+    lmp_ggx_lobes ggx;
+    double base[3];
+    const double metal = fmin(fmax((double)material->metallic, 0), 1);
+    lmp_lobe_ggx(surface->normal, surface->view, material->roughness, &ggx);
+    widen(&material->base_color.r, base);
+    for (int c = 0; c < 3; c++)
+        lobes[0].weight[c] =
+            base[c] * (1 - metal) * (1 - 0.04 * (double)ggx.diffuse_f0 - (double)ggx.diffuse_f90);
+    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+        const lmp_ggx_lobe *from = &ggx.lobe[k];
+        lobes[1 + k].exponent = (double)from->exponent;
+        widen(&from->axis.x, lobes[1 + k].axis);
+        for (int c = 0; c < 3; c++)
+            lobes[1 + k].weight[c] =
+                (double)from->f0 * (0.04 + (base[c] - 0.04) * metal) + (double)from->f90;
+    }
+    return DEFINED_LOBES;
+}
+
+/* As lampion/shade.h says; returns how many. */
+static int define_lobes(const lmp_material *material, const lmp_surface *surface,
+                        defined_lobe lobes[DEFINED_LOBES]) {
+    double n[3], v[3];
+    memset(lobes, 0, DEFINED_LOBES * sizeof *lobes);
+    widen(&surface->normal.x, n);
+    widen(&surface->view.x, v);
+    const int count = material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS
+                          ? define_ggx(material, surface, lobes)
+                          : define_phong(material, n, v, lobes);
+    lobes[0].diffuse = true;
+    for (int k = 0; k < 3; k++) {
+        lobes[0].axis[k] = n[k];
+        lobes[0].weight[k] /= ORACLE_PI;
+    }
+    return count;
+}
+
+/* What a lobe makes of coefficients: a dot product of n². */
+static double reflect_by_definition(int bands, const double *window, const defined_lobe *lobe,
+                                    const double *light) {
+    static double y[1600];
+    double lambda[40], sum = 0;
+    if (lobe->diffuse)
+        oracle_lobe_diffuse(bands, lambda);
+    else
+        oracle_lobe_phong(bands, lobe->exponent, lambda);
+    oracle_sh_eval(bands, lobe->axis, y);
+    for (int l = 0, i = 0; l < bands; l++)
+        for (int m = -l; m <= l; m++, i++)
+            sum += lambda[l] * window[l] * light[i] * y[i];
+    return sum;
+}
+
+/* Of sphere lights, by the oracle. */
 static void shade_by_definition(int bands, const double *window, const lmp_material *material,
                                 const lmp_surface *surface, const lmp_light *lights, int count,
                                 double color[3]) {
-    static double light[1600], y[1600];
-    double diffuse[40], phong[40], n[3], v[3], mirror[3], p[3], center[3];
-    const lmp_vec3 vectors[3] = { surface->normal, surface->view, surface->position };
-    double *targets[3] = { n, v, p };
-    for (int i = 0; i < 3; i++) {
-        targets[i][0] = (double)vectors[i].x;
-        targets[i][1] = (double)vectors[i].y;
-        targets[i][2] = (double)vectors[i].z;
-    }
-    const double twice = 2 * (n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
-    for (int k = 0; k < 3; k++)
-        mirror[k] = twice * n[k] - v[k];
-    oracle_lobe_diffuse(bands, diffuse);
-    oracle_lobe_phong(bands, (double)material->exponent, phong);
-    double lobes[2][3] = { { 0 } };
+    static double light[1600];
+    defined_lobe lobes[DEFINED_LOBES];
+    const int lobe_count = define_lobes(material, surface, lobes);
+    double point[3], center[3], radiance[3], sum[3] = { 0, 0, 0 };
+    widen(&surface->position.x, point);
     for (int i = 0; i < count; i++) {
-        center[0] = (double)lights[i].position.x;
-        center[1] = (double)lights[i].position.y;
-        center[2] = (double)lights[i].position.z;
-        const double radiance[3] = { (double)lights[i].radiance.r, (double)lights[i].radiance.g,
-                                     (double)lights[i].radiance.b };
-        oracle_sphere(bands, center, (double)lights[i].radius, p, light, NULL);
-        for (int lobe = 0; lobe < 2; lobe++) {
-            double sum = 0;
-            oracle_sh_eval(bands, lobe ? mirror : n, y);
-            for (int l = 0, k = 0; l < bands; l++)
-                for (int m = -l; m <= l; m++, k++)
-                    sum += (lobe ? phong : diffuse)[l] * window[l] * light[k] * y[k];
+        widen(&lights[i].position.x, center);
+        widen(&lights[i].radiance.r, radiance);
+        oracle_sphere(bands, center, (double)lights[i].radius, point, light, NULL);
+        for (int k = 0; k < lobe_count; k++) {
+            const double reflected = reflect_by_definition(bands, window, &lobes[k], light);
             for (int c = 0; c < 3; c++)
-                lobes[lobe][c] += radiance[c] * sum;
+                sum[c] += lobes[k].weight[c] * radiance[c] * reflected;
         }
     }
-    const double albedo[3] = { (double)material->diffuse.r, (double)material->diffuse.g,
-                               (double)material->diffuse.b };
-    const double gloss[3] = { (double)material->specular.r, (double)material->specular.g,
-                              (double)material->specular.b };
     for (int c = 0; c < 3; c++)
-        color[c] = fmax(albedo[c] / ORACLE_PI * lobes[0][c] + gloss[c] * lobes[1][c], 0);
+        color[c] = fmax(sum[c], 0);
 }
 
 static void both_methods_agree_with_the_definition(void **state) {
@@ -220,48 +278,60 @@ static void windows_dim_the_highlight_and_calm_the_ringing(void **state) {
         5e-3);
 }
 
-static void metallic_roughness_becomes_two_lobes(void **state) {
-    (void)state;
-    const lmp_rgb base = { 0.5f, 0.25f, 1 };
-    const lmp_material plastic = lmp_material_from_metallic_roughness(base, 0, 1);
-    CHECK_WITHIN(fabsf(plastic.diffuse.g - 0.25f) + fabsf(plastic.specular.g - 0.04f) +
-                     fabsf(plastic.exponent),
-                 1e-6);
-    const lmp_material metal = lmp_material_from_metallic_roughness(base, 1, 0.5f);
-    CHECK_WITHIN(
-        fabsf(metal.diffuse.b) + fabsf(metal.specular.r - 0.5f) + fabsf(metal.exponent - 30), 1e-5);
-    const lmp_material half = lmp_material_from_metallic_roughness(base, 0.5f, 1);
-    CHECK_WITHIN(fabsf(half.diffuse.r - 0.25f) + fabsf(half.specular.r - 0.27f), 1e-6);
-    const lmp_material smooth = lmp_material_from_metallic_roughness(base, 7, -1);
-    CHECK_WITHIN(fabsf(smooth.exponent / (2 / (LMP_ALPHA_MIN * LMP_ALPHA_MIN) - 2) - 1), 1e-6);
-    assert_true(smooth.diffuse.r == 0);
+static lmp_material random_metallic_roughness(void) {
+    return (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                            .base_color = random_color(),
+                            .metallic = (float)check_random_between(-0.2, 1.2),
+                            .roughness = (float)check_random_between(-0.2, 1.2) };
 }
 
-/* A material of that kind is shaded as the lobes that stand for it, by every way to shade. */
-static void metallic_roughness_is_shaded_as_its_lobes(void **state) {
+static void metallic_roughness_is_shaded_by_the_lobes_of_ggx(void **state) {
     (void)state;
-    const lmp_material kind = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                                .base_color = { 0.5f, 0.25f, 1 },
-                                .metallic = 0.3f,
-                                .roughness = 0.4f };
-    const lmp_material lobes =
-        lmp_material_from_metallic_roughness(kind.base_color, kind.metallic, kind.roughness);
-    for (int method = 0; method < 2; method++) {
-        const lmp_shade_settings settings = { .method = (lmp_shade_method)method };
+    double window[40], expected[3];
+    for (int l = 0; l < 40; l++)
+        window[l] = 1;
+    for (int trial = 0; trial < 40; trial++) {
+        const lmp_material material = random_metallic_roughness();
         const lmp_surface surface = random_surface();
-        lmp_light lights[3];
-        float expected[3], channels[3];
-        random_spheres(3, lights);
-        to_array(lmp_shade(&settings, &lobes, &surface, lights, 3), expected);
-        to_array(lmp_shade(&settings, &kind, &surface, lights, 3), channels);
-        assert_memory_equal(expected, channels, sizeof expected);
         const lmp_surfaces one = { .position = lmp_vec3_array_same(&surface.position),
                                    .normal = lmp_vec3_array_same(&surface.normal),
                                    .view = lmp_vec3_array_same(&surface.view),
-                                   .material = &kind };
-        lmp_shade_n(&settings, &one, 1, lights, 3, 0, channels);
+                                   .material = &material };
+        lmp_shade_settings settings = { .bands = trial % 2 ? 10 : 3 };
+        lmp_light lights[3];
+        float channels[3];
+        random_spheres(3, lights);
+        shade_by_definition(settings.bands, window, &material, &surface, lights, 3, expected);
+        for (int method = LMP_SHADE_ZONAL; method <= LMP_SHADE_COEFFICIENTS; method++) {
+            settings.method = (lmp_shade_method)method;
+            to_array(lmp_shade(&settings, &material, &surface, lights, 3), channels);
+            CHECK_WITHIN(difference(expected, channels), 2e-5);
+            lmp_shade_n(&settings, &one, 1, lights, 3, 0, channels);
+            CHECK_WITHIN(difference(expected, channels), 1e-4);
+        }
+    }
+}
+
+/* Schlick's, under a uniform sky. */
+static void a_smooth_metal_reflects_by_fresnels_law(void **state) {
+    (void)state;
+    const lmp_light sky = { .kind = LMP_LIGHT_HEMISPHERE,
+                            .direction = { 0, 1, 0 },
+                            .radiance = { 1, 1, 1 },
+                            .ground = { 1, 1, 1 } };
+    const lmp_material metal = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                 .base_color = { 0.5f, 0.25f, 1 },
+                                 .metallic = 1 };
+    for (int i = 1; i <= 10; i++) {
+        const float z = (float)i / 10;
+        const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { sqrtf(1 - z * z), 0, z } };
+        double expected[3];
+        float channels[3];
+        widen(&metal.base_color.r, expected);
         for (int c = 0; c < 3; c++)
-            CHECK_WITHIN(fabsf(channels[c] - expected[c]), 1e-4f * fmaxf(expected[c], 1));
+            expected[c] += (1 - expected[c]) * pow(1 - (double)z, 5);
+        to_array(lmp_shade(NULL, &metal, &surface, &sky, 1), channels);
+        CHECK_WITHIN(difference(expected, channels), 0.02);
     }
 }
 
@@ -273,8 +343,8 @@ int main(void) {
         cmocka_unit_test(never_goes_below_zero),
         cmocka_unit_test(a_white_surface_in_uniform_light_returns_it),
         cmocka_unit_test(windows_dim_the_highlight_and_calm_the_ringing),
-        cmocka_unit_test(metallic_roughness_becomes_two_lobes),
-        cmocka_unit_test(metallic_roughness_is_shaded_as_its_lobes),
+        cmocka_unit_test(metallic_roughness_is_shaded_by_the_lobes_of_ggx),
+        cmocka_unit_test(a_smooth_metal_reflects_by_fresnels_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
