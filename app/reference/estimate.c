@@ -10,6 +10,7 @@ struct reference_candidate {
     double density;    /* of the directions sampled for it, per steradian */
     double cumulative; /* of the probabilities, itself included */
     const scene_light *light;
+    double series[LMP_BANDS_MAX]; /* in place of all these, where lights are made a series */
 };
 
 /* The ways to sample a direction and how often each is taken; the probabilities add up to 1. */
@@ -50,14 +51,16 @@ static double mean_of_product(const double a[3], const double b[3]) {
 
 /* The fraction of the samples of a lobe and a light that the lobe should draw: it is the better
  * source where it is narrower than the light. One that is rarely drawn from would only add rare
- * values that the standard error does not know of, so it is left out. Of a truncated series there
- * is nothing to sample. */
+ * values that the standard error does not know of, so it is left out; but GGX fades so slowly that
+ * a light beside its peak counts. Of a truncated series there is nothing to sample. */
 static double lobe_fraction(const reference_lobe *lobe, bool truncated,
                             const reference_source *cap) {
     const double width = 2 * REFERENCE_PI / (lobe->exponent + 1);
     const double part = cap->solid_angle / (cap->solid_angle + width);
     if (truncated || part < 0.02)
         return 0;
+    if (lobe->alpha > 0)
+        return fmin(part, 0.9);
     return part > 0.98 ? 1 : part;
 }
 
@@ -88,13 +91,16 @@ static double reflect(const plan *p, reference_vec w, double reflected[3]) {
     reflected[0] = reflected[1] = reflected[2] = 0;
     for (int k = 0; k < REFERENCE_LOBES; k++) {
         const reference_lobe *lobe = &p->surface->lobes[k];
-        const double at = reference_lobe_at(lobe, reference_dot(lobe->axis, w));
+        const double at = lobe->alpha > 0 ? reference_ggx_density(p->surface->ggx, w)
+                                          : reference_lobe_at(lobe, reference_dot(lobe->axis, w));
         density += p->by_lobe[k] * at;
         for (int c = 0; c < 3; c++)
             reflected[c] += lobe->weight[c] * at;
     }
     if (p->surface->tabulated)
         reference_tabulated_at(p->surface->tabulated, w, reflected);
+    else if (p->surface->ggx)
+        reference_ggx_at(p->surface->ggx, w, reflected);
     return density;
 }
 
@@ -131,10 +137,46 @@ static double add_candidate(const reference_source *source, const scene_light *l
     return any ? part : 0;
 }
 
+static bool is_light_a_series(const reference_surface *surface) {
+    return surface->ggx && surface->band_limited;
+}
+
+/* The material is sampled, whatever the lights are: they are a series, and everywhere. Of one that
+ * may be hidden every sample takes a direction, which is a series by itself. */
+static void plan_series(const reference_estimator *estimator, const reference_surface *surface,
+                        plan *p) {
+    double total = 0;
+    for (size_t i = 0; i < estimator->light_count; i++) {
+        const scene_light *light = &estimator->lights[i];
+        reference_source sources[REFERENCE_SOURCES_MAX];
+        const int count = reference_light_sources(light, surface->position, true, sources);
+        for (int k = 0; k < count; k++) {
+            struct reference_candidate *c = &p->candidates[p->count++];
+            c->source = sources[k];
+            c->light = light;
+            if (estimator->visibility)
+                reference_series_of_direction(&surface->limit, c->series);
+            else
+                reference_series_of_source(&sources[k], &surface->limit, c->series);
+        }
+    }
+    for (int k = 0; k < REFERENCE_LOBES; k++) {
+        const double *weight = surface->lobes[k].weight;
+        p->by_lobe[k] = weight[0] + weight[1] + weight[2];
+        total += p->by_lobe[k];
+    }
+    for (int k = 0; k < REFERENCE_LOBES; k++)
+        p->by_lobe[k] /= total;
+}
+
 static void plan_samples(const reference_estimator *estimator, const reference_surface *surface,
                          plan *p) {
     double total = 0;
     *p = (plan) { .surface = surface, .candidates = estimator->candidates };
+    if (is_light_a_series(surface)) {
+        plan_series(estimator, surface, p);
+        return;
+    }
     for (size_t i = 0; i < estimator->light_count; i++) {
         const scene_light *light = &estimator->lights[i];
         reference_source sources[REFERENCE_SOURCES_MAX];
@@ -175,6 +217,8 @@ static reference_vec draw(const plan *p, const double u[3], int *sampled) {
     for (int k = 0; k < REFERENCE_LOBES; k++) {
         if (way < p->by_lobe[k]) {
             const reference_lobe *lobe = &p->surface->lobes[k];
+            if (lobe->alpha > 0)
+                return reference_ggx_draw(p->surface->ggx, u[1], u[2]);
             const double cosine = pow(1 - u[1], 1 / (lobe->exponent + 1));
             return reference_around(lobe->axis, cosine, sqrt((1 - cosine) * (1 + cosine)), u[2]);
         }
@@ -206,6 +250,31 @@ static double accumulate(const reference_estimator *estimator, const plan *p, re
     return density;
 }
 
+/* The same of lights that are series; `key` draws where those lie that may be hidden. */
+static void accumulate_series(const reference_estimator *estimator, const plan *p, reference_vec w,
+                              uint64_t key, double radiance[3]) {
+    for (int i = 0; i < p->count; i++) {
+        const struct reference_candidate *c = &p->candidates[i];
+        reference_vec axis = c->source.axis;
+        double scale = 1;
+        if (estimator->visibility) {
+            const double t = c->source.one_minus_cos * reference_random(key, 2 * (uint64_t)i);
+            axis = reference_around(axis, 1 - t, sqrt(t * (2 - t)),
+                                    reference_random(key, 2 * (uint64_t)i + 1));
+            const double distance =
+                c->source.solid_angle > 0
+                    ? reference_light_distance(c->light, p->surface->position, axis)
+                    : c->source.distance;
+            if (distance > free_path(estimator, p->surface, axis))
+                continue;
+            scale = c->source.solid_angle > 0 ? c->source.solid_angle : 1;
+        }
+        scale *= reference_series_at(p->surface->limit.bands, c->series, reference_dot(w, axis));
+        for (int k = 0; k < 3; k++)
+            radiance[k] += scale * c->source.color[k];
+    }
+}
+
 static void take_sample(const reference_estimator *estimator, const plan *p, uint64_t key,
                         int number, double value[3]) {
     double u[3], reflected[3], radiance[3] = { 0 };
@@ -217,7 +286,10 @@ static void take_sample(const reference_estimator *estimator, const plan *p, uin
     value[0] = value[1] = value[2] = 0;
     if (reflected[0] == 0 && reflected[1] == 0 && reflected[2] == 0)
         return;
-    density += accumulate(estimator, p, w, sampled, radiance);
+    if (is_light_a_series(p->surface))
+        accumulate_series(estimator, p, w, reference_hash(key, ~(uint64_t)number), radiance);
+    else
+        density += accumulate(estimator, p, w, sampled, radiance);
     for (int c = 0; c < 3 && density > 0; c++)
         value[c] = reflected[c] * radiance[c] / density;
 }

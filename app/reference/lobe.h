@@ -4,31 +4,23 @@
 #ifndef LAMPION_REFERENCE_LOBE_H
 #define LAMPION_REFERENCE_LOBE_H
 
+#include "app/reference/ggx.h"
+#include "app/reference/series.h"
 #include "app/reference/tabulated.h"
 
 #include <lampion/sh.h>
 
-/* The meaning of lmp_material in double. */
+/* The meaning of lmp_material's lobes in double. */
 typedef struct reference_material {
     double diffuse[3], specular[3];
     double exponent;
 } reference_material;
 
-/* glTF's metallic-roughness as two lobes, as <lampion/shade.h> defines it. */
-reference_material reference_material_from_metallic_roughness(const double base[3], double metallic,
-                                                              double roughness);
-
-/* Band limit of the lobes. Zero: none, the lobes themselves. */
-typedef struct reference_band_limit {
-    int bands; /* 0, or 1 … LMP_BANDS_MAX */
-    lmp_window window;
-    double window_size; /* 0 means bands */
-} reference_band_limit;
-
 typedef struct reference_lobe {
     reference_vec axis;
     double weight[3];
     double exponent;
+    double alpha;                 /* > 0: as GGX's, seen from the mirror direction; a guide only */
     int bands;                    /* of series; 0 = whole */
     double series[LMP_BANDS_MAX]; /* factors of P_l(q·w) */
 } reference_lobe;
@@ -40,14 +32,20 @@ typedef struct reference_surface {
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
     reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular */
     bool band_limited; /* they, or the measured material, are a truncated series */
-    const reference_tabulated *tabulated; /* reflects instead of the lobes, or NULL: the lobes then
-                                           only guide the samples */
+    /* One of these reflects instead of the lobes, which then only guide the samples; or none. */
+    const reference_tabulated *tabulated;
+    const reference_ggx *ggx;
+    reference_band_limit limit; /* of ggx: a series is made of the lights */
 } reference_surface;
 
 /* normal and view must be unit; ray_origin becomes the position. */
 void reference_surface_set(reference_surface *surface, const reference_band_limit *limit,
                            const reference_material *material, reference_vec position,
                            reference_vec normal, reference_vec view);
+
+/* Makes the surface reflect as `ggx`, or as it in the bands of the limit. */
+void reference_surface_shine(reference_surface *surface, const reference_band_limit *limit,
+                             const reference_ggx *ggx, reference_vec normal, reference_vec view);
 
 /* Makes the surface reflect as `tabulated`, oriented already. */
 void reference_surface_measure(reference_surface *surface, const reference_tabulated *tabulated,

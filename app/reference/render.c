@@ -77,6 +77,7 @@ static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
 typedef struct worker {
     reference_estimator estimator;
     reference_tabulated tabulated;
+    reference_ggx ggx;
 } worker;
 
 /* Fills the surface and the light it emits itself. */
@@ -91,11 +92,12 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
         base[c] = color[c] * hit->color[c] * (double)material->base_color[c];
         emission[c] = glow[c] * (double)material->emission[c];
     }
-    const reference_material lobes = reference_material_from_metallic_roughness(
-        base, rough[2] * (double)material->metallic, rough[1] * (double)material->roughness);
     const reference_vec normal = mapped_normal(f, hit, material);
-    reference_surface_set(surface, &f->settings->band_limit, &lobes, hit->position, normal, view);
+    reference_ggx_set(&own->ggx, base, rough[2] * (double)material->metallic,
+                      rough[1] * (double)material->roughness, normal, view);
+    surface->position = hit->position;
     surface->ray_origin = hit->ray_origin;
+    reference_surface_shine(surface, &f->settings->band_limit, &own->ggx, normal, view);
     const reference_material_source *source =
         f->settings->materials ? &f->settings->materials[hit->material] : NULL;
     if (source && (source->brdf || source->coefficients)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The image that the GPU shades against the ground truth of the same truncated lobes. */
+/* The image that the GPU shades by lobes against the ground truth of GGX in as many bands. */
 #include "app/gpu/gpu.h"
 #include "app/reference/light.h"
 #include "app/reference/reference.h"
@@ -93,7 +93,8 @@ static sight *look(const scene *world, const scene_camera *camera) {
     return sights;
 }
 
-/* Whether a channel differs by more than 5 standard errors and one step of 8 bits. */
+/* Whether a channel differs by more than 5 standard errors and one step of 8 bits: what lobes leave
+ * of GGX is less in few bands, but at a silhouette. */
 static bool differs(const float *drawn, const float *truth, const float *standard_error,
                     double exposure) {
     for (int c = 0; c < 3; c++) {
@@ -134,7 +135,7 @@ static void check_scene(const char *name, int lights, bool kinds,
         different += !edge && differs(&drawn.rgb[3 * p], &truth.rgb[3 * p],
                                       &standard_error.rgb[3 * p], exposure);
     }
-    assert_int_equal(different, 0);
+    assert_in_range(different, 0, WIDTH * HEIGHT / 2000);
     assert_in_range(edges, 0, WIDTH * HEIGHT / 250);
     free(sights);
     free(pixels);

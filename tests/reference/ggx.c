@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT */
+/* glTF's metallic-roughness as the ground truth has it, against appendix B of glTF 2.0 integrated
+ * over caps without it (tests/oracle/gltf.h). */
+#include "app/reference/estimate.h"
+#include "app/reference/quadrature.h"
+#include "tests/oracle/check.h"
+#include "tests/oracle/gltf.h"
+
+static const reference_vec origin = { 0, 0, 0 }, up = { 0, 0, 1 };
+static const reference_band_limit whole = { .bands = 0 };
+
+static reference_vec direction(double to, double azimuth) {
+    return (reference_vec) { sin(to) * cos(azimuth), sin(to) * sin(azimuth), cos(to) };
+}
+
+/* A surface at the origin, seen from a direction at azimuth 180 degrees. */
+static reference_ggx ggx_of(double base, double metallic, double alpha, double view) {
+    const double color[3] = { base, base, base };
+    reference_ggx ggx;
+    reference_ggx_set(&ggx, color, metallic, sqrt(alpha), up, direction(view, REFERENCE_PI));
+    return ggx;
+}
+
+static reference_result estimate(const reference_ggx *ggx, const reference_band_limit *limit,
+                                 double view, const scene_light *light, int samples) {
+    reference_surface surface = { .position = origin, .ray_origin = origin };
+    reference_estimator estimator;
+    const reference_stop stop = { samples, 0 };
+    reference_surface_shine(&surface, limit, ggx, up, direction(view, REFERENCE_PI));
+    assert_true(reference_estimator_create(&estimator, light, 1));
+    const reference_result result =
+        reference_estimate(&estimator, &surface, &stop, (uint64_t)(1e6 * check_random()));
+    reference_estimator_free(&estimator);
+    return result;
+}
+
+static scene_light sphere(reference_vec axis, double half_angle) {
+    return (scene_light) { .emitter = { .position = { 10 * (float)axis.x, 10 * (float)axis.y,
+                                                      10 * (float)axis.z },
+                                        .radius = 10 * (float)sin(half_angle),
+                                        .radiance = { 1, 1, 1 } } };
+}
+
+/* Of metal and dielectric mixed: appendix B's is linear in them. */
+static double exact(double base, double metallic, double alpha, double view, const scene_light *of,
+                    double half_angle) {
+    const oracle_gltf metal = { alpha, view, base, 1, 0 };
+    const oracle_gltf dielectric = { alpha, view, 0.04, 1, base };
+    const lmp_vec3 p = of->emitter.position;
+    const double middle[3] = { (double)p.x / 10, (double)p.y / 10, (double)p.z / 10 };
+    return metallic * oracle_gltf_cap(&metal, middle, half_angle) +
+           (1 - metallic) * oracle_gltf_cap(&dielectric, middle, half_angle);
+}
+
+static void reflection_is_that_of_the_specification(void **state) {
+    (void)state;
+    static const double alphas[] = { 0.001, 0.01, 0.1, 0.3, 1 }, views[] = { 0, 0.5, 1.2, 1.5 };
+    int outside = 0, count = 0;
+    double noise = 0;
+    for (int i = 0; i < 5; i++)
+        for (int v = 0; v < 4; v++)
+            for (int k = 0; k < 9; k++) {
+                /* around the mirror direction, beside it, and anywhere */
+                const double off = k % 3 == 0 ? 0.5 * alphas[i] : k % 3 == 1 ? 3 * alphas[i] : 1;
+                const double to = fmin(fabs(views[v] + off * check_random_between(-1, 1)), 1.6);
+                const double half_angle = k < 3 ? 0.02 : k < 6 ? 0.2 : 0.9;
+                const double base = check_random(), metallic = k % 2 ? 1 : check_random();
+                const scene_light light =
+                    sphere(direction(to, off * check_random_between(-1, 1)), half_angle);
+                const reference_ggx ggx = ggx_of(base, metallic, alphas[i], views[v]);
+                const reference_result r = estimate(&ggx, &whole, views[v], &light, 4096);
+                const double truth = exact(base, metallic, alphas[i], views[v], &light, half_angle);
+                const double error = fabs(r.mean[0] - truth);
+                count++;
+                outside += !(error <= 3 * r.standard_error[0] + 1e-5);
+                noise = fmax(noise, r.standard_error[0] / fmax(truth, 1e-3));
+                CHECK_WITHIN(error, 6 * r.standard_error[0] + 1e-5);
+            }
+    print_message("%d of %d outside 3 standard errors, the largest of them %.3f of the value\n",
+                  outside, count, noise);
+    assert_in_range(outside, 0, count / 20);
+    CHECK_WITHIN(noise, 0.1);
+}
+
+/* What a white metal reflects in all: the mean over its own samples is at most 1. */
+static void samples_follow_the_specular_part(void **state) {
+    (void)state;
+    const double alphas[] = { 0.001, 0.1, 0.5, 1 }, views[] = { 0, 0.8, 1.5 };
+    for (int i = 0; i < 12; i++) {
+        const double alpha = alphas[i / 3], view = views[i % 3];
+        const reference_ggx ggx = ggx_of(1, 1, alpha, view);
+        const oracle_gltf metal = { alpha, view, 1, 1, 0 };
+        const double expected = oracle_gltf_cap(&metal, (double[3]) { 0, 0, 1 }, REFERENCE_PI / 2);
+        double sum = 0;
+        const int samples = 20000;
+        for (int k = 0; k < samples; k++) {
+            const reference_vec w = reference_ggx_draw(&ggx, check_random(), check_random());
+            double rgb[3];
+            reference_ggx_at(&ggx, w, rgb);
+            const double weight = rgb[0] / reference_ggx_density(&ggx, w);
+            CHECK_WITHIN(weight, 1 + 1e-9);
+            sum += weight / samples;
+        }
+        CHECK_WITHIN(fabs(sum - expected), 0.01);
+    }
+}
+
+/* ∫ of a whole lobe times the light's series is ∫ of the lobe's series times the light. */
+static void the_lights_series_does_what_the_lobes_would(void **state) {
+    (void)state;
+    const reference_material phong = { { 0.5, 0.5, 0.5 }, { 1, 1, 1 }, 12 };
+    const reference_vec view = direction(0.6, REFERENCE_PI);
+    for (int trial = 0; trial < 4; trial++) {
+        const reference_band_limit limit = { trial % 2 ? 4 : 9,
+                                             trial / 2 ? LMP_WINDOW_HANNING : LMP_WINDOW_NONE, 0 };
+        const double half_angle = trial ? 0.3 : 1e-4;
+        const scene_light light = sphere(direction(0.7, 0.4), half_angle);
+        reference_surface cut, free_of_bands;
+        reference_source source[REFERENCE_SOURCES_MAX];
+        double expected[3], series[LMP_BANDS_MAX], sum = 0;
+        reference_surface_set(&cut, &limit, &phong, origin, up, view);
+        reference_quadrature(&cut, &light, 1, expected);
+        reference_surface_set(&free_of_bands, &whole, &phong, origin, up, view);
+        reference_light_sources(&light, origin, true, source);
+        reference_series_of_source(source, &limit, series);
+        const int rings = 400, steps = 64;
+        for (int i = 0; i < rings; i++)
+            for (int k = 0; k < steps; k++) {
+                const double z = 1 - 2 * (i + 0.5) / rings, azimuth = 2 * REFERENCE_PI * k / steps;
+                const reference_vec w = direction(acos(z), azimuth);
+                double reflected = 0;
+                for (int lobe = 0; lobe < REFERENCE_LOBES; lobe++) {
+                    const reference_lobe *l = &free_of_bands.lobes[lobe];
+                    reflected += l->weight[0] * reference_lobe_at(l, reference_dot(l->axis, w));
+                }
+                sum += reflected *
+                       reference_series_at(limit.bands, series, reference_dot(w, source->axis));
+            }
+        sum *= 4 * REFERENCE_PI / rings / steps;
+        CHECK_WITHIN(fabs(sum / expected[0] - 1), 2e-3);
+    }
+}
+
+/* In many bands little is left out of a rough surface under a wide light. */
+static void many_bands_come_near_the_whole(void **state) {
+    (void)state;
+    const reference_band_limit limit = { 60, LMP_WINDOW_NONE, 0 };
+    const scene_light light = sphere(direction(0.5, 0.3), 0.4);
+    const reference_ggx ggx = ggx_of(0.7, 0.5, 0.4, 0.6);
+    const reference_result cut = estimate(&ggx, &limit, 0.6, &light, 40000);
+    const double truth = exact(0.7, 0.5, 0.4, 0.6, &light, 0.4);
+    CHECK_WITHIN(fabs(cut.mean[0] - truth), 4 * cut.standard_error[0] + 1e-3 * truth);
+    CHECK_WITHIN(cut.standard_error[0], 0.02 * truth);
+}
+
+static double never(reference_vec point, reference_vec w, void *user) {
+    (void)point;
+    (void)w;
+    (void)user;
+    return INFINITY;
+}
+
+/* Directions drawn in lights that may be hidden, and are not, give what the lights give. */
+static void visible_lights_give_the_same_series(void **state) {
+    (void)state;
+    const reference_band_limit limit = { 5, LMP_WINDOW_HANNING, 0 };
+    const scene_light light = sphere(direction(0.5, 0.3), 0.4);
+    const reference_ggx ggx = ggx_of(0.7, 0.5, 0.4, 0.6);
+    const reference_result plain = estimate(&ggx, &limit, 0.6, &light, 20000);
+    reference_surface surface = { .position = origin, .ray_origin = origin };
+    reference_estimator estimator;
+    const reference_stop stop = { 20000, 0 };
+    reference_surface_shine(&surface, &limit, &ggx, up, direction(0.6, REFERENCE_PI));
+    assert_true(reference_estimator_create(&estimator, &light, 1));
+    estimator.visibility = never;
+    const reference_result drawn = reference_estimate(&estimator, &surface, &stop, 3);
+    reference_estimator_free(&estimator);
+    CHECK_WITHIN(fabs(drawn.mean[0] - plain.mean[0]),
+                 4 * (drawn.standard_error[0] + plain.standard_error[0]));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reflection_is_that_of_the_specification),
+        cmocka_unit_test(samples_follow_the_specular_part),
+        cmocka_unit_test(the_lights_series_does_what_the_lobes_would),
+        cmocka_unit_test(many_bands_come_near_the_whole),
+        cmocka_unit_test(visible_lights_give_the_same_series),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
