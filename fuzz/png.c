@@ -1,21 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Images to be compared: .png. */
 #include "app/image/png.h"
-#include "fuzz/png.h"
-
-#include <math.h>
+#include "fuzz/file.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    const fuzz_png png = fuzz_png_make(data, size);
-    const image_source source = { "input", png.bytes, png.size, 1 << 16 };
+    const image_source source = { "input", data, size, 1 << 22 };
     image pixels;
     cli_error error;
-    if (png.bytes && image_decode_png(&source, &pixels, &error)) {
-        for (size_t i = 0; i < 3 * (size_t)pixels.width * (size_t)pixels.height; i++)
-            if (!(pixels.rgb[i] >= 0 && pixels.rgb[i] <= 1))
-                abort();
+    if (image_decode_png(&source, &pixels, &error))
         image_free(&pixels);
-    }
-    free(png.bytes);
     return 0;
 }

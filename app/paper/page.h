@@ -3,7 +3,9 @@
 #ifndef LAMPION_PAPER_PAGE_H
 #define LAMPION_PAPER_PAGE_H
 
-#include "app/file/file.h"
+#include "app/cli/cli.h"
+
+#include <stdio.h>
 
 /* Files are written into the working directory, beside the page. */
 typedef struct paper_page {
@@ -26,7 +28,7 @@ void page_image(paper_page *page, const char *file, const char *caption);
 /* A table, written to FILE.csv too. Cells are separated by '|'. */
 typedef struct page_table {
     paper_page *page;
-    file_writer csv;
+    FILE *csv;
     char file[64];
 } page_table;
 bool page_table_begin(paper_page *page, page_table *table, const char *file, const char *heads,

@@ -3,6 +3,7 @@
  * precision here: nothing of the library but the lobes themselves. LAMPION_LONG=1 sweeps all
  * plates and prints the tables of docs/materials.md. */
 #include "tests/oracle/check.h"
+#include "tests/oracle/gltf.h"
 #include "tests/oracle/oracle.h"
 
 #include <lampion/lobe.h>
@@ -11,139 +12,13 @@
 
 #define PI ORACLE_PI
 
-enum { NODES = 16, PANELS = 8 };
-
-/* --- integrals over caps ------------------------------------------------------------------------
- * A cap of half angle a, `to` from a pole, in polar coordinates around that pole: the square roots
- * where its circles touch the cap go into psi, theta = to + a sin psi. */
-
-typedef struct quadrature {
-    double node[NODES], weight[NODES];
-} quadrature;
-
-static const quadrature *gauss(void) {
-    static quadrature q;
-    if (q.weight[0] == 0)
-        oracle_gauss_legendre(NODES, q.node, q.weight);
-    return &q;
-}
-
-/* ∫ over the part of a ring that is in the cap, by theta and by half the length of the arc. */
-typedef double (*ring_function)(double theta, double half_arc, const void *user);
-
-static double half_arc(double to, double a, double theta) {
-    if (theta <= a - to)
-        return PI;
-    const double s = sin((a + theta - to) / 2) * sin((a - theta + to) / 2) / (sin(theta) * sin(to));
-    return 2 * asin(sqrt(fmin(fmax(s, 0), 1)));
-}
-
-/* Between two angles theta; `full`: the rings are whole. */
-static double integrate_panel(double to, double a, double low, double high, bool full,
-                              ring_function function, const void *user) {
-    const double from = full ? low : asin(fmin(fmax((low - to) / a, -1), 1));
-    const double until = full ? high : asin(fmin(fmax((high - to) / a, -1), 1));
-    double sum = 0;
-    for (int i = 0; i < NODES; i++) {
-        const double t = (from + until) / 2 + (until - from) / 2 * gauss()->node[i];
-        const double theta = full ? t : to + a * sin(t), scale = full ? 1 : a * cos(t);
-        sum +=
-            gauss()->weight[i] * scale * sin(theta) * function(theta, half_arc(to, a, theta), user);
-    }
-    return sum * (until - from) / 2;
-}
-
-/* Up to 90 degrees from the pole, in panels that grow threefold from `peak`, the first of them
- * `width` / 4 long. */
-static double integrate_cap(double to, double a, double peak, double width, ring_function function,
-                            const void *user) {
-    const double whole = fmin(fmax(a - to, 0), PI / 2), start = fmin(fabs(to - a), PI / 2);
-    const double end = fmin(to + a, PI / 2);
-    double sum = 0;
-    for (int i = -PANELS; i < PANELS; i++) {
-        const double near = i == 0 || i == -1 ? 0 : pow(3, i < 0 ? -2 - i : i - 1) * width / 4;
-        const double far =
-            i == -PANELS || i == PANELS - 1 ? PI : pow(3, i < 0 ? -1 - i : i) * width / 4;
-        const double low = i < 0 ? peak - far : peak + near,
-                     high = i < 0 ? peak - near : peak + far;
-        if (fmin(high, whole) > fmax(low, 0))
-            sum += integrate_panel(to, a, fmax(low, 0), fmin(high, whole), true, function, user);
-        if (fmin(high, end) > fmax(low, start))
-            sum += integrate_panel(to, a, fmax(low, start), fmin(high, end), false, function, user);
-    }
-    return sum;
-}
-
-/* --- the two sides ---------------------------------------------------------------------------- */
-
-typedef struct surface {
-    double alpha, view; /* angle of the view, which is at azimuth 180 degrees */
-    double f0, f90, diffuse;
-} surface;
-
-/* f_r cos of appendix B. */
-static double gltf(const surface *s, double theta, double phi) {
-    const double nl = cos(theta), nv = cos(s->view), a2 = s->alpha * s->alpha;
-    const double vl = nl * nv - sin(theta) * sin(s->view) * cos(phi);
-    const double vh = sqrt((1 + vl) / 2), length2 = 2 + 2 * vl;
-    const double hx = sin(theta) * cos(phi) - sin(s->view), hy = sin(theta) * sin(phi);
-    const double sine2 = (hx * hx + hy * hy) / length2, cosine2 = (nl + nv) * (nl + nv) / length2;
-    const double d = a2 / (PI * pow(a2 * cosine2 + sine2, 2));
-    const double v =
-        0.5 / (nl * sqrt(nv * nv * (1 - a2) + a2) + nv * sqrt(nl * nl * (1 - a2) + a2));
-    const double f = s->f0 + (s->f90 - s->f0) * pow(1 - vh, 5);
-    return (f * d * v + (1 - f) * s->diffuse / PI) * nl;
-}
-
-typedef struct gltf_cap {
-    surface surface;
-    double azimuth;
-} gltf_cap;
-
-/* Azimuths are dense around the peak, at 0: phi = width sinh t. */
-static double gltf_ring(double theta, double half_arc, const void *user) {
-    const gltf_cap *cap = user;
-    const surface *s = &cap->surface;
-    const double x = sin(theta) - sin(s->view), z = s->alpha * (cos(theta) + cos(s->view));
-    const double width = sqrt((x * x + z * z) / (sin(theta) * sin(s->view) + 1e-12));
-    const double azimuth = half_arc < PI ? cap->azimuth : 0;
-    const double low = asinh((azimuth - half_arc) / width);
-    const double high = asinh((azimuth + half_arc) / width);
-    const double middle = low < 0 && high > 0 ? 0 : (low + high) / 2;
-    double sum = 0;
-    for (int i = 0; i < 2 * NODES; i++) {
-        const double from = i < NODES ? low : middle, until = i < NODES ? middle : high;
-        const double t = (from + until) / 2 + (until - from) / 2 * gauss()->node[i % NODES];
-        sum += gauss()->weight[i % NODES] * (until - from) / 2 * width * cosh(t) *
-               gltf(s, theta, width * sinh(t));
-    }
-    return sum;
-}
-
-/* Radiance reflected from a cap of radiance 1, exact. Caps are given by their middle, x in the
- * plane of incidence on the mirror side, and half angle. */
-static double exact(const surface *s, const double middle[3], double a) {
-    const gltf_cap cap = { *s, atan2(middle[1], middle[0]) };
-    const double to = fmax(acos(fmin(fmax(middle[2], -1), 1)), 1e-7);
-    return integrate_cap(to, a, s->view, s->alpha, gltf_ring, &cap);
-}
-
-static double phong_ring(double theta, double half_arc, const void *user) {
-    const double e = *(const double *)user;
-    return (e + 1) / PI * half_arc * exp(e * log(fmax(cos(theta), 1e-300)));
-}
-
-static double phong(double exponent, double to, double a) {
-    return integrate_cap(fmax(to, 1e-7), a, 0, 1 / sqrt(exponent + 1), phong_ring, &exponent);
-}
-
 static double angle_between(const double a[3], lmp_vec3 b) {
     const double x = (double)b.x, y = (double)b.y, z = (double)b.z;
     const double c[3] = { a[1] * z - a[2] * y, a[2] * x - a[0] * z, a[0] * y - a[1] * x };
     return atan2(sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), a[0] * x + a[1] * y + a[2] * z);
 }
 
-static lmp_ggx_lobes lobes_of(const surface *s) {
+static lmp_ggx_lobes lobes_of(const oracle_gltf *s) {
     lmp_ggx_lobes lobes;
     const lmp_vec3 view = { (float)-sin(s->view), 0, (float)cos(s->view) };
     lmp_lobe_ggx((lmp_vec3) { 0, 0, 1 }, view, (float)sqrt(s->alpha), &lobes);
@@ -151,16 +26,16 @@ static lmp_ggx_lobes lobes_of(const surface *s) {
 }
 
 /* The same by the lobes. */
-static double by_lobes(const surface *s, const lmp_ggx_lobes *lobes, const double middle[3],
+static double by_lobes(const oracle_gltf *s, const lmp_ggx_lobes *lobes, const double middle[3],
                        double a) {
     double sum = 0;
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         const lmp_ggx_lobe *lobe = &lobes->lobe[k];
         sum += (s->f0 * (double)lobe->f0 + s->f90 * (double)lobe->f90) *
-               phong((double)lobe->exponent, angle_between(middle, lobe->axis), a);
+               oracle_phong_cap((double)lobe->exponent, angle_between(middle, lobe->axis), a);
     }
     const double lost = s->f0 * (double)lobes->diffuse_f0 + s->f90 * (double)lobes->diffuse_f90;
-    return sum + s->diffuse * (1 - lost) * phong(1, acos(fmin(middle[2], 1)), a);
+    return sum + s->diffuse * (1 - lost) * oracle_phong_cap(1, acos(fmin(middle[2], 1)), a);
 }
 
 /* --- how far they are apart ------------------------------------------------------------------- */
@@ -177,7 +52,7 @@ typedef struct cap_grid {
     double lowest; /* middles that are lower over the horizon are left out */
 } cap_grid;
 
-static void cap_middle(const surface *s, const cap_grid *caps, int i, int k, double middle[3]) {
+static void cap_middle(const oracle_gltf *s, const cap_grid *caps, int i, int k, double middle[3]) {
     const double rho = caps->reach * (i + 0.5) / caps->distances;
     const double psi = PI * (k + 0.5) / caps->azimuths, along = sin(rho) * cos(psi);
     middle[0] = cos(rho) * sin(s->view) + along * cos(s->view);
@@ -186,7 +61,7 @@ static void cap_middle(const surface *s, const cap_grid *caps, int i, int k, dou
 }
 
 /* weighted: by the solid angle that a cap stands for. */
-static apart compare(const surface *s, const cap_grid *caps, bool weighted) {
+static apart compare(const oracle_gltf *s, const cap_grid *caps, bool weighted) {
     const lmp_ggx_lobes lobes = lobes_of(s);
     check_errors errors = { 0 };
     double peak = 0, squares = 0, area = 0, sum[2] = { 0, 0 }, middle[3];
@@ -195,7 +70,7 @@ static apart compare(const surface *s, const cap_grid *caps, bool weighted) {
             cap_middle(s, caps, i, k, middle);
             if (middle[2] <= caps->lowest)
                 continue;
-            const double expected = exact(s, middle, caps->half_angle);
+            const double expected = oracle_gltf_cap(s, middle, caps->half_angle);
             const double actual = by_lobes(s, &lobes, middle, caps->half_angle);
             const double solid = sin(caps->reach * (i + 0.5) / caps->distances);
             const double weight = weighted ? solid : 1, error = actual - expected;
@@ -215,10 +90,10 @@ static apart compare(const surface *s, const cap_grid *caps, bool weighted) {
  * from the normal, seen from 45 degrees at azimuth 170 of it: the value is proven to 5e-10. */
 static void the_exact_side_is_within_a_proven_enclosure(void **state) {
     (void)state;
-    const surface s = { 0.25, PI / 4, 0.04, 1, 0 };
+    const oracle_gltf s = { 0.25, PI / 4, 0.04, 1, 0 };
     const double to = 40 * PI / 180, azimuth = 10 * PI / 180;
     const double middle[3] = { sin(to) * cos(azimuth), sin(to) * sin(azimuth), cos(to) };
-    CHECK_WITHIN(fabs(exact(&s, middle, 20 * PI / 180) - 0.0154939526608), 5e-10);
+    CHECK_WITHIN(fabs(oracle_gltf_cap(&s, middle, 20 * PI / 180) - 0.0154939526608), 5e-10);
 }
 
 /* Closed forms: a cap around the axis, and one under the cosine above the horizon. */
@@ -227,9 +102,9 @@ static void phong_lobes_over_caps_have_their_closed_forms(void **state) {
     const double exponents[] = { 0.1, 1, 30, 1e6 };
     for (int i = 0; i < 4; i++) {
         const double expected = 1 - pow(cos(0.3), exponents[i] + 1);
-        CHECK_WITHIN(fabs(phong(exponents[i], 0, 0.3) - expected), 1e-6);
+        CHECK_WITHIN(fabs(oracle_phong_cap(exponents[i], 0, 0.3) - expected), 1e-6);
     }
-    CHECK_WITHIN(fabs(phong(1, 0.8, 0.3) - sin(0.3) * sin(0.3) * cos(0.8)), 1e-12);
+    CHECK_WITHIN(fabs(oracle_phong_cap(1, 0.8, 0.3) - sin(0.3) * sin(0.3) * cos(0.8)), 1e-12);
 }
 
 /* A white metal under caps of half angle 0.15 above the horizon, and the largest and the rms error
@@ -254,7 +129,7 @@ static void lobes_follow_ggx_around_the_mirror_direction(void **state) {
     for (size_t i = 0; i < sizeof around / sizeof *around; i++) {
         const struct around *row = &around[i];
         const double alpha = row->roughness * row->roughness;
-        const surface s = { alpha, row->degrees * PI / 180, 1, 1, 0 };
+        const oracle_gltf s = { alpha, row->degrees * PI / 180, 1, 1, 0 };
         const cap_grid caps = { 0.15, fmin(0.15 + 2.5 * alpha, PI / 2), 13, 10, sin(0.15) };
         const apart d = compare(&s, &caps, false);
         print_message("| %.2f | %.0f | %.3f %.3f | %.3f %.3f |\n", row->roughness, row->degrees,
@@ -271,7 +146,7 @@ static const double plate_roughnesses[] = { 0.4, 1, 0.1, 0.25, 0.55, 0.7, 0.85 }
 static const double plate_views[] = { 0, 50, 80 };
 
 /* The worst of the sizes; adds the rms of each. */
-static apart compare_plates(const surface *s, check_errors *all) {
+static apart compare_plates(const oracle_gltf *s, check_errors *all) {
     apart worst = { 0, 0, 1 };
     for (int k = 0; k < check_count(2, 5); k++) {
         const double a = asin(plate_sizes[k]);
@@ -293,8 +168,8 @@ static void plates_look_as_the_specification_says(void **state) {
         for (int i = 0; i < 6; i++) {
             const bool metal = i < 3;
             const double degrees = plate_views[i % 3];
-            const surface s = { plate_roughnesses[r] * plate_roughnesses[r], degrees * PI / 180,
-                                metal ? 0.9 : 0.04, 1, metal ? 0 : 0.5 };
+            const oracle_gltf s = { plate_roughnesses[r] * plate_roughnesses[r], degrees * PI / 180,
+                                    metal ? 0.9 : 0.04, 1, metal ? 0 : 0.5 };
             const apart worst = compare_plates(&s, &all);
             print_message(" %.3f %.2f %.3f |", worst.rms, worst.largest, worst.energy);
             CHECK_WITHIN(worst.rms, degrees < 70 ? 0.045 : 0.06);
@@ -316,9 +191,10 @@ static void a_white_metal_reflects_what_ggx_does(void **state) {
     for (int r = 0; r < 4; r++) {
         print_message("| %.1f |", roughnesses[r]);
         for (int v = 0; v < 5; v++) {
-            const surface s = { roughnesses[r] * roughnesses[r], degrees[v] * PI / 180, 1, 1, 0 };
+            const oracle_gltf s = { roughnesses[r] * roughnesses[r], degrees[v] * PI / 180, 1, 1,
+                                    0 };
             const lmp_ggx_lobes lobes = lobes_of(&s);
-            const double expected = exact(&s, normal, PI / 2);
+            const double expected = oracle_gltf_cap(&s, normal, PI / 2);
             const double actual = by_lobes(&s, &lobes, normal, PI / 2);
             print_message(" %.3f %.3f |", expected, actual);
             CHECK_WITHIN(expected, 1);
@@ -333,10 +209,11 @@ static void the_diffuse_part_loses_what_is_reflected(void **state) {
     (void)state;
     static const double normal[3] = { 0, 0, 1 };
     for (int degrees = 0; degrees < 90; degrees += 7) {
-        const surface s = { 1, degrees * PI / 180, 0, 0, 1 }, without = { 1, s.view, 0, 1, 0 };
-        surface with = without;
+        const oracle_gltf s = { 1, degrees * PI / 180, 0, 0, 1 }, without = { 1, s.view, 0, 1, 0 };
+        oracle_gltf with = without;
         with.diffuse = 1;
-        const double diffuse = exact(&with, normal, PI / 2) - exact(&without, normal, PI / 2);
+        const double diffuse =
+            oracle_gltf_cap(&with, normal, PI / 2) - oracle_gltf_cap(&without, normal, PI / 2);
         const lmp_ggx_lobes lobes = lobes_of(&s);
         CHECK_WITHIN(fabs(1 - (double)lobes.diffuse_f90 - diffuse), 2e-4);
         CHECK_WITHIN(fabs((double)lobes.diffuse_f0 + (double)lobes.diffuse_f90 - 1), 1e-6);
@@ -387,7 +264,7 @@ static void lobes_follow_ggx_everywhere(void **state) {
     (void)state;
     for (int i = 0; i < check_count(60, 500); i++) {
         const double root = check_random_between(0.1, 1), roughness = check_random_between(0.1, 1);
-        const surface s = { roughness * roughness, acos(root * root), 1, 1, 0 };
+        const oracle_gltf s = { roughness * roughness, acos(root * root), 1, 1, 0 };
         const double a = fmax(0.1, 2 * s.alpha) / (1 + s.alpha);
         const cap_grid caps = { a, fmin(a + 3 * s.alpha, PI / 2), 8, 6, -sin(a) };
         const apart d = compare(&s, &caps, true);
