@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const size_t obj_size = split ? (size_t)(split - text) : size;
     source_set sources = { .subject = "input", .folder = "/nonexistent" };
     scene_builder builder = { 0 };
-    texture_files files = { .sources = &sources, .builder = &builder };
+    texture_files files = { .sources = &sources, .images.builder = &builder };
     mtl_names names = { .items = NULL };
     cli_error error = { "" };
     if (obj_add(text, obj_size, &sources, &builder, &error))
@@ -20,7 +20,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         mtl_add(split + 4, size - obj_size - 4, &files, &names, &error);
     mtl_sort(&names);
     mtl_names_free(&names);
-    free(files.names);
+    free(files.images.items);
     builder_free(&builder);
     sources_free(&sources);
     return 0;

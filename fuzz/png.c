@@ -1,13 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /* Images to be compared: .png. */
 #include "app/image/png.h"
-#include "fuzz/file.h"
+#include "fuzz/png.h"
+
+#include <math.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    const image_source source = { "input", data, size, 1 << 22 };
+    const fuzz_png png = fuzz_png_make(data, size);
+    const image_source source = { "input", png.bytes, png.size, 1 << 16 };
     image pixels;
     cli_error error;
-    if (image_decode_png(&source, &pixels, &error))
+    if (png.bytes && image_decode_png(&source, &pixels, &error)) {
+        for (size_t i = 0; i < 3 * (size_t)pixels.width * (size_t)pixels.height; i++)
+            if (!(pixels.rgb[i] >= 0 && pixels.rgb[i] <= 1))
+                abort();
         image_free(&pixels);
+    }
+    free(png.bytes);
     return 0;
 }

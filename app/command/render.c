@@ -223,7 +223,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
     cJSON_AddStringToObject(stats, "method", method_table[o->method].name);
-    cJSON_AddStringToObject(stats, "window", lmp_sh_window_name(o->window));
+    cJSON_AddStringToObject(stats, "window", lmp_sh_window_name((lmp_window)o->window));
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
     cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);

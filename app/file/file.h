@@ -69,6 +69,9 @@ void file_write_abort(file_writer *writer);
 /* The same with an error: why the stream failed, or else `what` went wrong. Returns false. */
 bool file_write_fail(file_writer *writer, const char *what, cli_error *error);
 
+/* For handlers of signals that end the program. */
+void file_remove_temporaries(void);
+
 /* All of it at once. */
 bool file_write_whole(const char *path, const void *data, size_t size, cli_error *error);
 

@@ -18,10 +18,14 @@
 static char pending_path[PENDING_MAX][PATH_SIZE];
 static volatile sig_atomic_t pending_used[PENDING_MAX];
 
-static void remove_pending(int number) {
+void file_remove_temporaries(void) {
     for (int i = 0; i < PENDING_MAX; i++)
         if (pending_used[i])
             unlink(pending_path[i]);
+}
+
+static void remove_pending(int number) {
+    file_remove_temporaries();
     signal(number, SIG_DFL);
     raise(number);
 }

@@ -15,6 +15,13 @@ void gpu_present(gpu_renderer *r, unsigned framebuffer, const image_display *dis
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/* Whether all that was drawn for the image had room. */
+static bool check_memory(const gpu_renderer *r, cli_error *error) {
+    return glGetError() != GL_OUT_OF_MEMORY ||
+           cli_fail(error, NULL, "%s has no memory for an image of %d x %d", r->context.device,
+                    r->width, r->height);
+}
+
 bool gpu_read_rgb8(gpu_renderer *r, const image_display *display, unsigned char *rgb8,
                    gpu_times *times, cli_error *error) {
     if (times)
@@ -31,7 +38,7 @@ bool gpu_read_rgb8(gpu_renderer *r, const image_display *display, unsigned char 
                         r->height);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(r->ldr, 0, GL_RGB, GL_UNSIGNED_BYTE, (GLsizei)size, rgb8);
-    return true;
+    return check_memory(r, error);
 }
 
 bool gpu_read_image(gpu_renderer *r, image *pixels, cli_error *error) {
@@ -45,5 +52,8 @@ bool gpu_read_image(gpu_renderer *r, image *pixels, cli_error *error) {
     }
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(r->hdr, 0, GL_RGB, GL_FLOAT, (GLsizei)size, pixels->rgb);
-    return true;
+    if (check_memory(r, error))
+        return true;
+    image_free(pixels);
+    return false;
 }

@@ -8,6 +8,13 @@
 
 #include <epoxy/gl.h>
 
+/* --- crash.c ------------------------------------------------------------------------------------
+ */
+
+/* Where the address space is limited, a crash of the driver becomes a line and an end: drivers do
+ * not ask whether they were given the memory that they then use. */
+void gpu_expect_crashes(void);
+
 /* --- program.c: shaders -------------------------------------------------------------------------
  */
 

@@ -2,6 +2,7 @@
 /* Preintegrated BRDFs for shaders/preintegrated_brdf.glsl: all slices in one texture, all numbers
  * in one buffer. */
 #include "app/gpu/internal.h"
+#include "app/gpu/shelves.h"
 
 #include "shaders/preintegrated_lookup.h"
 
@@ -33,7 +34,7 @@ void gpu_set_responses(gpu_renderer *r, const lmp_preintegrated_brdf *const *res
 typedef struct placement {
     const lmp_preintegrated_brdf_slice *slice;
     const int16_t *texels;
-    GLint x, y;
+    gpu_corner corner;
     size_t number; /* of its numbers in the buffer */
 } placement;
 
@@ -44,24 +45,14 @@ static int taller_first(const void *a, const void *b) {
     return p->number > q->number ? 1 : -1;
 }
 
-/* From left to right, on shelves from the top, so that a shelf's slices are about as tall; returns
- * the height. */
+/* On shelves of slices about as tall; returns the height. */
 static GLsizei lay_out(placement *placements, size_t count) {
-    GLint x = 0, top = 0, bottom = 0;
+    gpu_shelves shelves = { .width = ATLAS_WIDTH };
     qsort(placements, count, sizeof *placements, taller_first);
-    for (size_t i = 0; i < count; i++) {
-        const GLint columns = (GLint)placements[i].slice->columns,
-                    rows = (GLint)placements[i].slice->rows;
-        if (x + columns > ATLAS_WIDTH) {
-            x = 0;
-            top = bottom;
-        }
-        placements[i].x = x;
-        placements[i].y = top;
-        x += columns;
-        bottom = top + rows > bottom ? top + rows : bottom;
-    }
-    return bottom;
+    for (size_t i = 0; i < count; i++)
+        placements[i].corner = gpu_shelves_put(&shelves, (int)placements[i].slice->columns,
+                                               (int)placements[i].slice->rows);
+    return shelves.bottom;
 }
 
 /* --- numbers ------------------------------------------------------------------------------------
@@ -103,8 +94,8 @@ static float *write_header(const lmp_preintegrated_brdf_info *info, float *to) {
 static void write_slices(const placement *placements, size_t count, float *numbers) {
     for (size_t i = 0; i < count; i++) {
         const lmp_preintegrated_brdf_slice *s = placements[i].slice;
-        const float values[] = { [LMP_LOOKUP_CORNER_X] = (float)placements[i].x,
-                                 [LMP_LOOKUP_CORNER_Y] = (float)placements[i].y,
+        const float values[] = { [LMP_LOOKUP_CORNER_X] = (float)placements[i].corner.x,
+                                 [LMP_LOOKUP_CORNER_Y] = (float)placements[i].corner.y,
                                  [LMP_LOOKUP_ROWS] = (float)s->rows,
                                  [LMP_LOOKUP_COLUMNS] = (float)s->columns,
                                  [LMP_LOOKUP_ROW_DENSITY] = s->row_density,
@@ -133,7 +124,7 @@ static bool upload_texels(gpu_renderer *r, const placement *placements, size_t c
     glTextureParameteri(r->brdf_texels, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (size_t i = 0; i < count; i++)
-        glTextureSubImage2D(r->brdf_texels, 0, placements[i].x, placements[i].y,
+        glTextureSubImage2D(r->brdf_texels, 0, placements[i].corner.x, placements[i].corner.y,
                             (GLsizei)placements[i].slice->columns,
                             (GLsizei)placements[i].slice->rows, GL_RGB, GL_SHORT,
                             placements[i].texels);
@@ -141,7 +132,7 @@ static bool upload_texels(gpu_renderer *r, const placement *placements, size_t c
 }
 
 /* Every BRDF's numbers, and the slices that are to be placed. */
-static void gather(const gpu_renderer *r, placement *placements, float *numbers) {
+static void list_slices(const gpu_renderer *r, placement *placements, float *numbers) {
     float *to = numbers + GPU_TABLES_MAX;
     for (int t = 0; t < r->table_count; t++) {
         if (!r->responses[t])
@@ -169,7 +160,7 @@ static bool upload(gpu_renderer *r, cli_error *error) {
     float *numbers = calloc(count, sizeof *numbers);
     bool ok = placements && numbers;
     if (ok) {
-        gather(r, placements, numbers);
+        list_slices(r, placements, numbers);
         const GLsizei height = lay_out(placements, slices);
         write_slices(placements, slices, numbers);
         ok = upload_texels(r, placements, slices, height, error);

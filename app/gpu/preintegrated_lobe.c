@@ -2,6 +2,7 @@
 /* A preintegrated lobe for shaders/preintegrated_lobe.glsl: its cells side by side in one texture.
  */
 #include "app/gpu/internal.h"
+#include "app/gpu/shelves.h"
 
 #include "shaders/preintegrated_lookup.h"
 
@@ -12,28 +13,16 @@ enum { ATLAS_WIDTH = 2048 };
 static_assert(SHARED_PREINTEGRATED_LOBE_REMAP == LMP_LOOKUP_REMAP_COUNT,
               "the block holds the remap");
 
-/* Where a cell's first pair lies. */
-typedef struct corner {
-    GLint x, y;
-} corner;
-
-/* Cells from left to right, on shelves from the top; returns the height. */
-static GLsizei place_cells(const lmp_preintegrated_lobe_info *info, corner *corners) {
-    GLint x = 0, top = 0, bottom = 0;
-    for (uint32_t i = 0; i < info->cell_count; i++) {
-        const GLint columns = (GLint)info->cells[i].columns, rows = (GLint)info->cells[i].rows;
-        if (x + columns > ATLAS_WIDTH) {
-            x = 0;
-            top = bottom;
-        }
-        corners[i] = (corner) { x, top };
-        x += columns;
-        bottom = top + rows > bottom ? top + rows : bottom;
-    }
-    return bottom;
+/* Where each cell's first pair lies; returns the height. */
+static GLsizei lay_out(const lmp_preintegrated_lobe_info *info, gpu_corner *corners) {
+    gpu_shelves shelves = { .width = ATLAS_WIDTH };
+    for (uint32_t i = 0; i < info->cell_count; i++)
+        corners[i] =
+            gpu_shelves_put(&shelves, (int)info->cells[i].columns, (int)info->cells[i].rows);
+    return shelves.bottom;
 }
 
-static void upload_cells(const lmp_preintegrated_lobe_info *info, const corner *corners,
+static void upload_cells(const lmp_preintegrated_lobe_info *info, const gpu_corner *corners,
                          GLsizei height, GLuint *texture) {
     glDeleteTextures(1, texture);
     glCreateTextures(GL_TEXTURE_2D, 1, texture);
@@ -47,7 +36,7 @@ static void upload_cells(const lmp_preintegrated_lobe_info *info, const corner *
                             GL_SHORT, info->coefficients + 2 * (size_t)info->cells[i].first);
 }
 
-static void upload_block(const lmp_preintegrated_lobe_info *info, const corner *corners,
+static void upload_block(const lmp_preintegrated_lobe_info *info, const gpu_corner *corners,
                          GLsizei height, GLuint *buffer) {
     shared_preintegrated_lobe block = { .shape = { info->width2, (float)info->cell_count,
                                                    1.0f / ATLAS_WIDTH, 1 / (float)height } };
@@ -68,11 +57,11 @@ bool gpu_bind_preintegrated_lobe(gpu_renderer *r, const lmp_preintegrated_lobe *
     const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
     if (r->response != lobe || r->response_bands != info.bands ||
         r->response_window != info.window) {
-        corner corners[SHARED_PREINTEGRATED_LOBE_CELLS];
+        gpu_corner corners[SHARED_PREINTEGRATED_LOBE_CELLS];
         if (info.cell_count > SHARED_PREINTEGRATED_LOBE_CELLS)
             return cli_fail(error, NULL, "a preintegrated lobe of %u cells: the shaders take %d",
                             info.cell_count, SHARED_PREINTEGRATED_LOBE_CELLS);
-        const GLsizei height = place_cells(&info, corners);
+        const GLsizei height = lay_out(&info, corners);
         upload_cells(&info, corners, height, &r->response_pairs);
         upload_block(&info, corners, height, &r->response_block);
         r->response = lobe;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/material/material.h"
 
+#include "app/material/sgd_file.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -91,58 +93,12 @@ static bool open_ggx(const char *name, const char *text, material *m, cli_error 
 /* --- SGD ----------------------------------------------------------------------------------------
  */
 
-enum { SGD_NUMBERS = 33 };
-
-/* The numbers of one line of a table: material, alias, then three of each parameter. */
-static bool read_sgd_row(const char *line, lmp_sgd *sgd) {
-    double *const parameters[11] = { sgd->rho_d, sgd->rho_s, sgd->alpha, sgd->p,
-                                     sgd->f0,    sgd->f1,    sgd->k_ap,  sgd->lambda,
-                                     sgd->c,     sgd->k,     sgd->theta0 };
-    const char *at = line;
-    for (int i = 0; i < 2; i++) {
-        at = strchr(at, ',');
-        if (!at)
-            return false;
-        at++;
-    }
-    for (int i = 0; i < SGD_NUMBERS; i++) {
-        const size_t length = strcspn(at, ",\r\n");
-        if (!cli_number(at, length, &parameters[i / 3][i % 3]))
-            return false;
-        at += length + (at[length] == ',');
-    }
-    return true;
-}
-
-/* Whether one of the first two cells of a line is `name`. */
-static bool is_row_of(const char *line, const char *name) {
-    const size_t length = strlen(name);
-    for (int i = 0; i < 2; i++) {
-        const size_t cell = strcspn(line, ",\r\n");
-        if (cell == length && memcmp(line, name, length) == 0)
-            return true;
-        if (line[cell] != ',')
-            return false;
-        line += cell + 1;
-    }
-    return false;
-}
-
 static bool find_sgd_in_file(const char *path, const char *name, lmp_sgd *sgd, cli_error *error) {
     void *data = NULL;
     size_t size = 0;
     if (!file_read(path, 1 << 24, &data, &size, error))
         return false;
-    const char *line = data;
-    while (*line && !is_row_of(line, name)) {
-        line += strcspn(line, "\n");
-        line += *line == '\n';
-    }
-    bool ok = true;
-    if (!*line)
-        ok = cli_fail(error, path, "no material %s in this table", name);
-    else if (!read_sgd_row(line, sgd))
-        ok = cli_fail(error, path, "the row of %s has not 33 numbers after its names", name);
+    const bool ok = sgd_file_find(data, name, path, sgd, error);
     free(data);
     return ok;
 }

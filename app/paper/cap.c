@@ -5,7 +5,6 @@
 
 #include <lampion/light.h>
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,9 +13,10 @@ static bool draw_geometry(const char *file, cli_error *error) {
     const double unit = 110, distance = 330, radius = 120, x = 150, y = 170;
     const double a = asin(radius / distance), reach = sqrt(distance * distance - radius * radius);
     const double tx = reach * cos(a), ty = reach * sin(a), cx = unit * cos(a), cy = unit * sin(a);
-    FILE *svg = fopen(file, "w");
-    if (!svg)
-        return cli_fail(error, file, "%s", strerror(errno));
+    file_writer writer;
+    if (!file_write_begin(&writer, file, error))
+        return false;
+    FILE *const svg = writer.stream;
     fprintf(svg,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 640 340\" width=\"640\" "
             "height=\"340\" font-family=\"system-ui,sans-serif\" font-size=\"17\">\n"
@@ -40,7 +40,7 @@ static bool draw_geometry(const char *file, cli_error *error) {
             "<text x=\"%.1f\" y=\"%.1f\" fill=\"#555\">sin a = r/d</text>\n</svg>\n",
             x - 16, y + 6, x + 190, y + 20, x + tx + 22, y - ty / 2, x + cx + 6, y - cy - 4, x + 52,
             y - 6, 20.0, 30.0);
-    return fclose(svg) == 0 || cli_fail(error, file, "cannot be written");
+    return file_write_commit(&writer, error);
 }
 
 /* Ways to the zonal coefficients in float32. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/page.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -92,28 +91,43 @@ void page_image(paper_page *page, const char *file, const char *caption) {
 /* --- tables -------------------------------------------------------------------------------------
  */
 
+/* A cell of a CSV file (RFC 4180). */
+static void put_cell(FILE *csv, const char *cell, size_t length) {
+    if (!memchr(cell, ',', length)) {
+        fwrite(cell, 1, length, csv);
+        return;
+    }
+    fputc('"', csv);
+    for (size_t i = 0; i < length; i++) {
+        if (cell[i] == '"')
+            fputc('"', csv);
+        fputc(cell[i], csv);
+    }
+    fputc('"', csv);
+}
+
 static void put_row(page_table *table, const char *cells, const char *tag) {
-    FILE *html = table->page->html;
-    fprintf(html, "<tr><%s>", tag);
-    for (const char *c = cells; *c; c++)
-        if (*c == '|') {
-            fprintf(html, "</%s><%s>", tag, tag);
-            fputc(',', table->csv);
-        } else {
-            fputc(*c, html);
-            fputc(*c == ',' ? ';' : *c, table->csv);
-        }
-    fprintf(html, "</%s></tr>\n", tag);
-    fputc('\n', table->csv);
+    FILE *const html = table->page->html, *const csv = table->csv.stream;
+    fprintf(html, "<tr>");
+    for (const char *cell = cells;; cell++) {
+        const size_t length = strcspn(cell, "|");
+        fprintf(html, "<%s>%.*s</%s>", tag, (int)length, cell, tag);
+        put_cell(csv, cell, length);
+        cell += length;
+        if (!*cell)
+            break;
+        fputc(',', csv);
+    }
+    fprintf(html, "</tr>\n");
+    fputc('\n', csv);
 }
 
 bool page_table_begin(paper_page *page, page_table *table, const char *file, const char *heads,
                       cli_error *error) {
     table->page = page;
     snprintf(table->file, sizeof table->file, "%s.csv", file);
-    table->csv = fopen(table->file, "w");
-    if (!table->csv)
-        return cli_fail(error, table->file, "%s", strerror(errno));
+    if (!file_write_begin(&table->csv, table->file, error))
+        return false;
     fputs("<div class=\"wide\"><table>\n", page->html);
     put_row(table, heads, "th");
     return true;
@@ -129,10 +143,7 @@ void page_table_row(page_table *table, const char *format, ...) {
 }
 
 bool page_table_end(page_table *table, cli_error *error) {
-    const bool failed = ferror(table->csv) != 0;
     fprintf(table->page->html, "</table></div>\n<p><a href=\"%s\">%s</a></p>\n", table->file,
             table->file);
-    if (fclose(table->csv) != 0 || failed)
-        return cli_fail(error, table->file, "cannot be written");
-    return true;
+    return file_write_commit(&table->csv, error);
 }

@@ -3,9 +3,7 @@
 #ifndef LAMPION_PAPER_PAGE_H
 #define LAMPION_PAPER_PAGE_H
 
-#include "app/cli/cli.h"
-
-#include <stdio.h>
+#include "app/file/file.h"
 
 /* Files are written into the working directory, beside the page. */
 typedef struct paper_page {
@@ -28,7 +26,7 @@ void page_image(paper_page *page, const char *file, const char *caption);
 /* A table, written to FILE.csv too. Cells are separated by '|'. */
 typedef struct page_table {
     paper_page *page;
-    FILE *csv;
+    file_writer csv;
     char file[64];
 } page_table;
 bool page_table_begin(paper_page *page, page_table *table, const char *file, const char *heads,

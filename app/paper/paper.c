@@ -123,14 +123,12 @@ bool paper_write(const paper_options *options, int *failures, cli_error *error) 
         return cli_fail(error, options->directory, "cannot be created: %s", strerror(errno));
     if (chdir(options->directory) != 0)
         return cli_fail(error, options->directory, "is no folder: %s", strerror(errno));
-    p.page.html = fopen("index.html.part", "w");
-    if (!p.page.html)
-        return cli_fail(error, "index.html", "cannot be written: %s", strerror(errno));
+    file_writer page;
+    if (!file_write_begin(&page, "index.html", error))
+        return false;
+    p.page.html = page.stream;
     introduce(&p);
     run_steps(&p, failures);
     page_end(&p.page);
-    const bool failed = ferror(p.page.html) != 0;
-    if (fclose(p.page.html) != 0 || failed || rename("index.html.part", "index.html") != 0)
-        return cli_fail(error, "index.html", "cannot be written");
-    return true;
+    return file_write_commit(&page, error);
 }

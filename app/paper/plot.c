@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/paper/page.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -147,14 +146,11 @@ static bool write_file(const page_plot *plot, const char *extension,
                        void (*put)(FILE *, const page_plot *), cli_error *error) {
     char path[80];
     snprintf(path, sizeof path, "%s.%s", plot->file, extension);
-    FILE *file = fopen(path, "w");
-    if (!file)
-        return cli_fail(error, path, "%s", strerror(errno));
-    put(file, plot);
-    const bool failed = ferror(file) != 0;
-    if (fclose(file) != 0 || failed)
-        return cli_fail(error, path, "cannot be written");
-    return true;
+    file_writer file;
+    if (!file_write_begin(&file, path, error))
+        return false;
+    put(file.stream, plot);
+    return file_write_commit(&file, error);
 }
 
 bool page_plot_write(paper_page *page, const page_plot *plot, cli_error *error) {

@@ -38,14 +38,7 @@ static void put_lantern(court_plan *court, lmp_vec3 center, float radius, float 
 static void add_light(court_plan *court, lmp_vec3 center, float radius, float power,
                       float warm_fraction) {
     const lmp_rgb color = builtin_light_color(&court->random, warm_fraction);
-    scene_light *light = builder_append(court->shaper.builder, BLOB_LIGHTS, 1);
-    if (!light)
-        return;
-    light->emitter = (lmp_light) {
-        .position = center,
-        .radius = radius,
-        .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)),
-    };
+    builder_sphere_light(court->shaper.builder, center, radius, color, power);
 }
 
 /* One over the court: down its length, left, middle, right, at changing heights. */

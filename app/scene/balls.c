@@ -21,18 +21,6 @@ static uint32_t add_material(scene_builder *builder, const char *name, float r, 
     return index;
 }
 
-static void add_light(scene_builder *builder, lmp_vec3 center, float radius, lmp_rgb color,
-                      float power) {
-    scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
-    if (!light)
-        return;
-    light->emitter = (lmp_light) {
-        .position = center,
-        .radius = radius,
-        .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)),
-    };
-}
-
 static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, float fov,
                        float aspect) {
     scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
@@ -98,11 +86,16 @@ void builtin_balls(const builtin_parameters *parameters, scene_builder *builder)
         turn_sphere(&shaper, vec(x + 0.62f, 0.36f, 1.35f), 0.36f, 96);
     }
     shaper_finish(&shaper);
-    add_light(builder, vec(-3.9f, 2.5f, 0.6f), 0.42f, (lmp_rgb) { 1.0f, 0.56f, 0.20f }, 190.0f);
-    add_light(builder, vec(-1.5f, 2.1f, -1.6f), 0.30f, (lmp_rgb) { 1.0f, 0.16f, 0.34f }, 110.0f);
-    add_light(builder, vec(0.6f, 5.4f, 2.6f), 0.50f, (lmp_rgb) { 1.0f, 0.90f, 0.76f }, 330.0f);
-    add_light(builder, vec(1.7f, 1.9f, -1.9f), 0.30f, (lmp_rgb) { 0.14f, 1.0f, 0.55f }, 100.0f);
-    add_light(builder, vec(4.1f, 2.4f, 0.4f), 0.42f, (lmp_rgb) { 0.12f, 0.45f, 1.0f }, 190.0f);
+    builder_sphere_light(builder, vec(-3.9f, 2.5f, 0.6f), 0.42f, (lmp_rgb) { 1.0f, 0.56f, 0.20f },
+                         190.0f);
+    builder_sphere_light(builder, vec(-1.5f, 2.1f, -1.6f), 0.30f, (lmp_rgb) { 1.0f, 0.16f, 0.34f },
+                         110.0f);
+    builder_sphere_light(builder, vec(0.6f, 5.4f, 2.6f), 0.50f, (lmp_rgb) { 1.0f, 0.90f, 0.76f },
+                         330.0f);
+    builder_sphere_light(builder, vec(1.7f, 1.9f, -1.9f), 0.30f, (lmp_rgb) { 0.14f, 1.0f, 0.55f },
+                         100.0f);
+    builder_sphere_light(builder, vec(4.1f, 2.4f, 0.4f), 0.42f, (lmp_rgb) { 0.12f, 0.45f, 1.0f },
+                         190.0f);
     add_camera(builder, vec(0.0f, 2.1f, 8.4f), vec(0.1f, 0.72f, 0.0f), 0.66f, 1.99f);
 }
 
@@ -129,7 +122,7 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) 
         const lmp_vec3 center = vec(ring * sinf(angle), height, 0.9f + ring * cosf(angle) * 0.8f);
         const float warm = 0.5f - 0.5f * center.x / ring;
         const lmp_rgb color = { 0.45f + 0.55f * warm, 0.62f + 0.06f * warm, 1.0f - 0.62f * warm };
-        add_light(builder, center, 0.13f, color, 34.0f);
+        builder_sphere_light(builder, center, 0.13f, color, 34.0f);
     }
     add_camera(builder, vec(0.0f, 1.75f, 6.6f), vec(0.0f, 1.12f, 0.0f), 0.50f, 0.735f);
 }

@@ -2,6 +2,7 @@
 #include "app/scene/builder.h"
 
 #include "app/scene/name.h"
+#include "app/scene/vector.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -63,6 +64,18 @@ scene_material *builder_material(scene_builder *builder, const char *name) {
     };
     scene_clean_name(material->name, name);
     return material;
+}
+
+void builder_sphere_light(scene_builder *builder, lmp_vec3 center, float radius, lmp_rgb color,
+                          float power) {
+    scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
+    if (!light)
+        return;
+    light->emitter = (lmp_light) {
+        .position = center,
+        .radius = radius,
+        .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)),
+    };
 }
 
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index) {

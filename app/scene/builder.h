@@ -31,6 +31,10 @@ scene_material *builder_material(scene_builder *builder, const char *name);
  * none. */
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index);
 
+/* Appends a sphere light of that power, in watts, times the color. */
+void builder_sphere_light(scene_builder *builder, lmp_vec3 center, float radius, lmp_rgb color,
+                          float power);
+
 /* Notes that `count` of `noun` (in the singular) are read without something that they have, or,
  * with `what` NULL, not at all. */
 #define BUILDER_MISSING_FILE "missing file"

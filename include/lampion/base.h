@@ -8,9 +8,15 @@
  *   - Strides are in bytes, from one element to the next, and multiples of sizeof(float). 0 repeats
  *     the same element where that is of use (lmp_vec3_array, lmp_float_array, materials); elsewhere
  *     (coefficients, images, results) it means tight.
- *   - Pure mathematics returns void or a value, allocates nothing and asserts its preconditions.
- *     What touches the heap or untrusted bytes returns lmp_result and sets its out-parameter to
- *     NULL on failure. Nothing prints, nothing exits.
+ *   - Pure mathematics returns void or a value and allocates nothing. What allocates or reads
+ *     untrusted bytes returns lmp_result and sets its out-parameter to NULL on failure. Nothing
+ *     prints, nothing exits.
+ *   - What a comment asks of arguments (ranges, unit and finite vectors, arrays that do not
+ *     overlap) is asserted where the library was built without NDEBUG. A release build trusts its
+ *     caller, and still: finite numbers give finite ones; NaN gives NaN where it matters, or the
+ *     least of a range that a number is clamped to; and no float, in range or not, makes it read or
+ *     write outside the arrays that bands, counts and strides describe. Those it cannot check.
+ *   - Arrays whose count is 0 may be NULL.
  *   - Degenerate geometry (a light that contains the point, d = 0, a zero radius) is no error: its
  *     result is documented, finite and continuous.
  *   - Every function is re-entrant; the library starts no thread and keeps no state but the table
@@ -46,6 +52,9 @@ extern "C" {
 /* Every function takes 1 to LMP_BANDS_MAX bands. */
 #define LMP_BANDS_MAX 128
 
+/* What a unit vector's squared length may differ from 1 by. */
+#define LMP_UNIT_TOLERANCE 1e-3f
+
 /* A point or a direction, right-handed. Directions are unit and point away from the shaded point.
  */
 typedef struct lmp_vec3 {
@@ -73,9 +82,14 @@ typedef struct lmp_float_array {
     size_t stride;
 } lmp_float_array;
 
-/* An array of lmp_vec3, and one vector for every element. */
+/* An array of lmp_vec3 (NULL where there are none), and one vector for every element. */
 static inline lmp_vec3_array lmp_vec3_array_of(const lmp_vec3 *vectors) {
-    const lmp_vec3_array array = { &vectors->x, &vectors->y, &vectors->z, sizeof *vectors };
+    lmp_vec3_array array = { NULL, NULL, NULL, sizeof(lmp_vec3) };
+    if (vectors) {
+        array.x = &vectors->x;
+        array.y = &vectors->y;
+        array.z = &vectors->z;
+    }
     return array;
 }
 static inline lmp_vec3_array lmp_vec3_array_same(const lmp_vec3 *vector) {

@@ -136,11 +136,18 @@ typedef struct lmp_spheres {
     lmp_vec3_array radiance; /* red, green, blue */
 } lmp_spheres;
 static inline lmp_spheres lmp_spheres_of(const lmp_light *lights) {
-    const lmp_spheres spheres = {
-        { &lights->position.x, &lights->position.y, &lights->position.z, sizeof *lights },
-        { &lights->radius, sizeof *lights },
-        { &lights->radiance.r, &lights->radiance.g, &lights->radiance.b, sizeof *lights }
-    };
+    lmp_spheres spheres = { { NULL, NULL, NULL, sizeof(lmp_light) },
+                            { NULL, sizeof(lmp_light) },
+                            { NULL, NULL, NULL, sizeof(lmp_light) } };
+    if (lights) {
+        spheres.center.x = &lights->position.x;
+        spheres.center.y = &lights->position.y;
+        spheres.center.z = &lights->position.z;
+        spheres.radius.at = &lights->radius;
+        spheres.radiance.x = &lights->radiance.r;
+        spheres.radiance.y = &lights->radiance.g;
+        spheres.radiance.z = &lights->radiance.b;
+    }
     return spheres;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/brdf/brdf.h"
 
+#include <float.h>
 #include <math.h>
 
 lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, lmp_brdf **brdf) {
@@ -41,8 +42,8 @@ void lmp_brdf_half(const double a[3], const double b[3], double h[3]) {
 
 void lmp_brdf_eval_double(const lmp_brdf *brdf, const double wi[3], const double wo[3],
                           double rgb[3]) {
-    rgb[0] = rgb[1] = rgb[2] = 0;
     const double i2 = brdf_dot(wi, wi), o2 = brdf_dot(wo, wo);
+    rgb[0] = rgb[1] = rgb[2] = isnan(i2 + o2) ? i2 + o2 : 0;
     if (!(wi[2] > 0 && wo[2] > 0 && isfinite(i2) && isfinite(o2)))
         return;
     double a[3], b[3];
@@ -54,10 +55,15 @@ void lmp_brdf_eval_double(const lmp_brdf *brdf, const double wi[3], const double
         brdf->eval(brdf, a, b, rgb);
 }
 
+/* Near the horizon a value may be finite, but not as a float. */
+static float narrow(double value) {
+    return value > (double)FLT_MAX ? FLT_MAX : (float)value;
+}
+
 lmp_rgb lmp_brdf_eval(const lmp_brdf *brdf, lmp_vec3 wi, lmp_vec3 wo) {
     const double a[3] = { (double)wi.x, (double)wi.y, (double)wi.z };
     const double b[3] = { (double)wo.x, (double)wo.y, (double)wo.z };
     double rgb[3];
     lmp_brdf_eval_double(brdf, a, b, rgb);
-    return (lmp_rgb) { (float)rgb[0], (float)rgb[1], (float)rgb[2] };
+    return (lmp_rgb) { narrow(rgb[0]), narrow(rgb[1]), narrow(rgb[2]) };
 }

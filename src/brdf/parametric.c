@@ -72,10 +72,10 @@ lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectance, floa
 /* --- GGX ---------------------------------------------------------------------------------------
  */
 
-/* Smith's Λ for GGX: masking of direction w. */
-static double smith_lambda(const brdf_ggx *ggx, const double w[3]) {
+/* w.z (1 + 2 Λ), Smith's Λ for GGX the masking of direction w. */
+static double smith_root(const brdf_ggx *ggx, const double w[3]) {
     const double x = ggx->alpha_x * w[0], y = ggx->alpha_y * w[1];
-    return (sqrt(1 + (x * x + y * y) / (w[2] * w[2])) - 1) / 2;
+    return sqrt(w[2] * w[2] + x * x + y * y);
 }
 
 static void eval_ggx(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
@@ -84,11 +84,12 @@ static void eval_ggx(const lmp_brdf *brdf, const double a[3], const double b[3],
     lmp_brdf_half(a, b, h);
     const double x = h[0] / ggx->alpha_x, y = h[1] / ggx->alpha_y, s = x * x + y * y + h[2] * h[2];
     const double d = 1 / (BRDF_PI * ggx->alpha_x * ggx->alpha_y * s * s);
-    const double g = 1 / (1 + smith_lambda(ggx, a) + smith_lambda(ggx, b));
+    /* 1 / (1 + Λ(a) + Λ(b)) / (4 a.z b.z), which goes to infinity at the horizon */
+    const double g = 0.5 / fmax(a[2] * smith_root(ggx, b) + b[2] * smith_root(ggx, a), 1e-290);
     const double u = fmax(0, 1 - brdf_dot(a, h)), u5 = u * u * u * u * u;
     for (int c = 0; c < 3; c++) {
         const double f = ggx->f0[c] + (1 - ggx->f0[c]) * u5;
-        rgb[c] = ggx->diffuse[c] / BRDF_PI + f * d * g / (4 * a[2] * b[2]);
+        rgb[c] = ggx->diffuse[c] / BRDF_PI + f * d * g;
     }
 }
 

@@ -2,6 +2,7 @@
 #include "src/brdf/table.h"
 #include "src/brdf/quadrature.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -351,7 +352,12 @@ size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, floa
     const lmp_brdf_table_info *info = &table->info;
     const float theta = acosf(fminf(fmaxf(cos_theta_o, 0), 1));
     const band_part part = part_of(info, low, high);
-    memset(rgb, 0, 3 * part.count * sizeof *rgb);
+    const bool has_place = !isnan(cos_theta_o) && (info->azimuths == 1 || isfinite(phi_o));
+    assert(has_place);
+    for (size_t i = 0; i < 3 * part.count; i++)
+        rgb[i] = has_place ? 0 : NAN;
+    if (!has_place)
+        return part.count;
     if (info->azimuths == 1) {
         add_azimuth(table, part, theta, 0, 1, rgb);
         return part.count;

@@ -5,7 +5,6 @@
 
 #include "src/kernels/kernels.h"
 
-#include <assert.h>
 #include <string.h>
 
 /* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. */
@@ -46,7 +45,6 @@ static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, siz
 
 /* A caller's stride, in bytes and 0 for tight, as the kernels': in floats. */
 static inline size_t lmp_batch_stride(size_t stride, size_t tight) {
-    assert(stride % sizeof(float) == 0);
     return stride ? stride / sizeof(float) : tight;
 }
 

@@ -3,11 +3,10 @@
 #ifndef LAMPION_LIGHT_CAP_H
 #define LAMPION_LIGHT_CAP_H
 
+#include "src/base/precondition.h"
 #include "src/base/tables.h"
 
 #include <lampion/light.h>
-
-#include <stdbool.h>
 
 /* A sphere from a point. Outside sin²a = r²/d², inside d²/r². */
 typedef struct lmp_sight {
@@ -19,6 +18,23 @@ typedef struct lmp_sight {
 
 void lmp_sight_distance(float radius, float distance, lmp_sight *sight);
 void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *sight);
+
+/* A length, and a point, whose squares are still float32. */
+static inline bool lmp_is_length(float x) {
+    return x >= 0 && x <= LMP_LENGTH_MAX;
+}
+static inline bool lmp_is_point(lmp_vec3 p) {
+    return lmp_is_length(fabsf(p.x)) && lmp_is_length(fabsf(p.y)) && lmp_is_length(fabsf(p.z));
+}
+
+static inline bool lmp_are_spheres(const lmp_spheres *spheres, size_t count) {
+    return lmp_are_finite(spheres->center, count) &&
+           lmp_are_within(spheres->radius, count, 0, LMP_LENGTH_MAX);
+}
+
+/* Whether the members that the light's kind names are in their ranges (light.h). */
+bool lmp_is_light(const lmp_light *light);
+bool lmp_are_lights(const lmp_light *lights, size_t count);
 
 /* Adds the coefficients of bands low … high-1 to three planes, red, green, blue, of as many values.
  */

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* A sphere light in double: lmp_sphere_project, without the tables of floats. */
+#include "src/base/precondition.h"
+
 #include <lampion/light.h>
 
-#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -11,9 +12,9 @@ static void cap_factors(int bands, double radius, double distance, double *facto
     static const double pi = 3.14159265358979323846;
     const bool inside = distance < radius;
     const double near = inside ? distance : radius, far = inside ? radius : distance;
-    const double ratio = far > 0 ? near / far : 0, sin2 = ratio * ratio;
+    const double ratio = far == 0 ? 0 : near / far, sin2 = ratio * ratio;
     /* not sqrt(1 - sin²a), which cancels for touching lights */
-    const double cosine = far > 0 ? sqrt((far - near) / far * ((far + near) / far)) : 1;
+    const double cosine = far == 0 ? 1 : sqrt((far - near) / far * ((far + near) / far));
     const double one_minus_cos = sin2 / (1 + cosine);
     double difference = 0, polynomial = 1; /* the difference form of R_l (tables.h) */
     factors[0] = 2 * pi * (inside ? 1 + cosine : one_minus_cos);
@@ -28,11 +29,11 @@ static void cap_factors(int bands, double radius, double distance, double *facto
 
 void lmp_sphere_project_double(int bands, const double center[3], double radius,
                                const double point[3], double *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX && radius >= 0);
+    assert(lmp_is_bands(bands) && radius >= 0);
     const double v[3] = { center[0] - point[0], center[1] - point[1], center[2] - point[2] };
     const double distance = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     double axis[3] = { 0, 0, 1 }, factors[LMP_BANDS_MAX];
-    for (int i = 0; distance > 0 && i < 3; i++)
+    for (int i = 0; distance != 0 && i < 3; i++)
         axis[i] = v[i] / distance;
     cap_factors(bands, radius, distance, factors);
     lmp_sh_eval_double(bands, axis, sh);

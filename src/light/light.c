@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
 #include "src/light/cap.h"
 #include "src/sh/column.h"
 
 #include <lampion/light.h>
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -37,7 +37,6 @@ static void set_sphere(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
 }
 
 static void set_angle(const lmp_light *light, lmp_cap *cap) {
-    assert(light->angle >= 0 && light->angle <= pi);
     const bool obtuse = light->angle > pi / 2;
     const float half = sinf((obtuse ? pi - light->angle : light->angle) / 2);
     const float one_minus_cos = 2 * half * half;
@@ -72,7 +71,41 @@ static void set_hemisphere(const lmp_light *light, lmp_cap *cap) {
     cap->ambient = ground;
 }
 
+static bool is_color(lmp_rgb color) {
+    return isfinite(color.r) && isfinite(color.g) && isfinite(color.b);
+}
+
+bool lmp_is_light(const lmp_light *light) {
+    const float inner = light->inner, outer = light->outer;
+    if (!is_color(light->radiance))
+        return false;
+    switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+        return lmp_is_point(light->position) && lmp_is_length(light->radius);
+    case LMP_LIGHT_POINT:
+        return lmp_is_point(light->position);
+    case LMP_LIGHT_SPOT:
+        return lmp_is_point(light->position) && lmp_is_unit(light->direction) && inner >= 0 &&
+               inner <= outer && outer <= pi;
+    case LMP_LIGHT_DIRECTIONAL:
+        return lmp_is_unit(light->direction);
+    case LMP_LIGHT_CAP:
+        return lmp_is_unit(light->direction) && light->angle >= 0 && light->angle <= pi;
+    case LMP_LIGHT_HEMISPHERE:
+        return lmp_is_unit(light->direction) && is_color(light->ground);
+    }
+    return false;
+}
+
+bool lmp_are_lights(const lmp_light *lights, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!lmp_is_light(&lights[i]))
+            return false;
+    return true;
+}
+
 void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
+    assert(lmp_is_light(light) && lmp_is_point(point));
     *cap = (lmp_cap) { .axis = light->direction };
     switch (light->kind) {
     case LMP_LIGHT_SPHERE:
@@ -98,7 +131,7 @@ void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
 
 void lmp_light_zonal(int bands, const lmp_light *light, lmp_vec3 point, float *zonal,
                      lmp_vec3 *axis) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     lmp_light unit = *light;
     lmp_cap cap;
     unit.radiance = (lmp_rgb) { 1, 1, 1 };
@@ -143,7 +176,7 @@ void lmp_cap_add(int low, int high, const lmp_cap *cap, float *sh) {
 
 void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                        float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     memset(sh, 0, 3 * LMP_SH_COUNT(bands) * sizeof *sh);
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;

@@ -1,24 +1,23 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
 #include "src/light/cap.h"
 #include "src/sh/column.h"
 
 #include <lampion/light.h>
 
-#include <assert.h>
 #include <math.h>
 
 static const float pi = 3.14159265f;
 
 void lmp_sight_distance(float radius, float distance, lmp_sight *sight) {
-    assert(radius >= 0 && distance >= 0);
     const bool inside = distance < radius;
     const float near = inside ? distance : radius, far = inside ? radius : distance;
-    const float ratio = far > 0 ? near / far : 0;
+    const float ratio = far == 0 ? 0 : near / far;
     sight->distance = distance;
     sight->inside = inside;
     sight->sin2 = ratio * ratio;
     /* not sqrt(1 - sin²a), which cancels for touching lights */
-    sight->cosine = far > 0 ? sqrtf((far - near) / far * ((far + near) / far)) : 1;
+    sight->cosine = far == 0 ? 1 : sqrtf((far - near) / far * ((far + near) / far));
     sight->one_minus_cos = sight->sin2 / (1 + sight->cosine);
 }
 
@@ -26,8 +25,8 @@ void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *
     const lmp_vec3 v = { center.x - point.x, center.y - point.y, center.z - point.z };
     const float distance = sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
     lmp_sight_distance(radius, distance, sight);
-    sight->axis = distance > 0 ? (lmp_vec3) { v.x / distance, v.y / distance, v.z / distance }
-                               : (lmp_vec3) { 0, 0, 1 };
+    sight->axis = distance == 0 ? (lmp_vec3) { 0, 0, 1 }
+                                : (lmp_vec3) { v.x / distance, v.y / distance, v.z / distance };
 }
 
 /* L_lm = factors[l] Y_lm(axis), radiance 1. Inside, cos a < 0: R_l has the parity of l-1, and
@@ -40,7 +39,7 @@ static void sight_factors(int bands, const lmp_sight *sight, float *factors) {
 }
 
 void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_length(radius) && distance >= 0 && isfinite(distance));
     lmp_sight sight;
     lmp_sight_distance(radius, distance, &sight);
     sight_factors(bands, &sight, zonal);
@@ -49,12 +48,13 @@ void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal) {
 }
 
 void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_length(radius));
+    assert(lmp_is_point(center) && lmp_is_point(point));
     float factors[LMP_BANDS_MAX];
     lmp_sight sight;
     lmp_sight_sphere(center, radius, point, &sight);
     sight_factors(bands, &sight, factors);
-    lmp_sh_eval(bands, sight.axis, sh);
+    lmp_sh_values(bands, sight.axis, sh);
     lmp_sh_window_apply(bands, factors, sh, sh);
 }
 
@@ -100,10 +100,12 @@ static void store_gradient(const band_slopes *slopes, int bands, int l, int m, f
 
 void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
                                  float *sh, float *gradient) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_length(radius));
+    assert(lmp_is_point(center) && lmp_is_point(point));
     lmp_sight sight;
     lmp_sight_sphere(center, radius, point, &sight);
     assert(sight.distance > 0 || radius > 0);
+    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), gradient, 3 * LMP_SH_COUNT(bands)));
     float factors[LMP_BANDS_MAX];
     band_slopes slopes;
     sight_factors(bands, &sight, factors);

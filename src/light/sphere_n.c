@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/kernels/batch.h"
+#include "src/light/cap.h"
+#include "src/sh/layout.h"
 
 #include <lampion/light.h>
-
-#include <assert.h>
 
 typedef struct batch_pairs {
     lmp_batch_vec3 center, point;
@@ -12,7 +12,9 @@ typedef struct batch_pairs {
 
 void lmp_sphere_zonal_n(int bands, lmp_float_array radii, lmp_float_array distances, size_t count,
                         lmp_sh_layout layout, size_t stride, float *zonal) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, (size_t)bands, count));
+    assert(lmp_are_within(radii, count, 0, LMP_LENGTH_MAX));
+    assert(lmp_are_within(distances, count, 0, LMP_LENGTH_MAX));
     const lmp_kernels *kernels = lmp_kernels_get();
     lmp_batch_plane radius, distance;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
@@ -37,7 +39,8 @@ static void batch_project(int bands, const batch_pairs *pairs, size_t count,
 
 void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array points,
                           size_t count, lmp_sh_layout layout, size_t stride, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
+    assert(lmp_are_spheres(spheres, count) && lmp_are_finite(points, count));
     batch_pairs pairs;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
@@ -67,8 +70,10 @@ static void batch_pair(const lmp_spheres *spheres, size_t sphere, const lmp_vec3
 void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere_count,
                             lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
                             size_t stride, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
     const size_t count = sphere_count * point_count;
+    assert(lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
     size_t sphere = 0, point = 0;
     /* Zero: the lanes past the last pair are read too. */
     batch_pairs pairs = { 0 };
@@ -90,7 +95,9 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
 void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
                              lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
                              size_t stride, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_is_layout(layout, stride, 3 * LMP_SH_COUNT(bands), point_count));
+    assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
     const lmp_kernels *kernels = lmp_kernels_get();
     const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
                                        sphere_count };
@@ -108,7 +115,10 @@ void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres, siz
                                       lmp_vec3_array points, size_t point_count,
                                       lmp_sh_layout layout, size_t stride, float *sh,
                                       size_t gradient_stride, float *gradient) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_is_layout(layout, stride, 3 * LMP_SH_COUNT(bands), point_count));
+    assert(lmp_is_layout(layout, gradient_stride, 9 * LMP_SH_COUNT(bands), point_count));
+    assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
     const lmp_kernels *kernels = lmp_kernels_get();
     const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
                                        sphere_count };

@@ -15,12 +15,12 @@ float lmp_sphere_radiance_from_power(float power, float radius) {
 }
 
 float lmp_sphere_intensity_from_radiance(float radiance, float radius) {
-    assert(radius > 0);
+    assert(radius > 0 && isfinite(radius));
     return pi * radius * radius * radiance;
 }
 
 float lmp_sphere_radiance_from_intensity(float intensity, float radius) {
-    assert(radius > 0);
+    assert(radius > 0 && isfinite(radius));
     return intensity / (pi * radius * radius);
 }
 

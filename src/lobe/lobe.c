@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
+
 #include <lampion/lobe.h>
 
-#include <assert.h>
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
 
 void lmp_lobe_diffuse(int bands, float *lambda) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     double even = pi / 4; /* of l = 2, 4, … */
     for (int l = 0; l < bands; l++) {
         if (l < 2) {
@@ -22,7 +23,7 @@ void lmp_lobe_diffuse(int bands, float *lambda) {
 }
 
 void lmp_lobe_phong(int bands, float exponent, float *lambda) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     assert(exponent >= 0 && isfinite(exponent));
     const double e = (double)exponent;
     double before = 1, now = (e + 1) / (e + 2); /* lambda_(l-1), lambda_l */
@@ -38,10 +39,10 @@ void lmp_lobe_phong(int bands, float exponent, float *lambda) {
 /* Ratios of spherical Bessel functions, which only the downward recurrence gives: upward it
  * amplifies rounding. It forgets its start; above a concentration of 1e8 the start is exact. */
 void lmp_lobe_vmf(int bands, float concentration, float *lambda) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     assert(concentration > 0 && isfinite(concentration));
     const double k = (double)concentration;
-    const int start = bands + 20 + (int)(6 * sqrt(fmin(k, 1e8)));
+    const int start = bands + 20 + (int)(6 * sqrt(fmin(fabs(k), 1e8)));
     double ratio = k / (start + 1 + sqrt((start + 1.0) * (start + 2.0) + k * k));
     double ratios[LMP_BANDS_MAX];
     for (int l = start; l >= 1; l--) {

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/kernels/batch.h"
+#include "src/light/cap.h"
+#include "src/sh/layout.h"
 
 #include <lampion/lobe.h>
-
-#include <assert.h>
 
 void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array axes,
                          const lmp_spheres *spheres, size_t sphere_count, lmp_vec3_array points,
                          size_t point_count, lmp_sh_layout layout, size_t stride, float *response) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, 3, point_count));
+    assert(lmp_are_unit(axes, point_count) && lmp_are_finite(points, point_count));
+    assert(lmp_are_spheres(spheres, sphere_count));
     const lmp_kernels *kernels = lmp_kernels_get();
     const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
                                        sphere_count };

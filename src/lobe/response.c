@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/lobe/response.h"
+#include "src/base/precondition.h"
 
 #include "src/light/cap.h"
-
-#include <assert.h>
 
 void lmp_lobe_weights(int bands, const float *lambda, float *weights) {
     for (int l = 0; l < bands; l++)
@@ -38,7 +37,7 @@ void lmp_lobe_add(const lmp_cap *cap, float response, float lambda_0, lmp_rgb *s
 
 lmp_rgb lmp_lobe_response(int bands, const float *lambda, lmp_vec3 axis, const lmp_light *lights,
                           size_t count, lmp_vec3 point) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_unit(axis));
     float weights[LMP_BANDS_MAX], r[LMP_BANDS_MAX];
     lmp_rgb sum = { 0, 0, 0 };
     lmp_lobe_weights(bands, lambda, weights);

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* brdf_eval.c - one reading of a preintegrated BRDF; the kernels and the shader do the same. */
+#include "src/base/precondition.h"
 #include "src/preintegrated/brdf.h"
 #include "src/preintegrated/spline.h"
-
-#include <assert.h>
 
 /* Where a view lies. */
 typedef struct view_position {
@@ -65,7 +64,9 @@ static float angle_from_mirror(const view_position *position, lmp_vec3 axis, flo
 
 lmp_rgb lmp_preintegrated_brdf_eval(const lmp_preintegrated_brdf *brdf, float cos_theta_o,
                                     lmp_vec3 axis, float one_minus_cos) {
-    assert(one_minus_cos >= 0 && one_minus_cos <= 1);
+    assert(one_minus_cos >= 0 && one_minus_cos <= 1 && lmp_is_unit(axis));
+    if (isnan(cos_theta_o) || isnan(axis.x + axis.y + axis.z))
+        one_minus_cos = NAN; /* of which every channel is a multiple */
     const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(brdf);
     view_position position;
     lookup_view(&info, cos_theta_o, &position);
@@ -93,7 +94,7 @@ lmp_rgb lmp_preintegrated_brdf_ambient(const lmp_preintegrated_brdf *brdf, float
     view_position position;
     lookup_view(&info, cos_theta_o, &position);
     const lmp_rgb *a = info.ambient + position.view;
-    const float t = position.fraction;
+    const float t = isnan(cos_theta_o) ? cos_theta_o : position.fraction;
     return (lmp_rgb) { a[0].r + t * (a[1].r - a[0].r), a[0].g + t * (a[1].g - a[0].g),
                        a[0].b + t * (a[1].b - a[0].b) };
 }

@@ -49,8 +49,12 @@ float lmp_preintegrated_lobe_at(const lmp_preintegrated_lobe_info *info,
 float lmp_preintegrated_lobe_eval(const lmp_preintegrated_lobe *lobe, float exponent,
                                   float one_minus_cos, float cosine) {
     assert(exponent >= 0 && one_minus_cos >= 0 && one_minus_cos <= 1);
+    assert(fabsf(cosine) <= 1 + LMP_UNIT_TOLERANCE);
+    if (isnan(exponent) || isnan(one_minus_cos) || isnan(cosine))
+        return NAN;
     const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
     lmp_preintegrated_lobe_position position;
     lmp_preintegrated_lobe_lookup(&info, exponent, &position);
-    return lmp_preintegrated_lobe_at(&info, &position, one_minus_cos, fminf(fmaxf(cosine, -1), 1));
+    return lmp_preintegrated_lobe_at(&info, &position, fminf(fmaxf(one_minus_cos, 0), 1),
+                                     fminf(fmaxf(cosine, -1), 1));
 }

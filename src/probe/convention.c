@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
+
 #include <lampion/probe.h>
 
-#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -70,7 +71,8 @@ static void change_axes(int bands, int m[3][3], float *sh) {
 
 void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_probe_convention *to,
                        const float *sh, float *converted) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), converted, LMP_SH_COUNT(bands)));
     int a[3][3], b[3][3], change[3][3] = { { 0 } }; /* from's axes by to's */
     axes_of(from, a);
     axes_of(to, b);
@@ -107,7 +109,7 @@ static bool agrees(int bands, const lmp_probe_convention *convention, const floa
 
 bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                          lmp_probe_convention *convention) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)
         for (int norm = 0; norm <= LMP_PROBE_SN3D; norm++) {
             const lmp_probe_convention guess = { .sign = (lmp_probe_sign)sign,

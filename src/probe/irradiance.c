@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-#include "src/base/element.h"
+#include "src/base/precondition.h"
 #include "src/sh/column.h"
 
 #include <lampion/probe.h>
 
-#include <assert.h>
-
 void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, size_t count,
                             lmp_rgb *rgb) {
+    assert(lmp_is_bands(bands) && lmp_are_unit(normals, count));
     const size_t plane = LMP_SH_COUNT(bands);
     float lambda[LMP_BANDS_MAX];
     lmp_lobe_diffuse(bands, lambda);
@@ -27,7 +26,7 @@ lmp_rgb lmp_probe_irradiance(int bands, const float *sh, lmp_vec3 normal) {
 
 void lmp_probe_constants_of(int bands, float scale, const float *sh,
                             lmp_probe_constants *constants) {
-    assert(bands >= 3 && bands <= LMP_BANDS_MAX);
+    assert(bands >= 3 && bands <= LMP_BANDS_MAX && isfinite(scale));
     float lambda[3];
     lmp_lobe_diffuse(3, lambda);
     /* factors of Y_1m and Y_2m as polynomials (Sloan 2008, appendix A2) */

@@ -2,9 +2,10 @@
 /* The basis in double. Its recurrences are those of tables.h, whose floats would spoil it: the
  * factors are found where they are used, by roots and quotients that IEEE 754 rounds alike on every
  * machine. */
+#include "src/base/precondition.h"
+
 #include <lampion/sh.h>
 
-#include <assert.h>
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
@@ -41,7 +42,7 @@ static void store_gradient(const double w[3], const double g[3], size_t plane, d
 
 void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *sh,
                                  double *gradient) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_unit_double(direction));
     const double *w = direction;
     const size_t plane = LMP_SH_COUNT(bands);
     double columns[2][LMP_BANDS_MAX + 1] = { { 0 } }, first = sqrt(1 / (4 * pi));
@@ -115,7 +116,7 @@ static slopes slopes_of(const double q[3], double a, double a_x, double a_y, dou
 }
 
 void lmp_sh_eval_hessian_double(int bands, const double direction[3], double *hessian) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_unit_double(direction));
     const double *w = direction;
     const size_t plane = LMP_SH_COUNT(bands);
     double columns[3][LMP_BANDS_MAX] = { { 0 } }, first = sqrt(1 / (4 * pi));

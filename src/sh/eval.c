@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
 #include "src/sh/column.h"
 
 #include <lampion/sh.h>
 
-#include <assert.h>
-
-void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+void lmp_sh_values(int bands, lmp_vec3 direction, float *sh) {
     float q[LMP_BANDS_MAX];
     lmp_azimuth a = { 1, 0 };
     for (int m = 0; m < bands; m++) {
@@ -18,6 +16,12 @@ void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {
         }
         a = lmp_azimuth_next(a, direction);
     }
+}
+
+void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {
+    assert(lmp_is_bands(bands));
+    assert(lmp_is_unit(direction));
+    lmp_sh_values(bands, direction, sh);
 }
 
 void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, float *sh) {
@@ -35,7 +39,7 @@ void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, 
 }
 
 float lmp_sh_dot(int bands, const float *a, const float *b) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     float sum = 0;
     for (int l = 0; l < bands; l++) {
         float band = 0;
@@ -47,7 +51,7 @@ float lmp_sh_dot(int bands, const float *a, const float *b) {
 }
 
 float lmp_sh_filtered(int bands, const float *sh, const float *factors, lmp_vec3 direction) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     float q[LMP_BANDS_MAX], sum = 0;
     lmp_azimuth a = { 1, 0 };
     for (int m = 0; m < bands; m++) {
@@ -65,11 +69,13 @@ float lmp_sh_filtered(int bands, const float *sh, const float *factors, lmp_vec3
 }
 
 float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction) {
+    assert(lmp_is_unit(direction));
     return lmp_sh_filtered(bands, sh, NULL, direction);
 }
 
 void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_are_apart(zonal, (size_t)bands, sh, LMP_SH_COUNT(bands)));
     float weights[LMP_BANDS_MAX];
     for (int l = 0; l < bands; l++)
         weights[l] = zonal[l] / lmp_table_pole[l];
@@ -78,7 +84,9 @@ void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh) 
 }
 
 void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_are_same_or_apart(a, sh, LMP_SH_COUNT(bands)));
+    assert(lmp_are_same_or_apart(b, sh, LMP_SH_COUNT(bands)));
     for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
         sh[i] = s * a[i] + t * b[i];
 }
@@ -96,7 +104,9 @@ static void put_gradient(lmp_vec3 g, lmp_vec3 w, size_t i, size_t plane, float *
 }
 
 void lmp_sh_eval_gradient(int bands, lmp_vec3 direction, float *sh, float *gradient) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_is_unit(direction));
+    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), gradient, 3 * LMP_SH_COUNT(bands)));
     const size_t plane = LMP_SH_COUNT(bands);
     float q[LMP_BANDS_MAX + 1], above[LMP_BANDS_MAX + 1]; /* q_l^m and q_l^(m+1) */
     lmp_azimuth a = { 1, 0 }, below = { 0, 0 };           /* (x + iy)^m and ^(m-1) */

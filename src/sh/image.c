@@ -4,11 +4,11 @@
  * Texels go through in runs of a row. The recurrences of sh run for a whole run at once, a few
  * orders m a pass, and what a run adds is summed in double, so that no number of texels loses
  * digits. The order of every sum is fixed: the result depends on the input alone. */
+#include "src/base/precondition.h"
 #include "src/sh/column.h"
 
 #include <lampion/sh.h>
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -177,7 +177,7 @@ static void project_orders(const void *image, const grid *g, fill_run *fill, con
 
 static void project(const void *image, const grid *g, fill_run *fill, const int size[3], int bands,
                     int channels, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     for (int first = 0; first < channels; first += CHANNELS)
         for (int m = 0; m < bands; m += ORDERS)
             project_orders(image, g, fill, size, bands, m, first,
@@ -204,7 +204,8 @@ static void latlong_run(const void *image, const grid *g, int face, int row, int
 }
 
 void lmp_sh_project_latlong(int bands, const lmp_latlong *image, float *sh) {
-    assert(image->width >= 1 && image->height >= 1 && image->channels >= 1);
+    assert(image->pixels && image->width >= 1 && image->height >= 1 && image->channels >= 1);
+    assert(isfinite(image->azimuth));
     const grid g = grid_of(image->texel, image->width, image->channels, image->row_stride,
                            image->texel_stride, image->channel_stride);
     const int size[3] = { image->width, image->height, 1 };

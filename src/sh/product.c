@@ -3,6 +3,7 @@
  * functions are evaluated on a grid that integrates three harmonics exactly, multiplied there, and
  * projected back: O(n^3), azimuth and height apart. */
 #include "src/base/host.h"
+#include "src/base/precondition.h"
 #include "src/sh/quadrature.h"
 
 #include <lampion/sh.h>
@@ -256,6 +257,8 @@ void lmp_sh_product_destroy(lmp_sh_product *product) {
 }
 
 void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b, float *c) {
+    assert(lmp_are_apart(a, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
+    assert(lmp_are_apart(b, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
     if (product->triples)
         multiply_by_table(product, a, b, c);
     else

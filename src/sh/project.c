@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
 #include "src/sh/column.h"
 #include "src/sh/quadrature.h"
 
 #include <lampion/sh.h>
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ static void add_azimuth(int bands, double c, double s, double value, double *cos
 
 void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
                              float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     assert(nodes >= 0);
     if (nodes == 0)
         nodes = bands;

@@ -3,9 +3,10 @@
  * recurrence in l starts from a closed form at l = max(|m|, |k|) and runs upward, its stable
  * direction; so float32 orthogonality holds to 128 bands, where the recurrence of Ivanic and
  * Ruedenberg has lost it. All in double: the entries, not the path to them, are float. */
+#include "src/base/precondition.h"
+
 #include <lampion/sh.h>
 
-#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,7 +24,7 @@ typedef struct euler {
 static void turn_prepare(euler *turn, int bands, const double q[4]) {
     const double x = q[0], y = q[1], z = q[2], w = q[3];
     const double c = hypot(z, w), s = hypot(x, y), length = hypot(c, s);
-    assert(length > 0);
+    assert(length > 0 && isfinite(length));
     /* q = qz(alpha) qy(beta) qz(gamma): the half angles come from q itself, without cancellation */
     const double half_sum = atan2(z, w), half_difference = atan2(-x, y);
     turn->cos_beta = (c - s) * (c + s) / (length * length);
@@ -114,7 +115,7 @@ static void fill(const euler *turn, int bands, int m, int k, const matrices_of *
 }
 
 static void rotation_of(int bands, const double rotation[4], const matrices_of *matrices) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     euler turn;
     turn_prepare(&turn, bands, rotation);
     for (int m = 0; m < bands; m++)
@@ -133,7 +134,9 @@ void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrice
 }
 
 void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
+    assert(lmp_are_apart(matrices, LMP_SH_ROTATION_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
     for (int l = 0; l < bands; l++) {
         const float *in = sh + LMP_SH_COUNT(l);
         for (int m = 0; m <= 2 * l; m++) {
@@ -146,7 +149,9 @@ void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rot
 }
 
 void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh, double *rotated) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    const size_t size = LMP_SH_COUNT(bands) * sizeof *sh;
+    assert(lmp_is_bands(bands) && lmp_are_bytes_apart(sh, size, rotated, size));
+    (void)size;
     for (int l = 0; l < bands; l++) {
         const double *in = sh + LMP_SH_COUNT(l);
         for (int m = 0; m <= 2 * l; m++) {
@@ -179,11 +184,13 @@ static lmp_quat quaternion_of(const float r[9]) {
 }
 
 void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matrices) {
+    assert(lmp_is_rotation(rotation));
     lmp_sh_rotation(bands, quaternion_of(rotation), matrices);
 }
 
 void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(isfinite(angle) && lmp_are_same_or_apart(sh, rotated, LMP_SH_COUNT(bands)));
     for (int m = 0; m < bands; m++) {
         const float c = (float)cos(m * (double)angle), s = (float)sin(m * (double)angle);
         for (int l = m; l < bands; l++) {

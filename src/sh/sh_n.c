@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/kernels/batch.h"
+#include "src/sh/layout.h"
 
 #include <lampion/sh.h>
 
-#include <assert.h>
-
 void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
                    size_t stride, float *sh) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
+    assert(lmp_are_unit(directions, count));
     const lmp_kernels *kernels = lmp_kernels_get();
     lmp_batch_vec3 planes;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
@@ -28,7 +28,9 @@ static lmp_kernel_in batch_in(int bands, const float *at, size_t count, lmp_sh_l
 
 void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count, lmp_sh_layout layout,
                   size_t stride, float *dots) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
+    if (count == 0)
+        return;
     const lmp_kernel_in from_a = batch_in(bands, a, count, layout, stride);
     const lmp_kernel_in from_b = batch_in(bands, b, count, layout, stride);
     lmp_kernels_get()->dot(LMP_SH_COUNT(bands), &from_a, &from_b, count, dots);
@@ -36,7 +38,12 @@ void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count, lmp_s
 
 void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, size_t count,
                      lmp_sh_layout layout, size_t stride, float *rotated) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
+    if (count == 0)
+        return;
+    const size_t extent = lmp_layout_extent(layout, stride, LMP_SH_COUNT(bands), count);
+    assert(lmp_are_apart(sh, extent, rotated, extent));
+    (void)extent;
     const lmp_kernel_in in = batch_in(bands, sh, count, layout, stride);
     const lmp_kernel_out out =
         lmp_batch_out(rotated, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, 0);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
+#include "src/base/precondition.h"
+
 #include <lampion/sh.h>
 
-#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -36,9 +37,8 @@ const char *lmp_sh_window_name(lmp_window window) {
 }
 
 void lmp_sh_window(int bands, lmp_window window, float size, float *weights) {
-    assert((unsigned)window < LMP_WINDOWS);
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
-    assert(size >= 0);
+    assert(lmp_is_bands(bands) && (unsigned)window < LMP_WINDOWS);
+    assert(size >= 0 && isfinite(size));
     const double last = size > 0 ? (double)size : bands;
     weights[0] = 1;
     for (int l = 1; l < bands; l++)
@@ -68,7 +68,7 @@ static double squared_laplacian(int bands, const double *energy, double mu) {
 }
 
 void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weights) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
     assert(keep > 0 && keep <= 1);
     double energy[LMP_BANDS_MAX] = { 0 };
     for (int l = 0; l < bands; l++)
@@ -94,7 +94,8 @@ void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weig
 }
 
 void lmp_sh_window_apply(int bands, const float *weights, const float *sh, float *windowed) {
-    assert(bands >= 1 && bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(bands));
+    assert(lmp_are_same_or_apart(sh, windowed, LMP_SH_COUNT(bands)));
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)
             windowed[LMP_SH_INDEX(l, m)] = sh[LMP_SH_INDEX(l, m)] * weights[l];

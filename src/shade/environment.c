@@ -8,8 +8,6 @@
 #include "src/sh/column.h"
 #include "src/shade/material.h"
 
-#include <assert.h>
-#include <math.h>
 #include <string.h>
 
 enum { RUN = 8 };
@@ -94,7 +92,7 @@ static lmp_surface surface_at(const lmp_surfaces *surfaces, size_t i) {
 /* Lobe k of surface i in the run; of weight 0 where the material has fewer. */
 static void take_lobe(const shade_lobes *lobes, int k, int bands, size_t i, lobe_run *run) {
     const shade_lobe *lobe = &lobes->lobe[k];
-    const float there = k < lobes->count;
+    const bool there = k < lobes->count;
     run->x[i] = there ? lobe->axis.x : 0;
     run->y[i] = there ? lobe->axis.y : 0;
     run->z[i] = there ? lobe->axis.z : 0;
@@ -124,8 +122,7 @@ static void shade_run(const lmp_shade_settings *settings, const lmp_surfaces *su
     int lobe_count = 0;
     memset(run, 0, sizeof run);
     for (size_t i = 0; i < count; i++) {
-        const char *at = (const char *)surfaces->material;
-        const lmp_material *material = (const void *)(at + (first + i) * surfaces->material_stride);
+        const lmp_material *material = lmp_material_at(surfaces, first + i);
         const lmp_surface surface = surface_at(surfaces, first + i);
         rgb[0][i] = rgb[1][i] = rgb[2][i] = 0;
         if (material->kind == LMP_MATERIAL_TABLE) {
@@ -148,14 +145,16 @@ void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfa
                              float *rgb) {
     const lmp_shade_settings resolved = settings_of(settings);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
-    assert(environment->bands >= 1 && environment->bands <= LMP_BANDS_MAX);
+    assert(lmp_are_unit(surfaces->normal, count) && lmp_are_unit(surfaces->view, count));
+    assert(lmp_is_bands(environment->bands));
     for (size_t first = 0; first < count; first += RUN) {
         const size_t some = count - first < RUN ? count - first : RUN;
         float color[3][RUN] = { { 0 } };
         shade_run(&resolved, surfaces, first, some, environment, color);
         for (size_t i = 0; i < some; i++) {
-            const lmp_rgb clamped = { fmaxf(color[0][i], 0), fmaxf(color[1][i], 0),
-                                      fmaxf(color[2][i], 0) };
+            const lmp_rgb clamped = { lmp_shade_clamped(color[0][i]),
+                                      lmp_shade_clamped(color[1][i]),
+                                      lmp_shade_clamped(color[2][i]) };
             memcpy((char *)rgb + (first + i) * stride, &clamped, sizeof clamped);
         }
     }

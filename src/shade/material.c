@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/shade/material.h"
+#include "src/base/precondition.h"
 
-#include <assert.h>
 #include <math.h>
 
 static const float pi = 3.14159265f;
@@ -14,7 +14,8 @@ lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings) {
     lmp_shade_settings resolved = settings ? *settings : (lmp_shade_settings) { 0 };
     if (resolved.bands == 0)
         resolved.bands = LMP_SHADE_BANDS_DEFAULT;
-    assert(resolved.bands >= 1 && resolved.bands <= LMP_BANDS_MAX);
+    assert(lmp_is_bands(resolved.bands));
+    assert(resolved.method >= LMP_SHADE_ZONAL && resolved.method <= LMP_SHADE_PREINTEGRATED);
     return resolved;
 }
 

@@ -4,6 +4,8 @@
 #ifndef LAMPION_SHADE_MATERIAL_H
 #define LAMPION_SHADE_MATERIAL_H
 
+#include "src/base/precondition.h"
+
 #include <lampion/shade.h>
 
 /* What a surface reflects by, as long as nothing is cut: a diffuse lobe of an albedo around the
@@ -55,6 +57,39 @@ static inline shade_source lmp_shade_source(const lmp_material *material, lmp_sh
     else if (material->kind == LMP_MATERIAL_TABLE)
         source.table = material->table;
     return source;
+}
+
+/* Whether the members that the material's kind names are in their ranges (shade.h). */
+static inline bool lmp_is_material(const lmp_material *material) {
+    switch (material->kind) {
+    case LMP_MATERIAL_LOBES:
+        return material->exponent >= 0 && isfinite(material->exponent);
+    case LMP_MATERIAL_METALLIC_ROUGHNESS:
+        return isfinite(material->metallic) && isfinite(material->roughness);
+    case LMP_MATERIAL_TABLE:
+        return material->table || material->preintegrated;
+    case LMP_MATERIAL_PREINTEGRATED:
+        return material->preintegrated;
+    }
+    return false;
+}
+
+static inline const lmp_material *lmp_material_at(const lmp_surfaces *surfaces, size_t i) {
+    const char *first = (const char *)surfaces->material;
+    return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
+}
+
+static inline bool lmp_are_surfaces(const lmp_surfaces *surfaces, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!lmp_is_material(lmp_material_at(surfaces, i)))
+            return false;
+    return lmp_are_finite(surfaces->position, count) && lmp_are_unit(surfaces->normal, count) &&
+           lmp_are_unit(surfaces->view, count);
+}
+
+/* A truncated series rings below 0; NaN stays. */
+static inline float lmp_shade_clamped(float sum) {
+    return sum <= 0 ? 0 : sum;
 }
 
 /* The settings with every default filled in. */

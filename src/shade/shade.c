@@ -21,6 +21,8 @@ static lmp_rgb shade_batch_of_one(const lmp_shade_settings *settings, const lmp_
 lmp_rgb lmp_shade(const lmp_shade_settings *settings, const lmp_material *material,
                   const lmp_surface *surface, const lmp_light *lights, size_t count) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
+    assert(lmp_is_material(material));
+    assert(lmp_is_unit(surface->normal) && lmp_is_unit(surface->view));
     const shade_source source = lmp_shade_source(material, resolved.method);
     if (source.preintegrated || (!source.table && resolved.method == LMP_SHADE_PREINTEGRATED))
         return shade_batch_of_one(settings, material, surface, lights, count);

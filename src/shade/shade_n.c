@@ -2,10 +2,10 @@
 /* shade_n.c - shading many surfaces: chunks of planes, every light as a sphere or a fixed cap. */
 #include "src/base/tables.h"
 #include "src/kernels/batch.h"
+#include "src/light/cap.h"
 #include "src/preintegrated/lobe_eval.h"
 #include "src/shade/material.h"
 
-#include <assert.h>
 #include <math.h>
 
 /* A Dirac is a cap this wide, or a sphere this large, of the same strength. That takes (n a)²/15
@@ -42,18 +42,13 @@ typedef struct chunk {
     lmp_kernel_accumulated sums;
 } chunk_planes;
 
-static const lmp_material *material_at(const lmp_surfaces *surfaces, size_t i) {
-    const char *first = (const char *)surfaces->material;
-    return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
-}
-
 /* Moves from `left` what is like its first; returns how many stay. */
 static size_t take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
                          size_t count, chunk_planes *chunk) {
     size_t others = 0;
     chunk->count = 0;
     for (size_t i = 0; i < count; i++) {
-        const shade_source source = lmp_shade_source(material_at(surfaces, left[i]), method);
+        const shade_source source = lmp_shade_source(lmp_material_at(surfaces, left[i]), method);
         if (i == 0)
             chunk->source = source;
         if (source.table == chunk->source.table &&
@@ -108,8 +103,8 @@ static void load_lobes(const lmp_surfaces *surfaces, chunk_planes *chunk) {
     chunk->surfaces.lobe_count = lobes;
     for (size_t i = 0; i < chunk->count; i++) {
         shade_reflection r;
-        lmp_shade_reflection(material_at(surfaces, chunk->at[i]), from_planes(&chunk->normal, i),
-                             from_planes(&chunk->view, i), &r);
+        lmp_shade_reflection(lmp_material_at(surfaces, chunk->at[i]),
+                             from_planes(&chunk->normal, i), from_planes(&chunk->view, i), &r);
         store_vector(r.diffuse.r, r.diffuse.g, r.diffuse.b, &chunk->diffuse, i);
         for (int k = 0; k < lobes; k++)
             store_lobe(&r.lobe[k], i, &chunk->lobe[k]);
@@ -163,7 +158,7 @@ static void sum_lobes(chunk_planes *chunk) {
 static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < chunk->count; i++) {
-            const float sum = chunk->accumulated[c].at[i], color = sum > 0 ? sum : 0;
+            const float color = lmp_shade_clamped(chunk->accumulated[c].at[i]);
             memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
         }
 }
@@ -187,8 +182,8 @@ static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *s
                                       vector_at(&surfaces->normal, at[i]),
                                       vector_at(&surfaces->view, at[i]),
                                       vector_at(&surfaces->tangent, at[i]) };
-        const lmp_rgb color =
-            lmp_shade_sum(resolved, material_at(surfaces, at[i]), &surface, lights, light_count);
+        const lmp_rgb color = lmp_shade_sum(resolved, lmp_material_at(surfaces, at[i]), &surface,
+                                            lights, light_count);
         memcpy((char *)rgb + at[i] * stride, &color, sizeof color);
     }
 }
@@ -406,6 +401,8 @@ void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surface
                  const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
+    assert(lmp_are_surfaces(surfaces, count) && lmp_are_lights(lights, light_count));
+    assert(stride >= sizeof(lmp_rgb) && stride % sizeof(float) == 0);
     shade_method method = { .settings = &resolved };
     chunk_planes chunk;
     if (resolved.method != LMP_SHADE_PREINTEGRATED)

@@ -7,7 +7,8 @@
 #include <math.h>
 
 static lmp_rgb clamped(lmp_rgb color) {
-    return (lmp_rgb) { fmaxf(color.r, 0), fmaxf(color.g, 0), fmaxf(color.b, 0) };
+    return (lmp_rgb) { lmp_shade_clamped(color.r), lmp_shade_clamped(color.g),
+                       lmp_shade_clamped(color.b) };
 }
 
 /* By the addition theorem. */

@@ -25,6 +25,10 @@ double check_error_double(size_t count, const double *expected, const double *ac
     return scale > 0 ? largest / scale : largest;
 }
 
+void check_skip(const char *why) {
+    print_message("skipped: %s\n", why);
+}
+
 double check_error(size_t count, const double *expected, const float *actual) {
     double *wide = malloc(count * sizeof *wide);
     if (!wide)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* check.h - what the tests share: bounds that a NaN fails, seeded random numbers, vector files, an
+/* check.h - what the tests share: bounds that a NaN fails, seeded random numbers, vector files, a
  * host that fails on demand. */
 #ifndef LAMPION_CHECK_H
 #define LAMPION_CHECK_H
@@ -17,6 +17,15 @@
 void check_within(double error, double bound, const char *file, int line);
 #define CHECK_WITHIN(error, bound)                                                                 \
     check_within((double)(error), (double)(bound), __FILE__, __LINE__)
+
+/* Whether this build asserts its preconditions, and the line of a test that judges only one kind of
+ * build: then return from it. */
+#ifdef NDEBUG
+#define CHECK_ASSERTS false
+#else
+#define CHECK_ASSERTS true
+#endif
+void check_skip(const char *why);
 
 /* max |actual - expected| / max |expected|; NaN if any value is. (All expected 0: the absolute
  * error.) */

@@ -70,15 +70,15 @@ static void write_entry(const char *name, const unsigned char *bytes, size_t siz
 
 static void a_damaged_entry_is_none(void **state) {
     (void)state;
-    const size_t step = getenv("LAMPION_LONG") ? 1 : 23;
-    size_t size;
+    const size_t step = (size_t)check_count(23, 1);
+    size_t size, tried = 0;
     file_cache_store("a", first, SIZE);
     unsigned char *bytes = read_entry("a", &size);
-    for (size_t cut = 0; cut < size; cut += step) {
+    for (size_t cut = 0; cut < size; cut += step, tried++) {
         write_entry("a", bytes, cut);
         assert_false(holds("a", first));
     }
-    for (size_t bit = 0; bit < 8 * size; bit += 8 * step + 1) {
+    for (size_t bit = 0; bit < 8 * size; bit += 8 * step - 7, tried++) {
         bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
         write_entry("a", bytes, size);
         assert_false(holds("a", first));
@@ -87,6 +87,7 @@ static void a_damaged_entry_is_none(void **state) {
     write_entry("a", bytes, size);
     assert_true(holds("a", first));
     free(bytes);
+    printf("tried: %zu damaged entries of the cache\n", tried);
 }
 
 static void what_is_no_file_of_ones_own_is_none(void **state) {
@@ -188,7 +189,7 @@ static pid_t store_often(const unsigned char *bytes, int times) {
 
 static void two_writers_leave_one_s_bytes(void **state) {
     (void)state;
-    const int times = getenv("LAMPION_LONG") ? 20000 : 200;
+    const int times = check_count(200, 20000);
     file_cache_store("shared", first, SIZE);
     const pid_t writers[] = { store_often(first, times), store_often(second, times) };
     for (int i = 0; i < times; i++) {

@@ -182,13 +182,15 @@ static void check_size(int width, int height, double share) {
 
 static void every_float_is_found_by_another_reader(void **state) {
     (void)state;
-    const bool whole = getenv("LAMPION_LONG") != NULL;
+    const bool whole = check_count(0, 1);
+    int tried = 0;
     for (int width = 1; width <= LONGEST_SIDE; width++)
         for (int height = 1; height <= LONGEST_SIDE; height++) {
             const bool small = width * height <= 16;
-            for (int i = 0; i < (small || whole ? 10 : width % 5 == height % 5); i++)
+            for (int i = 0; i < (small || whole ? 10 : width % 5 == height % 5); i++, tried++)
                 check_size(width, height, i ? check_random() : 1);
         }
+    printf("tried: %d OpenEXR files read by zlib alone\n", tried);
 }
 
 static int make_folder(void **state) {

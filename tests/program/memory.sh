@@ -54,6 +54,7 @@ sweep() {
         [ "$(find . -name '.lampion-*' | wc -l)" = 0 ] || fail "$*: refusal $k of $requests: left a temporary"
     done
     echo "$*: $requests requests, $refusals of those refused were errors"
+    echo "tried: $(seq 1 $step "$requests" | wc -l) requests for memory that were refused"
 }
 
 sweep info scene.gltf

@@ -12,6 +12,12 @@ for form in 3,3,5 6,13,19; do
     grep -q "^closed forms (Sloan 2008),$form,0," "$WORK/page/operations.csv" ||
         fail "the closed forms' operations are not the paper's $form"
 done
+grep -q '^"library: fused with Eq. 13, by differences",3,' "$WORK/page/operations.csv" ||
+    fail "a comma in a label is not the label's"
+grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$WORK/page/index.html" ||
+    fail "the page hides what contradicts the paper"
+awk -F, '!/^form|^"?largest/ { if ($(NF - 1) + 0 > $NF + 0) exit 1 }' "$WORK/page/tabulated.csv" ||
+    fail "a part of the angles has a larger error than all of them"
 for file in figure4.svg accuracy.csv tabulated.csv response.csv response-memory.svg; do
     [ -s "$WORK/page/$file" ] || fail "$file is missing"
     grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"

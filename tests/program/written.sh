@@ -78,6 +78,7 @@ for signal in INT TERM KILL; do
         cmp -s old.exr image.exr || cmp -s new.exr image.exr || fail "SIG$signal left a part of a file"
     done
     [ $signal = KILL ] || [ "$(temporaries)" = 0 ] || fail "SIG$signal left a temporary"
+    echo "tried: $tries signals while a file was written"
 done
 
 # --- what killed runs left -------------------------------------------------------------------------

@@ -304,6 +304,10 @@ static void not_a_number_stays_with_its_surface(void **state) {
     (void)state;
     static float whole[COUNT * 3], rgb[COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
+    if (CHECK_ASSERTS) {
+        check_skip("this build asserts its preconditions");
+        return;
+    }
     for (int bands = 1; bands <= 20; bands++) {
         const lmp_preintegrated_lobe_desc desc = { .bands = bands, .error = 0.05f };
         const lmp_shade_settings settings = { .bands = bands };
@@ -312,10 +316,6 @@ static void not_a_number_stays_with_its_surface(void **state) {
         const lmp_shade_settings readings = by_readings(response);
         for (int method = 0; method < 2; method++) {
             scatter(true);
-            /* A debug build asserts that a spot's cone is seen from somewhere. */
-            for (int i = 0; i < LIGHTS; i++)
-                if (lights[i].kind == LMP_LIGHT_SPOT)
-                    lights[i].kind = LMP_LIGHT_POINT;
             float *const to[2] = { whole, rgb };
             for (int pass = 0; pass < 2; pass++) {
                 lmp_shade_n(method ? &readings : &settings, &surfaces, COUNT, lights, LIGHTS, 0,

@@ -286,7 +286,7 @@ static bool promised(void) {
 static void no_function_needs_more_stack_than_base_promises(void **state) {
     (void)state;
     if (!promised()) {
-        print_message("skipped: not an optimized build without sanitizers\n");
+        check_skip("not an optimized build without sanitizers");
         return;
     }
     unsigned char *memory =

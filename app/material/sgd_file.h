@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT */
+/* sgd_file.h - tables of SGD fits as text: a line a material, its two names and 33 numbers. */
+#ifndef LAMPION_MATERIAL_SGD_FILE_H
+#define LAMPION_MATERIAL_SGD_FILE_H
+
+#include "app/cli/cli.h"
+
+#include <lampion/brdf.h>
+
+/* The parameters of the material of that name in a text that ends with a NUL; `subject` is named in
+ * the error. */
+bool sgd_file_find(const char *text, const char *name, const char *subject, lmp_sgd *sgd,
+                   cli_error *error);
+
+#endif

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT */
+/* A debug build dies of a broken precondition, and of the same call kept within them it does not.
+ */
+#include "tests/oracle/check.h"
+
+#include <lampion/lampion.h>
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { BANDS = 4, VALUES = BANDS * BANDS };
+
+static float a[3 * VALUES], b[3 * VALUES], c[3 * VALUES], matrices[LMP_SH_ROTATION_COUNT(BANDS)];
+static const lmp_vec3 up = { 0, 0, 1 }, long_up = { 0, 0, 2 }, nowhere = { NAN, 0, 0 };
+static const lmp_vec3 at = { 0, 0, 0 };
+static const float identity[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+static const float mirror[9] = { 1, 0, 0, 0, 1, 0, 0, 0, -1 };
+static lmp_sh_product *product;
+
+static lmp_rgb shaded(lmp_vec3 normal, float exponent, float radius) {
+    const lmp_surface surface = { .normal = normal, .view = up };
+    const lmp_material material = { .exponent = exponent };
+    const lmp_light light = { .position = { 0, 0, 3 }, .radius = radius };
+    return lmp_shade(NULL, &material, &surface, &light, 1);
+}
+
+static void shaded_n(lmp_vec3 position, size_t stride) {
+    const lmp_material material = { .exponent = 1 };
+    const lmp_surfaces surfaces = { .position = lmp_vec3_array_same(&position),
+                                    .normal = lmp_vec3_array_same(&up),
+                                    .view = lmp_vec3_array_same(&up),
+                                    .material = &material };
+    lmp_shade_n(NULL, &surfaces, 2, NULL, 0, stride, a);
+}
+
+static void cap_of(lmp_light light) {
+    lmp_cap cap;
+    lmp_light_cap(&light, at, &cap);
+}
+
+static void create_half_a_host(void) {
+    const lmp_host host = { .allocate = NULL, .release = check_host(&(check_hooks) { 0 }).release };
+    lmp_sh_product *made;
+    if (lmp_sh_product_create(&host, 2, &made) == LMP_OK)
+        lmp_sh_product_destroy(made);
+}
+
+/* Each pair: a call that holds to its preconditions, and what becomes of it where one is broken. */
+/* clang-format off */
+#define CALLS(X) \
+    X(bands, lmp_sh_eval(BANDS, up, a), lmp_sh_eval(0, up, a)) \
+    X(bands_max, lmp_sh_dot(BANDS, a, b), lmp_sh_dot(LMP_BANDS_MAX + 1, a, b)) \
+    X(unit, lmp_sh_eval(BANDS, up, a), lmp_sh_eval(BANDS, long_up, a)) \
+    X(finite, lmp_sh_reconstruct(BANDS, a, up), lmp_sh_reconstruct(BANDS, a, nowhere)) \
+    X(unit_gradient, lmp_sh_eval_gradient(BANDS, up, a, b), lmp_sh_eval_gradient(BANDS, long_up, a, b)) \
+    X(unit_zonal, lmp_sh_from_zonal(BANDS, a, up, b), lmp_sh_from_zonal(BANDS, a, at, b)) \
+    X(zonal_apart, lmp_sh_from_zonal(BANDS, a, up, b), lmp_sh_from_zonal(BANDS, a, up, a)) \
+    X(combine, lmp_sh_combine(BANDS, 1, a, 2, b, a), lmp_sh_combine(BANDS, 1, a, 2, b, a + 1)) \
+    X(rotate_in_place, lmp_sh_rotate(BANDS, matrices, a, b), lmp_sh_rotate(BANDS, matrices, a, a)) \
+    X(rotate_overlap, lmp_sh_rotate(BANDS, matrices, a, a + VALUES), lmp_sh_rotate(BANDS, matrices, a, a + VALUES - 1)) \
+    X(rotate_z, lmp_sh_rotate_z(BANDS, 1, a, a), lmp_sh_rotate_z(BANDS, NAN, a, a)) \
+    X(quaternion, lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 2 }, matrices), lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 0 }, matrices)) \
+    X(matrix, lmp_sh_rotation_from_matrix(BANDS, identity, matrices), lmp_sh_rotation_from_matrix(BANDS, mirror, matrices)) \
+    X(window, lmp_sh_window(BANDS, LMP_WINDOW_HANNING, 0, a), lmp_sh_window(BANDS, LMP_WINDOW_HANNING, -1, a)) \
+    X(windowed, lmp_sh_window_apply(BANDS, b, a, a), lmp_sh_window_apply(BANDS, b, a, a + 1)) \
+    X(keep, lmp_sh_window_laplacian(BANDS, 1, a, b), lmp_sh_window_laplacian(BANDS, 0, a, b)) \
+    X(multiply, lmp_sh_multiply(product, a, b, c), lmp_sh_multiply(product, a, b, a)) \
+    X(eval_n, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_INTERLEAVED, 0, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&long_up), 2, LMP_SH_INTERLEAVED, 0, a)) \
+    X(stride_short, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_PLANAR, 8, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_PLANAR, 4, a)) \
+    X(stride_odd, lmp_sh_dot_n(BANDS, a, b, 1, LMP_SH_INTERLEAVED, 64, c), lmp_sh_dot_n(BANDS, a, b, 1, LMP_SH_INTERLEAVED, 65, c)) \
+    X(rotate_n, lmp_sh_rotate_n(BANDS, matrices, a, 2, LMP_SH_INTERLEAVED, 0, b), lmp_sh_rotate_n(BANDS, matrices, a, 2, LMP_SH_INTERLEAVED, 0, a + VALUES)) \
+    X(radius, lmp_sphere_project(BANDS, up, 0, at, a), lmp_sphere_project(BANDS, up, -1, at, a)) \
+    X(distance, lmp_sphere_zonal(BANDS, 1, 0, a), lmp_sphere_zonal(BANDS, 1, -1, a)) \
+    X(position, lmp_sphere_project(BANDS, up, 1, at, a), lmp_sphere_project(BANDS, nowhere, 1, at, a)) \
+    X(length, cap_of((lmp_light) { .position = { LMP_LENGTH_MAX, 0, 0 } }), cap_of((lmp_light) { .position = { 2 * LMP_LENGTH_MAX, 0, 0 } })) \
+    X(direction, cap_of((lmp_light) { LMP_LIGHT_DIRECTIONAL, .direction = up }), cap_of((lmp_light) { LMP_LIGHT_DIRECTIONAL, .direction = at })) \
+    X(angle, cap_of((lmp_light) { LMP_LIGHT_CAP, .direction = up, .angle = 3 }), cap_of((lmp_light) { LMP_LIGHT_CAP, .direction = up, .angle = 4 })) \
+    X(cones, cap_of((lmp_light) { LMP_LIGHT_SPOT, .direction = up, .inner = 1, .outer = 1 }), cap_of((lmp_light) { LMP_LIGHT_SPOT, .direction = up, .inner = 1, .outer = 0.5f })) \
+    X(radiance, cap_of((lmp_light) { .radiance = { 1, 1, 1 } }), cap_of((lmp_light) { .radiance = { 1, INFINITY, 1 } })) \
+    X(nowhere_gradient, lmp_sphere_project_gradient(BANDS, at, 1, at, a, b), lmp_sphere_project_gradient(BANDS, at, 0, at, a, b)) \
+    X(power, lmp_sphere_power_from_radiance(1, 1), lmp_sphere_power_from_radiance(1, 0)) \
+    X(phong, lmp_lobe_phong(BANDS, 0, a), lmp_lobe_phong(BANDS, -1, a)) \
+    X(vmf, lmp_lobe_vmf(BANDS, 1, a), lmp_lobe_vmf(BANDS, 0, a)) \
+    X(lobe, lmp_lobe_project(BANDS, b, up, a), lmp_lobe_project(BANDS, b, long_up, a)) \
+    X(irradiance, lmp_probe_irradiance(BANDS, a, up), lmp_probe_irradiance(BANDS, a, long_up)) \
+    X(convert, lmp_probe_convert(BANDS, &(lmp_probe_convention) { 0 }, &(lmp_probe_convention) { 0 }, a, b), lmp_probe_convert(BANDS, &(lmp_probe_convention) { 0 }, &(lmp_probe_convention) { 0 }, a, a)) \
+    X(normal, shaded(up, 1, 1), shaded(long_up, 1, 1)) \
+    X(exponent, shaded(up, 1, 1), shaded(up, -1, 1)) \
+    X(light, shaded(up, 1, 1), shaded(up, 1, NAN)) \
+    X(surfaces, shaded_n(at, 0), shaded_n(nowhere, 0)) \
+    X(rgb_stride, shaded_n(at, 12), shaded_n(at, 8)) \
+    X(host, lmp_result_text(LMP_OK), create_half_a_host())
+/* clang-format on */
+
+#define CALL(name, kept, broken)                                                                   \
+    static void name##_kept(void) {                                                                \
+        (void)(kept);                                                                              \
+    }                                                                                              \
+    static void name##_broken(void) {                                                              \
+        (void)(broken);                                                                            \
+    }
+CALLS(CALL)
+
+#define ROW(name, kept, broken) { #name, name##_kept, name##_broken },
+static const struct {
+    const char *name;
+    void (*kept)(void), (*broken)(void);
+} calls[] = { CALLS(ROW) };
+
+static bool dies(void (*call)(void)) {
+    fflush(NULL);
+    const pid_t child = fork();
+    if (child == 0) {
+        const struct rlimit none = { 0, 0 };
+        setrlimit(RLIMIT_CORE, &none);
+        signal(SIGABRT, SIG_DFL);
+        if (!freopen("/dev/null", "w", stderr))
+            _exit(2);
+        call();
+        _exit(0);
+    }
+    int status = -1;
+    assert_true(child > 0 && waitpid(child, &status, 0) == child);
+    return WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
+}
+
+static void a_broken_precondition_ends_a_debug_build(void **state) {
+    (void)state;
+    if (!CHECK_ASSERTS) {
+        check_skip("this build asserts nothing");
+        return;
+    }
+    assert_int_equal(lmp_sh_product_create(NULL, BANDS, &product), LMP_OK);
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++) {
+        if (dies(calls[i].kept))
+            fail_msg("%s: ends where nothing is wrong", calls[i].name);
+        if (!dies(calls[i].broken))
+            fail_msg("%s: goes on where something is wrong", calls[i].name);
+    }
+    lmp_sh_product_destroy(product);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_broken_precondition_ends_a_debug_build),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
