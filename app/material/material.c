@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/material/material.h"
 
-#include "app/material/sgd_file.h"
+#include "app/material/file.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define FILE_LIMIT ((size_t)1 << 30)
 
 void material_close(material *m) {
     lmp_brdf_destroy(m->brdf);
@@ -93,16 +90,6 @@ static bool open_ggx(const char *name, const char *text, material *m, cli_error 
 /* --- SGD ----------------------------------------------------------------------------------------
  */
 
-static bool find_sgd_in_file(const char *path, const char *name, lmp_sgd *sgd, cli_error *error) {
-    void *data = NULL;
-    size_t size = 0;
-    if (!file_read(path, 1 << 24, &data, &size, error))
-        return false;
-    const bool ok = sgd_file_find(data, name, path, sgd, error);
-    free(data);
-    return ok;
-}
-
 static bool find_sgd(const char *name, const char *text, lmp_sgd *sgd, cli_error *error) {
     const char *colon = strrchr(text, ':');
     if (colon) {
@@ -111,7 +98,7 @@ static bool find_sgd(const char *name, const char *text, lmp_sgd *sgd, cli_error
             return cli_fail(error, name, "the name is too long");
         memcpy(path, text, (size_t)(colon - text));
         path[colon - text] = '\0';
-        return find_sgd_in_file(path, colon + 1, sgd, error);
+        return material_read_sgd(path, colon + 1, sgd, error);
     }
     if (lmp_sgd_find(text, sgd) == LMP_OK)
         return true;
@@ -131,42 +118,8 @@ static bool open_sgd(const char *name, const char *text, material *m, cli_error 
     return finish(name, "", lmp_brdf_create_sgd(NULL, &sgd, &m->brdf), error);
 }
 
-/* --- files --------------------------------------------------------------------------------------
+/* --- by name ------------------------------------------------------------------------------------
  */
-
-static lmp_result read_table(const void *data, size_t size, lmp_parse_error *wrong, material *m) {
-    return lmp_brdf_table_read(NULL, data, size, wrong, &m->table);
-}
-
-static lmp_result read_rgl(const void *data, size_t size, lmp_parse_error *wrong, material *m) {
-    return lmp_brdf_read_rgl(NULL, data, size, wrong, &m->brdf);
-}
-
-static lmp_result read_merl(const void *data, size_t size, lmp_parse_error *wrong, material *m) {
-    return lmp_brdf_read_merl(NULL, data, size, wrong, &m->brdf);
-}
-
-/* Formats are told apart by how their files begin; MERL's begin with nothing of their own. */
-static const struct {
-    const char *magic;
-    lmp_result (*read)(const void *data, size_t size, lmp_parse_error *wrong, material *m);
-} formats[] = { { "LMPT", read_table }, { "tensor_file", read_rgl }, { "", read_merl } };
-
-static bool open_file(const char *path, material *m, cli_error *error) {
-    void *data = NULL;
-    size_t size = 0, i = 0;
-    if (!file_read(path, FILE_LIMIT, &data, &size, error))
-        return false;
-    while (size < strlen(formats[i].magic) ||
-           memcmp(data, formats[i].magic, strlen(formats[i].magic)) != 0)
-        i++;
-    lmp_parse_error wrong = { 0 };
-    const lmp_result result = formats[i].read(data, size, &wrong, m);
-    file_hash_add(&m->hash, data, size);
-    m->file_size = size;
-    free(data);
-    return result == LMP_OK || cli_fail(error, path, "%s (byte %zu)", wrong.text, wrong.offset);
-}
 
 static const struct {
     const char *name;
@@ -175,6 +128,16 @@ static const struct {
     { "lambert", open_lambert }, { "phong", open_phong }, { "ggx", open_ggx }, { "sgd", open_sgd }
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static bool open_file(const char *path, material *m, cli_error *error) {
+    material_file file;
+    const bool ok = material_read_file(path, &file, error);
+    m->brdf = file.brdf;
+    m->table = file.table;
+    m->file_size = file.size;
+    m->hash = file.hash;
+    return ok;
+}
 
 /* A name such as gxx:0.3 is no file: says so. Returns false. */
 static bool hint_kind(const char *name, cli_error *error) {

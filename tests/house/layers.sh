@@ -38,7 +38,7 @@ may_include() {
     app/animation) echo app/cli app/file app/scene app/animation base ;;
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/reference base sh light lobe brdf ;;
-    app/material) echo app/cli app/file app/bake app/material base sh brdf preintegrated ;;
+    app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
     app/gpu) echo app/timing app/zonal app/cli app/file app/image app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
     app/shade) echo app/cli app/scene app/gpu app/shade LIBRARY ;;
     app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;

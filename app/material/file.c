@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/material/file.h"
+
+#include "app/material/sgd_file.h"
+#include "app/sandbox/sandbox.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#define FILE_LIMIT ((size_t)1 << 30)
+#define TEXT_LIMIT ((size_t)1 << 24)
+
+/* --- BRDFs and tables ---------------------------------------------------------------------------
+ */
+
+static lmp_result read_table(const void *data, size_t size, lmp_parse_error *wrong,
+                             material_file *file) {
+    return lmp_brdf_table_read(NULL, data, size, wrong, &file->table);
+}
+
+static lmp_result read_rgl(const void *data, size_t size, lmp_parse_error *wrong,
+                           material_file *file) {
+    return lmp_brdf_read_rgl(NULL, data, size, wrong, &file->brdf);
+}
+
+static lmp_result read_merl(const void *data, size_t size, lmp_parse_error *wrong,
+                            material_file *file) {
+    return lmp_brdf_read_merl(NULL, data, size, wrong, &file->brdf);
+}
+
+/* Formats are told apart by how their files begin; MERL's begin with nothing of their own. */
+typedef struct material_format {
+    const char *magic;
+    lmp_result (*read)(const void *data, size_t size, lmp_parse_error *wrong, material_file *file);
+} material_format;
+static const material_format formats[] = { { "LMPT", read_table },
+                                           { "tensor_file", read_rgl },
+                                           { "", read_merl } };
+
+typedef struct reading {
+    const char *path, *name; /* name: of the row of a table of fits */
+    void *data;
+    size_t size;
+    const material_format *format;
+} reading;
+
+static bool read_bytes(const reading *r, material_file *file, cli_error *error) {
+    lmp_parse_error wrong = { 0 };
+    return r->format->read(r->data, r->size, &wrong, file) == LMP_OK ||
+           cli_fail(error, r->path, "%s (byte %zu)", wrong.text, wrong.offset);
+}
+
+static bool try_in_child(void *context, int output, cli_error *error) {
+    material_file file = { .brdf = NULL };
+    return read_bytes(context, &file, error) && write(output, "", 1) == 1;
+}
+
+/* What the child gave back, for munmap. */
+static bool run_child(reading *r, bool (*work)(void *context, int output, cli_error *error),
+                      void **block, size_t *size, cli_error *error) {
+    const sandbox_job job = {
+        .subject = r->path, .input_bytes = r->size, .context = r, .work = work
+    };
+    return sandbox_run(&job, block, size, error);
+}
+
+bool material_read_file(const char *path, material_file *file, cli_error *error) {
+    *file = (material_file) { .brdf = NULL };
+    reading r = { .path = path, .format = formats };
+    void *block;
+    size_t size;
+    if (!file_read(path, FILE_LIMIT, &r.data, &r.size, error))
+        return false;
+    while (r.size < strlen(r.format->magic) ||
+           memcmp(r.data, r.format->magic, strlen(r.format->magic)) != 0)
+        r.format++;
+    bool ok = run_child(&r, try_in_child, &block, &size, error);
+    if (ok) {
+        munmap(block, size);
+        ok = read_bytes(&r, file, error);
+    }
+    file_hash_add(&file->hash, r.data, r.size);
+    file->size = r.size;
+    free(r.data);
+    return ok;
+}
+
+/* --- tables of fits -----------------------------------------------------------------------------
+ */
+
+static bool find_in_child(void *context, int output, cli_error *error) {
+    const reading *const r = context;
+    lmp_sgd sgd;
+    return sgd_file_find(r->data, r->name, r->path, &sgd, error) &&
+           write(output, &sgd, sizeof sgd) == (ssize_t)sizeof sgd;
+}
+
+/* Numbers and nothing else. */
+static bool take_sgd(const void *block, size_t size, lmp_sgd *sgd) {
+    if (size != sizeof *sgd)
+        return false;
+    memcpy(sgd, block, sizeof *sgd);
+    const double *const numbers = sgd->rho_d;
+    for (size_t i = 0; i < sizeof *sgd / sizeof *numbers; i++)
+        if (!isfinite(numbers[i]))
+            return false;
+    return true;
+}
+
+bool material_read_sgd(const char *path, const char *name, lmp_sgd *sgd, cli_error *error) {
+    reading r = { .path = path, .name = name };
+    void *block;
+    size_t size;
+    if (!file_read(path, TEXT_LIMIT, &r.data, &r.size, error))
+        return false;
+    bool ok = run_child(&r, find_in_child, &block, &size, error);
+    if (ok) {
+        ok = take_sgd(block, size, sgd) || cli_fail(error, path, "is damaged");
+        munmap(block, size);
+    }
+    free(r.data);
+    return ok;
+}
