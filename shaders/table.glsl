@@ -11,12 +11,12 @@ layout(std430, binding = SHARED_TABLES) readonly restrict buffer tables_block {
 
 #if TABLE_FULL
 #define TABLE_COUNT       LMP_SH_COUNT
-#define TABLE_INDEX(l, m) (l * l + l + m)
+#define TABLE_INDEX(l, m) LMP_INDEX(l, m)
 #define TABLE_FAR(first, weight, i)                                                                \
     (weight.z * table_values[first.z + i].rgb + weight.w * table_values[first.w + i].rgb)
 #else
 #define TABLE_COUNT       (LMP_BANDS * (LMP_BANDS + 1) / 2)
-#define TABLE_INDEX(l, m) (l * (l + 1) / 2 + m)
+#define TABLE_INDEX(l, m) LMP_HALF_INDEX(l, m)
 #define TABLE_FAR(first, weight, i) 0.0
 #endif
 

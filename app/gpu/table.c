@@ -24,7 +24,7 @@ static void fill_view(const lmp_brdf_table_info *info, bool full, const float *r
     for (int l = 0; l < info->bands; l++)
         for (int m = full ? -l : 0; m <= l; m++, to++)
             for (size_t c = 0; c < 3; c++) {
-                const size_t i = (size_t)(info->mirrored ? l * (l + 1) / 2 + m : l * l + l + m);
+                const size_t i = info->mirrored ? LMP_SH_HALF_INDEX(l, m) : LMP_SH_INDEX(l, m);
                 (*to)[c] = info->mirrored && m < 0 ? 0 : rgb[c * info->count + i];
             }
 }
@@ -93,7 +93,8 @@ static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, si
 bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
     const int tables = gpu_tables_by_bands(r, method);
     if (!r->tables_buffer || r->tables_method != method) {
-        const size_t n = (size_t)r->table_bands, stride = tables == 2 ? n * n : n * (n + 1) / 2;
+        const int bands = r->table_bands;
+        const size_t stride = tables == 2 ? LMP_SH_COUNT(bands) : LMP_SH_HALF_COUNT(bands);
         const size_t total = count_values(r, method, stride);
         vec4 *values = total < (size_t)1 << 23 ? calloc(total + 1, sizeof *values) : NULL;
         if (!values || !fill_tables(r, method, tables == 2, stride, values)) {

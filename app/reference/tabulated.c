@@ -112,12 +112,11 @@ void reference_tabulated_aim(reference_tabulated *tabulated,
 static void add_term(const reference_tabulated *tabulated, int l, int m, double value,
                      double rgb[3]) {
     const bool mirrored = tabulated->source->table.mirrored;
-    const int index = mirrored ? l * (l + 1) / 2 + m : l * l + l + m;
+    const size_t index = mirrored ? LMP_SH_HALF_INDEX(l, m) : LMP_SH_INDEX(l, m);
     if (mirrored && m < 0)
         return;
     for (size_t c = 0; c < 3; c++)
-        rgb[c] +=
-            value * tabulated->coefficients[c * tabulated->source->table.count + (size_t)index];
+        rgb[c] += value * tabulated->coefficients[c * tabulated->source->table.count + index];
 }
 
 /* Σ c_lm Y_lm, by the paper's Eq. 1 with Legendre functions that carry their own norm. */

@@ -32,6 +32,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Marks what the shared library exports. */
 #if defined(_WIN32)
 #define LMP_API
 #elif defined(__GNUC__)
@@ -40,8 +41,12 @@
 #define LMP_API
 #endif
 
+/* A conversion in a macro, as C and as C++ write it. */
 #ifdef __cplusplus
+#define LMP_CAST(type, value) (static_cast<type>(value))
 extern "C" {
+#else
+#define LMP_CAST(type, value) ((type)(value))
 #endif
 
 /* The one home of the version: CMake parses these three lines. */

@@ -45,7 +45,7 @@ typedef enum lmp_brdf_kind {
 /* Frees any BRDF, through the host it was made with; accepts NULL. */
 LMP_API void lmp_brdf_destroy(lmp_brdf *brdf);
 
-/* f_r(wi, wo) in sr⁻¹. */
+/* f_r(wi, wo) in sr⁻¹. Near the horizon it may grow without bound: held to the largest float. */
 LMP_API lmp_rgb lmp_brdf_eval(const lmp_brdf *brdf, lmp_vec3 wi, lmp_vec3 wo);
 
 /* The same in double, for directions that float cannot tell apart. */
@@ -66,8 +66,8 @@ typedef struct lmp_brdf_info {
 LMP_API lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf);
 
 /* --- parametric --------------------------------------------------------------------------------
- * host may be NULL; *brdf is NULL on failure. LMP_ERROR_ARGUMENT: a value that is not finite
- * or outside its range. */
+ * The caller owns *brdf, which is NULL on failure, and frees it with lmp_brdf_destroy.
+ * LMP_ERROR_ARGUMENT: a value that is not finite or outside its range. */
 
 /* albedo/pi; albedo >= 0. */
 LMP_API lmp_result lmp_brdf_create_lambert(const lmp_host *host, lmp_rgb albedo, lmp_brdf **brdf);
@@ -101,7 +101,9 @@ LMP_API const char *lmp_sgd_name(size_t index);
 LMP_API lmp_result lmp_sgd_find(const char *name, lmp_sgd *sgd);
 
 /* --- measured files ----------------------------------------------------------------------------
- */
+ * Readers copy what they need: `data` may go once they return. LMP_ERROR_FORMAT: bytes that are not
+ * such a file, of which *fault tells; LMP_ERROR_MEMORY. Nothing in a file is believed that its size
+ * does not bear out. */
 
 /* MERL .binary (Matusik et al. 2003): int32 dimensions of theta_h, theta_d, phi_d, then a plane of
  * float64 for red, green and blue. Looked up by cell, as its authors do; negative cells (no data)
@@ -156,7 +158,9 @@ typedef struct lmp_brdf_table_desc {
 
 typedef struct lmp_brdf_table lmp_brdf_table;
 
-/* desc NULL: zero-initialized. The paper windows its 10 bands by LMP_WINDOW_HANNING. */
+/* desc NULL: zero-initialized. The paper windows its 10 bands by LMP_WINDOW_HANNING. Takes seconds
+ * to minutes, on all threads of the host. *table is NULL on failure, needs the BRDF no more, and is
+ * freed with lmp_brdf_table_destroy. LMP_ERROR_ARGUMENT: a member outside its range. */
 LMP_API lmp_result lmp_brdf_table_create(const lmp_host *host, const lmp_brdf_table_desc *desc,
                                          const lmp_brdf *brdf, lmp_brdf_table **table);
 LMP_API void lmp_brdf_table_destroy(lmp_brdf_table *table);
@@ -188,8 +192,8 @@ LMP_API const float *lmp_brdf_table_coefficients(const lmp_brdf_table *table);
 LMP_API void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float phi_o,
                                  float *rgb);
 
-/* The share of light that a view reflects: ∫ f_r cos theta_i dw under radiance 1, of the BRDF, and
- * of its cut and windowed series over the same hemisphere. */
+/* The part of the light that a view reflects: ∫ f_r cos theta_i dw under radiance 1, of the BRDF,
+ * and of its truncated and windowed series over the same hemisphere. */
 LMP_API void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth,
                                    lmp_rgb *measured, lmp_rgb *series);
 

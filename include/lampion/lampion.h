@@ -1,5 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* lampion/lampion.h - the whole library. */
+/* lampion/lampion.h - the whole library, each header with all that it builds on:
+ *
+ *   base.h           version, results, vectors, strides, what the library asks of its host
+ *   sh.h             spherical harmonics: basis, rotation, windows, projection, products
+ *   light.h          lights of every kind, and their projection
+ *   lobe.h           lobes around an axis, and what they gather of lights
+ *   probe.h          probes: irradiance, fitting, conventions of other software
+ *   brdf.h           measured and parametric BRDFs, their files and tables
+ *   preintegrated.h  lobes and BRDFs integrated beforehand
+ *   shade.h          the light that surfaces reflect: where most programs begin
+ *   cpu.h            instruction sets */
 #ifndef LAMPION_LAMPION_H
 #define LAMPION_LAMPION_H
 

@@ -7,79 +7,68 @@
  *   basis       real, orthonormal, paper Eq. 1-2 with the Condon-Shortley sign, as Sloan,
  *               DirectXMath and Google: Y_1 = 0.4886 * (-y, z, -x). Files without that sign differ
  *               by (-1)^m
- *   directions  unit vectors
  *   projection  f_lm = ∫ f(w) Y_lm(w) dw (paper Eq. 5);  ∫ f g dw = Σ f_lm g_lm (paper Eq. 4)
+ *   arrays      coefficients (sh, a, b, c …) hold LMP_SH_COUNT(bands) values, what has one a band
+ *               (weights, zonal) `bands`; they must not overlap unless a function says so
  *
- * bands is in 1 … LMP_BANDS_MAX everywhere. Arrays must not overlap unless a function says so. */
+ * bands is in 1 … LMP_BANDS_MAX everywhere, and directions and axes are unit. */
 #ifndef LAMPION_SH_H
 #define LAMPION_SH_H
 
 #include <lampion/base.h>
 
-#include <stdbool.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Number of coefficients of `bands` bands, and the place of (l, m) among them. */
-#define LMP_SH_COUNT(bands) ((size_t)(bands) * (size_t)(bands))
-#define LMP_SH_INDEX(l, m)  ((size_t)((l) * (l) + (l) + (m)))
+/* Number of coefficients of `bands` bands, and the index of (l, m) among them. */
+#define LMP_SH_COUNT(bands) (LMP_CAST(size_t, bands) * LMP_CAST(size_t, bands))
+#define LMP_SH_INDEX(l, m)  LMP_CAST(size_t, (l) * (l) + (l) + (m))
+
+/* The same where m >= 0 alone is kept, of functions that are unchanged under y -> -y. */
+#define LMP_SH_HALF_COUNT(bands) (LMP_CAST(size_t, bands) * (LMP_CAST(size_t, bands) + 1) / 2)
+#define LMP_SH_HALF_INDEX(l, m)  LMP_CAST(size_t, (l) * ((l) + 1) / 2 + (m))
 
 /* Floats of a rotation: the (2l+1)^2 matrices of l = 0 … bands-1, one after the other. */
-#define LMP_SH_ROTATION_COUNT(bands) ((4 * LMP_SH_COUNT(bands) - 1) * (size_t)(bands) / 3)
+#define LMP_SH_ROTATION_COUNT(bands) ((4 * LMP_SH_COUNT(bands) - 1) * LMP_CAST(size_t, bands) / 3)
 
-/* Y_lm(direction) for all l < bands (paper Eq. 1), in Cartesian form: no angles, no poles.
- *
- * direction must be unit; sh receives LMP_SH_COUNT(bands) values */
+/* Y_lm(direction) for all l < bands (paper Eq. 1), in Cartesian form: no angles, no poles. */
 LMP_API void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh);
 
 /* Y_lm(direction) and its surface gradient, the derivatives of Y_lm(v / |v|) by x, y, z where v is
- * the direction: they are perpendicular to it. Second derivatives sum to -l(l+1) Y_lm.
- *
- * direction must be unit; sh receives LMP_SH_COUNT(bands) values, gradient three planes of as many,
+ * the direction, perpendicular to it. gradient receives three planes of LMP_SH_COUNT(bands) values,
  * d/dx, d/dy, d/dz */
 LMP_API void lmp_sh_eval_gradient(int bands, lmp_vec3 direction, float *sh, float *gradient);
 
-/* s a + t b, coefficient by coefficient: sums, differences, scaled and interpolated functions.
- *
- * a, b and sh hold LMP_SH_COUNT(bands) values; sh may be a or b */
+/* s a + t b, coefficient by coefficient: sums, differences, scaled and interpolated functions. sh
+ * may be a or b. */
 LMP_API void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b, float *sh);
 
-/* Σ a_i b_i: the integral of the product of the two functions (paper Eq. 4).
- *
- * a and b hold LMP_SH_COUNT(bands) values */
+/* Σ a_i b_i: the integral of the product (paper Eq. 4). */
 LMP_API float lmp_sh_dot(int bands, const float *a, const float *b);
 
-/* The value at `direction` of the function with coefficients sh (paper Eq. 6).
- *
- * direction must be unit; sh holds LMP_SH_COUNT(bands) values */
+/* The value at `direction` of the function with coefficients sh (paper Eq. 6). */
 LMP_API float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction);
 
-/* Coefficients of a function symmetric round `axis` from its zonal coefficients (paper Eq. 3, 13).
- *
- * zonal[l], l < bands, are the coefficients of Y_l0 in the frame whose z is the axis
- * axis must be unit; sh receives LMP_SH_COUNT(bands) values */
+/* Coefficients of a function symmetric around `axis` (paper Eq. 3, 13). zonal[l] is its coefficient
+ * of Y_l0 in the frame whose z is the axis. */
 LMP_API void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh);
 
 /* The matrices M^l of f'(w) = f(R^-1 w): c'_l = M^l c_l, so that M^l Y_l(w) = Y_l(R w).
  *
- * rotation need not be exactly unit, it is normalized; it must not be zero
- * matrices receives LMP_SH_ROTATION_COUNT(bands) values, each matrix row-major */
+ * rotation must not be zero, and is normalized; matrices receives LMP_SH_ROTATION_COUNT(bands)
+ * values, each matrix row-major */
 LMP_API void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices);
 
-/* The same from a rotation matrix, row-major: R w are its rows times w. It must be a rotation, up
- * to rounding. */
+/* The same from a matrix, row-major, that must be a rotation up to rounding (LMP_UNIT_TOLERANCE).
+ */
 LMP_API void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matrices);
 
 /* Rotates coefficients by `angle` radians around z, from x toward y: O(bands²), without matrices.
- *
- * sh and rotated hold LMP_SH_COUNT(bands) values and may be the same array */
+ * sh and rotated may be the same array. */
 LMP_API void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated);
 
-/* Rotates coefficients by the matrices of lmp_sh_rotation.
- *
- * sh and rotated hold LMP_SH_COUNT(bands) values and must not overlap */
+/* Rotates coefficients by the matrices of lmp_sh_rotation, not in place. */
 LMP_API void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated);
 
 /* Windowing filters damp the ringing of a truncated series by scaling band l by a weight (Sloan
@@ -94,57 +83,46 @@ typedef enum lmp_window {
 /* "none", "hanning" …; NULL from LMP_WINDOWS on. */
 LMP_API const char *lmp_sh_window_name(lmp_window window);
 
-/* Weights of a window.
- *
- * size > 0 is the band whose weight falls to 0; 0 means bands, as in the paper (§4.2). Bands at and
- * past size get weight 0. LMP_WINDOW_NONE gives 1 to every band, whatever the size.
- * weights receives `bands` values */
+/* Weights of a window. size is the band whose weight falls to 0, as those past it; 0 means bands,
+ * as in the paper (§4.2). LMP_WINDOW_NONE gives 1 to every band, whatever the size. */
 LMP_API void lmp_sh_window(int bands, lmp_window window, float size, float *weights);
 
 /* Weights that minimize the squared Laplacian of the function sh (Sloan 2008): the window
- * 1 / (1 + mu l^2 (l+1)^2) whose mu leaves the fraction `keep` of the squared Laplacian.
- *
- * keep is in (0, 1]; 1 gives weights of 1; sh holds LMP_SH_COUNT(bands), weights receives bands */
+ * 1 / (1 + mu l^2 (l+1)^2) whose mu leaves the fraction `keep`, 0 < keep <= 1, of it. */
 LMP_API void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weights);
 
-/* Scales band l of sh by weights[l]; in and out may be the same array. */
+/* Scales band l of sh by weights[l]; windowed may be sh. */
 LMP_API void lmp_sh_window_apply(int bands, const float *weights, const float *sh, float *windowed);
 
 /* A function on the sphere, for projection; direction is unit. */
 typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
 
 /* Coefficients of any function (paper Eq. 5) by Gauss-Legendre nodes in z times uniform nodes in
- * azimuth: exact, up to rounding, for functions band-limited to degree 2*nodes - bands.
- *
- * nodes >= 1 Gauss-Legendre nodes and 2*nodes azimuths: function is called 2*nodes*nodes times;
- * nodes = bands suffices for a function of `bands` bands. 0 means bands.
- * sh receives LMP_SH_COUNT(bands) values */
+ * azimuth: exact, up to rounding, for functions band-limited to degree 2*nodes - bands. `function`
+ * is called at `nodes` heights times 2*nodes azimuths; 0 means bands, enough for as many bands. */
 LMP_API void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
                                      float *sh);
 
 /* Texels of an image: any number of channels, interleaved or planar. Strides 0 mean tight and
- * interleaved. A texel counts as a constant seen at its center, weighted by its exact
- * solid angle: take images of at least 4 * bands rows. Sums are in double, whatever the size. The
- * cost is that of bands² / 2 multiplications and additions a texel and channel. */
+ * interleaved. A texel counts as a constant seen at its center, weighted by its exact solid angle:
+ * take images of at least 4 * bands rows. Sums are in double; bands² / 2 multiplications and
+ * additions a texel and channel. */
 typedef enum lmp_texel { LMP_TEXEL_FLOAT = 0, LMP_TEXEL_HALF } lmp_texel;
 
 /* A latitude-longitude image of the surroundings; zero-initialize it. Row 0 touches up (+y). The
  * center column shows +x and columns run toward +z, u = 1/2 + atan2(z, x) / 2 pi, as in three.js
- * and in the sample viewer of glTF.
- *
- * azimuth is the direction of the center column, in radians from +x toward +z */
+ * and in the sample viewer of glTF. */
 typedef struct lmp_latlong {
     const void *pixels;
     int width, height, channels;
     lmp_texel texel;
     size_t row_stride, texel_stride, channel_stride;
-    float azimuth;
+    float azimuth; /* of the center column, radians from +x toward +z */
     bool mirrored; /* columns run from +z toward -z: the surroundings as seen in a mirror */
     bool z_up;     /* for worlds with z up: (x, y, z) of a world with y up is (x, -z, y) there */
 } lmp_latlong;
 
-/* Coefficients of a latitude-longitude image: sh receives `channels` planes of LMP_SH_COUNT(bands)
- * values. */
+/* Coefficients of a latitude-longitude image: as many planes as channels. */
 LMP_API void lmp_sh_project_latlong(int bands, const lmp_latlong *image, float *sh);
 
 /* A cube map; zero-initialize it. The faces are +x, -x, +y, -y, +z, -z, each `size` rows of `size`
@@ -159,29 +137,25 @@ typedef struct lmp_cubemap {
     bool left_handed; /* the map is of a left-handed world, as Direct3D's: its z is -z here */
 } lmp_cubemap;
 
-/* Coefficients of a cube map: sh receives `channels` planes of LMP_SH_COUNT(bands) values. */
+/* Coefficients of a cube map: as many planes as channels. */
 LMP_API void lmp_sh_project_cubemap(int bands, const lmp_cubemap *map, float *sh);
 
-/* The product of two functions, cut to `bands` bands: a table of triple products
- * Γ_ijk = ∫ Y_i Y_j Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
+/* Multiplies functions, truncated to `bands` bands: a table of triple products Γ_ijk = ∫ Y_i Y_j
+ * Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
 typedef struct lmp_sh_product lmp_sh_product;
 
-/* host may be NULL; *product is NULL on failure. Free with lmp_sh_product_destroy, which
- * accepts NULL. */
+/* *product is NULL on failure (LMP_ERROR_ARGUMENT: bands); lmp_sh_product_destroy accepts NULL. */
 LMP_API lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product **product);
 LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
 
-/* c = the first `bands` bands of the pointwise product of a and b, exact up to rounding.
- *
- * a, b and c hold LMP_SH_COUNT(bands) values; c must not overlap a or b */
+/* c = the first `bands` bands of the pointwise product of a and b, exact up to rounding. */
 LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b,
                              float *c);
 
 /* --- batches ------------------------------------------------------------------------------------
- * The functions that end in _n, here and in light.h and lobe.h, do the work of their scalar twins
- * for many elements at once, on the widest instruction set of the machine; the results agree up to
- * rounding, and are the same bits on every machine. They keep nothing, so split the elements among
- * threads as you like: no split changes a bit.
+ * The functions that end in _n, here and in light.h and lobe.h, do the work of their twins for many
+ * elements, on the widest instruction set of the machine. Results agree up to rounding, and are the
+ * same bits on every machine and however the elements are split among threads.
  *
  * A result of V values an element is laid out
  *   LMP_SH_INTERLEAVED  element after element, as engines store it: `stride` bytes from one element
@@ -189,21 +163,18 @@ LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, cons
  *   LMP_SH_PLANAR       value after value, the faster one: `stride` bytes from one value's plane to
  *                       the next, the elements side by side. Where that is a power of two, planes
  *                       compete for the same lines of the cache: pad it
- * Stride 0 means tight: V or `count` floats. What lies between is left alone. Any alignment of
- * floats will do; planes that all begin at multiples of 64 bytes spare the widest stores a crossing
- * of cache lines. */
+ * Stride 0 means tight; what lies between is left alone. */
 typedef enum lmp_sh_layout { LMP_SH_INTERLEAVED = 0, LMP_SH_PLANAR } lmp_sh_layout;
 
 /* lmp_sh_eval of many directions: LMP_SH_COUNT(bands) values an element. */
 LMP_API void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
                            size_t stride, float *sh);
 
-/* lmp_sh_dot of many pairs of vectors of LMP_SH_COUNT(bands) values, both laid out alike; dots
- * receives `count` values. Both layouts give the same bits. */
+/* lmp_sh_dot of many pairs, both laid out alike; dots receives `count` values. */
 LMP_API void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count,
                           lmp_sh_layout layout, size_t stride, float *dots);
 
-/* lmp_sh_rotate of many vectors by the same matrices; sh and rotated are laid out alike. */
+/* lmp_sh_rotate of many functions by the same matrices; sh and rotated are laid out alike. */
 LMP_API void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, size_t count,
                              lmp_sh_layout layout, size_t stride, float *rotated);
 

@@ -89,8 +89,7 @@ lmp_result lmp_brdf_table_read(const lmp_host *host, const void *data, size_t si
     lmp_result result = read_header(bytes, size, &info, fault);
     if (result != LMP_OK)
         return result;
-    const size_t n = (size_t)info.bands;
-    info.count = info.mirrored ? n * (n + 1) / 2 : n * n;
+    info.count = info.mirrored ? LMP_SH_HALF_COUNT(info.bands) : LMP_SH_COUNT(info.bands);
     const uint64_t wanted =
         HEADER + LMP_BYTES_CHECKSUM +
         UINT64_C(12) * info.count * (uint64_t)info.views * (uint64_t)info.azimuths;

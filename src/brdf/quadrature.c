@@ -27,7 +27,7 @@ static void legendre_ring(int bands, double z, double *row) {
 
 lmp_result lmp_brdf_quadrature_create(const lmp_host *host, int bands, int rings,
                                       brdf_quadrature *quadrature) {
-    const size_t n = (size_t)bands, k = (size_t)rings, half = brdf_half_count(bands);
+    const size_t n = (size_t)bands, k = (size_t)rings, half = LMP_SH_HALF_COUNT(bands);
     double *block = lmp_allocate(host, (6 * k + 4 * k * n + k * half) * sizeof *block);
     if (!block)
         return LMP_ERROR_MEMORY;
@@ -104,7 +104,7 @@ static void transform_ring(const brdf_projection *p, const brdf_quadrature *q, d
 void lmp_brdf_project_view(const brdf_projection *projection, const brdf_quadrature *quadrature,
                            double *cosine, double *sine) {
     const int bands = quadrature->bands;
-    const size_t half = brdf_half_count(bands);
+    const size_t half = LMP_SH_HALF_COUNT(bands);
     const bool halved = is_halved(projection);
     const int count = halved ? quadrature->azimuths / 2 : quadrature->azimuths;
     memset(cosine, 0, 3 * half * sizeof *cosine);

@@ -11,16 +11,12 @@ typedef struct brdf_quadrature {
     double *z, *weight;         /* [rings]; the weight includes z and 2 pi / azimuths */
     double *x, *y;              /* [azimuths]: cos phi, sin phi */
     double *cosine, *sine;      /* [azimuths][bands]: of m phi */
-    double *legendre;           /* [rings][half_count]: Y_lm / cos(m phi), by m */
+    double *legendre;           /* [rings][LMP_SH_HALF_COUNT(bands)]: Y_lm / cos(m phi), by m */
     void *block;
 } brdf_quadrature;
 
-/* Coefficients with m >= 0. */
-static inline size_t brdf_half_count(int bands) {
-    return (size_t)bands * ((size_t)bands + 1) / 2;
-}
-
-/* Their place by m: for each m the entries l = m … bands-1 follow one another. */
+/* The index of coefficients with m >= 0 that are ordered by m: for each m the entries l = m …
+ * bands-1 follow one another. */
 static inline size_t brdf_half_index(int bands, int l, int m) {
     return (size_t)(m * bands - m * (m - 1) / 2 + l - m);
 }
@@ -37,7 +33,8 @@ typedef struct brdf_projection {
     bool mirrored;           /* m >= 0 alone */
 } brdf_projection;
 
-/* cosine and sine parts: [channel][half_count], by m. sine is left alone if mirrored. */
+/* cosine and sine parts: [channel][LMP_SH_HALF_COUNT(bands)], by m. sine is left alone if mirrored.
+ */
 void lmp_brdf_project_view(const brdf_projection *projection, const brdf_quadrature *quadrature,
                            double *cosine, double *sine);
 

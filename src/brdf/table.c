@@ -14,7 +14,8 @@
 lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *info,
                               lmp_brdf_table **table) {
     *table = NULL;
-    const size_t count = info->mirrored ? brdf_half_count(info->bands) : LMP_SH_COUNT(info->bands);
+    const size_t count =
+        info->mirrored ? LMP_SH_HALF_COUNT(info->bands) : LMP_SH_COUNT(info->bands);
     const size_t head = (sizeof **table + 15) & ~(size_t)15;
     const size_t floats = 3 * count * (size_t)info->views * (size_t)info->azimuths;
     const lmp_host resolved = lmp_host_resolve(host);
@@ -60,14 +61,14 @@ typedef struct table_job {
 /* Writes a view's coefficients in the order of the table; returns the relative change. */
 static float store_view(const lmp_brdf_table_info *info, const double *cosine, const double *sine,
                         float *row) {
-    const size_t half = brdf_half_count(info->bands);
+    const size_t half = LMP_SH_HALF_COUNT(info->bands);
     double largest = 0, change = 0;
     for (size_t channel = 0; channel < 3; channel++, row += info->count)
         for (int l = 0; l < info->bands; l++)
             for (int m = info->mirrored ? 0 : -l; m <= l; m++) {
                 const size_t from = channel * half + brdf_half_index(info->bands, l, abs(m));
                 const double value = m < 0 ? sine[from] : cosine[from];
-                float *to = row + (info->mirrored ? l * (l + 1) / 2 + m : l * l + l + m);
+                float *to = row + (info->mirrored ? LMP_SH_HALF_INDEX(l, m) : LMP_SH_INDEX(l, m));
                 largest = fmax(largest, fabs(value));
                 change = fmax(change, fabs(value - (double)*to));
                 *to = (float)value;
@@ -81,7 +82,7 @@ static lmp_result make_view(size_t index, void *data) {
     const lmp_brdf_table_info *info = &table->info;
     if (job->change[index] <= job->tolerance)
         return LMP_OK;
-    const size_t half = brdf_half_count(info->bands);
+    const size_t half = LMP_SH_HALF_COUNT(info->bands);
     double *parts = lmp_allocate(&table->host, 6 * half * sizeof *parts);
     if (!parts)
         return LMP_ERROR_MEMORY;
@@ -256,7 +257,7 @@ lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings, const lm
     const double x = (double)wo.x, y = (double)wo.y, z = (double)wo.z;
     const double length = sqrt(x * x + y * y + z * z);
     const lmp_host resolved = lmp_host_resolve(host);
-    const size_t half = brdf_half_count(bands);
+    const size_t half = LMP_SH_HALF_COUNT(bands);
     brdf_quadrature quadrature;
     const lmp_result result = lmp_brdf_quadrature_create(&resolved, bands, rings, &quadrature);
     if (result != LMP_OK)
@@ -297,8 +298,8 @@ typedef struct band_part {
 } band_part;
 
 static band_part part_of(const lmp_brdf_table_info *info, int low, int high) {
-    const size_t first = info->mirrored ? brdf_half_count(low) : LMP_SH_COUNT(low);
-    const size_t end = info->mirrored ? brdf_half_count(high) : LMP_SH_COUNT(high);
+    const size_t first = info->mirrored ? LMP_SH_HALF_COUNT(low) : LMP_SH_COUNT(low);
+    const size_t end = info->mirrored ? LMP_SH_HALF_COUNT(high) : LMP_SH_COUNT(high);
     return (band_part) { low, high, first, end - first };
 }
 
@@ -392,7 +393,7 @@ void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, l
         for (int l = 1; l < info->bands; l += 2) {
             if (l > 1)
                 r *= -(l - 2.0) / (l + 1);
-            const float value = row[info->mirrored ? l * (l + 1) / 2 : l * l + l];
+            const float value = row[info->mirrored ? LMP_SH_HALF_INDEX(l, 0) : LMP_SH_INDEX(l, 0)];
             upper[channel] += BRDF_PI * r * sqrt((2 * l + 1) / (4 * BRDF_PI)) * (double)value;
         }
     }

@@ -22,8 +22,8 @@
 static void expand(const lmp_brdf_table_info *info, const float *plane, int bands, float *sh) {
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++) {
-            const int half = l * (l + 1) / 2 + m, full = l * l + l + m;
-            sh[full] = !info->mirrored ? plane[full] : m < 0 ? 0 : plane[half];
+            const size_t full = LMP_SH_INDEX(l, m);
+            sh[full] = !info->mirrored ? plane[full] : m < 0 ? 0 : plane[LMP_SH_HALF_INDEX(l, m)];
         }
 }
 

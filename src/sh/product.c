@@ -38,10 +38,6 @@ struct lmp_sh_product {
 
 /* --- the grid --------------------------------------------------------------------------------- */
 
-static size_t triangle(int bands) {
-    return (size_t)bands * (size_t)(bands + 1) / 2;
-}
-
 /* Y_l,m of azimuth 0 for m = 0 … bands-1, l = m … bands-1: the recurrence of tables.h in double,
  * with the power of the radius in it. */
 static void fill_columns(int bands, double z, double *column) {
@@ -74,11 +70,11 @@ static lmp_result create_grid(lmp_sh_product *product) {
     const int bands = product->bands;
     product->heights = height_count(bands);
     product->azimuths = azimuth_count(bands);
-    const size_t columns = (size_t)product->heights * triangle(bands);
+    const size_t columns = (size_t)product->heights * LMP_SH_HALF_COUNT(bands);
     const size_t waves = (size_t)product->azimuths * (size_t)bands;
     const size_t total = (size_t)product->heights + columns + 2 * waves;
     product->weights = lmp_allocate(&product->host, total * sizeof(float));
-    double *column = lmp_allocate(&product->host, triangle(bands) * sizeof(double));
+    double *column = lmp_allocate(&product->host, LMP_SH_HALF_COUNT(bands) * sizeof(double));
     if (!product->weights || !column) {
         lmp_release(&product->host, column);
         return LMP_ERROR_MEMORY;
@@ -91,8 +87,8 @@ static lmp_result create_grid(lmp_sh_product *product) {
         lmp_gauss_legendre(product->heights, i, &z, &weight);
         product->weights[i] = (float)(weight * 2 * pi / product->azimuths);
         fill_columns(bands, z, column);
-        for (size_t k = 0; k < triangle(bands); k++)
-            product->columns[(size_t)i * triangle(bands) + k] = (float)column[k];
+        for (size_t k = 0; k < LMP_SH_HALF_COUNT(bands); k++)
+            product->columns[(size_t)i * LMP_SH_HALF_COUNT(bands) + k] = (float)column[k];
     }
     for (int j = 0; j < product->azimuths; j++) {
         for (int m = 0; m < bands; m++) {
@@ -135,7 +131,7 @@ static void multiply_on_grid(const lmp_sh_product *product, const float *a, cons
     const int bands = product->bands;
     memset(c, 0, LMP_SH_COUNT(bands) * sizeof *c);
     for (int i = 0; i < product->heights; i++) {
-        const float *column = product->columns + (size_t)i * triangle(bands);
+        const float *column = product->columns + (size_t)i * LMP_SH_HALF_COUNT(bands);
         fourier of_a, of_b, of_c = { { 0 }, { 0 } };
         circle_of(bands, column, a, &of_a);
         circle_of(bands, column, b, &of_b);

@@ -13,7 +13,7 @@ static double error_of_row(const float *sh, const double expected[55]) {
     double odd = 0;
     for (int l = 0; l < 10; l++)
         for (int m = 0; m <= l; m++) {
-            half[l * (l + 1) / 2 + m] = sh[LMP_SH_INDEX(l, m)];
+            half[LMP_SH_HALF_INDEX(l, m)] = sh[LMP_SH_INDEX(l, m)];
             if (m > 0)
                 odd = fmax(odd, fabs((double)sh[LMP_SH_INDEX(l, -m)]));
         }
@@ -79,7 +79,7 @@ static void tables_hold_the_projection_of_each_view(void **state) {
         for (int l = 0; l < 12; l++)
             for (int m = 0; m <= l; m++)
                 for (int c = 0; c < 3; c++)
-                    CHECK_WITHIN(fabsf(row[(size_t)c * 78 + (size_t)(l * (l + 1) / 2 + m)] -
+                    CHECK_WITHIN(fabsf(row[(size_t)c * 78 + LMP_SH_HALF_INDEX(l, m)] -
                                        sh[(size_t)c * 144 + LMP_SH_INDEX(l, m)]),
                                  1e-4);
     }
