@@ -22,6 +22,18 @@ static float mix(float a, float b, float fraction) {
     return a + (b - a) * fraction;
 }
 
+/* The parameters of all lobes, as in the table. */
+static void interpolate(between row, between column, float parameters[LMP_GGX_LOBES][4]) {
+    const float *node[2][2];
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++)
+            node[i][k] = &lmp_ggx_table[row.node + i][column.node + k][0][0];
+    for (int i = 0; i < 4 * LMP_GGX_LOBES; i++)
+        (&parameters[0][0])[i] =
+            mix(mix(node[0][0][i], node[0][1][i], column.fraction),
+                mix(node[1][0][i], node[1][1][i], column.fraction), row.fraction);
+}
+
 void lmp_lobe_ggx(lmp_vec3 normal, lmp_vec3 view, float roughness, lmp_ggx_lobes *lobes) {
     const float least = LMP_GGX_ROUGHNESS_MIN;
     const float rough = roughness > least ? roughness < 1 ? roughness : 1 : least;
@@ -31,16 +43,10 @@ void lmp_lobe_ggx(lmp_vec3 normal, lmp_vec3 view, float roughness, lmp_ggx_lobes
     const between row = between_nodes((rough - least) / (1 - least), LMP_GGX_ROUGHNESSES);
     const between column = between_nodes(sqrtf(cosine), LMP_GGX_VIEWS);
 
+    float parameters[LMP_GGX_LOBES][4];
+    interpolate(row, column, parameters);
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
-        const float *near[2], *far[2];
-        for (int i = 0; i < 2; i++) {
-            near[i] = lmp_ggx_table[row.node][column.node + i][k];
-            far[i] = lmp_ggx_table[row.node + 1][column.node + i][k];
-        }
-        float p[4];
-        for (int i = 0; i < 4; i++)
-            p[i] = mix(mix(near[0][i], near[1][i], column.fraction),
-                       mix(far[0][i], far[1][i], column.fraction), row.fraction);
+        const float *p = parameters[k];
         const float rise = cosine + alpha * p[0] + along;
         const lmp_vec3 axis = { normal.x * rise - view.x, normal.y * rise - view.y,
                                 normal.z * rise - view.z };

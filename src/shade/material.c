@@ -7,7 +7,7 @@
 static const float pi = 3.14159265f;
 
 static float saturate(float x) {
-    return fminf(fmaxf(x, 0), 1);
+    return x > 0 ? x < 1 ? x : 1 : 0;
 }
 
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings) {
