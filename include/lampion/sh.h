@@ -183,6 +183,7 @@ LMP_API void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, 
  * machine but for rotations, which take sines of the C library. One element a call and no vectors,
  * because the kernels' tables are floats. Contracts are those of the functions without _double. */
 
+/* Y_lm(direction). */
 LMP_API void lmp_sh_eval_double(int bands, const double direction[3], double *sh);
 
 /* gradient may be NULL: then it is not found. */
