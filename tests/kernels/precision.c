@@ -11,8 +11,8 @@ static double bound_of(kind which, int bands, double alpha2) {
         return 1e-6 * bands;
     case PROJECT:
         return 3e-6 + 1e-6 * bands + surface_bound(alpha2);
-    case GRADIENT: /* as 1 / cos a, which is off by half the relative error of cos² a */
-        return 1e-6 + 6e-7 * bands + 0.5 * surface_bound(alpha2) / sqrt(fmax(alpha2, 1e-30));
+    case GRADIENT: /* it grows as 1 / cos a, so by the relative error of cos a */
+        return 1e-6 + 6e-7 * bands + surface_bound(alpha2) / sqrt(fmax(alpha2, 1e-30));
     case ZONAL:
         return 2e-6 + surface_bound(alpha2);
     default:
