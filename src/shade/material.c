@@ -24,28 +24,32 @@ static lmp_vec3 mirrored(lmp_vec3 n, lmp_vec3 v) {
     return (lmp_vec3) { twice * n.x - v.x, twice * n.y - v.y, twice * n.z - v.z };
 }
 
-static lmp_rgb plus(lmp_rgb color, float gray) {
-    return (lmp_rgb) { color.r + gray, color.g + gray, color.b + gray };
-}
-
 static lmp_rgb times(lmp_rgb color, float factor) {
     return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
 }
 
-/* glTF 2.0, appendix B: a metal, whose F0 is the base color, mixed with a dielectric, whose base
- * color is under a layer of reflectance 0.04. */
+shade_layers lmp_shade_layers(const lmp_material *material) {
+    const float metal = saturate(material->metallic), dielectric = 1 - metal;
+    const lmp_rgb base = material->base_color;
+    const float layer = SHADE_DIELECTRIC_F0 * dielectric;
+    return (shade_layers) { times(base, dielectric),
+                            { base.r * metal + layer, base.g * metal + layer,
+                              base.b * metal + layer } };
+}
+
 static void reflect_metallic_roughness(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
                                        shade_reflection *reflection) {
-    const float metal = saturate(material->metallic), dielectric = 1 - metal, layer = 0.04f;
+    const shade_layers layers = lmp_shade_layers(material);
     lmp_ggx_lobes ggx;
     lmp_lobe_ggx(normal, view, material->roughness, &ggx);
-    const float passed = 1 - layer * ggx.diffuse_f0 - ggx.diffuse_f90;
-    const lmp_rgb f0 = plus(times(material->base_color, metal), layer * dielectric);
-    reflection->diffuse = times(material->base_color, dielectric * passed);
+    reflection->diffuse = times(layers.diffuse, lmp_shade_passed(ggx.diffuse_f90));
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         const lmp_ggx_lobe *lobe = &ggx.lobe[k];
-        reflection->lobe[k] =
-            (shade_phong) { lobe->axis, lobe->exponent, plus(times(f0, lobe->f0), lobe->f90) };
+        reflection->lobe[k] = (shade_phong) { lobe->axis,
+                                              lobe->exponent,
+                                              { layers.f0.r * lobe->f0 + lobe->f90,
+                                                layers.f0.g * lobe->f0 + lobe->f90,
+                                                layers.f0.b * lobe->f0 + lobe->f90 } };
     }
 }
 

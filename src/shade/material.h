@@ -95,6 +95,19 @@ static inline float lmp_shade_clamped(float sum) {
 /* The settings with every default filled in. */
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings);
 
+/* Metallic-roughness (glTF 2.0, appendix B) is a metal, whose F0 is the base color, mixed with a
+ * dielectric, whose base color lies under a layer: the albedo of that base, and F0 of both. */
+#define SHADE_DIELECTRIC_F0 0.04f
+typedef struct shade_layers {
+    lmp_rgb diffuse, f0;
+} shade_layers;
+shade_layers lmp_shade_layers(const lmp_material *material);
+
+/* What passes the layer on its way to the base and back, by diffuse_f90 (lobe.h). */
+static inline float lmp_shade_passed(float diffuse_f90) {
+    return 1 - SHADE_DIELECTRIC_F0 * (1 - diffuse_f90) - diffuse_f90;
+}
+
 /* For a material of a kind that has lobes. */
 void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
                           shade_reflection *reflection);

@@ -4,7 +4,7 @@
 #include "src/kernels/batch.h"
 #include "src/light/cap.h"
 #include "src/preintegrated/lobe_eval.h"
-#include "src/shade/material.h"
+#include "src/shade/planes.h"
 
 #include <math.h>
 
@@ -21,22 +21,13 @@ static const float pi = 3.14159265f;
 /* Spots that one call of a kernel takes at most: each needs a plane of its own. */
 enum { SPOTS_MAX = 4 };
 
-static_assert(LMP_KERNEL_LOBES_MAX == LMP_GGX_LOBES, "the kernels take all lobes of GGX");
-
-typedef struct lobe_planes {
-    lmp_batch_vec3 axis, weight;
-    lmp_batch_plane exponent;
-    lmp_batch_plane accumulated[3];
-} lobe_planes;
-
 /* Surfaces near each other that are shaded from the same. */
 typedef struct chunk {
     shade_source source;
     size_t count;
     size_t at[LMP_BATCH]; /* among the caller's; rising */
-    lmp_batch_vec3 point, normal, view, diffuse;
-    lmp_batch_plane accumulated[3];
-    lobe_planes lobe[LMP_KERNEL_LOBES_MAX];
+    lmp_batch_vec3 point, normal, view;
+    shade_planes planes;
     float ambient[3];
     lmp_kernel_surfaces surfaces;
     lmp_kernel_accumulated sums;
@@ -82,37 +73,13 @@ static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const chunk_pla
                                load_floats(array->z, array->stride, chunk, &planes->z) };
 }
 
-static void store_vector(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
-    planes->x.at[i] = x;
-    planes->y.at[i] = y;
-    planes->z.at[i] = z;
-}
-
-static lmp_vec3 from_planes(const lmp_batch_vec3 *planes, size_t i) {
-    return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
-}
-
-static void store_lobe(const shade_phong *from, size_t i, lobe_planes *lobe) {
-    store_vector(from->axis.x, from->axis.y, from->axis.z, &lobe->axis, i);
-    store_vector(from->weight.r, from->weight.g, from->weight.b, &lobe->weight, i);
-    lobe->exponent.at[i] = from->exponent;
-}
-
 static void load_lobes(const lmp_surfaces *surfaces, chunk_planes *chunk) {
+    shade_planes *planes = &chunk->planes;
     const int lobes = chunk->source.phong_count;
+    lmp_shade_load(surfaces, chunk->at, chunk->count, lobes, &chunk->normal, &chunk->view, planes);
     chunk->surfaces.lobe_count = lobes;
-    for (size_t i = 0; i < chunk->count; i++) {
-        shade_reflection r;
-        lmp_shade_reflection(lmp_material_at(surfaces, chunk->at[i]),
-                             from_planes(&chunk->normal, i), from_planes(&chunk->view, i), &r);
-        store_vector(r.diffuse.r, r.diffuse.g, r.diffuse.b, &chunk->diffuse, i);
-        for (int k = 0; k < lobes; k++)
-            store_lobe(&r.lobe[k], i, &chunk->lobe[k]);
-    }
     for (int k = 0; k < lobes; k++) {
-        lobe_planes *lobe = &chunk->lobe[k];
-        for (size_t i = chunk->count; i % LMP_KERNEL_LANES_MAX; i++)
-            store_lobe(&(shade_phong) { .exponent = 0 }, i, lobe);
+        shade_lobe_planes *lobe = &planes->lobe[k];
         chunk->surfaces.lobe[k] =
             (lmp_kernel_lobe) { { lobe->axis.x.at, lobe->axis.y.at, lobe->axis.z.at },
                                 lobe->exponent.at };
@@ -128,37 +95,16 @@ static void load_chunk(const lmp_surfaces *surfaces, chunk_planes *chunk) {
     chunk->surfaces.view = load_vectors(&surfaces->view, chunk, &chunk->view);
     if (!chunk->source.preintegrated)
         load_lobes(surfaces, chunk);
-    memset(chunk->accumulated, 0, sizeof chunk->accumulated);
+    memset(chunk->planes.accumulated, 0, sizeof chunk->planes.accumulated);
     memset(chunk->ambient, 0, sizeof chunk->ambient);
     for (int c = 0; c < 3; c++)
-        chunk->sums.diffuse[c] = chunk->accumulated[c].at;
-}
-
-static const float *plane_of(const lmp_batch_vec3 *planes, size_t c) {
-    return c == 0 ? planes->x.at : c == 1 ? planes->y.at : planes->z.at;
-}
-
-/* What the lobes have gathered, weighted: into what the diffuse one has. */
-static void sum_lobes(chunk_planes *chunk) {
-    for (size_t c = 0; c < 3; c++) {
-        const float ambient = chunk->ambient[c];
-        const float *albedo = plane_of(&chunk->diffuse, c);
-        float *sum = chunk->accumulated[c].at;
-        for (size_t i = 0; i < chunk->count; i++)
-            sum[i] = albedo[i] * (sum[i] + ambient);
-        for (int k = 0; k < chunk->source.phong_count; k++) {
-            const lobe_planes *lobe = &chunk->lobe[k];
-            const float *weight = plane_of(&lobe->weight, c);
-            for (size_t i = 0; i < chunk->count; i++)
-                sum[i] += weight[i] * (lobe->accumulated[c].at[i] + ambient);
-        }
-    }
+        chunk->sums.diffuse[c] = chunk->planes.accumulated[c].at;
 }
 
 static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < chunk->count; i++) {
-            const float color = lmp_shade_clamped(chunk->accumulated[c].at[i]);
+            const float color = lmp_shade_clamped(chunk->planes.accumulated[c].at[i]);
             memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
         }
 }
@@ -263,7 +209,7 @@ typedef struct chunk_places {
 } chunk_places;
 
 static lmp_kernel_lobe_positions find_places(const lmp_preintegrated_lobe_info *info,
-                                             const lobe_planes *lobe, size_t count,
+                                             const shade_lobe_planes *lobe, size_t count,
                                              chunk_places *places) {
     lmp_preintegrated_lobe_position place = { 0 };
     float exponent = -1;
@@ -294,14 +240,14 @@ static __attribute__((noinline)) void shade_by_readings(const shade_method *meth
     lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
     const lmp_kernel_preintegrated_lobe lobe = { method->info.coefficients };
     for (int k = 0; k < chunk->source.phong_count; k++)
-        specular[k] = find_places(&method->info, &chunk->lobe[k], chunk->count, &places[k]);
+        specular[k] = find_places(&method->info, &chunk->planes.lobe[k], chunk->count, &places[k]);
     lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &method->diffuse_position, specular,
                                                 &chunk->surfaces, lights, count, chunk->count,
                                                 &chunk->sums);
 }
 
-static void shade_lobe_planes(const shade_method *method, const chunk_planes *chunk,
-                              const lmp_kernel_light *lights, size_t count) {
+static void shade_lobes_of_chunk(const shade_method *method, const chunk_planes *chunk,
+                                 const lmp_kernel_light *lights, size_t count) {
     if (method->settings->method == LMP_SHADE_PREINTEGRATED)
         shade_by_readings(method, chunk, lights, count);
     else
@@ -363,13 +309,14 @@ static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces
         if (chunk->source.preintegrated)
             shade_brdf_planes(chunk, some, taken, ambient);
         else
-            shade_lobe_planes(method, chunk, some, taken);
+            shade_lobes_of_chunk(method, chunk, some, taken);
         chunk->ambient[0] += ambient.r;
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
     }
     if (chunk->source.phong_count)
-        sum_lobes(chunk);
+        lmp_shade_sum_planes(chunk->count, chunk->source.phong_count, chunk->ambient,
+                             &chunk->planes);
     store_chunk(chunk, stride, rgb);
 }
 

@@ -257,13 +257,36 @@ static void many_surfaces_are_read_from_a_response_as_one_is(void **state) {
     }
 }
 
+/* Every third surface is glTF's, so that runs of both kinds lie between each other. */
+static void scatter_both_kinds(void) {
+    scatter(true);
+    for (int i = 0; i < COUNT; i += 3)
+        vertices[i].material = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                                .base_color = color(),
+                                                .metallic = between(0, 1),
+                                                .roughness = between(0.1, 1) };
+}
+
+static void both_kinds_of_lobes_are_shaded_side_by_side(void **state) {
+    (void)state;
+    static float rgb[COUNT * 3];
+    const lmp_surfaces surfaces = interleaved();
+    const int bands[] = { 1, 2, 10, 11, 60 };
+    for (int b = 0; b < 5; b++) {
+        const lmp_shade_settings settings = { .bands = bands[b] };
+        scatter_both_kinds();
+        lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 5e-4);
+    }
+}
+
 static void every_instruction_set_gives_the_same_bits(void **state) {
     (void)state;
     static float first[2][COUNT * 3], rgb[2][COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
     lmp_preintegrated_lobe *response;
     assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &response), LMP_OK);
-    scatter(true);
+    scatter_both_kinds();
     for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
         if (lmp_cpu_mask(flag) != flag)
             continue;
@@ -340,6 +363,7 @@ int main(void) {
         cmocka_unit_test(many_surfaces_are_shaded_as_one_is),
         cmocka_unit_test(point_lights_near_and_far_are_points),
         cmocka_unit_test(many_surfaces_are_read_from_a_response_as_one_is),
+        cmocka_unit_test(both_kinds_of_lobes_are_shaded_side_by_side),
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),
         cmocka_unit_test(not_a_number_stays_with_its_surface),
         cmocka_unit_test(any_count_and_any_stride_writes_only_its_own),

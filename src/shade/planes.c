@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/shade/planes.h"
+
+#include "src/lobe/ggx.h"
+
+#include <assert.h>
+
+static_assert(LMP_KERNEL_LOBES_MAX == LMP_GGX_LOBES && LMP_BATCH <= LMP_GGX_RUN,
+              "the kernels take all lobes of GGX, which one run makes");
+
+static float *plane_of(lmp_batch_vec3 *planes, size_t c) {
+    return c == 0 ? planes->x.at : c == 1 ? planes->y.at : planes->z.at;
+}
+
+static void store_vector(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
+    planes->x.at[i] = x;
+    planes->y.at[i] = y;
+    planes->z.at[i] = z;
+}
+
+static lmp_vec3 from_planes(const lmp_batch_vec3 *planes, size_t i) {
+    return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
+}
+
+static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t count,
+                       const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
+                       shade_planes *planes) {
+    shade_lobe_planes *lobe = &planes->lobe[0];
+    for (size_t i = 0; i < count; i++) {
+        shade_reflection r;
+        lmp_shade_reflection(lmp_material_at(surfaces, at[i]), from_planes(normal, i),
+                             from_planes(view, i), &r);
+        store_vector(r.diffuse.r, r.diffuse.g, r.diffuse.b, &planes->diffuse, i);
+        store_vector(r.lobe[0].axis.x, r.lobe[0].axis.y, r.lobe[0].axis.z, &lobe->axis, i);
+        store_vector(r.lobe[0].weight.r, r.lobe[0].weight.g, r.lobe[0].weight.b, &lobe->weight, i);
+        lobe->exponent.at[i] = r.lobe[0].exponent;
+    }
+}
+
+static void weigh(const float *f0, const float *f0_part, const float *f90_part, size_t count,
+                  float *weight) {
+    for (size_t i = 0; i < count; i++)
+        weight[i] = f0[i] * f0_part[i] + f90_part[i];
+}
+
+static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t count,
+                     const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
+                     shade_planes *planes) {
+    lmp_batch_plane roughness, passed, f0_part[LMP_GGX_LOBES], f90_part[LMP_GGX_LOBES];
+    lmp_batch_vec3 f0;
+    lmp_ggx_lobe_planes lobes[LMP_GGX_LOBES];
+    for (size_t i = 0; i < count; i++) {
+        const lmp_material *material = lmp_material_at(surfaces, at[i]);
+        const shade_layers layers = lmp_shade_layers(material);
+        roughness.at[i] = material->roughness;
+        store_vector(layers.diffuse.r, layers.diffuse.g, layers.diffuse.b, &planes->diffuse, i);
+        store_vector(layers.f0.r, layers.f0.g, layers.f0.b, &f0, i);
+    }
+    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+        shade_lobe_planes *to = &planes->lobe[k];
+        lobes[k] = (lmp_ggx_lobe_planes) { { to->axis.x.at, to->axis.y.at, to->axis.z.at },
+                                           to->exponent.at,
+                                           f0_part[k].at,
+                                           f90_part[k].at };
+    }
+    const float *const n[3] = { normal->x.at, normal->y.at, normal->z.at };
+    const float *const v[3] = { view->x.at, view->y.at, view->z.at };
+    lmp_lobe_ggx_n(n, v, roughness.at, count, lobes, passed.at);
+    for (size_t i = 0; i < count; i++)
+        passed.at[i] = lmp_shade_passed(passed.at[i]);
+    for (size_t c = 0; c < 3; c++) {
+        float *albedo = plane_of(&planes->diffuse, c);
+        for (size_t i = 0; i < count; i++)
+            albedo[i] *= passed.at[i];
+        for (int k = 0; k < LMP_GGX_LOBES; k++)
+            weigh(plane_of(&f0, c), f0_part[k].at, f90_part[k].at, count,
+                  plane_of(&planes->lobe[k].weight, c));
+    }
+}
+
+void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobes,
+                    const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
+                    shade_planes *planes) {
+    if (lobes == 1)
+        load_phong(surfaces, at, count, normal, view, planes);
+    else
+        load_ggx(surfaces, at, count, normal, view, planes);
+    for (int k = 0; k < lobes; k++)
+        for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++) {
+            store_vector(0, 0, 0, &planes->lobe[k].axis, i);
+            planes->lobe[k].exponent.at[i] = 0;
+        }
+}
+
+void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade_planes *planes) {
+    for (size_t c = 0; c < 3; c++) {
+        const float *albedo = plane_of(&planes->diffuse, c);
+        float *sum = planes->accumulated[c].at;
+        for (size_t i = 0; i < count; i++)
+            sum[i] = albedo[i] * (sum[i] + ambient[c]);
+        for (int k = 0; k < lobes; k++) {
+            shade_lobe_planes *lobe = &planes->lobe[k];
+            const float *weight = plane_of(&lobe->weight, c);
+            for (size_t i = 0; i < count; i++)
+                sum[i] += weight[i] * (lobe->accumulated[c].at[i] + ambient[c]);
+        }
+    }
+}
