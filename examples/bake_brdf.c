@@ -24,21 +24,21 @@ static lmp_brdf_table *store_and_load(const lmp_brdf_table *table, const char *p
     const size_t size = lmp_brdf_table_size(table);
     void *const bytes = malloc(size);
     lmp_brdf_table *loaded = NULL;
-    lmp_parse_error fault = { .text = "out of memory" };
+    lmp_parse_error error = { .text = "out of memory" };
     FILE *file = fopen(path, "w+b");
     if (bytes && file) {
         lmp_brdf_table_write(table, bytes);
         fwrite(bytes, 1, size, file);
         rewind(file);
         const size_t got = fread(bytes, 1, size, file);
-        lmp_brdf_table_read(NULL, bytes, got, &fault, &loaded);
+        lmp_brdf_table_read(NULL, bytes, got, &error, &loaded);
     }
     if (file)
         fclose(file);
     if (loaded)
         printf("%s: %zu bytes\n", path, size);
     else
-        fprintf(stderr, "%s: %s\n", path, fault.text);
+        fprintf(stderr, "%s: %s\n", path, error.text);
     free(bytes);
     return loaded;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scene blobs as a broken importer might hand them back: a sound header, then anything. The first
+/* Scene blobs as a broken importer might hand them back: a valid header, then anything. The first
  * bytes are the numbers of items. */
 #include "app/scene/blob.h"
 #include "fuzz/file.h"

@@ -14,8 +14,8 @@ typedef lmp_result (*fuzz_brdf_reader)(const lmp_host *, const void *, size_t, l
 
 static inline int fuzz_brdf(fuzz_brdf_reader read, const uint8_t *data, size_t size) {
     lmp_brdf *brdf;
-    lmp_parse_error fault;
-    if (read(NULL, data, size, &fault, &brdf) != LMP_OK)
+    lmp_parse_error error;
+    if (read(NULL, data, size, &error, &brdf) != LMP_OK)
         return 0;
     static const lmp_vec3 directions[] = { { 0, 0, 1 },
                                            { 0.6f, 0, 0.8f },

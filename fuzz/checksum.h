@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* checksum.h - for formats whose last 4 bytes are a checksum: the input with a sound one, so that
+/* checksum.h - for formats whose last 4 bytes are a checksum: the input with a valid one, so that
  * the rest of the reader is reached. */
 #ifndef LAMPION_FUZZ_CHECKSUM_H
 #define LAMPION_FUZZ_CHECKSUM_H
@@ -12,12 +12,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* The caller frees it; NULL without memory, or for inputs too short. */
 static inline unsigned char *fuzz_checksum(const uint8_t *data, size_t size) {
-    unsigned char *sound = size >= 4 ? malloc(size) : NULL;
-    if (!sound)
+    unsigned char *valid = size >= 4 ? malloc(size) : NULL;
+    if (!valid)
         return NULL;
-    memcpy(sound, data, size);
-    lmp_bytes_store_u32(sound + size - 4, lmp_bytes_checksum(sound, size - 4));
-    return sound;
+    memcpy(valid, data, size);
+    lmp_bytes_store_u32(valid + size - 4, lmp_bytes_checksum(valid, size - 4));
+    return valid;
 }
 
 #endif

@@ -27,11 +27,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     lmp_preintegrated_brdf *response;
     lmp_result result = lmp_preintegrated_brdf_read(NULL, data, size, &response);
     if (result == LMP_ERROR_CHECKSUM) {
-        unsigned char *sound = fuzz_checksum(data, size);
-        if (!sound)
+        unsigned char *valid = fuzz_checksum(data, size);
+        if (!valid)
             return 0;
-        result = lmp_preintegrated_brdf_read(NULL, sound, size, &response);
-        free(sound);
+        result = lmp_preintegrated_brdf_read(NULL, valid, size, &response);
+        free(valid);
     }
     if (result == LMP_OK)
         use(response);

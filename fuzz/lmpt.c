@@ -14,14 +14,14 @@ static void use(const lmp_brdf_table *table) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     lmp_brdf_table *table;
-    lmp_parse_error fault;
-    lmp_result result = lmp_brdf_table_read(NULL, data, size, &fault, &table);
+    lmp_parse_error error;
+    lmp_result result = lmp_brdf_table_read(NULL, data, size, &error, &table);
     if (result == LMP_ERROR_CHECKSUM) {
-        unsigned char *sound = fuzz_checksum(data, size);
-        if (!sound)
+        unsigned char *valid = fuzz_checksum(data, size);
+        if (!valid)
             return 0;
-        result = lmp_brdf_table_read(NULL, sound, size, &fault, &table);
-        free(sound);
+        result = lmp_brdf_table_read(NULL, valid, size, &error, &table);
+        free(valid);
     }
     if (result == LMP_OK)
         use(table);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scene.h - for readers of scenes: what they made is sound. */
+/* scene.h - for readers of scenes: what they made is valid. */
 #ifndef LAMPION_FUZZ_SCENE_H
 #define LAMPION_FUZZ_SCENE_H
 

@@ -14,8 +14,8 @@ static void check(const view_settings *s) {
         s->material_count > GPU_TABLES_MAX || !(s->exposure > 0) || s->split >= GPU_SPLITS)
         abort();
     for (int i = 0; i < 2; i++)
-        if (s->looks[i].bands < 1 ||
-            s->looks[i].bands > method_table[s->looks[i].method].bands_max[DEVICE_AUTO])
+        if (s->shading[i].bands < 1 ||
+            s->shading[i].bands > method_table[s->shading[i].method].bands_max[DEVICE_AUTO])
             abort();
     for (size_t i = 0; i < s->light_count; i++)
         for (int k = 0; k < 3; k++)

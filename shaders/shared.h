@@ -75,7 +75,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 down;        /* to its bottom edge */
     vec4 background;  /* radiance where nothing is */
     vec4 size_lights; /* width, height, number of lights */
-    vec4 jitter;      /* the sample's place in its pixel, 0 in the middle; the view is -1 … 1 */
+    vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1 */
 }
 SHARED_END(shared_frame);
 

@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const int bands_measured[] = { 3, 5, 6, 8, 10, 20, 50, 128 };
-enum { BANDS_MEASURED = sizeof bands_measured / sizeof *bands_measured, RUNS_MAX = 401 };
+static const int bands_timed[] = { 3, 5, 6, 8, 10, 20, 50, 128 };
+enum { BANDS_TIMED = sizeof bands_timed / sizeof *bands_timed, RUNS_MAX = 401 };
 
 typedef struct measurement {
     const char *isa;
@@ -128,10 +128,10 @@ static void measure_rows(const bench_options *o, bench_inputs *in, const bench_k
 }
 
 static bool measure_kernels(const bench_options *o, bench_inputs *in) {
-    const int *bands = o->bands ? &o->bands : bands_measured;
+    const int *bands = o->bands ? &o->bands : bands_timed;
     bool first = true, ok = true;
     for (int k = 0; k < BENCH_KERNELS; k++)
-        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_MEASURED); n++) {
+        for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_TIMED); n++) {
             const bench_kernel *kernel = &bench_kernels[k];
             if (kernel->table != BENCH_TABLE_NONE && !o->bands && bands[n] != BENCH_TABLE_BANDS)
                 continue;

@@ -11,7 +11,7 @@
 /* What a row reads besides the scene: its bytes, and what making or loading it took. */
 typedef struct bench_tables {
     size_t bytes;
-    double ms, lobes_ms, responses_ms; /* tables of materials, and responses */
+    double ms, lobes_ms, preintegrated_ms; /* tables of materials, and these preintegrated */
 } bench_tables;
 
 static bench_tables tables_of(const bench_scene *s, const bench_row *c) {
@@ -24,7 +24,7 @@ static bench_tables tables_of(const bench_scene *s, const bench_row *c) {
     if (preintegrated) {
         sum.bytes = lmp_preintegrated_lobe_describe(s->lobes[c->bands]).bytes;
         sum.lobes_ms = s->build_ms[c->bands];
-        sum.responses_ms = s->integrate_ms;
+        sum.preintegrated_ms = s->integrate_ms;
     }
     for (int i = 0; i < all->count; i++)
         sum.bytes += preintegrated && all->preintegrated[i]
@@ -62,7 +62,7 @@ static void print_json(const bench_scene *s, const bench_row *c, const bench_res
     cJSON_AddNumberToObject(row, "table_bytes", (double)tables.bytes);
     add_number(row, "table_ms", tables.ms);
     add_number(row, "lobes_ms", tables.lobes_ms);
-    add_number(row, "response_ms", tables.responses_ms);
+    add_number(row, "response_ms", tables.preintegrated_ms);
     char *text = cJSON_PrintUnformatted(row);
     printf("%s    %s", s->first ? "" : ",\n", text ? text : "null");
     cJSON_free(text);
@@ -83,7 +83,7 @@ void bench_print_row(bench_scene *s, const bench_row *c, const bench_result *res
                s->name, device_table[c->by->device].name, method_table[c->by->method].name,
                c->bands, c->lights, c->width, c->height, result->ms, result->frames, ns, ratio,
                result->compile_ms, tables.bytes / 1024, tables.ms, tables.lobes_ms,
-               tables.responses_ms);
+               tables.preintegrated_ms);
     }
     s->first = false;
     fflush(stdout);
@@ -119,7 +119,8 @@ void bench_print_header(const bench_scene *s) {
     printf("%s"
            "ms: from G-buffer to radiance, to the CPU and back where it shades, median of the "
            "frames (%s); x paper: against the paper's fragment shader in the same run; ms at the "
-           "end: making or reading the materials' tables, the lobes, the materials' responses\n",
+           "end: making or reading the materials' tables, the lobes, preintegrating the materials' "
+           "tables\n",
            o->materials.count ? "\n" : "", s->context.software ? "wall clock" : "timer queries");
     printf("%-15s %-4s %-14s %5s %6s  %9s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene", "dev",
            "method", "bands", "lights", "size", "ms", "frames", "ns/pair", "x paper", "compile",

@@ -95,16 +95,16 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     b.vectors = in->vectors;
     b.out = in->out;
     b.lights = in->lights;
-    b.response = in->lobes;
+    b.lobe = in->lobes;
     b.surfaces = (lmp_surfaces) { .position = b.points,
                                   .normal = planes_of(in->normal),
                                   .view = b.axes,
                                   .material = kernel->ggx ? in->ggx : in->phong,
                                   .material_stride = sizeof *in->phong };
-    if (kernel->table == BENCH_TABLE_MEASURED) {
+    if (kernel->table == BENCH_TABLE_BRDF) {
         in->tabulated = (lmp_material) { .kind = LMP_MATERIAL_TABLE,
                                          .table = in->table,
-                                         .preintegrated = in->measured };
+                                         .preintegrated = in->preintegrated };
         b.surfaces.material = &in->tabulated;
         b.surfaces.material_stride = 0;
     }
@@ -116,22 +116,23 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
 
 void bench_tables_free(bench_inputs *in) {
     lmp_preintegrated_lobe_destroy(in->lobes);
-    lmp_preintegrated_brdf_destroy(in->measured);
+    lmp_preintegrated_brdf_destroy(in->preintegrated);
     lmp_brdf_table_destroy(in->table);
     in->lobes = NULL;
-    in->measured = NULL;
+    in->preintegrated = NULL;
     in->table = NULL;
 }
 
-static bool measured_create(int bands, bench_inputs *in) {
+static bool brdf_create(int bands, bench_inputs *in) {
     const lmp_brdf_table_desc desc = { .bands = bands };
     lmp_sgd sgd;
     lmp_brdf *brdf;
     if (lmp_sgd_find("gold-metallic-paint", &sgd) != LMP_OK ||
         lmp_brdf_create_sgd(NULL, &sgd, &brdf) != LMP_OK)
         return false;
-    const bool made = lmp_brdf_table_create(NULL, &desc, brdf, &in->table) == LMP_OK &&
-                      lmp_preintegrated_brdf_create(NULL, NULL, in->table, &in->measured) == LMP_OK;
+    const bool made =
+        lmp_brdf_table_create(NULL, &desc, brdf, &in->table) == LMP_OK &&
+        lmp_preintegrated_brdf_create(NULL, NULL, in->table, &in->preintegrated) == LMP_OK;
     lmp_brdf_destroy(brdf);
     return made;
 }
@@ -140,5 +141,5 @@ bool bench_tables_create(bench_table table, int bands, bench_inputs *in) {
     const lmp_preintegrated_lobe_desc desc = { .bands = bands };
     return table == BENCH_TABLE_NONE ||
            (lmp_preintegrated_lobe_create(NULL, &desc, &in->lobes) == LMP_OK &&
-            (table == BENCH_TABLE_LOBES || measured_create(bands, in)));
+            (table == BENCH_TABLE_LOBES || brdf_create(bands, in)));
 }

@@ -19,7 +19,7 @@ typedef struct bench_inputs {
     /* What the kernels that read a table read now. */
     lmp_preintegrated_lobe *lobes;
     lmp_brdf_table *table;
-    lmp_preintegrated_brdf *measured;
+    lmp_preintegrated_brdf *preintegrated;
 } bench_inputs;
 
 /* False without memory; free *inputs in any case. */

@@ -42,7 +42,7 @@ static void run_shade_zonal(const bench_batch *b) {
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
 }
 static void run_shade_preintegrated(const bench_batch *b) {
-    const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = b->response };
+    const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = b->lobe };
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
 }
 
@@ -120,14 +120,14 @@ static double slots_shade_ggx(int n) {
 /* Floats alone: the products of 16-bit coefficients with their weights are integers. A reading:
  * coordinates, two splines' weights, rounded, four rows; and an angle before. */
 enum { SLOTS_READING = 21 + 4 + 30 + 19 + 9 };
-static double slots_shade_response(int n) {
+static double slots_shade_lobe(int n) {
     (void)n;
     return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 17 + 2 * SLOTS_READING + 10;
 }
-static double slots_shade_ggx_response(int n) {
-    return slots_shade_response(n) + 2 * (6 + 6 + SLOTS_READING) + 10;
+static double slots_shade_ggx_lobe(int n) {
+    return slots_shade_lobe(n) + 2 * (6 + 6 + SLOTS_READING) + 10;
 }
-static double slots_shade_measured(int n) {
+static double slots_shade_brdf(int n) {
     (void)n;
     /* Three cosines and three angles; the row's coordinate, the cap's fraction; four slices:
      * splines' weights and the sums of 12 numbers; those times the radiance. */
@@ -155,12 +155,12 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
     { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, 1, false, BENCH_TABLE_NONE, false },
     { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, bench_paper_shade,
       BENCH_LIGHTS, true, BENCH_TABLE_NONE, false },
-    { "shade-response", values_lobe, slots_shade_response, run_shade_preintegrated,
-      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES, false },
-    { "shade-measured", values_lobe, slots_shade_measured, run_shade_preintegrated,
-      bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_MEASURED, false },
+    { "shade-response", values_lobe, slots_shade_lobe, run_shade_preintegrated, bench_paper_shade,
+      BENCH_LIGHTS, true, BENCH_TABLE_LOBES, false },
+    { "shade-measured", values_lobe, slots_shade_brdf, run_shade_preintegrated, bench_paper_shade,
+      BENCH_LIGHTS, true, BENCH_TABLE_BRDF, false },
     { "shade-ggx", values_lobe, slots_shade_ggx, run_shade_zonal, bench_paper_shade, BENCH_LIGHTS,
       true, BENCH_TABLE_NONE, true },
-    { "shade-ggx-response", values_lobe, slots_shade_ggx_response, run_shade_preintegrated,
+    { "shade-ggx-response", values_lobe, slots_shade_ggx_lobe, run_shade_preintegrated,
       bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES, true },
 };

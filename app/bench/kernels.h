@@ -20,12 +20,12 @@ typedef struct bench_batch {
     const float *distances, *lambda, *matrices, *vectors;
     lmp_surfaces surfaces;
     const lmp_light *lights;
-    const lmp_preintegrated_lobe *response; /* of the kernels that read one */
+    const lmp_preintegrated_lobe *lobe; /* of the kernels that read one */
     float *out;
 } bench_batch;
 
 /* What a kernel reads. Its bands do not concern the cost: 10, unless others are asked for. */
-typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_MEASURED } bench_table;
+typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_BRDF } bench_table;
 enum { BENCH_TABLE_BANDS = 10 };
 
 /* One light a pair, or BENCH_LIGHTS of them. */

@@ -10,8 +10,8 @@
 
 /* Nanoseconds an operation: independent multiply-adds on the units that also multiply, add, divide
  * and take roots (multiplications where the instruction set has no FMA). Enough chains for two
- * units of 5 cycles, and turns for the clock's own 30 ns not to count. */
-enum { PEAK_CHAINS = 12, PEAK_TURNS = 3400 };
+ * units of 5 cycles, and rounds for the clock's own 30 ns not to count. */
+enum { PEAK_CHAINS = 12, PEAK_ROUNDS = 3400 };
 #if defined(__x86_64__)
 #define PEAK_STEP(a, step)                                                                         \
     (a) = step(a, one, one);                                                                       \
@@ -20,7 +20,7 @@ enum { PEAK_CHAINS = 12, PEAK_TURNS = 3400 };
     type a = one, b = one, c = one, d = one, e = one, f = one;                                     \
     type g = one, h = one, i = one, j = one, k = one, l = one;                                     \
     const double from = 1e9 * timing_now();                                                        \
-    for (int r = 0; r < PEAK_TURNS; r++) {                                                         \
+    for (int r = 0; r < PEAK_ROUNDS; r++) {                                                        \
         PEAK_STEP(a, step)                                                                         \
         PEAK_STEP(b, step)                                                                         \
         PEAK_STEP(c, step)                                                                         \
@@ -34,7 +34,7 @@ enum { PEAK_CHAINS = 12, PEAK_TURNS = 3400 };
         PEAK_STEP(k, step)                                                                         \
         PEAK_STEP(l, step)                                                                         \
     }                                                                                              \
-    return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_TURNS);
+    return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_ROUNDS);
 #define PEAK_MULTIPLY(a, b, c) _mm_mul_ps(a, b)
 __attribute__((target("avx512f"))) static double peak_avx512(void) {
     const __m512 one = _mm512_set1_ps(1);
@@ -61,11 +61,11 @@ double bench_peak(unsigned flag) {
     const double from = 1e9 * timing_now();
     for (int i = 0; i < PEAK_CHAINS; i++)
         a[i] = (peak_lanes) { 1, 1, 1, 1 };
-    for (int r = 0; r < PEAK_TURNS; r++)
+    for (int r = 0; r < PEAK_ROUNDS; r++)
         for (int i = 0; i < PEAK_CHAINS; i++) {
             a[i] = a[i] * 0.5f;
             __asm__ volatile("" : "+w"(a[i]));
         }
-    return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_TURNS);
+    return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_ROUNDS);
 }
 #endif

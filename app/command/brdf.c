@@ -209,7 +209,7 @@ static bool study_bands(const char *name, cli_error *error) {
     material m;
     if (!material_open(name, &m, error))
         return false;
-    bool ok = m.brdf || cli_fail(error, name, "is a table, which is cut already");
+    bool ok = m.brdf || cli_fail(error, name, "is a table, which is truncated already");
     ok = ok && measure_bands(&m, left, error);
     material_close(&m);
     if (!ok)

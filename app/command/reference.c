@@ -38,12 +38,12 @@ static bool write_image(const reference_arguments *a, const image *radiance,
     return image_write(radiance, a->output, &display, error);
 }
 
-/* The materials as the oracle takes them: cut ones as tables. The array is the caller's. */
+/* The materials as the oracle takes them: truncated ones as tables. The array is the caller's. */
 static bool choose_materials(reference_arguments *a, const scene *world, override_set *all,
                              reference_material_source **sources, cli_error *error) {
-    const reference_band_limit *cut = &a->settings.band_limit;
+    const reference_band_limit *limit = &a->settings.band_limit;
     if (!override_open(&a->materials, world, all, error) ||
-        (cut->bands && !override_bake(all, cut->bands, cut->window, error)))
+        (limit->bands && !override_bake(all, limit->bands, limit->window, error)))
         return false;
     if (all->count == 0)
         return true;
@@ -54,7 +54,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
         const int use = all->uses[i];
         if (use < 0)
             continue;
-        const lmp_brdf_table *table = cut->bands ? all->tables[use] : all->opened[use].table;
+        const lmp_brdf_table *table = limit->bands ? all->tables[use] : all->opened[use].table;
         if (table)
             (*sources)[i] =
                 (reference_material_source) { .coefficients = lmp_brdf_table_coefficients(table),
@@ -174,10 +174,10 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
           "let surfaces hide lights (render does not)", 0, 0, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N",
-          "cut the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX, NULL,
-          NULL },
-        { "window", 0, CLI_CHOICE, &a.window, "KIND", "window of lobes cut by --bands", 0, 0,
-          method_window_names(), NULL },
+          "truncate the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX,
+          NULL, NULL },
+        { "window", 0, CLI_CHOICE, &a.window, "KIND",
+          "windowing filter of lobes truncated by --bands", 0, 0, method_window_names(), NULL },
         { "exposure", 0, CLI_FLOAT, &a.exposure, "FACTOR",
           "of radiance in a .png; without it, automatic", 1e-12, 1e12, NULL, &a.exposure_given },
         { "ev", 0, CLI_FLOAT, &a.stops, "STOPS", "brighter or darker by so many stops", -32, 32,

@@ -51,8 +51,8 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         s->width = a->size[0];
         s->height = a->size[1];
         s->divider = 0.5f;
-        s->looks[0] = (view_look) { (method_kind)a->method, a->bands, (lmp_window)a->window };
-        s->looks[1] = s->looks[0];
+        s->shading[0] = (view_shading) { (method_kind)a->method, a->bands, (lmp_window)a->window };
+        s->shading[1] = s->shading[0];
     }
     if (name) {
         if (strlen(name) >= sizeof s->scene)

@@ -8,7 +8,7 @@
 
 #define OVERSAMPLE 4
 #define ELEVATION  0.35f /* radians the viewer is above the horizon */
-#define AZIMUTH    0.60f /* radians the lobe is turned around z */
+#define AZIMUTH    0.60f /* radians the lobe is rotated around z */
 #define FILLED     0.47f /* of the box, by a radius of 1 */
 
 #define PI 3.14159265f

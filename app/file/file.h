@@ -22,7 +22,7 @@ bool file_read_descriptor(int fd, const char *path, size_t limit, void **data, s
 
 /* Where a text stops being one JSON value with nothing after it; NULL if it is one. Stricter than
  * the parser, which then reads what it says and no less. */
-const char *file_json_fault(const char *text, size_t size);
+const char *file_json_wrong(const char *text, size_t size);
 
 /* One JSON value and nothing after it. The file is named in the error. Free with cJSON_Delete; NULL
  * on failure. */

@@ -37,10 +37,10 @@ char *file_json_text(struct cJSON *root, bool lines, const char *subject, cli_er
 }
 
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error) {
-    const char *fault = file_json_fault(text, size);
-    if (fault) {
+    const char *wrong = file_json_wrong(text, size);
+    if (wrong) {
         int line = 1;
-        for (const char *at = text; at < fault; at++)
+        for (const char *at = text; at < wrong; at++)
             line += *at == '\n';
         cli_fail(error, path, "is no valid JSON: line %d", line);
         return NULL;

@@ -136,7 +136,7 @@ static bool scan_value(scanner *s) {
     return ok;
 }
 
-const char *file_json_fault(const char *text, size_t size) {
+const char *file_json_wrong(const char *text, size_t size) {
     scanner s = { text, text + size, 0 };
     return scan_value(&s) && s.at == s.end ? NULL : s.at;
 }

@@ -71,7 +71,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     g->block = *block;
     g->frame = frame;
     g->tables = r->tables;
-    g->responses = r->responses;
+    g->brdfs = r->brdfs;
     return true;
 }
 
@@ -205,7 +205,7 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
             row->material[x] =
                 (lmp_material) { .kind = LMP_MATERIAL_TABLE,
                                  .table = g->tables[kind - SHARED_KIND_TABLE],
-                                 .preintegrated = g->responses[kind - SHARED_KIND_TABLE] };
+                                 .preintegrated = g->brdfs[kind - SHARED_KIND_TABLE] };
         if (kind == SHARED_KIND_LIGHT) {
             decode_light(g, g->normal[first + x].u, x, row);
             continue;

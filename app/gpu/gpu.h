@@ -79,14 +79,16 @@ void gpu_renderer_destroy(gpu_renderer *renderer);
 
 /* Shades materials of the scene by tables instead: uses[i] is the table of material i, or -1. The
  * tables must outlive the renderer; all have the bands of the frames to come. They are shaded by
- * the method of coefficients whatever the frame's is, unless gpu_set_responses says more. */
+ * the method of coefficients whatever the frame's is, unless gpu_set_preintegrated_brdfs says more.
+ */
 #define GPU_TABLES_MAX 64
 bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables, int count,
                     const int *uses, size_t material_count, cli_error *error);
 
-/* After gpu_set_tables: responses[i] of table i, or NULL, for methods that read them.
+/* After gpu_set_tables: brdfs[i] of table i, or NULL, for methods that read them.
  * They must outlive the renderer. */
-void gpu_set_responses(gpu_renderer *renderer, const lmp_preintegrated_brdf *const *responses);
+void gpu_set_preintegrated_brdfs(gpu_renderer *renderer,
+                                 const lmp_preintegrated_brdf *const *brdfs);
 
 /* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number
  * of bands and a window. times may be NULL, and then nothing waits for the device. */
@@ -132,7 +134,7 @@ typedef enum gpu_split {
 typedef struct gpu_layout {
     int width, height; /* pixels; sides of another size are scaled */
     gpu_split split;
-    float divider; /* its place: a part of the width */
+    float divider; /* its position: a part of the width */
     float line;    /* its width in pixels; 0: not drawn */
 } gpu_layout;
 

@@ -78,7 +78,7 @@ typedef struct gpu_variant {
  */
 
 /* Uploads the lobes once, and again when another one takes its place. */
-bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated_lobe *response,
+bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated_lobe *lobe,
                                  cli_error *error);
 
 /* --- table.c ------------------------------------------------------------------------------------
@@ -127,7 +127,7 @@ struct gpu_gbuffer {
     shared_frame block;
     const gpu_frame *frame;
     const lmp_brdf_table *const *tables;
-    const lmp_preintegrated_brdf *const *responses;
+    const lmp_preintegrated_brdf *const *brdfs;
 };
 
 /* Allocates at the first frame of a size. */
@@ -156,10 +156,10 @@ struct gpu_renderer {
     size_t shaded_lights; /* in lights_block */
     GLuint zonal;         /* texture of the tabulated Z_l */
     int zonal_bands;
-    GLuint response_pairs, response_block;  /* texture, buffer */
-    const lmp_preintegrated_lobe *response; /* what they hold */
-    int response_bands;
-    lmp_window response_window;
+    GLuint lobe_pairs, lobe_block;      /* texture, buffer */
+    const lmp_preintegrated_lobe *lobe; /* what they hold */
+    int lobe_bands;
+    lmp_window lobe_window;
     int width, height;                /* of the targets below */
     GLuint kept[GPU_ATTACHMENTS + 1]; /* attachments and depth without lights, or 0 */
     mat4 kept_view;
@@ -168,12 +168,12 @@ struct gpu_renderer {
     double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
     const lmp_brdf_table *tables[GPU_TABLES_MAX]; /* not owned */
     int table_count, table_bands;
-    GLuint tables_buffer;      /* of the tables summed by bands, or 0 */
-    method_kind tables_method; /* that it was made for */
-    const lmp_preintegrated_brdf *responses[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
-    GLuint brdf_texels, brdf_block;                          /* texture, buffer; or 0 */
-    float near;                                              /* distance of the near plane */
-    gpu_gbuffer gbuffer;                                     /* of host shaders */
+    GLuint tables_buffer;                                /* of the tables summed by bands, or 0 */
+    method_kind tables_method;                           /* that it was made for */
+    const lmp_preintegrated_brdf *brdfs[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
+    GLuint brdf_texels, brdf_block;                      /* texture, buffer; or 0 */
+    float near;                                          /* distance of the near plane */
+    gpu_gbuffer gbuffer;                                 /* of host shaders */
 };
 
 /* --- targets.c ----------------------------------------------------------------------------------

@@ -28,8 +28,7 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
                           .metallic = from[i].normal_metallic[3],
                           .roughness = from[i].view_roughness[3],
                           .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL,
-                          .preintegrated =
-                              by_table ? r->responses[kind - SHARED_KIND_TABLE] : NULL },
+                          .preintegrated = by_table ? r->brdfs[kind - SHARED_KIND_TABLE] : NULL },
             .emission = as_rgb(from[i].emission),
         };
     }

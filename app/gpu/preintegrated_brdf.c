@@ -13,14 +13,14 @@ enum { ATLAS_WIDTH = 4096 };
 
 bool gpu_has_preintegrated_brdf(const gpu_renderer *r) {
     for (int t = 0; t < r->table_count; t++)
-        if (r->responses[t])
+        if (r->brdfs[t])
             return true;
     return false;
 }
 
-void gpu_set_responses(gpu_renderer *r, const lmp_preintegrated_brdf *const *responses) {
+void gpu_set_preintegrated_brdfs(gpu_renderer *r, const lmp_preintegrated_brdf *const *brdfs) {
     for (int t = 0; t < GPU_TABLES_MAX; t++)
-        r->responses[t] = responses && t < r->table_count ? responses[t] : NULL;
+        r->brdfs[t] = brdfs && t < r->table_count ? brdfs[t] : NULL;
     glDeleteBuffers(1, &r->brdf_block);
     glDeleteTextures(1, &r->brdf_texels);
     glDeleteBuffers(1, &r->tables_buffer);
@@ -135,9 +135,9 @@ static bool upload_texels(gpu_renderer *r, const placement *placements, size_t c
 static void list_slices(const gpu_renderer *r, placement *placements, float *numbers) {
     float *to = numbers + GPU_TABLES_MAX;
     for (int t = 0; t < r->table_count; t++) {
-        if (!r->responses[t])
+        if (!r->brdfs[t])
             continue;
-        const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->responses[t]);
+        const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->brdfs[t]);
         numbers[t] = (float)(to - numbers);
         to = write_header(&info, to);
         for (size_t i = 0; i < slice_count(&info); i++, to += LMP_LOOKUP_SLICE)
@@ -150,9 +150,8 @@ static void list_slices(const gpu_renderer *r, placement *placements, float *num
 static bool upload(gpu_renderer *r, cli_error *error) {
     size_t slices = 0, count = GPU_TABLES_MAX;
     for (int t = 0; t < r->table_count; t++)
-        if (r->responses[t]) {
-            const lmp_preintegrated_brdf_info info =
-                lmp_preintegrated_brdf_describe(r->responses[t]);
+        if (r->brdfs[t]) {
+            const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->brdfs[t]);
             slices += slice_count(&info);
             count += number_count(&info);
         }

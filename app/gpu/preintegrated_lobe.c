@@ -55,20 +55,19 @@ static void upload_block(const lmp_preintegrated_lobe_info *info, const gpu_corn
 bool gpu_bind_preintegrated_lobe(gpu_renderer *r, const lmp_preintegrated_lobe *lobe,
                                  cli_error *error) {
     const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
-    if (r->response != lobe || r->response_bands != info.bands ||
-        r->response_window != info.window) {
+    if (r->lobe != lobe || r->lobe_bands != info.bands || r->lobe_window != info.window) {
         gpu_corner corners[SHARED_PREINTEGRATED_LOBE_CELLS];
         if (info.cell_count > SHARED_PREINTEGRATED_LOBE_CELLS)
             return cli_fail(error, NULL, "a preintegrated lobe of %u cells: the shaders take %d",
                             info.cell_count, SHARED_PREINTEGRATED_LOBE_CELLS);
         const GLsizei height = lay_out(&info, corners);
-        upload_cells(&info, corners, height, &r->response_pairs);
-        upload_block(&info, corners, height, &r->response_block);
-        r->response = lobe;
-        r->response_bands = info.bands;
-        r->response_window = info.window;
+        upload_cells(&info, corners, height, &r->lobe_pairs);
+        upload_block(&info, corners, height, &r->lobe_block);
+        r->lobe = lobe;
+        r->lobe_bands = info.bands;
+        r->lobe_window = info.window;
     }
-    glBindTextureUnit(SHARED_PREINTEGRATED_LOBE_PAIRS, r->response_pairs);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_LOBE, r->response_block);
+    glBindTextureUnit(SHARED_PREINTEGRATED_LOBE_PAIRS, r->lobe_pairs);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_LOBE, r->lobe_block);
     return true;
 }

@@ -93,9 +93,9 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->frame_block);
     glDeleteBuffers(1, &r->lights_block);
     glDeleteBuffers(1, &r->ggx_block);
-    gpu_set_responses(r, NULL);
-    glDeleteBuffers(1, &r->response_block);
-    glDeleteTextures(1, &r->response_pairs);
+    gpu_set_preintegrated_brdfs(r, NULL);
+    glDeleteBuffers(1, &r->lobe_block);
+    glDeleteTextures(1, &r->lobe_pairs);
     glDeleteTextures(1, &r->zonal);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);

@@ -48,7 +48,7 @@ static bool fill_table(const lmp_brdf_table *table, bool full, size_t stride, ve
 
 /* Whether frames of a method sum table t by its bands. */
 static bool by_bands(const gpu_renderer *r, method_kind method, int t) {
-    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->responses[t];
+    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->brdfs[t];
 }
 
 int gpu_tables_by_bands(const gpu_renderer *r, method_kind method) {
@@ -129,7 +129,7 @@ bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int co
         r->tables[t] = tables[t];
         r->table_bands = lmp_brdf_table_describe(tables[t]).bands;
     }
-    gpu_set_responses(r, NULL);
+    gpu_set_preintegrated_brdfs(r, NULL);
     gpu_forget_geometry(r);
     for (size_t i = 0; i < material_count; i++)
         gpu_mesh_set_kind(&r->mesh, i,

@@ -52,7 +52,7 @@ static exr_result_t define_file(exr_context_t context, const image_layer *layers
 }
 
 /* Where the encoder takes the rows of its channels from; the file has them sorted by name. */
-static void aim_encoder(exr_encode_pipeline_t *encoder, const image_layer *layers, int count,
+static void set_encoder(exr_encode_pipeline_t *encoder, const image_layer *layers, int count,
                         int row) {
     char name[256];
     for (int c = 0; c < encoder->channel_count; c++)
@@ -96,7 +96,7 @@ static exr_result_t write_rows(exr_context_t context, const image_layer *layers,
                     : exr_encoding_initialize(context, 0, &chunk, &encoder);
         if (r != EXR_ERR_SUCCESS)
             break;
-        aim_encoder(&encoder, layers, count, row);
+        set_encoder(&encoder, layers, count, row);
         if (row == 0) {
             r = exr_encoding_choose_default_routines(context, 0, &encoder);
             compress = encoder.compress_fn;
@@ -138,7 +138,7 @@ bool image_write_exr_layers(const char *path, const image_layer *layers, int cou
  */
 
 /* Aims the R, G and B of a chunk at the image; other channels are skipped. */
-static exr_result_t aim_decoder(exr_decode_pipeline_t *decoder, image *pixels, int64_t column,
+static exr_result_t set_decoder(exr_decode_pipeline_t *decoder, image *pixels, int64_t column,
                                 int64_t row) {
     static const char *const names[3] = { "R", "G", "B" };
     int found = 0;
@@ -169,7 +169,7 @@ static exr_result_t decode(exr_const_context_t context, const exr_chunk_info_t *
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t r = exr_decoding_initialize(context, 0, chunk, &decoder);
     if (r == EXR_ERR_SUCCESS)
-        r = aim_decoder(&decoder, pixels, column, row);
+        r = set_decoder(&decoder, pixels, column, row);
     if (r == EXR_ERR_SUCCESS)
         r = exr_decoding_choose_default_routines(context, 0, &decoder);
     if (r == EXR_ERR_SUCCESS)

@@ -159,13 +159,13 @@ bool material_preintegrate(const material *m, const lmp_brdf_table *table,
                            .user = table };
     *brdf = NULL;
     if (info.azimuths > 1)
-        return note_without(m, "an anisotropic material's response would take gigabytes");
+        return note_without(m, "an anisotropic material would take gigabytes");
     bake_add_settings(&recipe.key, &settings, sizeof settings);
     void *object;
     const lmp_result result = bake(&recipe, &object);
     *brdf = object;
     if (result == LMP_ERROR_MEMORY)
         return note_without(
-            m, "its response takes more than 128 MB, or there is no memory to make it");
+            m, "its preintegrated table takes more than 128 MB, or there is no memory to make it");
     return result == LMP_OK || cli_fail(error, m->name, "%s", lmp_result_text(result));
 }

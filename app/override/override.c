@@ -74,7 +74,8 @@ bool override_apply(const override_set *all, const scene *world, gpu_renderer *r
     const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
                                    all->uses ? all->uses : none, count, error);
     if (ok)
-        gpu_set_responses(renderer, (const lmp_preintegrated_brdf *const *)all->preintegrated);
+        gpu_set_preintegrated_brdfs(renderer,
+                                    (const lmp_preintegrated_brdf *const *)all->preintegrated);
     free(none);
     return ok;
 }

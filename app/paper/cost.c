@@ -50,12 +50,12 @@ static outcome measure(const setting *s, const double exact[ANGLES], int bands) 
     for (int i = 0; i < ANGLES; i++)
         top = fmax(top, exact[i]);
     for (int i = 0; i < ANGLES; i++) {
-        const double angle = REFERENCE_PI * i / (ANGLES - 1), cut = response(s, bands, angle);
-        o.largest = fmax(o.largest, fabs(cut - exact[i]) / top);
-        o.negative = fmax(o.negative, -cut / top);
-        o.peak = fmax(o.peak, cut / top);
+        const double angle = REFERENCE_PI * i / (ANGLES - 1), truncated = response(s, bands, angle);
+        o.largest = fmax(o.largest, fabs(truncated - exact[i]) / top);
+        o.negative = fmax(o.negative, -truncated / top);
+        o.peak = fmax(o.peak, truncated / top);
         if (angle > REFERENCE_PI / 3 && angle < REFERENCE_PI * 2 / 3)
-            o.grazing = fmax(o.grazing, fabs(cut - exact[i]) / top);
+            o.grazing = fmax(o.grazing, fabs(truncated - exact[i]) / top);
     }
     return o;
 }
@@ -203,11 +203,12 @@ static bool tabulate(paper *p, cli_error *error) {
 }
 
 bool paper_step_cost(paper *p, cli_error *error) {
-    page_text(&p->page,
-              "One lobe and one sphere light: the cut series against quadrature of the whole lobe, "
-              "at %d angles between the lobe's axis and the light. Errors are parts of the exact "
-              "response's peak.",
-              ANGLES);
+    page_text(
+        &p->page,
+        "One lobe and one sphere light: the truncated series against quadrature of the whole lobe, "
+        "at %d angles between the lobe's axis and the light. Errors are parts of the exact "
+        "response's peak.",
+        ANGLES);
     if (!plot_angles(p, "cost-diffuse", "Diffuse surface, r/d = 0.2", 1, (int[]) { 3, 5, 10 },
                      error) ||
         !plot_angles(p, "cost-lobe", "Lobe of exponent 50, r/d = 0.2", 50, (int[]) { 5, 10, 20 },

@@ -19,7 +19,7 @@ static double scaled(const axis *a, double value) {
     return a->log ? log10(value) : value;
 }
 
-static double place(const axis *a, double value) {
+static double position(const axis *a, double value) {
     const double low = scaled(a, a->low), high = scaled(a, a->high);
     return a->from + (a->to - a->from) * (scaled(a, value) - low) / (high > low ? high - low : 1);
 }
@@ -57,7 +57,7 @@ static double mark_step(double low, double high) {
 }
 
 static void mark(FILE *svg, const axis *a, bool vertical, double value) {
-    const double at = place(a, value);
+    const double at = position(a, value);
     if (vertical)
         fprintf(svg,
                 "<path d=\"M%d %.1fH%d\" stroke=\"#e3e6ea\"/><text x=\"%d\" y=\"%.1f\" "
@@ -99,8 +99,8 @@ static void draw_series(FILE *svg, const page_plot *plot, int s, const axis *x, 
             down = false;
             continue;
         }
-        fprintf(svg, "%c%.1f %.1f", down ? 'L' : 'M', place(x, series->x[i]),
-                place(y, series->y[i]));
+        fprintf(svg, "%c%.1f %.1f", down ? 'L' : 'M', position(x, series->x[i]),
+                position(y, series->y[i]));
         down = true;
     }
     fprintf(svg,

@@ -15,9 +15,9 @@ typedef struct outcome {
 } outcome;
 
 /* One lobe and one light: all angles, half of them where the lobe is. */
-static void add_angles(const lmp_preintegrated_lobe *response, double exponent, double ratio,
+static void add_angles(const lmp_preintegrated_lobe *table, double exponent, double ratio,
                        double *largest, double *squares) {
-    const int bands = lmp_preintegrated_lobe_describe(response).bands;
+    const int bands = lmp_preintegrated_lobe_describe(table).bands;
     const lmp_light light = { .position = { 0, 0, 1 },
                               .radius = (float)ratio,
                               .radiance = { 1, 1, 1 } };
@@ -33,7 +33,7 @@ static void add_angles(const lmp_preintegrated_lobe *response, double exponent, 
         const float angle = (float)(i % 2 ? acos(1 - 2 * part) : near * part);
         const lmp_vec3 axis = { sinf(angle), 0, cosf(angle) };
         const double exact = (double)lmp_lobe_response(bands, lambda, axis, &light, 1, origin).r;
-        const float read = lmp_preintegrated_lobe_eval(response, (float)exponent, cap.one_minus_cos,
+        const float read = lmp_preintegrated_lobe_eval(table, (float)exponent, cap.one_minus_cos,
                                                        cosf(angle) * cap.axis.z);
         difference[i] = fabs((double)(cap.strength.r * read + cap.ambient.r) - exact);
         top = fmax(top, fabs(exact));
@@ -48,21 +48,21 @@ static void add_angles(const lmp_preintegrated_lobe *response, double exponent, 
 static bool measure(int bands, float bound, outcome *o, cli_error *error) {
     const lmp_preintegrated_lobe_desc desc = { .bands = bands, .error = bound };
     const double start = timing_now();
-    lmp_preintegrated_lobe *response;
-    const lmp_result result = lmp_preintegrated_lobe_create(NULL, &desc, &response);
+    lmp_preintegrated_lobe *table;
+    const lmp_result result = lmp_preintegrated_lobe_create(NULL, &desc, &table);
     if (result != LMP_OK)
         return cli_fail(error, NULL, "the lobes of %d bands: %s", bands, lmp_result_text(result));
     *o = (outcome) { .seconds = timing_now() - start,
-                     .kilobytes = (double)lmp_preintegrated_lobe_describe(response).bytes / 1024 };
+                     .kilobytes = (double)lmp_preintegrated_lobe_describe(table).bytes / 1024 };
     double largest = 0, squares = 0;
 #pragma omp parallel for reduction(max : largest) reduction(+ : squares) schedule(dynamic)
     for (int e = 0; e < EXPONENTS; e++)
         for (int r = 0; r < RATIOS; r++)
-            add_angles(response, pow(1e4, (e + 0.37) / EXPONENTS),
+            add_angles(table, pow(1e4, (e + 0.37) / EXPONENTS),
                        1e-4 * pow(9900, (r + 0.5) / RATIOS), &largest, &squares);
     o->largest = largest;
     o->rms = sqrt(squares / (EXPONENTS * RATIOS * ANGLES));
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(table);
     return true;
 }
 

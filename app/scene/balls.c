@@ -34,7 +34,7 @@ static void add_camera(scene_builder *builder, lmp_vec3 eye, lmp_vec3 target, fl
     camera->aspect = aspect;
 }
 
-static void turn_sphere(scene_shaper *shaper, lmp_vec3 center, float radius, int segments) {
+static void put_sphere(scene_shaper *shaper, lmp_vec3 center, float radius, int segments) {
     shape_point profile[65];
     const int rings = 64;
     for (int i = 0; i <= rings; i++) {
@@ -76,14 +76,14 @@ void builtin_balls(const builtin_parameters *parameters, scene_builder *builder)
         snprintf(name, sizeof name, "plastic %.2f", (double)(1.0f - 0.85f * step));
         shaper.material =
             add_material(builder, name, 0.55f, 0.10f, 0.06f, 1.0f - 0.85f * step, 0.0f);
-        turn_sphere(&shaper, vec(x, 0.55f, 0.0f), 0.55f, 96);
+        put_sphere(&shaper, vec(x, 0.55f, 0.0f), 0.55f, 96);
         /* In front, between two of them, a darker one of the same gloss. */
         if (i + 1 == BALLS)
             break;
         snprintf(name, sizeof name, "glaze %.2f", (double)(1.0f - 0.85f * step));
         shaper.material =
             add_material(builder, name, 0.03f, 0.16f, 0.20f, 1.0f - 0.85f * step, 0.0f);
-        turn_sphere(&shaper, vec(x + 0.62f, 0.36f, 1.35f), 0.36f, 96);
+        put_sphere(&shaper, vec(x + 0.62f, 0.36f, 1.35f), 0.36f, 96);
     }
     shaper_finish(&shaper);
     builder_sphere_light(builder, vec(-3.9f, 2.5f, 0.6f), 0.42f, (lmp_rgb) { 1.0f, 0.56f, 0.20f },
@@ -113,7 +113,7 @@ void builtin_ball(const builtin_parameters *parameters, scene_builder *builder) 
                                                  .axis = 'y',
                                                  .segments = 96 });
     shaper.material = add_material(builder, "test_material", 0.70f, 0.36f, 0.12f, 0.35f, 0.0f);
-    turn_sphere(&shaper, vec(0.0f, 1.18f, 0.0f), 1.0f, 192);
+    put_sphere(&shaper, vec(0.0f, 1.18f, 0.0f), 1.0f, 192);
     shaper_finish(&shaper);
     /* Ten lights on two rings around the ball, warm on the left and cold on the right. */
     for (int i = 0; i < 10; i++) {

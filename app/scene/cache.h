@@ -9,7 +9,7 @@
 /* The key of a scene file: its content and place, and the version of the importer. */
 file_hash cache_key(const char *folder, const char *name, const void *data, size_t size);
 
-/* Maps the cached blob if it is there, sound, and every file it was made from is unchanged. */
+/* Maps the cached blob if it is there, valid, and every file it was made from is unchanged. */
 bool cache_load(const file_hash *key, source_set *sources, void **block, size_t *size);
 
 /* Stores a blob; without effect where that is impossible. */

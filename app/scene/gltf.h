@@ -170,7 +170,7 @@ typedef struct gltf_motions gltf_motions;
 gltf_motions *gltf_motions_open(const gltf *document, cli_error *error);
 void gltf_motions_close(gltf_motions *motions);
 bool gltf_moves(const gltf_motions *motions, size_t node);
-bool gltf_turns(const gltf_motions *motions, size_t node); /* its rotation changes */
+bool gltf_rotates(const gltf_motions *motions, size_t node); /* its rotation changes */
 
 /* Appends how a node moves, if it does, as the motion of a light. */
 bool gltf_add_motion(const gltf *document, const gltf_motions *motions, size_t node, size_t light,

@@ -97,7 +97,7 @@ static bool read_vertices(const gltf *document, const cJSON *primitive, mesh_dra
            read_colors(document, attributes, draft, error);
 }
 
-/* The vertices of triangle `i` of a strip or fan: every second of a strip is turned over. */
+/* The vertices of triangle `i` of a strip or fan: every second of a strip is rotated over. */
 static void unroll(int mode, size_t i, size_t corner[3]) {
     const size_t odd = mode == MODE_STRIP ? i % 2 : 0;
     corner[0] = mode == MODE_TRIANGLES ? 3 * i : mode == MODE_STRIP ? i : i + 1;

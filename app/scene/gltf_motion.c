@@ -31,7 +31,7 @@ typedef struct channel {
 struct gltf_motions {
     channel *channels; /* CHANNEL_KINDS a node */
     bool *moved;       /* nodes that a channel moves, their own or that of one above */
-    bool *turned;      /* the same of channels of rotation alone */
+    bool *rotated;     /* the same of channels of rotation alone */
     size_t node_count;
     double period;
 };
@@ -96,7 +96,7 @@ static bool read_channels(const gltf *document, gltf_motions *all, cli_error *er
         const long parent = document->nodes[node].parent;
         all->moved[node] =
             own[0].times || own[1].times || own[2].times || (parent >= 0 && all->moved[parent]);
-        all->turned[node] = own[CHANNEL_ROTATION].times || (parent >= 0 && all->turned[parent]);
+        all->rotated[node] = own[CHANNEL_ROTATION].times || (parent >= 0 && all->rotated[parent]);
     }
     return true;
 }
@@ -108,9 +108,9 @@ gltf_motions *gltf_motions_open(const gltf *document, cli_error *error) {
         all->node_count = nodes;
         all->channels = calloc(CHANNEL_KINDS * nodes + 1, sizeof *all->channels);
         all->moved = calloc(nodes + 1, sizeof *all->moved);
-        all->turned = calloc(nodes + 1, sizeof *all->turned);
+        all->rotated = calloc(nodes + 1, sizeof *all->rotated);
     }
-    if (all && all->channels && all->moved && all->turned
+    if (all && all->channels && all->moved && all->rotated
             ? read_channels(document, all, error)
             : cli_fail(error, document->subject, "does not fit into memory"))
         return all;
@@ -127,7 +127,7 @@ void gltf_motions_close(gltf_motions *all) {
     }
     free(all->channels);
     free(all->moved);
-    free(all->turned);
+    free(all->rotated);
     free(all);
 }
 
@@ -135,8 +135,8 @@ bool gltf_moves(const gltf_motions *all, size_t node) {
     return all->period > 0.0 && all->moved[node];
 }
 
-bool gltf_turns(const gltf_motions *all, size_t node) {
-    return all->period > 0.0 && all->turned[node];
+bool gltf_rotates(const gltf_motions *all, size_t node) {
+    return all->period > 0.0 && all->rotated[node];
 }
 
 /* --- sampling -----------------------------------------------------------------------------------

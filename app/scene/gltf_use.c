@@ -119,7 +119,7 @@ static bool check_indices(const gltf *document, long index) {
     return a->width == 1 && !a->normalized && !strided && (bit_of(a->component) & (UB | US | UI));
 }
 
-static const char *primitive_fault(const gltf *document, const cJSON *primitive) {
+static const char *primitive_wrong(const gltf *document, const cJSON *primitive) {
     const cJSON *attributes = gltf_member(primitive, "attributes"), *target;
     size_t count = 0;
     if (!check_attributes(document, attributes, vertex_attributes, &count))
@@ -138,9 +138,9 @@ static bool check_mesh(const gltf *document, size_t i, cli_error *error) {
     const cJSON *weights = gltf_member(mesh, "weights");
     int targets = -1;
     cJSON_ArrayForEach(primitive, gltf_member(mesh, "primitives")) {
-        const char *fault = primitive_fault(document, primitive);
-        if (fault)
-            return gltf_fail(document, GLTF_MESHES, i, fault, error);
+        const char *wrong = primitive_wrong(document, primitive);
+        if (wrong)
+            return gltf_fail(document, GLTF_MESHES, i, wrong, error);
         const int own = cJSON_GetArraySize(gltf_member(primitive, "targets"));
         if (targets >= 0 && own != targets)
             return gltf_fail(document, GLTF_MESHES, i, "has primitives of unlike morph targets",
@@ -222,7 +222,7 @@ static int path_width(const char *path) {
                                                                             : 0;
 }
 
-static const char *channel_fault(const gltf *document, const cJSON *channel, const cJSON *samplers,
+static const char *channel_wrong(const gltf *document, const cJSON *channel, const cJSON *samplers,
                                  size_t sampler_count) {
     const double number = gltf_number(channel, "sampler", 0.0);
     if (!(number < (double)sampler_count))
@@ -250,9 +250,9 @@ static bool check_animation(const gltf *document, size_t i, cli_error *error) {
     const cJSON *samplers = gltf_member(animation, "samplers");
     const size_t count = (size_t)cJSON_GetArraySize(samplers);
     cJSON_ArrayForEach(channel, gltf_member(animation, "channels")) {
-        const char *fault = channel_fault(document, channel, samplers, count);
-        if (fault)
-            return gltf_fail(document, GLTF_ANIMATIONS, i, fault, error);
+        const char *wrong = channel_wrong(document, channel, samplers, count);
+        if (wrong)
+            return gltf_fail(document, GLTF_ANIMATIONS, i, wrong, error);
     }
     return true;
 }

@@ -116,7 +116,7 @@ static bool add_light(const gltf *document, size_t node, const gltf_motions *mot
     }
     if (gltf_member(entry, "range"))
         builder_left_out(builder, "range", "light", 1);
-    if (scene_light_has(light, SCENE_LIGHT_DIRECTION) && gltf_turns(motions, node))
+    if (scene_light_has(light, SCENE_LIGHT_DIRECTION) && gltf_rotates(motions, node))
         builder_left_out(builder, "animated direction", "light", 1);
     const size_t number = builder_count(builder, BLOB_LIGHTS) - 1;
     return !scene_light_has(light, SCENE_LIGHT_POSITION) ||

@@ -68,7 +68,7 @@ static bool add_sources(const import_job *job, scene_builder *builder) {
     return true;
 }
 
-/* Clears what a sound file never has, so that the parent's validation is about damage alone. */
+/* Clears what a valid file never has, so that the parent's validation is about damage alone. */
 static bool check_made(const import_job *job, const scene_builder *builder, cli_error *error) {
     const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
     const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);

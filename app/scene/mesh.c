@@ -216,8 +216,8 @@ static bool weld_vertices(mesh_draft *f, cli_error *error) {
     while (buckets < 2 * f->vertex_count)
         buckets *= 2;
     uint32_t *table = malloc(buckets * sizeof *table);
-    uint32_t *place = malloc((f->vertex_count + 1) * sizeof *place);
-    const bool ok = table && place;
+    uint32_t *new_index = malloc((f->vertex_count + 1) * sizeof *new_index);
+    const bool ok = table && new_index;
     size_t kept = 0;
     if (ok)
         memset(table, 0xff, buckets * sizeof *table);
@@ -232,13 +232,13 @@ static bool weld_vertices(mesh_draft *f, cli_error *error) {
             f->vertices[kept] = f->vertices[i];
             table[slot] = (uint32_t)kept++;
         }
-        place[i] = table[slot];
+        new_index[i] = table[slot];
     }
     for (size_t i = 0; ok && i < f->corner_count; i++)
-        f->corners[i] = place[f->corners[i]];
+        f->corners[i] = new_index[f->corners[i]];
     f->vertex_count = kept;
     free(table);
-    free(place);
+    free(new_index);
     return ok || cli_fail(error, f->subject, "does not fit into memory");
 }
 

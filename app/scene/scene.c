@@ -8,8 +8,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#define DEFAULT_FOV   0.7854f /* 45° */
-#define FRAMING_SHARE 0.9f    /* of the image that an automatic camera fills at most */
+#define DEFAULT_FOV  0.7854f /* 45° */
+#define FRAMING_PART 0.9f    /* of the image that an automatic camera fills at most */
 
 void scene_left_out_text(const scene_left_out *item, char *text, size_t size) {
     const char last = item->noun[0] ? item->noun[strlen(item->noun) - 1] : 0;
@@ -33,7 +33,7 @@ void scene_free(scene *s) {
 static float framing_distance(const scene *s, lmp_vec3 center, lmp_vec3 from, float aspect) {
     const lmp_vec3 right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), from), from);
     const lmp_vec3 up = vec_cross(from, right);
-    const float slope = FRAMING_SHARE * tanf(0.5f * DEFAULT_FOV);
+    const float slope = FRAMING_PART * tanf(0.5f * DEFAULT_FOV);
     float radius = 1e-6f, distance = 0.0f;
     for (size_t i = 0; i < s->index_count; i++) {
         const lmp_vec3 p = vec_sub(vec_load(s->vertices[s->indices[i]].position), center);

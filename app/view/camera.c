@@ -20,7 +20,7 @@ static frame frame_of(const scene_camera *camera) {
 }
 
 /* Turns a direction to the right and up, with y staying up. */
-static lmp_vec3 turned(lmp_vec3 direction, float right, float up) {
+static lmp_vec3 rotated(lmp_vec3 direction, float right, float up) {
     const float heading = atan2f(direction.x, -direction.z) + right;
     const float height = asinf(fminf(fmaxf(direction.y, -1), 1)) + up;
     const float held = fminf(fmaxf(height, -STEEPEST), STEEPEST);
@@ -33,7 +33,7 @@ static void stand_upright(scene_camera *camera) {
 
 void view_orbit(scene_camera *camera, float right, float up) {
     const frame f = frame_of(camera);
-    const lmp_vec3 forward = turned(f.forward, -right, -up);
+    const lmp_vec3 forward = rotated(f.forward, -right, -up);
     stand_upright(camera);
     vec_store(vec_sub(vec_load(camera->target), vec_scale(forward, f.distance)), camera->eye);
 }
@@ -41,7 +41,7 @@ void view_orbit(scene_camera *camera, float right, float up) {
 void view_look_round(scene_camera *camera, float right, float up) {
     const frame f = frame_of(camera);
     stand_upright(camera);
-    vec_store(vec_add(f.eye, vec_scale(turned(f.forward, right, up), f.distance)), camera->target);
+    vec_store(vec_add(f.eye, vec_scale(rotated(f.forward, right, up), f.distance)), camera->target);
 }
 
 static void move(scene_camera *camera, lmp_vec3 by) {

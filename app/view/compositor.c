@@ -9,15 +9,15 @@
 #include <string.h>
 
 /* From so many triangles on a software device draws a coarser scene while things move. */
-enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300, RESPONSES = 8 };
+enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300, LOBES_KEPT = 8 };
 
-/* A response that has been made. */
-typedef struct made_response {
+/* A preintegrated lobe that has been made. */
+typedef struct kept_lobe {
     int bands;
     lmp_window window;
-    lmp_preintegrated_lobe *response;
+    lmp_preintegrated_lobe *lobe;
     unsigned used; /* when, by the compositor's clock */
-} made_response;
+} kept_lobe;
 
 /* In full; coarse while the camera rests; coarse and of fewer triangles while it moves. */
 typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
@@ -38,7 +38,7 @@ struct view_compositor {
     scene draft; /* without vertices: the scene itself serves */
     gpu_screen *screen;
     side sides[2];
-    made_response responses[RESPONSES];
+    kept_lobe lobes[LOBES_KEPT];
     scene_camera camera; /* of the last draft */
     unsigned clock;
 };
@@ -73,8 +73,8 @@ void view_compositor_destroy(view_compositor *s) {
         return;
     close_side(&s->sides[0]);
     close_side(&s->sides[1]);
-    for (int i = 0; i < RESPONSES; i++)
-        lmp_preintegrated_lobe_destroy(s->responses[i].response);
+    for (int i = 0; i < LOBES_KEPT; i++)
+        lmp_preintegrated_lobe_destroy(s->lobes[i].lobe);
     gpu_screen_destroy(s->screen);
     view_draft_free(&s->draft);
     free(s);
@@ -84,64 +84,65 @@ gpu_screen *view_compositor_screen(view_compositor *s) {
     return s->screen;
 }
 
-/* --- responses ----------------------------------------------------------------------------------
+/* --- lobes ----------------------------------------------------------------------------------
  */
 
-static made_response *find_response(view_compositor *s, const view_look *look) {
-    for (int i = 0; i < RESPONSES; i++)
-        if (s->responses[i].response && s->responses[i].bands == look->bands &&
-            s->responses[i].window == look->window)
-            return &s->responses[i];
+static kept_lobe *find_lobe(view_compositor *s, const view_shading *shading) {
+    for (int i = 0; i < LOBES_KEPT; i++)
+        if (s->lobes[i].lobe && s->lobes[i].bands == shading->bands &&
+            s->lobes[i].window == shading->window)
+            return &s->lobes[i];
     return NULL;
 }
 
 /* Makes it, in place of the one that was used longest ago. */
-static const lmp_preintegrated_lobe *get_response(view_compositor *s, const view_look *look,
-                                                  cli_error *error) {
-    made_response *made = find_response(s, look);
+static const lmp_preintegrated_lobe *get_lobe(view_compositor *s, const view_shading *shading,
+                                              cli_error *error) {
+    kept_lobe *made = find_lobe(s, shading);
     if (!made) {
-        lmp_preintegrated_lobe *response = NULL;
-        if (!bake_lobes(look->bands, look->window, &response, error))
+        lmp_preintegrated_lobe *lobe = NULL;
+        if (!bake_lobes(shading->bands, shading->window, &lobe, error))
             return NULL;
-        made = &s->responses[0];
-        for (int i = 1; i < RESPONSES; i++)
-            if (s->responses[i].used < made->used)
-                made = &s->responses[i];
-        lmp_preintegrated_lobe_destroy(made->response);
-        *made = (made_response) { look->bands, look->window, response, 0 };
+        made = &s->lobes[0];
+        for (int i = 1; i < LOBES_KEPT; i++)
+            if (s->lobes[i].used < made->used)
+                made = &s->lobes[i];
+        lmp_preintegrated_lobe_destroy(made->lobe);
+        *made = (kept_lobe) { shading->bands, shading->window, lobe, 0 };
     }
     made->used = ++s->clock;
-    return made->response;
+    return made->lobe;
 }
 
 /* --- materials ----------------------------------------------------------------------------------
  */
 
-static bool is_preintegrated(const view_look *look) {
-    return method_table[look->method].reads & METHOD_READS_PREINTEGRATED;
+static bool is_preintegrated(const view_shading *shading) {
+    return method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
 }
 
-static bool has_materials(const side *own, const view_settings *settings, const view_look *look) {
+static bool has_materials(const side *own, const view_settings *settings,
+                          const view_shading *shading) {
     return own->count == settings->material_count &&
-           (own->count == 0 || (own->bands == look->bands && own->window == look->window &&
-                                own->preintegrated == is_preintegrated(look) &&
+           (own->count == 0 || (own->bands == shading->bands && own->window == shading->window &&
+                                own->preintegrated == is_preintegrated(shading) &&
                                 memcmp(own->names, settings->materials,
                                        (size_t)own->count * sizeof *own->names) == 0));
 }
 
 static bool settle_materials(view_compositor *s, side *own, const view_settings *settings,
-                             const view_look *look, cli_error *error) {
+                             const view_shading *shading, cli_error *error) {
     override_set fresh = { .count = 0 };
     cli_list list = { .count = settings->material_count };
-    if (has_materials(own, settings, look))
+    if (has_materials(own, settings, shading))
         return true;
     if (!own->names && !(own->names = calloc(GPU_TABLES_MAX, sizeof *own->names)))
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
     bool ok = override_open(&list, s->world, &fresh, error) &&
-              override_bake(&fresh, look->bands, look->window, error) &&
-              (!is_preintegrated(look) || override_preintegrate(&fresh, error));
+              override_bake(&fresh, shading->bands, shading->window, error) &&
+              (!is_preintegrated(shading) || override_preintegrate(&fresh, error));
     for (int i = 0; i < QUALITIES && ok; i++)
         ok = !own->renderers[i] || override_apply(&fresh, s->world, own->renderers[i], error);
     if (!ok) { /* as before, for what is drawn next */
@@ -155,9 +156,9 @@ static bool settle_materials(view_compositor *s, side *own, const view_settings 
     override_free(&own->materials);
     own->materials = fresh;
     own->count = settings->material_count;
-    own->bands = look->bands;
-    own->window = look->window;
-    own->preintegrated = is_preintegrated(look);
+    own->bands = shading->bands;
+    own->window = shading->window;
+    own->preintegrated = is_preintegrated(shading);
     memcpy(own->names, settings->materials, (size_t)own->count * sizeof *own->names);
     return true;
 }
@@ -165,10 +166,10 @@ static bool settle_materials(view_compositor *s, side *own, const view_settings 
 const char *view_compositor_pending(view_compositor *s, const view_settings *settings) {
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
     for (int i = 0; i < sides; i++) {
-        const view_look *look = &settings->looks[i];
-        if (settings->material_count > 0 && !has_materials(&s->sides[i], settings, look))
+        const view_shading *shading = &settings->shading[i];
+        if (settings->material_count > 0 && !has_materials(&s->sides[i], settings, shading))
             return "projecting the materials …";
-        if (is_preintegrated(look) && !find_response(s, look))
+        if (is_preintegrated(shading) && !find_lobe(s, shading))
             return "integrating the lobes …";
     }
     return NULL;
@@ -201,16 +202,17 @@ static bool open_side(view_compositor *s, side *own, quality fineness, cli_error
 }
 
 /* How to draw a side: how many samples come from what samples counts. */
-static bool fill_frame(view_compositor *s, const view_settings *settings, const view_look *look,
-                       int divisor, gpu_frame *frame, device_kind *device, cli_error *error) {
-    *device = method_device(look->method, DEVICE_AUTO, s->context.software, look->bands);
+static bool fill_frame(view_compositor *s, const view_settings *settings,
+                       const view_shading *shading, int divisor, gpu_frame *frame,
+                       device_kind *device, cli_error *error) {
+    *device = method_device(shading->method, DEVICE_AUTO, s->context.software, shading->bands);
     *frame = (gpu_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
         .camera = settings->camera,
-        .method = look->method,
-        .bands = look->bands,
-        .window = look->window,
+        .method = shading->method,
+        .bands = shading->bands,
+        .window = shading->window,
         .lights = settings->lights,
         .light_count = settings->light_count,
         .samples = divisor > 1 ? 1 : settings->samples,
@@ -218,9 +220,9 @@ static bool fill_frame(view_compositor *s, const view_settings *settings, const 
         .host = *device == DEVICE_CPU ? shade_frame : NULL,
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
-    if (is_preintegrated(look))
-        frame->lobes = get_response(s, look, error);
-    return !is_preintegrated(look) || frame->lobes;
+    if (is_preintegrated(shading))
+        frame->lobes = get_lobe(s, shading, error);
+    return !is_preintegrated(shading) || frame->lobes;
 }
 
 /* Sample `index`, or with -1 all. */
@@ -231,13 +233,13 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
     memset(statistics, 0, sizeof *statistics);
     for (int i = 0; i < sides; i++) {
         side *own = &s->sides[i];
-        const view_look *look = &settings->looks[i];
+        const view_shading *shading = &settings->shading[i];
         gpu_frame frame;
         gpu_times times;
         device_kind device;
         if (!open_side(s, own, fineness, error) ||
-            !settle_materials(s, own, settings, look, error) ||
-            !fill_frame(s, settings, look, divisor, &frame, &device, error))
+            !settle_materials(s, own, settings, shading, error) ||
+            !fill_frame(s, settings, shading, divisor, &frame, &device, error))
             return false;
         gpu_renderer *renderer = own->renderers[fineness];
         frame.keep_geometry = fineness == RESTING && s->context.software;
@@ -280,8 +282,8 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
     image pixels;
     side *own = &s->sides[0];
     if (!open_side(s, own, FINE, error) ||
-        !settle_materials(s, own, settings, &settings->looks[0], error) ||
-        !fill_frame(s, settings, &settings->looks[0], 1, &frame, &device, error))
+        !settle_materials(s, own, settings, &settings->shading[0], error) ||
+        !fill_frame(s, settings, &settings->shading[0], 1, &frame, &device, error))
         return false;
     frame.samples = 1;
     if (!gpu_render(own->renderers[FINE], &frame, NULL, error) ||

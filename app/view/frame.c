@@ -27,7 +27,7 @@ static bool take_back(viewer *v, const cli_error *error) {
     if (v->good->width == 0)
         return false;
     const int width = v->state.now.width, height = v->state.now.height;
-    memcpy(v->state.now.looks, v->good->looks, sizeof v->good->looks);
+    memcpy(v->state.now.shading, v->good->shading, sizeof v->good->shading);
     memcpy(v->state.now.materials, v->good->materials, sizeof v->good->materials);
     v->state.now.material_count = v->good->material_count;
     v->state.now.split = v->good->split;

@@ -11,29 +11,29 @@
 /* --- shading ------------------------------------------------------------------------------------
  */
 
-static view_look *look_here(view_state *s) {
-    return &s->now.looks[view_side(s)];
+static view_shading *shading_here(view_state *s) {
+    return &s->now.shading[view_side(s)];
 }
 
-static void hold_bands(view_look *look) {
-    const int most = method_table[look->method].bands_max[DEVICE_AUTO];
-    look->bands = look->bands < 1 ? 1 : look->bands > most ? most : look->bands;
+static void hold_bands(view_shading *shading) {
+    const int most = method_table[shading->method].bands_max[DEVICE_AUTO];
+    shading->bands = shading->bands < 1 ? 1 : shading->bands > most ? most : shading->bands;
 }
 
 static void change_method(view_state *s, int step) {
-    view_look *look = look_here(s);
-    look->method = (method_kind)(((int)look->method + step + METHODS) % METHODS);
-    hold_bands(look);
+    view_shading *shading = shading_here(s);
+    shading->method = (method_kind)(((int)shading->method + step + METHODS) % METHODS);
+    hold_bands(shading);
 }
 
 static void change_bands(view_state *s, int step) {
-    look_here(s)->bands += step;
-    hold_bands(look_here(s));
+    shading_here(s)->bands += step;
+    hold_bands(shading_here(s));
 }
 
 static void change_window(view_state *s, int step) {
-    view_look *look = look_here(s);
-    look->window = (lmp_window)(((int)look->window + step + LMP_WINDOWS) % LMP_WINDOWS);
+    view_shading *shading = shading_here(s);
+    shading->window = (lmp_window)(((int)shading->window + step + LMP_WINDOWS) % LMP_WINDOWS);
 }
 
 static void change_exposure(view_state *s, int thirds) {
@@ -59,7 +59,7 @@ static void split(view_state *s, int kind) {
     const bool was_whole = s->now.split == GPU_SPLIT_NONE;
     s->now.split = s->now.split == (gpu_split)kind ? GPU_SPLIT_NONE : (gpu_split)kind;
     if (was_whole)
-        s->now.looks[1] = s->now.looks[0];
+        s->now.shading[1] = s->now.shading[0];
     if (was_whole && kind == GPU_SPLIT_DIVIDED) {
         s->now.divider = 0.5f;
         view_say(s, "Split: keys change the side that the pointer is on");
@@ -70,11 +70,11 @@ static void split(view_state *s, int kind) {
 
 static void swap_sides(view_state *s, int unused) {
     (void)unused;
-    const view_look first = s->now.looks[0];
+    const view_shading first = s->now.shading[0];
     if (s->now.split == GPU_SPLIT_NONE)
         return;
-    s->now.looks[0] = s->now.looks[1];
-    s->now.looks[1] = first;
+    s->now.shading[0] = s->now.shading[1];
+    s->now.shading[1] = first;
 }
 
 /* --- time ---------------------------------------------------------------------------------------

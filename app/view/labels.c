@@ -26,10 +26,10 @@ static void add_row(view_row *rows, int *count, const char *name, const char *fo
     va_end(arguments);
 }
 
-static void describe_look(const view_look *look, char *text, size_t size) {
-    snprintf(text, size, "%s, %d band%s%s%s", method_table[look->method].name, look->bands,
-             look->bands == 1 ? "" : "s", look->window == LMP_WINDOW_NONE ? "" : ", ",
-             look->window == LMP_WINDOW_NONE ? "" : lmp_sh_window_name(look->window));
+static void describe_shading(const view_shading *shading, char *text, size_t size) {
+    snprintf(text, size, "%s, %d band%s%s%s", method_table[shading->method].name, shading->bands,
+             shading->bands == 1 ? "" : "s", shading->window == LMP_WINDOW_NONE ? "" : ", ",
+             shading->window == LMP_WINDOW_NONE ? "" : lmp_sh_window_name(shading->window));
 }
 
 /* "30, number 4: sphere, radius 0.2" */
@@ -48,15 +48,15 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     const view_state *s = &v->state;
     const view_settings *d = v->drawn;
     const gpu_times *t = &v->statistics.times;
-    char look[96], text[96];
+    char shading[96], text[96];
     int count = 0;
     add_row(rows, &count, "Lampion", "%s", "");
     add_row(rows, &count, "Scene", "%.100s", d->scene);
-    describe_look(&d->looks[0], look, sizeof look);
-    add_row(rows, &count, d->split == GPU_SPLIT_NONE ? "Shading" : "Left", "%s", look);
+    describe_shading(&d->shading[0], shading, sizeof shading);
+    add_row(rows, &count, d->split == GPU_SPLIT_NONE ? "Shading" : "Left", "%s", shading);
     if (d->split != GPU_SPLIT_NONE) {
-        describe_look(&d->looks[1], look, sizeof look);
-        add_row(rows, &count, "Right", "%s", look);
+        describe_shading(&d->shading[1], shading, sizeof shading);
+        add_row(rows, &count, "Right", "%s", shading);
     }
     describe_lights(s, text, sizeof text);
     add_row(rows, &count, "Lights", "%s", text);
@@ -136,7 +136,7 @@ static void draw_sides(viewer *v, double scale) {
     const double middle = (double)d->divider * d->width, gap = 10 * scale;
     for (int side = 0; side < 2; side++) {
         const int index = side ? DRAWING_RIGHT : DRAWING_LEFT;
-        describe_look(&d->looks[side], text, sizeof text);
+        describe_shading(&d->shading[side], text, sizeof text);
         /* its width is known once it is drawn */
         draw_line(v, index, text, scale, d->width, -d->width, 0);
         const double half = 0.5 * v->labels[index].width + gap;

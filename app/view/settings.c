@@ -60,11 +60,11 @@ static void add_camera(cJSON *root, const scene_camera *camera) {
     file_json_add_floats(object, "fov", &camera->fov, 1);
 }
 
-static void add_look(cJSON *array, const view_look *look) {
+static void add_shading(cJSON *array, const view_shading *shading) {
     cJSON *object = cJSON_CreateObject();
-    cJSON_AddStringToObject(object, "method", method_table[look->method].name);
-    cJSON_AddNumberToObject(object, "bands", look->bands);
-    cJSON_AddStringToObject(object, "window", lmp_sh_window_name(look->window));
+    cJSON_AddStringToObject(object, "method", method_table[shading->method].name);
+    cJSON_AddNumberToObject(object, "bands", shading->bands);
+    cJSON_AddStringToObject(object, "window", lmp_sh_window_name(shading->window));
     cJSON_AddItemToArray(array, object);
 }
 
@@ -78,9 +78,9 @@ cJSON *view_settings_to_json(const view_settings *s) {
     cJSON_AddStringToObject(root, "tone", image_tones[s->tone].name);
     file_json_add_floats(root, "background", s->background, 3);
     add_camera(root, &s->camera);
-    cJSON *looks = cJSON_AddArrayToObject(root, "looks");
-    add_look(looks, &s->looks[0]);
-    add_look(looks, &s->looks[1]);
+    cJSON *both = cJSON_AddArrayToObject(root, "looks");
+    add_shading(both, &s->shading[0]);
+    add_shading(both, &s->shading[1]);
     cJSON_AddStringToObject(root, "split", view_split_names[s->split]);
     file_json_add_floats(root, "divider", &s->divider, 1);
     cJSON *materials = cJSON_AddArrayToObject(root, "materials");
@@ -152,22 +152,22 @@ static bool read_camera(const cJSON *root, scene_camera *camera) {
            read_float(object, "fov", 0.001, 3.1, &camera->fov);
 }
 
-static bool read_look(const cJSON *object, view_look *look) {
+static bool read_shading(const cJSON *object, view_shading *shading) {
     int method, window;
     if (!read_choice(object, "method", method_names(), &method) ||
         !read_choice(object, "window", method_window_names(), &window))
         return false;
-    look->method = (method_kind)method;
-    look->window = (lmp_window)window;
-    return read_int(object, "bands", 1, method_table[look->method].bands_max[DEVICE_AUTO],
-                    &look->bands);
+    shading->method = (method_kind)method;
+    shading->window = (lmp_window)window;
+    return read_int(object, "bands", 1, method_table[shading->method].bands_max[DEVICE_AUTO],
+                    &shading->bands);
 }
 
-static bool read_looks(const cJSON *root, view_look looks[2]) {
+static bool read_both_shadings(const cJSON *root, view_shading both[2]) {
     const cJSON *array = file_json_member(root, "looks");
     return cJSON_IsArray(array) && cJSON_GetArraySize(array) == 2 &&
-           read_look(cJSON_GetArrayItem(array, 0), &looks[0]) &&
-           read_look(cJSON_GetArrayItem(array, 1), &looks[1]);
+           read_shading(cJSON_GetArrayItem(array, 0), &both[0]) &&
+           read_shading(cJSON_GetArrayItem(array, 1), &both[1]);
 }
 
 static bool read_lights(const cJSON *root, view_settings *s) {
@@ -220,7 +220,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
                         : !read_tone(root, &s->tone)                                   ? "tone"
                         : !read_floats(root, "background", 0, 1e30, s->background) ? "background"
                         : !read_camera(root, &s->camera)                           ? "camera"
-                        : !read_looks(root, s->looks)                              ? "looks"
+                        : !read_both_shadings(root, s->shading)                    ? "looks"
                         : !read_choice(root, "split", view_split_names, &split)    ? "split"
                         : !read_float(root, "divider", 0, 1, &s->divider)          ? "divider"
                         : !read_materials(root, s)                                 ? "materials"

@@ -11,11 +11,11 @@
 #define VIEW_SAMPLES_MAX   1024
 
 /* How to shade a side. */
-typedef struct view_look {
+typedef struct view_shading {
     method_kind method;
     int bands;
     lmp_window window;
-} view_look;
+} view_shading;
 
 typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
@@ -25,7 +25,7 @@ typedef struct view_settings {
     int tone;       /* a row of image_tones */
     float background[3];
     scene_camera camera;
-    view_look looks[2]; /* the second one of a split image */
+    view_shading shading[2]; /* the second one of a split image */
     gpu_split split;
     float divider; /* a part of the width */
     int material_count;

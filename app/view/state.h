@@ -16,7 +16,7 @@ typedef enum view_event_kind {
     VIEW_RELEASE, /* a button */
     VIEW_SCROLL,  /* by y steps, forward > 0 */
     VIEW_KEY,     /* a key of view_keys, by its name */
-    VIEW_HOLD,    /* one of the letters wasdqe, by its place on a US keyboard */
+    VIEW_HOLD,    /* one of the letters wasdqe, by its position on a US keyboard */
     VIEW_FREE,    /* the same, let go; 0: all of them */
     VIEW_DROP,    /* a file, onto where the pointer is */
     VIEW_SIZE     /* the image has x times y pixels; none: it cannot be seen */

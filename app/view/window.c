@@ -10,7 +10,7 @@
 struct view_window {
     GLFWwindow *glfw;
     view_state *state;
-    int place[4]; /* before it filled the screen: x, y, width, height */
+    int windowed[4]; /* before it filled the screen: x, y, width, height */
 };
 
 static char last_complaint[256];
@@ -66,7 +66,7 @@ static void on_character(GLFWwindow *glfw, unsigned character) {
         view_handle(state_of(glfw), &(view_event) { .kind = VIEW_KEY, .text = text });
 }
 
-/* Flying goes by the place of the keys on the keyboard. */
+/* Flying goes by the position of the keys on the keyboard. */
 static char flying_letter(int key) {
     static const struct {
         int key;
@@ -97,8 +97,8 @@ static const char *name_of(int key) {
     return NULL;
 }
 
-static void on_key(GLFWwindow *glfw, int key, int place, int action, int modifiers) {
-    (void)place;
+static void on_key(GLFWwindow *glfw, int key, int position, int action, int modifiers) {
+    (void)position;
     view_state *state = state_of(glfw);
     const bool shift = modifiers & GLFW_MOD_SHIFT, control = modifiers & GLFW_MOD_CONTROL;
     const char letter = flying_letter(key);
@@ -244,14 +244,15 @@ void view_window_title(view_window *window, const char *title) {
 }
 
 void view_window_toggle_fullscreen(view_window *window) {
-    int *place = window->place;
+    int *windowed = window->windowed;
     GLFWmonitor *monitor = glfwGetPrimaryMonitor();
     const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
     if (glfwGetWindowMonitor(window->glfw)) {
-        glfwSetWindowMonitor(window->glfw, NULL, place[0], place[1], place[2], place[3], 0);
+        glfwSetWindowMonitor(window->glfw, NULL, windowed[0], windowed[1], windowed[2], windowed[3],
+                             0);
     } else if (mode) {
-        glfwGetWindowPos(window->glfw, &place[0], &place[1]);
-        glfwGetWindowSize(window->glfw, &place[2], &place[3]);
+        glfwGetWindowPos(window->glfw, &windowed[0], &windowed[1]);
+        glfwGetWindowSize(window->glfw, &windowed[2], &windowed[3]);
         glfwSetWindowMonitor(window->glfw, monitor, 0, 0, mode->width, mode->height,
                              mode->refreshRate);
     }

@@ -55,7 +55,7 @@ LMP_API void lmp_brdf_eval_double(const lmp_brdf *brdf, const double wi[3], cons
 /* What a BRDF is. */
 typedef struct lmp_brdf_info {
     lmp_brdf_kind kind;
-    bool anisotropic; /* turning the surface about its normal changes it */
+    bool anisotropic; /* rotating the surface around its normal changes it */
     bool mirrored;    /* isotropic, and exactly unchanged under y -> -y */
     bool measured;    /* cells of a file: finer quadrature than `rings` finds only their edges */
     bool spectral;    /* an RGL file with spectra, converted to RGB */
@@ -102,14 +102,14 @@ LMP_API lmp_result lmp_sgd_find(const char *name, lmp_sgd *sgd);
 
 /* --- measured files ----------------------------------------------------------------------------
  * Readers copy what they need: `data` may go once they return. LMP_ERROR_FORMAT: bytes that are not
- * such a file, of which *fault tells; LMP_ERROR_MEMORY. Nothing in a file is believed that its size
+ * such a file, of which *error tells; LMP_ERROR_MEMORY. Nothing in a file is believed that its size
  * does not bear out. */
 
 /* MERL .binary (Matusik et al. 2003): int32 dimensions of theta_h, theta_d, phi_d, then a plane of
  * float64 for red, green and blue. Looked up by cell, as its authors do; negative cells (no data)
- * read as 0. Any dimensions that agree with `size`; NaN and infinity are faults. */
+ * read as 0. Any dimensions that agree with `size`; NaN and infinity are errors. */
 LMP_API lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
-                                      lmp_parse_error *fault, lmp_brdf **brdf);
+                                      lmp_parse_error *error, lmp_brdf **brdf);
 
 /* RGL .bsdf tensor file (Dupuy and Jakob 2018), isotropic or anisotropic (phi_i over a full, half
  * or quarter turn), RGB or spectral. Spectra become linear sRGB by the CIE 1931 observer (the
@@ -117,7 +117,7 @@ LMP_API lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, si
  * a flat spectrum is gray. lmp_brdf_eval divides the file's f_r cos theta_o by its cosine; tables
  * take the viewer as the file's first direction. */
 LMP_API lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
-                                     lmp_parse_error *fault, lmp_brdf **brdf);
+                                     lmp_parse_error *error, lmp_brdf **brdf);
 
 /* Writers: any BRDF sampled into a file's form. MERL: the value at each cell's center, 90 x 90 x
  * 180 (an anisotropic BRDF loses its anisotropy). RGL: RGB, resolution in docs/formats.md.
@@ -195,7 +195,7 @@ LMP_API void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o,
 /* The part of the light that a view reflects: ∫ f_r cos theta_i dw under radiance 1, of the BRDF,
  * and of its truncated and windowed series over the same hemisphere. */
 LMP_API void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth,
-                                   lmp_rgb *measured, lmp_rgb *series);
+                                   lmp_rgb *whole, lmp_rgb *series);
 
 /* Coefficients for one view, in the material's own frame, unwindowed: rgb receives 3 planes of
  * LMP_SH_COUNT(bands) values.
@@ -211,7 +211,7 @@ LMP_API lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings,
 LMP_API size_t lmp_brdf_table_size(const lmp_brdf_table *table);
 LMP_API void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes);
 LMP_API lmp_result lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
-                                       lmp_parse_error *fault, lmp_brdf_table **table);
+                                       lmp_parse_error *error, lmp_brdf_table **table);
 
 #ifdef __cplusplus
 }

@@ -33,7 +33,7 @@ LMP_API void lmp_lobe_project(int bands, const float *lambda, lmp_vec3 axis, flo
 
 /* ∫ L k(axis·w) dw for the sum of the lights, in O(bands) a light.
  *
- * The result is that of the cut series: it may ring below 0, and is not clamped. */
+ * The result is that of the truncated series: it may ring below 0, and is not clamped. */
 LMP_API lmp_rgb lmp_lobe_response(int bands, const float *lambda, lmp_vec3 axis,
                                   const lmp_light *lights, size_t count, lmp_vec3 point);
 

@@ -71,10 +71,10 @@ static inline void *lmp_brdf_extra(lmp_brdf *brdf) {
     return (unsigned char *)brdf + ((sizeof *brdf + 15) & ~(size_t)15);
 }
 
-/* Fills the fault (may be NULL) and returns `result`. The format knows %s, %d and %zu. */
-lmp_result lmp_brdf_fail(lmp_parse_error *fault, lmp_result result, size_t offset,
+/* Fills the error (may be NULL) and returns `result`. The format knows %s, %d and %zu. */
+lmp_result lmp_brdf_fail(lmp_parse_error *error, lmp_result result, size_t offset,
                          const char *format, ...) __attribute__((format(printf, 4, 5)));
-lmp_result lmp_brdf_fail_list(lmp_parse_error *fault, lmp_result result, size_t offset,
+lmp_result lmp_brdf_fail_list(lmp_parse_error *error, lmp_result result, size_t offset,
                               const char *format, va_list list)
     __attribute__((format(printf, 4, 0)));
 

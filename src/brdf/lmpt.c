@@ -36,57 +36,57 @@ void lmp_brdf_table_write(const lmp_brdf_table *table, void *bytes) {
 
 /* One integer of the header, held to its range. */
 static lmp_result take(const unsigned char *bytes, size_t offset, const char *what,
-                       uint32_t minimum, uint32_t maximum, int *value, lmp_parse_error *fault) {
+                       uint32_t minimum, uint32_t maximum, int *value, lmp_parse_error *error) {
     const uint32_t n = lmp_bytes_at_u32(bytes + offset);
     if (n < minimum || n > maximum)
-        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset, "%s is %zu, not in %zu to %zu", what,
+        return lmp_brdf_fail(error, LMP_ERROR_FORMAT, offset, "%s is %zu, not in %zu to %zu", what,
                              (size_t)n, (size_t)minimum, (size_t)maximum);
     *value = (int)n;
     return LMP_OK;
 }
 
 static lmp_result read_header(const unsigned char *bytes, size_t size, lmp_brdf_table_info *info,
-                              lmp_parse_error *fault) {
+                              lmp_parse_error *error) {
     const lmp_result begun = lmp_bytes_check_begin(bytes, size, &format);
     if (begun == LMP_ERROR_VERSION)
-        return lmp_brdf_fail(fault, begun, sizeof format.magic,
+        return lmp_brdf_fail(error, begun, sizeof format.magic,
                              "table format version %zu, this library knows version %zu",
                              (size_t)lmp_bytes_at_u32(bytes + sizeof format.magic),
                              (size_t)format.version);
     if (begun != LMP_OK)
-        return lmp_brdf_fail(fault, begun, 0, "not a Lampion table (.lmpt)");
+        return lmp_brdf_fail(error, begun, 0, "not a Lampion table (.lmpt)");
     int mirrored = 0, window = 0;
-    lmp_result result = take(bytes, 12, "bands", 1, LMP_BANDS_MAX, &info->bands, fault);
+    lmp_result result = take(bytes, 12, "bands", 1, LMP_BANDS_MAX, &info->bands, error);
     if (result == LMP_OK)
-        result = take(bytes, 16, "views", 2, BRDF_VIEWS_MAX, &info->views, fault);
+        result = take(bytes, 16, "views", 2, BRDF_VIEWS_MAX, &info->views, error);
     if (result == LMP_OK)
-        result = take(bytes, 20, "azimuths", 1, BRDF_AZIMUTHS_MAX, &info->azimuths, fault);
+        result = take(bytes, 20, "azimuths", 1, BRDF_AZIMUTHS_MAX, &info->azimuths, error);
     if (result == LMP_OK && info->azimuths > 1 && (info->azimuths < 4 || info->azimuths % 2))
-        result = lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 20, "azimuths is %d, not 1 or even",
+        result = lmp_brdf_fail(error, LMP_ERROR_FORMAT, 20, "azimuths is %d, not 1 or even",
                                info->azimuths);
     if (result == LMP_OK)
-        result = take(bytes, 24, "mirrored", 0, info->azimuths == 1, &mirrored, fault);
+        result = take(bytes, 24, "mirrored", 0, info->azimuths == 1, &mirrored, error);
     if (result == LMP_OK)
-        result = take(bytes, 28, "window", LMP_WINDOW_NONE, LMP_WINDOWS - 1, &window, fault);
+        result = take(bytes, 28, "window", LMP_WINDOW_NONE, LMP_WINDOWS - 1, &window, error);
     if (result == LMP_OK)
-        result = take(bytes, 36, "rings", 1, 1 << 20, &info->rings, fault);
+        result = take(bytes, 36, "rings", 1, 1 << 20, &info->rings, error);
     info->mirrored = mirrored != 0;
     info->window = (lmp_window)window;
     info->window_size = lmp_bytes_at_f32(bytes + 32);
     info->change = lmp_bytes_at_f32(bytes + 40);
     if (result == LMP_OK && !(info->window_size > 0 && isfinite(info->window_size)))
-        result = lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 32, "window size is not positive");
+        result = lmp_brdf_fail(error, LMP_ERROR_FORMAT, 32, "window size is not positive");
     if (result == LMP_OK && !(info->change >= 0 && isfinite(info->change)))
-        result = lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 40, "change is not a finite number");
+        result = lmp_brdf_fail(error, LMP_ERROR_FORMAT, 40, "change is not a finite number");
     return result;
 }
 
 lmp_result lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
-                               lmp_parse_error *fault, lmp_brdf_table **table) {
+                               lmp_parse_error *error, lmp_brdf_table **table) {
     *table = NULL;
     const unsigned char *bytes = data;
     lmp_brdf_table_info info = { 0 };
-    lmp_result result = read_header(bytes, size, &info, fault);
+    lmp_result result = read_header(bytes, size, &info, error);
     if (result != LMP_OK)
         return result;
     info.count = info.mirrored ? LMP_SH_HALF_COUNT(info.bands) : LMP_SH_COUNT(info.bands);
@@ -94,21 +94,21 @@ lmp_result lmp_brdf_table_read(const lmp_host *host, const void *data, size_t si
         HEADER + LMP_BYTES_CHECKSUM +
         UINT64_C(12) * info.count * (uint64_t)info.views * (uint64_t)info.azimuths;
     if (wanted != size)
-        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 12,
+        return lmp_brdf_fail(error, LMP_ERROR_FORMAT, 12,
                              "%d bands, %d views, %d azimuths need %zu bytes, the file has %zu",
                              info.bands, info.views, info.azimuths, (size_t)wanted, size);
     if (lmp_bytes_check_end(bytes, size) != LMP_OK)
-        return lmp_brdf_fail(fault, LMP_ERROR_CHECKSUM, size - LMP_BYTES_CHECKSUM,
+        return lmp_brdf_fail(error, LMP_ERROR_CHECKSUM, size - LMP_BYTES_CHECKSUM,
                              "checksum mismatch: the file is damaged");
     result = lmp_brdf_table_new(host, &info, table);
     if (result != LMP_OK)
-        return lmp_brdf_fail(fault, result, 0, "no memory for the table");
+        return lmp_brdf_fail(error, result, 0, "no memory for the table");
     for (size_t i = 0; i < float_count(&info); i++) {
         (*table)->coefficients[i] = lmp_bytes_at_f32(bytes + HEADER + 4 * i);
         if (!isfinite((*table)->coefficients[i])) {
             lmp_brdf_table_destroy(*table);
             *table = NULL;
-            return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, HEADER + 4 * i,
+            return lmp_brdf_fail(error, LMP_ERROR_FORMAT, HEADER + 4 * i,
                                  "coefficient %zu is not a finite number", i);
         }
     }

@@ -14,13 +14,13 @@
 static const int full_shape[3] = { 90, 90, 180 };
 static const double scale[3] = { 1.00 / 1500, 1.15 / 1500, 1.66 / 1500 };
 
-static int cell(double share, int count) {
-    const int i = (int)(share * count);
+static int cell(double fraction, int count) {
+    const int i = (int)(fraction * count);
     return i < 0 ? 0 : i < count ? i : count - 1;
 }
 
-/* theta_h, theta_d and phi_d as shares of their ranges pi/2, pi/2, pi; theta_h by its root. */
-static void half_angles(const double a[3], const double b[3], double shares[3]) {
+/* theta_h, theta_d and phi_d as fractions of their ranges pi/2, pi/2, pi; theta_h by its root. */
+static void half_angles(const double a[3], const double b[3], double fractions[3]) {
     double h[3];
     lmp_brdf_half(a, b, h);
     const double ct = h[2], st = sqrt(h[0] * h[0] + h[1] * h[1]);
@@ -30,18 +30,18 @@ static void half_angles(const double a[3], const double b[3], double shares[3]) 
     double phi = atan2(y, dx);
     if (phi < 0)
         phi += BRDF_PI;
-    shares[0] = sqrt(atan2(st, ct) / (BRDF_PI / 2));
-    shares[1] = atan2(sqrt(dx * dx + y * y), dz) / (BRDF_PI / 2);
-    shares[2] = phi / BRDF_PI;
+    fractions[0] = sqrt(atan2(st, ct) / (BRDF_PI / 2));
+    fractions[1] = atan2(sqrt(dx * dx + y * y), dz) / (BRDF_PI / 2);
+    fractions[2] = phi / BRDF_PI;
 }
 
 /* The samples of a pair of directions along phi_d, and their place in them. */
 static const float *find_row(const brdf_merl *merl, const double a[3], const double b[3], int *k) {
     const int *shape = merl->shape;
-    double shares[3];
-    half_angles(a, b, shares);
-    const size_t i = (size_t)cell(shares[0], shape[0]), j = (size_t)cell(shares[1], shape[1]);
-    *k = cell(shares[2], shape[2]);
+    double fractions[3];
+    half_angles(a, b, fractions);
+    const size_t i = (size_t)cell(fractions[0], shape[0]), j = (size_t)cell(fractions[1], shape[1]);
+    *k = cell(fractions[2], shape[2]);
     return merl->samples + 3 * (i * (size_t)shape[1] + j) * (size_t)shape[2];
 }
 
@@ -79,15 +79,15 @@ static bool cell_center(const int shape[3], int i, int j, int k, double a[3], do
 }
 
 static lmp_result check_header(const unsigned char *bytes, size_t size, int shape[3], size_t *cells,
-                               lmp_parse_error *fault) {
+                               lmp_parse_error *error) {
     if (size < HEADER)
-        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, size,
+        return lmp_brdf_fail(error, LMP_ERROR_FORMAT, size,
                              "a MERL file begins with 12 bytes of dimensions, this has %zu", size);
     uint64_t product = 1;
     for (int axis = 0; axis < 3; axis++) {
         const uint32_t n = lmp_bytes_at_u32(bytes + 4 * axis);
         if (n < 1 || n > 1u << 20)
-            return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 4 * (size_t)axis,
+            return lmp_brdf_fail(error, LMP_ERROR_FORMAT, 4 * (size_t)axis,
                                  "MERL dimension %d is %d, not a sensible number of cells", axis,
                                  (int)n);
         shape[axis] = (int)n;
@@ -95,7 +95,7 @@ static lmp_result check_header(const unsigned char *bytes, size_t size, int shap
     }
     const uint64_t wanted = HEADER + 24 * product;
     if (product > UINT64_C(1) << 40 || wanted != size)
-        return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, 0,
+        return lmp_brdf_fail(error, LMP_ERROR_FORMAT, 0,
                              "MERL dimensions %d x %d x %d need %zu bytes, the file has %zu",
                              shape[0], shape[1], shape[2], (size_t)wanted, size);
     *cells = (size_t)product;
@@ -103,18 +103,18 @@ static lmp_result check_header(const unsigned char *bytes, size_t size, int shap
 }
 
 lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
-                              lmp_parse_error *fault, lmp_brdf **brdf) {
+                              lmp_parse_error *error, lmp_brdf **brdf) {
     *brdf = NULL;
     const unsigned char *bytes = data;
     int shape[3];
     size_t cells = 0;
-    lmp_result result = check_header(bytes, size, shape, &cells, fault);
+    lmp_result result = check_header(bytes, size, shape, &cells, error);
     if (result != LMP_OK)
         return result;
     lmp_brdf *made = NULL;
     result = lmp_brdf_new(host, LMP_BRDF_MERL, 3 * cells * sizeof(float), &made);
     if (result != LMP_OK)
-        return lmp_brdf_fail(fault, result, 0, "no memory for %zu MERL cells", cells);
+        return lmp_brdf_fail(error, result, 0, "no memory for %zu MERL cells", cells);
     float *samples = lmp_brdf_extra(made);
     for (size_t c = 0; c < 3; c++)
         for (size_t i = 0; i < cells; i++) {
@@ -122,7 +122,7 @@ lmp_result lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t siz
             const double value = lmp_bytes_at_f64(bytes + offset) * scale[c];
             if (!(fabs(value) <= 3e38)) {
                 lmp_brdf_destroy(made);
-                return lmp_brdf_fail(fault, LMP_ERROR_FORMAT, offset,
+                return lmp_brdf_fail(error, LMP_ERROR_FORMAT, offset,
                                      "MERL cell %zu of channel %zu is not a finite number", i, c);
             }
             samples[3 * i + c] = value > 0 ? (float)value : 0;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* The text of a fault, without the C library's streams: %s, %d and %zu. */
+/* The text of an error, without the C library's streams: %s, %d and %zu. */
 #include "src/brdf/brdf.h"
 
-static void add_char(lmp_parse_error *fault, size_t *length, char c) {
-    if (*length + 1 < sizeof fault->text)
-        fault->text[(*length)++] = c;
+static void add_char(lmp_parse_error *error, size_t *length, char c) {
+    if (*length + 1 < sizeof error->text)
+        error->text[(*length)++] = c;
 }
 
-static void add_number(lmp_parse_error *fault, size_t *length, uint64_t value) {
+static void add_number(lmp_parse_error *error, size_t *length, uint64_t value) {
     char digits[20];
     int count = 0;
     do {
@@ -15,40 +15,40 @@ static void add_number(lmp_parse_error *fault, size_t *length, uint64_t value) {
         value /= 10;
     } while (value > 0);
     while (count > 0)
-        add_char(fault, length, digits[--count]);
+        add_char(error, length, digits[--count]);
 }
 
-lmp_result lmp_brdf_fail_list(lmp_parse_error *fault, lmp_result result, size_t offset,
+lmp_result lmp_brdf_fail_list(lmp_parse_error *error, lmp_result result, size_t offset,
                               const char *format, va_list list) {
-    if (!fault)
+    if (!error)
         return result;
     size_t length = 0;
     for (const char *p = format; *p; p++) {
         if (*p != '%') {
-            add_char(fault, &length, *p);
+            add_char(error, &length, *p);
         } else if (*++p == 's') {
             for (const char *text = va_arg(list, const char *); *text; text++)
-                add_char(fault, &length, *text);
+                add_char(error, &length, *text);
         } else if (*p == 'd') {
             const int value = va_arg(list, int);
             if (value < 0)
-                add_char(fault, &length, '-');
-            add_number(fault, &length, (uint64_t)(value < 0 ? -(int64_t)value : value));
+                add_char(error, &length, '-');
+            add_number(error, &length, (uint64_t)(value < 0 ? -(int64_t)value : value));
         } else {
             p++; /* zu */
-            add_number(fault, &length, va_arg(list, size_t));
+            add_number(error, &length, va_arg(list, size_t));
         }
     }
-    fault->text[length] = '\0';
-    fault->offset = offset;
+    error->text[length] = '\0';
+    error->offset = offset;
     return result;
 }
 
-lmp_result lmp_brdf_fail(lmp_parse_error *fault, lmp_result result, size_t offset,
+lmp_result lmp_brdf_fail(lmp_parse_error *error, lmp_result result, size_t offset,
                          const char *format, ...) {
     va_list list;
     va_start(list, format);
-    lmp_brdf_fail_list(fault, result, offset, format, list);
+    lmp_brdf_fail_list(error, result, offset, format, list);
     va_end(list);
     return result;
 }

@@ -9,9 +9,9 @@ double lmp_rgl_theta(const double w[3]) {
     return 2 * asin(fmin(sqrt(chord2) / 2, 1));
 }
 
-/* The cell of x in ascending nodes and the share of its upper end; a single node has no cell. */
-static int find_node(const float *nodes, int count, double x, double *share) {
-    *share = 0;
+/* The cell of x in ascending nodes and the fraction of its upper end; a single node has no cell. */
+static int find_node(const float *nodes, int count, double x, double *fraction) {
+    *fraction = 0;
     if (count < 2)
         return 0;
     int low = 0, high = count - 1;
@@ -23,7 +23,7 @@ static int find_node(const float *nodes, int count, double x, double *share) {
             high = middle;
     }
     const double a = (double)nodes[low], b = (double)nodes[low + 1];
-    *share = fmin(fmax((x - a) / (b - a), 0), 1);
+    *fraction = fmin(fmax((x - a) / (b - a), 0), 1);
     return low;
 }
 

@@ -54,16 +54,16 @@ typedef struct rgl_file {
     const unsigned char *bytes;
     size_t size;
     rgl_field fields[FIELD_COUNT];
-    lmp_parse_error *fault;
+    lmp_parse_error *error;
 } rgl_file;
 
-/* Fills the fault and returns false. */
+/* Fills the error and returns false. */
 static bool wrong(const rgl_file *file, size_t offset, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 static bool wrong(const rgl_file *file, size_t offset, const char *format, ...) {
     va_list list;
     va_start(list, format);
-    lmp_brdf_fail_list(file->fault, LMP_ERROR_FORMAT, offset, format, list);
+    lmp_brdf_fail_list(file->error, LMP_ERROR_FORMAT, offset, format, list);
     va_end(list);
     return false;
 }
@@ -143,7 +143,7 @@ static bool read_directory(rgl_file *file) {
     if (file->size < RGL_HEADER || memcmp(file->bytes, RGL_MAGIC, RGL_MAGIC_SIZE) != 0)
         return wrong(file, 0, "not a tensor file (no 'tensor_file' at the start)");
     if (file->bytes[12] != 1) {
-        lmp_brdf_fail(file->fault, LMP_ERROR_VERSION, 12, "tensor file version %d.%d, not 1.x",
+        lmp_brdf_fail(file->error, LMP_ERROR_VERSION, 12, "tensor file version %d.%d, not 1.x",
                       file->bytes[12], file->bytes[13]);
         return false;
     }
@@ -404,9 +404,9 @@ static lmp_result fill(const rgl_file *file, const lmp_host *host, lmp_brdf *brd
 }
 
 lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
-                             lmp_parse_error *fault, lmp_brdf **brdf) {
+                             lmp_parse_error *error, lmp_brdf **brdf) {
     *brdf = NULL;
-    rgl_file file = { .bytes = data, .size = size, .fault = fault };
+    rgl_file file = { .bytes = data, .size = size, .error = error };
     if (!read_directory(&file) || !check_shapes(&file))
         return size > 13 && memcmp(data, RGL_MAGIC, RGL_MAGIC_SIZE) == 0 && file.bytes[12] != 1
                    ? LMP_ERROR_VERSION
@@ -419,7 +419,7 @@ lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size
     if (result == LMP_OK)
         result = fill(&file, &resolved, made);
     if (result == LMP_ERROR_MEMORY)
-        lmp_brdf_fail(fault, result, 0, "no memory for the samples");
+        lmp_brdf_fail(error, result, 0, "no memory for the samples");
     if (result != LMP_OK) {
         lmp_brdf_destroy(made);
         return result;

@@ -21,9 +21,9 @@
 #define ANISO_SAMPLE_SIZE  32
 /* The last theta_i, a little above the horizon, where f_r is still defined. */
 #define THETA_LAST (BRDF_PI / 2 - 2e-3)
-/* A share of the density is spread evenly, so that every part of the hemisphere has samples. */
-#define EVEN_SHARE 0.2
-#define NDF_FLOOR  1e-3
+/* A fraction of the density is spread evenly, so that every part of the hemisphere has samples. */
+#define EVEN_FRACTION 0.2
+#define NDF_FLOOR     1e-3
 
 typedef struct writer {
     const lmp_brdf *brdf;
@@ -97,7 +97,7 @@ static void fill_densities(const writer *w) {
                 sum += d;
             }
             for (size_t i = 0; i < plane; i++)
-                density[i] += (float)(EVEN_SHARE * sum / (double)plane);
+                density[i] += (float)(EVEN_FRACTION * sum / (double)plane);
         }
 }
 
@@ -119,7 +119,7 @@ static void fill_sigma(const writer *w) {
     }
 }
 
-/* The coordinate u[axis] whose place in the square is s: the warp grows along each axis, and the
+/* The coordinate u[axis] whose position in the square is s: the warp grows along each axis, and the
  * second of its coordinates depends on u[1] alone. */
 static double unwarp(const brdf_rgl *rgl, const rgl_slices *slices, int axis, double s, double v) {
     double low = 0, high = 1;

@@ -41,7 +41,7 @@ static void eval_sgd(const lmp_brdf *brdf, const double a[3], const double b[3],
     }
 }
 
-static bool is_sound(const lmp_sgd *sgd) {
+static bool is_valid(const lmp_sgd *sgd) {
     const double *const parameters[] = { sgd->rho_d, sgd->rho_s, sgd->alpha, sgd->p,
                                          sgd->f0,    sgd->f1,    sgd->k_ap,  sgd->lambda,
                                          sgd->c,     sgd->k,     sgd->theta0 };
@@ -57,7 +57,7 @@ static bool is_sound(const lmp_sgd *sgd) {
 
 lmp_result lmp_brdf_create_sgd(const lmp_host *host, const lmp_sgd *sgd, lmp_brdf **brdf) {
     *brdf = NULL;
-    if (!is_sound(sgd))
+    if (!is_valid(sgd))
         return LMP_ERROR_ARGUMENT;
     const lmp_result result = lmp_brdf_new(host, LMP_BRDF_SGD, 0, brdf);
     if (result != LMP_OK)

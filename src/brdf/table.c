@@ -303,15 +303,15 @@ static band_part part_of(const lmp_brdf_table_info *info, int low, int high) {
     return (band_part) { low, high, first, end - first };
 }
 
-/* Adds weight * the row of a view to rgb, odd m negated if `turned`. */
+/* Adds weight * the row of a view to rgb, odd m negated if `rotated`. */
 static void add_row(const lmp_brdf_table *table, band_part part, int azimuth, int view,
-                    float weight, bool turned, float *rgb) {
+                    float weight, bool rotated, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
     const float *row = table->coefficients +
                        ((size_t)azimuth * (size_t)info->views + (size_t)view) * 3 * info->count;
     for (size_t channel = 0; channel < 3; channel++) {
         const float *from = row + channel * info->count + part.first;
-        if (!turned)
+        if (!rotated)
             for (size_t i = 0; i < part.count; i++)
                 *rgb++ += weight * from[i];
         else
@@ -321,16 +321,16 @@ static void add_row(const lmp_brdf_table *table, band_part part, int azimuth, in
     }
 }
 
-/* One azimuth's share. Past the pole the view goes on at the opposite azimuth, in a frame turned by
+/* One azimuth's part. Past the pole the view goes on at the opposite azimuth, in a frame rotated by
  * pi; past the last view the table is continued linearly. */
 static void add_azimuth(const lmp_brdf_table *table, band_part part, float theta, int azimuth,
                         float weight, float *rgb) {
     const lmp_brdf_table_info *info = &table->info;
     const int last = info->views - 1;
-    const float place = fminf(theta / info->theta_step, (float)last);
-    const int first = (int)place < last ? (int)place : last - 1;
+    const float position = fminf(theta / info->theta_step, (float)last);
+    const int first = (int)position < last ? (int)position : last - 1;
     float weights[4];
-    cubic_weights(place - (float)first, weights);
+    cubic_weights(position - (float)first, weights);
     if (first + 2 > last) {
         weights[2] += 2 * weights[3];
         weights[1] -= weights[3];
@@ -364,10 +364,10 @@ size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, floa
         return part.count;
     }
     const float turns = phi_o / (float)(2 * BRDF_PI);
-    const float place = (turns - floorf(turns)) * (float)info->azimuths;
-    const int first = (int)place;
+    const float position = (turns - floorf(turns)) * (float)info->azimuths;
+    const int first = (int)position;
     float weights[4];
-    cubic_weights(place - (float)first, weights);
+    cubic_weights(position - (float)first, weights);
     for (int k = 0; k < 4; k++)
         add_azimuth(table, part, theta, (first - 1 + k + info->azimuths) % info->azimuths,
                     weights[k], rgb);
@@ -378,7 +378,7 @@ void lmp_brdf_table_view(const lmp_brdf_table *table, float cos_theta_o, float p
     lmp_brdf_table_bands(table, cos_theta_o, phi_o, 0, table->info.bands, rgb);
 }
 
-void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, lmp_rgb *measured,
+void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, lmp_rgb *whole_rgb,
                            lmp_rgb *series) {
     const lmp_brdf_table_info *info = &table->info;
     const float *row = table->coefficients +
@@ -397,6 +397,6 @@ void lmp_brdf_table_albedo(const lmp_brdf_table *table, int view, int azimuth, l
             upper[channel] += BRDF_PI * r * sqrt((2 * l + 1) / (4 * BRDF_PI)) * (double)value;
         }
     }
-    *measured = (lmp_rgb) { (float)whole[0], (float)whole[1], (float)whole[2] };
+    *whole_rgb = (lmp_rgb) { (float)whole[0], (float)whole[1], (float)whole[2] };
     *series = (lmp_rgb) { (float)upper[0], (float)upper[1], (float)upper[2] };
 }

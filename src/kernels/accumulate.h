@@ -110,13 +110,13 @@ LMP_INLINE void accumulate_lights(accumulate_tile tile, int monic, int at_once,
         c[k] = vf_set(1);
         s[k] = vf_set(0);
         for (int m = 1; m < tile.first; m++)
-            basis_turn(m, axis[k][0], axis[k][1], &c[k], &s[k]);
+            basis_rotate(m, axis[k][0], axis[k][1], &c[k], &s[k]);
     }
     for (int m = tile.first; m < tile.end; m++) {
         vf color[ACCUMULATE_LIGHTS][6];
         LMP_UNROLL for (int k = 0; k < at_once; k++) {
             if (m > 0)
-                basis_turn(m, axis[k][0], axis[k][1], &c[k], &s[k]);
+                basis_rotate(m, axis[k][0], axis[k][1], &c[k], &s[k]);
             accumulate_colors(rgb[k], c[k], s[k], color[k]);
             q0[k] = vf_set(0);
             q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);

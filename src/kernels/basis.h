@@ -33,15 +33,15 @@ LMP_INLINE vf basis_step(const float *a, const float *b, int l, int m, vf z, vf 
 }
 
 /* C_m + i S_m = (x + iy)^m from C_(m-1) + i S_(m-1). */
-LMP_INLINE void basis_turn(int m, vf x, vf y, vf *c, vf *s) {
+LMP_INLINE void basis_rotate(int m, vf x, vf y, vf *c, vf *s) {
     if (m == 1) {
         *c = x;
         *s = y;
         return;
     }
-    const vf turned = x * *c - y * *s;
+    const vf rotated = x * *c - y * *s;
     *s = x * *s + y * *c;
-    *c = turned;
+    *c = rotated;
 }
 
 /* Plane l*l+l±m at to + (l*l+l±m) * stride; radial NULL means 1 for every band. Straight-line code,
@@ -67,7 +67,7 @@ LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, fl
         vf q0 = vf_set(0), q1 = vf_set(diagonal[m]);
         LMP_OPAQUE_LANES(q1);
         if (m > 0)
-            basis_turn(m, x, y, &c, &s);
+            basis_rotate(m, x, y, &c, &s);
         LMP_UNROLL for (int l = m; l < bands; l++) {
             if (l > m) {
                 const vf q2 = basis_step(a, b, l, m, z, q1, q0);
@@ -90,7 +90,7 @@ LMP_INLINE void basis_columns(int bands, const vf axis[3], const vf *radial, flo
     for (int m = 0; m < bands; m++) {
         vf q0 = vf_set(0), q1 = vf_set(lmp_table_diagonal[m]);
         if (m > 0)
-            basis_turn(m, axis[0], axis[1], &c, &s);
+            basis_rotate(m, axis[0], axis[1], &c, &s);
         for (int l = m; l < bands; l++) {
             if (l > m) {
                 const vf q2 = basis_step(a, b, l, m, axis[2], q1, q0);
@@ -168,7 +168,7 @@ LMP_INLINE void basis_columns_wide(int bands, vf (*axis)[3], vf (*radial)[LMP_BA
             continue;
         }
         LMP_UNROLL for (int k = 0; k < BASIS_BLOCKS; k++)
-            basis_turn(m, axis[k][0], axis[k][1], &w.c[k], &w.s[k]);
+            basis_rotate(m, axis[k][0], axis[k][1], &w.c[k], &w.s[k]);
         basis_column_wide(bands, m, &w);
     }
 }
@@ -187,7 +187,7 @@ LMP_INLINE void basis_stretch(int first, int end, const vf axis[3], const vf *ra
             column->c = m > 0 ? columns[m - 1].c : vf_set(1);
             column->s = m > 0 ? columns[m - 1].s : vf_set(0);
             if (m > 0)
-                basis_turn(m, axis[0], axis[1], &column->c, &column->s);
+                basis_rotate(m, axis[0], axis[1], &column->c, &column->s);
         }
         const vf c = column->c, s = column->s, z = axis[2];
         vf q0 = column->q0, q1 = column->q1;

@@ -64,12 +64,12 @@ typedef struct gradient_pair {
     vf q[2][GRADIENT_LIGHTS];
 } gradient_pair;
 
-static inline void gradient_turns(accumulate_tile tile, gradient_light *light) {
+static inline void gradient_rotate(accumulate_tile tile, gradient_light *light) {
     vf c = vf_set(1), s = vf_set(0);
     light->c[0] = light->s[0] = vf_set(0); /* of m = -1, multiplied by 0 */
     for (int m = 0; m < tile.end; m++) {
         if (m > 0)
-            basis_turn(m, light->x, light->y, &c, &s);
+            basis_rotate(m, light->x, light->y, &c, &s);
         if (m + 1 >= tile.first) {
             light->c[m + 1 - tile.first] = c;
             light->s[m + 1 - tile.first] = s;
@@ -115,7 +115,7 @@ static inline void gradient_prepare(accumulate_tile tile, const lmp_kernel_light
     light->y = cap.y;
     light->z = cap.z;
     light->rgb = lights_radiance(lights, i);
-    gradient_turns(tile, light);
+    gradient_rotate(tile, light);
     gradient_bands(tile, &cap, cos_min, light->band);
 }
 

@@ -21,50 +21,50 @@ typedef struct euler {
     double gamma_cos[LMP_BANDS_MAX], gamma_sin[LMP_BANDS_MAX]; /* of k gamma */
 } euler;
 
-static void turn_prepare(euler *turn, int bands, const double q[4]) {
+static void euler_prepare(euler *angles, int bands, const double q[4]) {
     const double x = q[0], y = q[1], z = q[2], w = q[3];
     const double c = hypot(z, w), s = hypot(x, y), length = hypot(c, s);
     assert(length > 0 && isfinite(length));
     /* q = qz(alpha) qy(beta) qz(gamma): the half angles come from q itself, without cancellation */
     const double half_sum = atan2(z, w), half_difference = atan2(-x, y);
-    turn->cos_beta = (c - s) * (c + s) / (length * length);
-    turn->cos_half[0] = turn->sin_half[0] = 1;
-    turn->log_factorial[0] = 0;
+    angles->cos_beta = (c - s) * (c + s) / (length * length);
+    angles->cos_half[0] = angles->sin_half[0] = 1;
+    angles->log_factorial[0] = 0;
     for (int i = 1; i < 2 * bands; i++) {
-        turn->cos_half[i] = turn->cos_half[i - 1] * (c / length);
-        turn->sin_half[i] = turn->sin_half[i - 1] * (s / length);
-        turn->log_factorial[i] = turn->log_factorial[i - 1] + log(i);
+        angles->cos_half[i] = angles->cos_half[i - 1] * (c / length);
+        angles->sin_half[i] = angles->sin_half[i - 1] * (s / length);
+        angles->log_factorial[i] = angles->log_factorial[i - 1] + log(i);
     }
     for (int m = 0; m < bands; m++) {
-        turn->alpha_cos[m] = cos(m * (half_sum + half_difference));
-        turn->alpha_sin[m] = sin(m * (half_sum + half_difference));
-        turn->gamma_cos[m] = cos(m * (half_sum - half_difference));
-        turn->gamma_sin[m] = sin(m * (half_sum - half_difference));
+        angles->alpha_cos[m] = cos(m * (half_sum + half_difference));
+        angles->alpha_sin[m] = sin(m * (half_sum + half_difference));
+        angles->gamma_cos[m] = cos(m * (half_sum - half_difference));
+        angles->gamma_sin[m] = sin(m * (half_sum - half_difference));
     }
 }
 
 /* d^l_mk at l = max(m, |k|), m >= 0. An underflow to 0 is harmless: the recurrence multiplies it by
  * less than 1e80 up to 128 bands. */
-static double wigner_first(const euler *turn, int m, int k) {
+static double wigner_first(const euler *angles, int m, int k) {
     const int l = m > abs(k) ? m : abs(k), other = m > abs(k) ? k : k < 0 ? -m : m;
-    const double *f = turn->log_factorial;
+    const double *f = angles->log_factorial;
     const double root = exp((f[2 * l] - f[l + other] - f[l - other]) / 2);
-    const double size = root * turn->cos_half[l + other] * turn->sin_half[l - other];
+    const double size = root * angles->cos_half[l + other] * angles->sin_half[l - other];
     /* d^l_lk carries (-sin)^(l-k); d^l_ml = (-1)^(l-m) d^l_lm carries sin^(l-m) */
     const int odd = (l - other) % 2 != 0;
     return odd && (k <= m) ? -size : size;
 }
 
 /* d[l] = d^l_mk for l = max(m, |k|) … bands-1. */
-static void wigner(const euler *turn, int bands, int m, int k, double *d) {
+static void wigner(const euler *angles, int bands, int m, int k, double *d) {
     const int first = m > abs(k) ? m : abs(k);
     const double mm = (double)m * m, kk = (double)k * k;
     double root = 0; /* sqrt((l²-m²)(l²-k²)) */
-    d[first] = wigner_first(turn, m, k);
+    d[first] = wigner_first(angles, m, k);
     for (int l = first; l + 1 < bands; l++) {
         const double up = (double)(l + 1) * (l + 1), tilt = l > 0 ? (double)m * k / l : 0;
         const double next = sqrt((up - mm) * (up - kk));
-        double value = (2 * l + 1) * ((l + 1) * turn->cos_beta - tilt) * d[l];
+        double value = (2 * l + 1) * ((l + 1) * angles->cos_beta - tilt) * d[l];
         if (l > first)
             value -= (l + 1) * root / l * d[l - 1];
         d[l + 1] = value / next;
@@ -88,12 +88,12 @@ static void put(const matrices_of *matrices, int l, int m, int k, double value) 
 
 /* The entries (±m, ±k) of all bands. From Y^m(Rw) = Σ_k exp(i m alpha) d_mk exp(i k gamma) Y^k(w)
  * for the complex harmonics, and Y_l,±m = sqrt(2) {Re, Im} Y^m. */
-static void fill(const euler *turn, int bands, int m, int k, const matrices_of *matrices) {
+static void fill(const euler *angles, int bands, int m, int k, const matrices_of *matrices) {
     double plus[LMP_BANDS_MAX], minus[LMP_BANDS_MAX];
-    wigner(turn, bands, m, k, plus);
-    wigner(turn, bands, m, -k, minus);
-    const double ca = turn->alpha_cos[m], sa = turn->alpha_sin[m];
-    const double cg = turn->gamma_cos[k], sg = turn->gamma_sin[k];
+    wigner(angles, bands, m, k, plus);
+    wigner(angles, bands, m, -k, minus);
+    const double ca = angles->alpha_cos[m], sa = angles->alpha_sin[m];
+    const double cg = angles->gamma_cos[k], sg = angles->gamma_sin[k];
     const double sum_c = ca * cg - sa * sg, sum_s = sa * cg + ca * sg;
     const double difference_c = ca * cg + sa * sg, difference_s = sa * cg - ca * sg;
     const double sign = k % 2 ? -1 : 1;
@@ -116,11 +116,11 @@ static void fill(const euler *turn, int bands, int m, int k, const matrices_of *
 
 static void rotation_of(int bands, const double rotation[4], const matrices_of *matrices) {
     assert(lmp_is_bands(bands));
-    euler turn;
-    turn_prepare(&turn, bands, rotation);
+    euler angles;
+    euler_prepare(&angles, bands, rotation);
     for (int m = 0; m < bands; m++)
         for (int k = 0; k < bands; k++)
-            fill(&turn, bands, m, k, matrices);
+            fill(&angles, bands, m, k, matrices);
 }
 
 void lmp_sh_rotation(int bands, lmp_quat rotation, float *matrices) {

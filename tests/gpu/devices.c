@@ -70,13 +70,13 @@ static void close_stage(stage *s) {
     scene_free(&s->world);
 }
 
-static lmp_preintegrated_lobe *response_of(const gpu_frame *frame) {
-    lmp_preintegrated_lobe *response;
+static lmp_preintegrated_lobe *lobe_of(const gpu_frame *frame) {
+    lmp_preintegrated_lobe *lobe;
     const lmp_preintegrated_lobe_desc desc = { .bands = frame->bands,
                                                .window = frame->window,
                                                .error = BAKE_LOBES_ERROR };
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
-    return response;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
+    return lobe;
 }
 
 static void both_devices_draw_the_same_image(void **state) {
@@ -85,8 +85,8 @@ static void both_devices_draw_the_same_image(void **state) {
     for (int i = 0; i < 2; i++) {
         stage s;
         open_stage(&s, scenes[i]);
-        lmp_preintegrated_lobe *response = response_of(&s.frame);
-        s.frame.lobes = response;
+        lmp_preintegrated_lobe *lobe = lobe_of(&s.frame);
+        s.frame.lobes = lobe;
         for (int m = 0; m < METHODS; m++) {
             s.frame.method = (method_kind)m;
             s.frame.host = NULL;
@@ -95,7 +95,7 @@ static void both_devices_draw_the_same_image(void **state) {
             draw(s.renderer, &s.frame, second);
             assert_int_equal(beyond(1), 0);
         }
-        lmp_preintegrated_lobe_destroy(response);
+        lmp_preintegrated_lobe_destroy(lobe);
         close_stage(&s);
     }
 }
@@ -103,15 +103,15 @@ static void both_devices_draw_the_same_image(void **state) {
 static void check_preintegrated(stage *s) {
     s->frame.method = METHOD_COEFFICIENTS;
     draw_first(s->renderer, &s->frame);
-    lmp_preintegrated_lobe *response = response_of(&s->frame);
-    s->frame.lobes = response;
+    lmp_preintegrated_lobe *lobe = lobe_of(&s->frame);
+    s->frame.lobes = lobe;
     s->frame.method = METHOD_PREINTEGRATED;
     draw(s->renderer, &s->frame, second);
     print_message("%d bands, window %d: %d pixels of %d differ by more than a level\n",
                   s->frame.bands, (int)s->frame.window, beyond(1), PIXELS);
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 static void preintegrated_images_are_those_of_coefficients(void **state) {
@@ -132,15 +132,15 @@ static void preintegrated_images_are_those_of_coefficients(void **state) {
     }
 }
 
-/* Measured materials on both devices; the gold is read from its response, the last by its bands. */
-static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **state) {
+/* Measured materials on both devices; the gold is read from its lobe, the last by its bands. */
+static void measured_materials_are_drawn_alike_by_sums_and_by_tables(void **state) {
     (void)state;
     stage s;
     open_stage(&s, "builtin:ball");
     s.frame.bands = 10;
     s.frame.window = LMP_WINDOW_HANNING;
     lmp_brdf_table *tables[2];
-    lmp_preintegrated_brdf *responses[2] = { NULL, NULL };
+    lmp_preintegrated_brdf *brdfs[2] = { NULL, NULL };
     const char *const names[2] = { "gold-metallic-paint", "red-fabric" };
     for (int i = 0; i < 2; i++) {
         lmp_sgd sgd;
@@ -152,8 +152,7 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
         assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
         assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &tables[i]), LMP_OK);
         lmp_brdf_destroy(brdf);
-        assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, tables[i], &responses[i]),
-                         LMP_OK);
+        assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, tables[i], &brdfs[i]), LMP_OK);
     }
     int uses[8] = { -1, 1, 0 };
     cli_error error = { "" };
@@ -162,12 +161,12 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
            &error);
     s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
-    lmp_preintegrated_lobe *lobes = response_of(&s.frame);
+    lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
     s.frame.lobes = lobes;
     s.frame.method = METHOD_PREINTEGRATED;
     for (int pass = 0; pass < 3; pass++) {
-        const lmp_preintegrated_brdf *given[2] = { responses[0], pass == 2 ? NULL : responses[1] };
-        gpu_set_responses(s.renderer, given);
+        const lmp_preintegrated_brdf *given[2] = { brdfs[0], pass == 2 ? NULL : brdfs[1] };
+        gpu_set_preintegrated_brdfs(s.renderer, given);
         s.frame.host = pass == 1 ? shade_frame : NULL;
         draw(s.renderer, &s.frame, second);
         assert_true(beyond(1) <= PIXELS / 1000);
@@ -177,7 +176,7 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_responses(void **s
     close_stage(&s);
     for (int i = 0; i < 2; i++) {
         lmp_brdf_table_destroy(tables[i]);
-        lmp_preintegrated_brdf_destroy(responses[i]);
+        lmp_preintegrated_brdf_destroy(brdfs[i]);
     }
 }
 
@@ -200,15 +199,15 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     close_stage(&s);
 }
 
-static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **state) {
+static void a_hundred_bands_are_drawn_alike_by_sums_and_by_tables(void **state) {
     (void)state;
     stage s;
     open_stage(&s, "builtin:balls");
     s.frame.bands = 100;
     s.frame.host = shade_frame;
     draw_first(s.renderer, &s.frame);
-    lmp_preintegrated_lobe *response = response_of(&s.frame);
-    s.frame.lobes = response;
+    lmp_preintegrated_lobe *lobe = lobe_of(&s.frame);
+    s.frame.lobes = lobe;
     s.frame.method = METHOD_PREINTEGRATED;
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 1000);
@@ -217,7 +216,7 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_responses(void **stat
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
     close_stage(&s);
 }
 
@@ -225,9 +224,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_devices_draw_the_same_image),
         cmocka_unit_test(preintegrated_images_are_those_of_coefficients),
-        cmocka_unit_test(measured_materials_are_drawn_alike_by_sums_and_by_responses),
+        cmocka_unit_test(measured_materials_are_drawn_alike_by_sums_and_by_tables),
         cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_image),
-        cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_responses),
+        cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_tables),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

@@ -17,6 +17,14 @@ lmp_(brdf|material)_response=lmp_preintegrated_brdf
 colours?=color
 centres?=center
 greys?=gray
+lmp_parse_error \*?fault=error
+[a-z_]+_fault=error, what is wrong
+sound=valid
+rungs?=stage
+[a-z_]*share_of[a-z_]*=fraction, weight
+[a-z_]*_turn(ed|s)?=rotate
+(view|add|read|describe)_looks?=view_shading
+gpu_set_responses=gpu_set_preintegrated_brdfs
 END
 }
 

@@ -32,7 +32,7 @@ void check_skip(const char *why);
 double check_error(size_t count, const double *expected, const float *actual);
 double check_error_double(size_t count, const double *expected, const double *actual);
 
-/* Errors gathered one by one; a NaN stays the largest. */
+/* Errors accumulated one by one; a NaN stays the largest. */
 typedef struct check_errors {
     double largest, squares;
     long count;

@@ -17,7 +17,7 @@ static void assert_lights_refused(const char *json, const char *expected) {
 #define GOOD "{\"position\":[0,1,0],\"radius\":1,\"radiance\":[1,1,1]}"
 static const struct {
     const char *json, *expected;
-} faults[] = {
+} mistakes[] = {
     { "", "lights.json" },
     { "{\"lights\":[" GOOD, "is no valid JSON" },
     { "{\n\"lights\":\n[NaN]}", "is no valid JSON: line 3" },
@@ -78,8 +78,8 @@ static const struct {
 
 static void faulty_lights_files_are_refused_by_the_light_s_number(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
-        assert_lights_refused(faults[i].json, faults[i].expected);
+    for (size_t i = 0; i < sizeof mistakes / sizeof *mistakes; i++)
+        assert_lights_refused(mistakes[i].json, mistakes[i].expected);
 }
 
 int main(void) {

@@ -12,7 +12,7 @@ static void assert_refused(const char *name, const char *expected) {
     assert_int_equal(count_entries(folder), before);
 }
 
-/* --- a sound file to damage ---------------------------------------------------------------------
+/* --- a valid file to damage ---------------------------------------------------------------------
  */
 
 #define HEAD                                                                                       \
@@ -25,11 +25,11 @@ static void assert_refused(const char *name, const char *expected) {
 
 static const float triangle[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
 
-static void a_sound_file_is_read(void **state) {
+static void a_valid_file_is_read(void **state) {
     (void)state;
     char path[512];
-    folder_write_text("sound.gltf", HEAD MESH ACCESSOR VIEW BUFFER);
-    snprintf(path, sizeof path, "%s", in_folder("sound.gltf"));
+    folder_write_text("valid.gltf", HEAD MESH ACCESSOR VIEW BUFFER);
+    snprintf(path, sizeof path, "%s", in_folder("valid.gltf"));
     const char *const arguments[] = { "lampion", "info", path, NULL };
     assert_int_equal(run_program(arguments), 0);
 }
@@ -157,7 +157,7 @@ static void counts_beyond_the_data_are_refused(void **state) {
     }
 }
 
-/* With these nodes before the rest of a sound file. */
+/* With these nodes before the rest of a valid file. */
 static void assert_nodes_refused(const char *nodes, const char *expected) {
     const size_t room = strlen(nodes) + 1024;
     char *text = malloc(room);
@@ -312,7 +312,7 @@ static int make_folder(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sound_file_is_read),
+        cmocka_unit_test(a_valid_file_is_read),
         cmocka_unit_test(what_is_no_scene_is_refused),
         cmocka_unit_test(truncated_files_are_refused),
         cmocka_unit_test(random_damage_never_crashes_the_program),

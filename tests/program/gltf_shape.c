@@ -7,8 +7,8 @@
 
 /* The document's first vertex lies in the origin of its mesh, the second at x = 1. Its skin hangs
  * on node 0, at (1, 2, 3). */
-static void assert_place(const scene_builder *builder, size_t vertex, double x, double y,
-                         double z) {
+static void assert_position(const scene_builder *builder, size_t vertex, double x, double y,
+                            double z) {
     const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
     assert_true(vertex < builder_count(builder, BLOB_VERTICES));
     const double wanted[3] = { x, y, z };
@@ -30,19 +30,19 @@ static void a_skin_follows_its_joints_alone(void **state) {
     /* The node's own place is of no account. */
     read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"skin\":0,\"translation\":[9,9,9]}",
                  &builder);
-    assert_place(&builder, 0, 1, 2, 3);
-    assert_place(&builder, 1, 2, 2, 3);
+    assert_position(&builder, 0, 1, 2, 3);
+    assert_position(&builder, 1, 2, 2, 3);
     builder_free(&builder);
     /* Without one it is. */
     read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"translation\":[9,9,9]}", &builder);
-    assert_place(&builder, 0, 10, 11, 12);
+    assert_position(&builder, 0, 10, 11, 12);
     builder_free(&builder);
     /* A quarter turn of the joint about z, and an inverse bind matrix that moves by y. */
     const float along = 1.0f;
     memcpy(bytes + MATRIX + 13 * sizeof along, &along, sizeof along);
     read_changed("\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0.70710678,0.70710678]", &builder);
-    assert_place(&builder, 0, 0, 2, 3);
-    assert_place(&builder, 1, 0, 3, 3);
+    assert_position(&builder, 0, 0, 2, 3);
+    assert_position(&builder, 1, 0, 3, 3);
     builder_free(&builder);
     fill_bytes();
 }
@@ -56,8 +56,8 @@ static void joints_share_a_vertex_by_their_weights(void **state) {
     memcpy(bytes + WEIGHTS + 16, &half, sizeof half);
     memcpy(bytes + WEIGHTS + 20, &half, sizeof half);
     read_changed("\"joints\":[0],\"inverseBindMatrices\":4", "\"joints\":[0,3]", &builder);
-    assert_place(&builder, 0, 1, 2, 3);
-    assert_place(&builder, 1, 1.5, 1, 1.5);
+    assert_position(&builder, 0, 1, 2, 3);
+    assert_position(&builder, 1, 1.5, 1, 1.5);
     builder_free(&builder);
     fill_bytes();
     memcpy(bytes + JOINTS, "\1", 1);
@@ -71,7 +71,7 @@ static void morph_targets_are_added_by_their_weights(void **state) {
     cli_error error;
     char *text = changed("\"mode\":4", "\"targets\":[{\"POSITION\":0}]");
     assert_true(reads(text, &builder, &error));
-    assert_place(&builder, 1, 2, 2, 3);
+    assert_position(&builder, 1, 2, 2, 3);
     builder_free(&builder);
     char *weighted = malloc(strlen(text) + 64),
          *at = strstr(text, "{\"name\":\"m\",\"primitives\"");
@@ -79,7 +79,7 @@ static void morph_targets_are_added_by_their_weights(void **state) {
     assert_non_null(at);
     sprintf(weighted, "%.*s{\"weights\":[0.5],%s", (int)(at - text), text, at + 1);
     assert_true(reads(weighted, &builder, &error));
-    assert_place(&builder, 1, 2.5, 2, 3);
+    assert_position(&builder, 1, 2.5, 2, 3);
     builder_free(&builder);
     free(weighted);
     free(text);
@@ -93,8 +93,8 @@ static void instances_are_meshes_each_in_its_place(void **state) {
                  "{\"attributes\":{\"TRANSLATION\":6}}}}",
                  &builder);
     assert_int_equal(builder_count(&builder, BLOB_MESHES), 2);
-    assert_place(&builder, 0, 1, 2, 3);
-    assert_place(&builder, builder_count(&builder, BLOB_VERTICES) / 2, 2, 3, 4);
+    assert_position(&builder, 0, 1, 2, 3);
+    assert_position(&builder, builder_count(&builder, BLOB_VERTICES) / 2, 2, 3, 4);
     builder_free(&builder);
 }
 

@@ -9,30 +9,30 @@
 
 /* The linker puts these in place of the library's readers. */
 lmp_result __wrap_lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
-                                     lmp_parse_error *fault, lmp_brdf **brdf);
+                                     lmp_parse_error *error, lmp_brdf **brdf);
 lmp_result __real_lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
-                                     lmp_parse_error *fault, lmp_brdf **brdf);
+                                     lmp_parse_error *error, lmp_brdf **brdf);
 lmp_result __wrap_lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
-                                      lmp_parse_error *fault, lmp_brdf_table **table);
+                                      lmp_parse_error *error, lmp_brdf_table **table);
 lmp_result __wrap_lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
-                                    lmp_parse_error *fault, lmp_brdf **brdf);
+                                    lmp_parse_error *error, lmp_brdf **brdf);
 
 static pid_t tester;
 
 lmp_result __wrap_lmp_brdf_read_merl(const lmp_host *host, const void *data, size_t size,
-                                     lmp_parse_error *fault, lmp_brdf **brdf) {
+                                     lmp_parse_error *error, lmp_brdf **brdf) {
     if (size == 5)
         raise(SIGSEGV);
-    return __real_lmp_brdf_read_merl(host, data, size, fault, brdf);
+    return __real_lmp_brdf_read_merl(host, data, size, error, brdf);
 }
 
 /* As a hole in the reader would have it, for whoever made the file. */
 lmp_result __wrap_lmp_brdf_table_read(const lmp_host *host, const void *data, size_t size,
-                                      lmp_parse_error *fault, lmp_brdf_table **table) {
+                                      lmp_parse_error *error, lmp_brdf_table **table) {
     (void)host;
     (void)data;
     (void)size;
-    (void)fault;
+    (void)error;
     *table = NULL;
     if (getpid() == tester)
         fail_msg("the program itself reads what no child could");
@@ -43,10 +43,10 @@ lmp_result __wrap_lmp_brdf_table_read(const lmp_host *host, const void *data, si
 
 /* It reads the first time, in the child. */
 lmp_result __wrap_lmp_brdf_read_rgl(const lmp_host *host, const void *data, size_t size,
-                                    lmp_parse_error *fault, lmp_brdf **brdf) {
+                                    lmp_parse_error *error, lmp_brdf **brdf) {
     (void)data;
     (void)size;
-    (void)fault;
+    (void)error;
     return lmp_brdf_create_lambert(host, (lmp_rgb) { 1, 1, 1 }, brdf);
 }
 

@@ -231,7 +231,7 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
 /* --- built in -----------------------------------------------------------------------------------
  */
 
-static void built_in_scenes_are_sound(void **state) {
+static void built_in_scenes_are_valid(void **state) {
     (void)state;
     static const char *const names[] = { "builtin:atrium", "builtin:atrium:tiles=2,lanterns=7",
                                          "builtin:balls", "builtin:ball" };
@@ -429,7 +429,7 @@ int main(void) {
         cmocka_unit_test(an_obj_is_read_with_its_materials),
         cmocka_unit_test(a_gltf_is_read_with_lights_cameras_and_mirrored_nodes),
         cmocka_unit_test(a_cached_scene_is_the_same_and_damage_is_noticed),
-        cmocka_unit_test(built_in_scenes_are_sound),
+        cmocka_unit_test(built_in_scenes_are_valid),
         cmocka_unit_test(the_atrium_is_the_same_for_a_seed_and_another_for_another),
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),

@@ -29,7 +29,8 @@ static int open_state(void **unused) {
     settings.samples = 4;
     settings.exposure = 1;
     settings.divider = 0.5f;
-    settings.looks[0] = settings.looks[1] = (view_look) { METHOD_ZONAL, 10, LMP_WINDOW_NONE };
+    settings.shading[0] = settings.shading[1] =
+        (view_shading) { METHOD_ZONAL, 10, LMP_WINDOW_NONE };
     settings.camera = (scene_camera) { .eye = { 0, 0, 10 }, .up = { 0, 1, 0 }, .fov = 1 };
     if (!view_state_open(&world, &settings, NULL, &state, &error))
         return -1;

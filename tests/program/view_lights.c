@@ -145,7 +145,7 @@ static void lights_take_every_kind(void **unused) {
 }
 
 /* A spot looks at the surface under the pointer, a sun stands where the pointer is in the sky. */
-static void lights_are_aimed_at_the_pointer(void **unused) {
+static void lights_are_directed_at_the_pointer(void **unused) {
     (void)unused;
     place_light();
     key("Tab");
@@ -188,7 +188,7 @@ int main(void) {
         TEST(lights_behind_a_surface_are_not_picked),
         TEST(lights_change_as_the_keys_say),
         TEST(lights_take_every_kind),
-        TEST(lights_are_aimed_at_the_pointer),
+        TEST(lights_are_directed_at_the_pointer),
         TEST(suns_and_skies_are_not_picked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -101,31 +101,31 @@ static void keys_change_the_side_under_the_pointer(void **unused) {
     key("v");
     assert_int_equal(state.now.split, GPU_SPLIT_DIVIDED);
     key("Up");
-    assert_int_equal(state.now.looks[0].bands, 11);
+    assert_int_equal(state.now.shading[0].bands, 11);
     at(500, 100);
     key("Page_Down");
     key("Page_Down");
     key("m");
     key("g");
-    assert_int_equal(state.now.looks[0].bands, 11);
-    assert_int_equal(state.now.looks[1].bands, 1);
-    assert_int_equal(state.now.looks[1].method, METHOD_COEFFICIENTS);
-    assert_int_equal(state.now.looks[1].window, LMP_WINDOW_HANNING);
+    assert_int_equal(state.now.shading[0].bands, 11);
+    assert_int_equal(state.now.shading[1].bands, 1);
+    assert_int_equal(state.now.shading[1].method, METHOD_COEFFICIENTS);
+    assert_int_equal(state.now.shading[1].window, LMP_WINDOW_HANNING);
     at(320, 100);
     button(VIEW_PRESS, VIEW_LEFT, false);
     at(200, 100);
     button(VIEW_RELEASE, VIEW_LEFT, false);
     CHECK_NEAR(200.0 / 640, state.now.divider, 1e-5);
     key("y");
-    assert_int_equal(state.now.looks[1].bands, 11);
+    assert_int_equal(state.now.shading[1].bands, 11);
     key("x");
     assert_int_equal(state.now.split, GPU_SPLIT_DIFFERENCE);
     key("x");
     assert_int_equal(state.now.split, GPU_SPLIT_NONE);
     for (int i = 0; i < 300; i++)
         key("Up");
-    assert_int_equal(state.now.looks[0].bands,
-                     method_table[state.now.looks[0].method].bands_max[DEVICE_AUTO]);
+    assert_int_equal(state.now.shading[0].bands,
+                     method_table[state.now.shading[0].method].bands_max[DEVICE_AUTO]);
 }
 
 static void files_become_materials_where_they_are_dropped(void **unused) {

@@ -145,12 +145,12 @@ static void check_scene(const char *name, int lights, bool kinds,
     scene_free(&world);
 }
 
-static void cut_lobes_render_as_the_ground_truth_of_balls(void **state) {
+static void truncated_lobes_render_as_the_ground_truth_of_balls(void **state) {
     (void)state;
     check_scene("builtin:balls", 0, false, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
 }
 
-static void cut_lobes_render_as_the_ground_truth_of_the_atrium(void **state) {
+static void truncated_lobes_render_as_the_ground_truth_of_the_atrium(void **state) {
     (void)state;
     check_scene("builtin:atrium", 30, false, &(reference_band_limit) { 5, LMP_WINDOW_HANNING, 0 });
 }
@@ -162,8 +162,8 @@ static void every_kind_of_light_renders_as_the_ground_truth(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cut_lobes_render_as_the_ground_truth_of_balls),
-        cmocka_unit_test(cut_lobes_render_as_the_ground_truth_of_the_atrium),
+        cmocka_unit_test(truncated_lobes_render_as_the_ground_truth_of_balls),
+        cmocka_unit_test(truncated_lobes_render_as_the_ground_truth_of_the_atrium),
         cmocka_unit_test(every_kind_of_light_renders_as_the_ground_truth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -277,11 +277,11 @@ static double cost_of_cutting(double exponent, int bands) {
             const scene_light light = light_at(sin(angle), cos(angle), 0, sizes[i]);
             const reference_surface full = surface_of(&whole, &material, up);
             const reference_surface series = surface_of(&limit, &material, up);
-            double exact[3], rung[3];
+            double exact[3], ringing[3];
             reference_quadrature(&full, &light, 1, exact);
-            reference_quadrature(&series, &light, 1, rung);
+            reference_quadrature(&series, &light, 1, ringing);
             peak = fmax(peak, exact[0]);
-            largest = fmax(largest, fabs(rung[0] - exact[0]));
+            largest = fmax(largest, fabs(ringing[0] - exact[0]));
         }
         worst = fmax(worst, largest / peak);
     }

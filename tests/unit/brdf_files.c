@@ -20,10 +20,10 @@ static lmp_brdf *through(const lmp_brdf *brdf, writer write, reader read) {
     void *data = NULL;
     size_t size = 0;
     lmp_brdf *copy = NULL;
-    lmp_parse_error fault = { 0 };
+    lmp_parse_error error = { 0 };
     assert_int_equal(write(NULL, brdf, &data, &size), LMP_OK);
-    if (read(NULL, data, size, &fault, &copy) != LMP_OK)
-        fail_msg("%s", fault.text);
+    if (read(NULL, data, size, &error, &copy) != LMP_OK)
+        fail_msg("%s", error.text);
     free(data);
     return copy;
 }
@@ -151,13 +151,13 @@ static lmp_result read_small_merl(const lmp_host *host) {
     return result;
 }
 
-static void expect_fault(reader read, const void *data, size_t size, const char *text) {
+static void expect_parse_error(reader read, const void *data, size_t size, const char *text) {
     lmp_brdf *brdf = NULL;
-    lmp_parse_error fault = { 0 };
-    assert_int_not_equal(read(NULL, data, size, &fault, &brdf), LMP_OK);
+    lmp_parse_error error = { 0 };
+    assert_int_not_equal(read(NULL, data, size, &error, &brdf), LMP_OK);
     assert_null(brdf);
-    if (!strstr(fault.text, text))
-        fail_msg("'%s' does not say '%s'", fault.text, text);
+    if (!strstr(error.text, text))
+        fail_msg("'%s' does not say '%s'", error.text, text);
 }
 
 static void merl_cells_read_exactly(void **state) {
@@ -178,22 +178,23 @@ static void damaged_merl_is_refused_with_its_reason(void **state) {
     (void)state;
     unsigned char bytes[SMALL_MERL];
     small_merl(bytes);
-    expect_fault(lmp_brdf_read_merl, bytes, 11, "12 bytes");
-    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL - 1, "need 588 bytes");
+    expect_parse_error(lmp_brdf_read_merl, bytes, 11, "12 bytes");
+    expect_parse_error(lmp_brdf_read_merl, bytes, SMALL_MERL - 1, "need 588 bytes");
     const double bad[3] = { (double)NAN, (double)INFINITY, (double)-INFINITY };
     for (int i = 0; i < 3; i++) {
         memcpy(bytes + 12 + 8 * 30, &bad[i], sizeof bad[i]);
-        expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "cell 6 of channel 1");
+        expect_parse_error(lmp_brdf_read_merl, bytes, SMALL_MERL, "cell 6 of channel 1");
     }
     for (size_t length = 0; length < SMALL_MERL; length++)
-        expect_fault(lmp_brdf_read_merl, bytes, length, length < 12 ? "12 bytes" : "need 588");
+        expect_parse_error(lmp_brdf_read_merl, bytes, length,
+                           length < 12 ? "12 bytes" : "need 588");
     const int32_t zero = 0, huge = 0x7fffffff, negative = -90;
     memcpy(bytes, &zero, 4);
-    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is 0");
+    expect_parse_error(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is 0");
     memcpy(bytes, &huge, 4);
-    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0");
+    expect_parse_error(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0");
     memcpy(bytes, &negative, 4);
-    expect_fault(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is -90");
+    expect_parse_error(lmp_brdf_read_merl, bytes, SMALL_MERL, "dimension 0 is -90");
 }
 
 static void negative_merl_cells_are_black(void **state) {

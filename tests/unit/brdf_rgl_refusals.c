@@ -2,14 +2,14 @@
 /* What the reader of RGL tensor files refuses, and damage that it survives. */
 #include "tests/unit/tensor.h"
 
-static void expect_fault(const unsigned char *bytes, size_t size, lmp_result result,
-                         const char *text) {
+static void expect_parse_error(const unsigned char *bytes, size_t size, lmp_result result,
+                               const char *text) {
     lmp_brdf *brdf = NULL;
-    lmp_parse_error fault = { 0 };
-    const lmp_result got = lmp_brdf_read_rgl(NULL, bytes, size, &fault, &brdf);
+    lmp_parse_error error = { 0 };
+    const lmp_result got = lmp_brdf_read_rgl(NULL, bytes, size, &error, &brdf);
     assert_null(brdf);
-    if (!strstr(fault.text, text))
-        fail_msg("'%s' does not say '%s'", fault.text, text);
+    if (!strstr(error.text, text))
+        fail_msg("'%s' does not say '%s'", error.text, text);
     assert_int_equal(got, result);
     assert_int_equal(lmp_brdf_read_rgl(NULL, bytes, size, NULL, &brdf), result);
 }
@@ -19,7 +19,7 @@ static void expect_refusal(tensor t, const char *text) {
     size_t size = 0;
     unsigned char *bytes = bytes_of(&t, &size);
     drop(&t);
-    expect_fault(bytes, size, LMP_ERROR_FORMAT, text);
+    expect_parse_error(bytes, size, LMP_ERROR_FORMAT, text);
     free(bytes);
 }
 
@@ -29,15 +29,15 @@ static void headers_are_checked(void **state) {
     size_t size = 0;
     unsigned char *bytes = bytes_of(&t, &size);
     drop(&t);
-    expect_fault(bytes, 0, LMP_ERROR_FORMAT, "not a tensor file");
+    expect_parse_error(bytes, 0, LMP_ERROR_FORMAT, "not a tensor file");
     bytes[12] = 2;
-    expect_fault(bytes, size, LMP_ERROR_VERSION, "version 2.0");
+    expect_parse_error(bytes, size, LMP_ERROR_VERSION, "version 2.0");
     bytes[12] = 1;
     bytes[0] = 'T';
-    expect_fault(bytes, size, LMP_ERROR_FORMAT, "not a tensor file");
+    expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "not a tensor file");
     bytes[0] = 't';
     lmp_bytes_store_u32(bytes + 14, 0xffffffff);
-    expect_fault(bytes, size, LMP_ERROR_FORMAT, "field 7");
+    expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "field 7");
     free(bytes);
 }
 
@@ -71,7 +71,7 @@ static void directories_are_checked(void **state) {
         drop(&t);
         for (size_t k = 0; k < damages[i].width; k++)
             bytes[damages[i].offset + k] = (unsigned char)(damages[i].value >> 8 * k);
-        expect_fault(bytes, size, LMP_ERROR_FORMAT, damages[i].text);
+        expect_parse_error(bytes, size, LMP_ERROR_FORMAT, damages[i].text);
         free(bytes);
     }
 }
@@ -87,7 +87,7 @@ static void products_of_dimensions_are_checked(void **state) {
         drop(&t);
         for (size_t d = 0; d < 5; d++)
             lmp_bytes_store_u64(bytes + shape + 8 * d, UINT64_C(1) << shift);
-        expect_fault(bytes, size, LMP_ERROR_FORMAT, "more elements than the file has bytes");
+        expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "more elements than the file has bytes");
         free(bytes);
     }
 }
@@ -211,7 +211,7 @@ static void every_truncation_is_refused(void **state) {
         unsigned char *copy = malloc(length > 0 ? length : 1);
         assert_non_null(copy);
         memcpy(copy, bytes, length);
-        expect_fault(copy, length, LMP_ERROR_FORMAT, "");
+        expect_parse_error(copy, length, LMP_ERROR_FORMAT, "");
         free(copy);
     }
     free(bytes);
@@ -256,8 +256,8 @@ static void every_failing_allocation_is_reported(void **state) {
             check_hooks hooks = { .refuse = refuse };
             const lmp_host host = check_host(&hooks);
             lmp_brdf *brdf = NULL;
-            lmp_parse_error fault = { 0 };
-            const lmp_result result = lmp_brdf_read_rgl(&host, bytes, size, &fault, &brdf);
+            lmp_parse_error error = { 0 };
+            const lmp_result result = lmp_brdf_read_rgl(&host, bytes, size, &error, &brdf);
             lmp_brdf_destroy(brdf);
             assert_int_equal(hooks.live, 0);
             if (result == LMP_OK) {
@@ -265,7 +265,7 @@ static void every_failing_allocation_is_reported(void **state) {
                 break;
             }
             assert_int_equal(result, LMP_ERROR_MEMORY);
-            assert_non_null(strstr(fault.text, "no memory"));
+            assert_non_null(strstr(error.text, "no memory"));
         }
         free(bytes);
     }

@@ -91,7 +91,7 @@ static void a_refused_allocation_leaks_nothing(void **state) {
 /* --- bytes -------------------------------------------------------------------------------------
  */
 
-static void bytes_read_back_are_the_same_response(void **state) {
+static void bytes_read_back_are_the_same_brdf(void **state) {
     (void)state;
     lmp_brdf_table *table = small_table();
     lmp_preintegrated_brdf *response = created(table, 0), *copy;
@@ -148,7 +148,7 @@ int main(void) {
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
         cmocka_unit_test(what_cannot_be_made_is_refused),
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
-        cmocka_unit_test(bytes_read_back_are_the_same_response),
+        cmocka_unit_test(bytes_read_back_are_the_same_brdf),
         cmocka_unit_test(damaged_bytes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

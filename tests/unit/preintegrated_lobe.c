@@ -11,10 +11,10 @@
 static const float pi = 3.14159265f;
 
 static lmp_preintegrated_lobe *created(int bands, lmp_window window, float error) {
-    lmp_preintegrated_lobe *response;
+    lmp_preintegrated_lobe *lobe;
     const lmp_preintegrated_lobe_desc desc = { .bands = bands, .window = window, .error = error };
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
-    return response;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
+    return lobe;
 }
 
 /* One sphere seen from the origin, along z; and the same lobe by its series. */
@@ -48,10 +48,10 @@ static float series(const probe *p, float angle) {
         .r;
 }
 
-static float read(const lmp_preintegrated_lobe *response, const probe *p, float angle) {
+static float read(const lmp_preintegrated_lobe *lobe, const probe *p, float angle) {
     const float cosine = cosf(angle) * p->cap.axis.z;
     return p->cap.strength.r *
-               lmp_preintegrated_lobe_eval(response, p->exponent, p->cap.one_minus_cos, cosine) +
+               lmp_preintegrated_lobe_eval(lobe, p->exponent, p->cap.one_minus_cos, cosine) +
            p->cap.ambient.r;
 }
 
@@ -66,37 +66,36 @@ static float peak(const probe *p) {
 }
 
 /* Half of the angles anywhere on the sphere, half where the lobe is. */
-static void compare(const lmp_preintegrated_lobe *response, const probe *p, int angles,
+static void compare(const lmp_preintegrated_lobe *lobe, const probe *p, int angles,
                     check_errors *errors) {
     const float top = peak(p), near = asinf(fminf(p->light.radius, 1)) +
                                       4 / sqrtf(p->exponent + 1) + 4 / (float)p->bands;
     for (int i = 0; i < angles; i++) {
         const float angle = i % 2 ? acosf((float)check_random_between(-1, 1))
                                   : (float)check_random_between(0, (double)fminf(near, pi));
-        check_errors_add(errors,
-                         (double)(fabsf(read(response, p, angle) - series(p, angle)) / top));
+        check_errors_add(errors, (double)(fabsf(read(lobe, p, angle) - series(p, angle)) / top));
     }
 }
 
 static void check_random_probes(int bands, lmp_window window, int probes) {
-    lmp_preintegrated_lobe *response = created(bands, window, 0);
+    lmp_preintegrated_lobe *lobe = created(bands, window, 0);
     check_errors errors = { 0 };
     for (int i = 0; i < probes; i++) {
         const double e = pow(10, check_random_between(0, 4)),
                      r = pow(10, check_random_between(-4, log10(0.99)));
         const probe p = probe_make(bands, window, (float)e, (float)r);
-        compare(response, &p, 50, &errors);
+        compare(lobe, &p, 50, &errors);
     }
     const double rms = check_errors_rms(&errors);
     print_message("%d bands, window %d: %zu bytes, %ld values, error max %.3f %%, rms %.4f %%\n",
-                  bands, (int)window, lmp_preintegrated_lobe_describe(response).bytes, errors.count,
+                  bands, (int)window, lmp_preintegrated_lobe_describe(lobe).bytes, errors.count,
                   100 * errors.largest, 100 * rms);
     CHECK_WITHIN(errors.largest, 5e-3);
     CHECK_WITHIN(rms, 5e-4);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
-static void responses_match_the_series_within_their_error(void **state) {
+static void lobes_match_the_series_within_their_error(void **state) {
     (void)state;
     for (int bands = 1; bands <= 30; bands += 1 + bands / 6)
         check_random_probes(bands, LMP_WINDOW_NONE, 150);
@@ -111,15 +110,15 @@ static void lobes_below_exponent_1_are_within_3_percent(void **state) {
     (void)state;
     const int bands[] = { 4, 10, 40 };
     for (int b = 0; b < 3; b++) {
-        lmp_preintegrated_lobe *response = created(bands[b], LMP_WINDOW_NONE, 0);
+        lmp_preintegrated_lobe *lobe = created(bands[b], LMP_WINDOW_NONE, 0);
         check_errors errors = { 0 };
         for (int i = 0; i < 200; i++) {
             const probe p =
                 probe_make(bands[b], LMP_WINDOW_NONE, (float)check_random(), (float)check_random());
-            compare(response, &p, 20, &errors);
+            compare(lobe, &p, 20, &errors);
         }
         CHECK_WITHIN(errors.largest, 0.03);
-        lmp_preintegrated_lobe_destroy(response);
+        lmp_preintegrated_lobe_destroy(lobe);
     }
 }
 
@@ -127,34 +126,34 @@ static void a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory(voi
     (void)state;
     size_t bytes = SIZE_MAX;
     for (float bound = 0.002f; bound < 0.1f; bound *= 4) {
-        lmp_preintegrated_lobe *response = created(12, LMP_WINDOW_NONE, bound);
+        lmp_preintegrated_lobe *lobe = created(12, LMP_WINDOW_NONE, bound);
         check_errors errors = { 0 };
         for (int i = 0; i < 300; i++) {
             const probe p =
                 probe_make(12, LMP_WINDOW_NONE, (float)pow(10, check_random_between(0, 4)),
                            (float)pow(10, check_random_between(-4, 0)));
-            compare(response, &p, 20, &errors);
+            compare(lobe, &p, 20, &errors);
         }
         CHECK_WITHIN(errors.largest, bound);
-        assert_true(lmp_preintegrated_lobe_describe(response).bytes < bytes);
-        bytes = lmp_preintegrated_lobe_describe(response).bytes;
-        lmp_preintegrated_lobe_destroy(response);
+        assert_true(lmp_preintegrated_lobe_describe(lobe).bytes < bytes);
+        bytes = lmp_preintegrated_lobe_describe(lobe).bytes;
+        lmp_preintegrated_lobe_destroy(lobe);
     }
 }
 
-static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
+static void lobes_hold_inside_spheres_and_at_their_surface(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *response = created(16, LMP_WINDOW_NONE, 0);
+    lmp_preintegrated_lobe *lobe = created(16, LMP_WINDOW_NONE, 0);
     check_errors errors = { 0 };
     for (int i = 0; i < 400; i++) {
         const float radius = i < 200 ? (float)check_random_between(1, 100)
                                      : (float)check_random_between(0.999, 1.001);
         const probe p =
             probe_make(16, LMP_WINDOW_NONE, (float)check_random_between(1, 500), radius);
-        compare(response, &p, 20, &errors);
+        compare(lobe, &p, 20, &errors);
     }
     CHECK_WITHIN(errors.largest, 5e-3);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 static void the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere(void **state) {
@@ -162,52 +161,52 @@ static void the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere(void 
     const float exponents[] = { 0, 1e-30f, 0.5f, 1, 3, 20000, 1e6f, 1e30f, INFINITY };
     const int bands[] = { 1, 2, 9, 128 };
     for (size_t b = 0; b < 4; b++) {
-        lmp_preintegrated_lobe *response = created(bands[b], LMP_WINDOW_NONE, 0.1f);
+        lmp_preintegrated_lobe *lobe = created(bands[b], LMP_WINDOW_NONE, 0.1f);
         for (size_t e = 0; e < 9; e++)
             for (int t = 0; t <= 20; t++)
                 for (int c = -20; c <= 20; c++) {
-                    const float value = lmp_preintegrated_lobe_eval(response, exponents[e],
+                    const float value = lmp_preintegrated_lobe_eval(lobe, exponents[e],
                                                                     (float)t / 20, (float)c / 20);
                     assert_true(isfinite(value));
                 }
-        lmp_preintegrated_lobe_destroy(response);
+        lmp_preintegrated_lobe_destroy(lobe);
     }
 }
 
 static void exponents_past_the_last_are_nearly_the_mirrors(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *response = created(128, LMP_WINDOW_NONE, 0);
+    lmp_preintegrated_lobe *lobe = created(128, LMP_WINDOW_NONE, 0);
     const float exponents[] = { 1e6f, 1e7f, 1e30f };
     check_errors errors = { 0 };
     for (int e = 0; e < 3; e++)
         for (int i = 0; i < 40; i++) {
             const probe p = probe_make(128, LMP_WINDOW_NONE, exponents[e],
                                        powf(10, (float)check_random_between(-4, -0.01)));
-            compare(response, &p, 50, &errors);
+            compare(lobe, &p, 50, &errors);
         }
     CHECK_WITHIN(errors.largest, 9e-3);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 static void slices_join_without_a_step(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *response = created(20, LMP_WINDOW_NONE, 0);
-    float before = lmp_preintegrated_lobe_eval(response, 0, 0.02f, 0.99f);
+    lmp_preintegrated_lobe *lobe = created(20, LMP_WINDOW_NONE, 0);
+    float before = lmp_preintegrated_lobe_eval(lobe, 0, 0.02f, 0.99f);
     for (float e = 0.001f; e < 3e4f; e *= 1.0005f) {
-        const float now = lmp_preintegrated_lobe_eval(response, e, 0.02f, 0.99f);
+        const float now = lmp_preintegrated_lobe_eval(lobe, e, 0.02f, 0.99f);
         CHECK_WITHIN(fabsf(now - before), 0.004 * (double)fmaxf(fabsf(now), 0.1f));
         before = now;
     }
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 /* --- building --------------------------------------------------------------------------------- */
 
-static void *written(const lmp_preintegrated_lobe *response, size_t *size) {
-    *size = lmp_preintegrated_lobe_size(response);
+static void *written(const lmp_preintegrated_lobe *lobe, size_t *size) {
+    *size = lmp_preintegrated_lobe_size(lobe);
     void *bytes = malloc(*size);
     assert_non_null(bytes);
-    lmp_preintegrated_lobe_write(response, bytes);
+    lmp_preintegrated_lobe_write(lobe, bytes);
     return bytes;
 }
 
@@ -238,10 +237,9 @@ static void arguments_outside_their_range_are_refused(void **state) {
         { .window_size = NAN }, { .error = NAN },   { .error = -1 },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        lmp_preintegrated_lobe *response = (lmp_preintegrated_lobe *)1;
-        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &wrong[i], &response),
-                         LMP_ERROR_ARGUMENT);
-        assert_null(response);
+        lmp_preintegrated_lobe *lobe = (lmp_preintegrated_lobe *)1;
+        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &wrong[i], &lobe), LMP_ERROR_ARGUMENT);
+        assert_null(lobe);
     }
 }
 
@@ -251,38 +249,38 @@ static void a_refused_allocation_leaks_nothing(void **state) {
     for (int refuse = 0;; refuse++) {
         check_hooks hooks = { .refuse = refuse };
         const lmp_host host = check_host(&hooks);
-        lmp_preintegrated_lobe *response;
-        const lmp_result result = lmp_preintegrated_lobe_create(&host, &desc, &response);
-        lmp_preintegrated_lobe_destroy(response);
+        lmp_preintegrated_lobe *lobe;
+        const lmp_result result = lmp_preintegrated_lobe_create(&host, &desc, &lobe);
+        lmp_preintegrated_lobe_destroy(lobe);
         assert_int_equal(hooks.live, 0);
         if (result == LMP_OK)
             break;
         assert_int_equal(result, LMP_ERROR_MEMORY);
-        assert_null(response);
+        assert_null(lobe);
     }
 }
 
 /* --- bytes ------------------------------------------------------------------------------------ */
 
-static void bytes_read_back_are_the_same_response(void **state) {
+static void bytes_read_back_are_the_same_lobe(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *response = created(9, LMP_WINDOW_HANNING, 0), *copy;
+    lmp_preintegrated_lobe *lobe = created(9, LMP_WINDOW_HANNING, 0), *copy;
     size_t size;
-    void *bytes = written(response, &size);
+    void *bytes = written(lobe, &size);
     assert_int_equal(lmp_preintegrated_lobe_read(NULL, bytes, size, &copy), LMP_OK);
-    const lmp_preintegrated_lobe_info a = lmp_preintegrated_lobe_describe(response),
+    const lmp_preintegrated_lobe_info a = lmp_preintegrated_lobe_describe(lobe),
                                       b = lmp_preintegrated_lobe_describe(copy);
     assert_int_equal(a.pair_count, b.pair_count);
     assert_memory_equal(a.coefficients, b.coefficients, a.pair_count * 4);
     for (int i = 0; i < 1000; i++) {
         const float e = (float)pow(10, check_random_between(-2, 5)), t = (float)check_random(),
                     c = (float)check_random_between(-1, 1);
-        const float x = lmp_preintegrated_lobe_eval(response, e, t, c),
+        const float x = lmp_preintegrated_lobe_eval(lobe, e, t, c),
                     y = lmp_preintegrated_lobe_eval(copy, e, t, c);
         assert_memory_equal(&x, &y, sizeof x);
     }
     free(bytes);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
     lmp_preintegrated_lobe_destroy(copy);
 }
 
@@ -299,11 +297,11 @@ static lmp_result read_and_use(const unsigned char *bytes, size_t size) {
 static void damaged_bytes_are_refused(void **state) {
     (void)state;
     const lmp_preintegrated_lobe_desc desc = { .bands = 2, .error = 0.1f };
-    lmp_preintegrated_lobe *response;
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
+    lmp_preintegrated_lobe *lobe;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
     size_t size;
-    unsigned char *bytes = written(response, &size);
-    lmp_preintegrated_lobe_destroy(response);
+    unsigned char *bytes = written(lobe, &size);
+    lmp_preintegrated_lobe_destroy(lobe);
     damage_is_refused(bytes, size, read_and_use);
     damage_stays_in_bounds(bytes, size, 12, 1612, 20000, read_and_use); /* the plan */
     free(bytes);
@@ -312,9 +310,9 @@ static void damaged_bytes_are_refused(void **state) {
 /* A number is read whole: no bit of the header goes unseen. */
 static void every_bit_of_the_header_counts(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *response = created(3, LMP_WINDOW_HANNING, 0.1f), *copy;
+    lmp_preintegrated_lobe *lobe = created(3, LMP_WINDOW_HANNING, 0.1f), *copy;
     size_t size;
-    unsigned char *bytes = written(response, &size);
+    unsigned char *bytes = written(lobe, &size);
     for (size_t bit = 8 * 8; bit < 8 * 32; bit++) {
         bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
         damage_sign(bytes, size);
@@ -327,7 +325,7 @@ static void every_bit_of_the_header_counts(void **state) {
         bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
     }
     free(bytes);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 /* 841 cells of 1599 x 3194 pairs are 192950 more than 2^32: a file of the small number must not
@@ -336,11 +334,11 @@ static void cells_that_outgrow_their_count_are_refused(void **state) {
     (void)state;
     enum { CELLS = 841, PAIRS = 192950 };
     const lmp_preintegrated_lobe_desc desc = { .bands = 2, .error = 0.1f };
-    lmp_preintegrated_lobe *response, *copy;
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
+    lmp_preintegrated_lobe *lobe, *copy;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
     size_t size;
-    unsigned char *head = written(response, &size);
-    lmp_preintegrated_lobe_destroy(response);
+    unsigned char *head = written(lobe, &size);
+    lmp_preintegrated_lobe_destroy(lobe);
     const size_t plan = 32 + 4 * LMP_PREINTEGRATED_LOBE_REMAP_COUNT;
     size = plan + 8 * CELLS + 4 * PAIRS + 4;
     unsigned char *bytes = calloc(size, 1), *p = bytes + 28;
@@ -360,17 +358,17 @@ static void cells_that_outgrow_their_count_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(responses_match_the_series_within_their_error),
+        cmocka_unit_test(lobes_match_the_series_within_their_error),
         cmocka_unit_test(lobes_below_exponent_1_are_within_3_percent),
         cmocka_unit_test(a_smaller_error_bound_is_kept_and_a_larger_one_takes_less_memory),
-        cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
+        cmocka_unit_test(lobes_hold_inside_spheres_and_at_their_surface),
         cmocka_unit_test(the_mirror_diffuse_and_extreme_exponents_are_finite_everywhere),
         cmocka_unit_test(exponents_past_the_last_are_nearly_the_mirrors),
         cmocka_unit_test(slices_join_without_a_step),
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
         cmocka_unit_test(arguments_outside_their_range_are_refused),
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
-        cmocka_unit_test(bytes_read_back_are_the_same_response),
+        cmocka_unit_test(bytes_read_back_are_the_same_lobe),
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(every_bit_of_the_header_counts),
         cmocka_unit_test(cells_that_outgrow_their_count_are_refused),

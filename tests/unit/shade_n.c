@@ -169,8 +169,8 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
 }
 
 /* The largest difference from lmp_shade, in parts of what shade.h bounds it by. */
-static double share_of_bound(const lmp_shade_settings *settings, const lmp_light *from,
-                             size_t count, const float *rgb, size_t stride) {
+static double fraction_of_bound(const lmp_shade_settings *settings, const lmp_light *from,
+                                size_t count, const float *rgb, size_t stride) {
     double share = 0;
     for (size_t i = 0; i < COUNT; i++) {
         const vertex *v = &vertices[i];
@@ -199,12 +199,12 @@ static void many_surfaces_are_shaded_as_one_is(void **state) {
             const lmp_shade_settings settings = { .bands = bands[b],
                                                   .window = (lmp_window)(b % 3) };
             lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 4 * sizeof *rgb, rgb);
-            CHECK_WITHIN(share_of_bound(&settings, lights, LIGHTS, rgb, 4), 1);
+            CHECK_WITHIN(fraction_of_bound(&settings, lights, LIGHTS, rgb, 4), 1);
             for (int i = 0; i < 6; i++) {
                 lights[i].radius *= i % 2 ? 0.01f : 1;
                 aim(&lights[i], 4.0f / (float)bands[b]);
                 lmp_shade_n(&settings, &surfaces, COUNT, &lights[i], 1, 4 * sizeof *rgb, rgb);
-                CHECK_WITHIN(share_of_bound(&settings, &lights[i], 1, rgb, 4), 1);
+                CHECK_WITHIN(fraction_of_bound(&settings, &lights[i], 1, rgb, 4), 1);
             }
         }
     }
@@ -231,7 +231,7 @@ static void point_lights_near_and_far_are_points(void **state) {
         const lmp_shade_settings settings = { .bands = bands[k % 4] };
         aim(&light, 4.0f / (float)bands[k % 4]);
         lmp_shade_n(&settings, &surfaces, COUNT, &light, 1, 0, rgb);
-        CHECK_WITHIN(share_of_bound(&settings, &light, 1, rgb, 3), 1);
+        CHECK_WITHIN(fraction_of_bound(&settings, &light, 1, rgb, 3), 1);
     }
 }
 

@@ -71,7 +71,7 @@ static void gives_zonal_coefficients_of_100_bands(void **state) {
     check_csv_close(csv);
 }
 
-static void projects_as_its_zonal_coefficients_turned(void **state) {
+static void projects_as_its_zonal_coefficients_rotated(void **state) {
     (void)state;
     const float radii[] = { 1e-6f, 0.01f, 0.5f, 0.999f, 1, 1.001f, 3, 1e4f };
     static float zonal[LMP_BANDS_MAX], expected[MOST], sh[MOST];
@@ -203,7 +203,7 @@ int main(void) {
         cmocka_unit_test(projects_the_vector_file_of_points_inside),
         cmocka_unit_test(derives_the_vector_file),
         cmocka_unit_test(gives_zonal_coefficients_of_100_bands),
-        cmocka_unit_test(projects_as_its_zonal_coefficients_turned),
+        cmocka_unit_test(projects_as_its_zonal_coefficients_rotated),
         cmocka_unit_test(is_continuous_across_the_surface),
         cmocka_unit_test(is_continuous_across_the_center),
         cmocka_unit_test(of_no_size_is_dark_even_where_it_is),

@@ -22,8 +22,8 @@ enum {
 /* --- arguments -------------------------------------------------------------------------------- */
 
 static const lmp_vec3 up = { 0, 0, 1 }, at = { 0.1f, 0.2f, 0.3f };
-static const lmp_quat turned = { 0.1f, 0.2f, 0.3f, 0.9f };
-static const float unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+static const lmp_quat rotated_by = { 0.1f, 0.2f, 0.3f, 0.9f };
+static const float unrotated[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 static float sh[COUNT * 3 * N * N], out[COUNT * 3 * N * N], slopes[COUNT * 9 * N * N];
 static float matrices[LMP_SH_ROTATION_COUNT(N)], weights[N], lambda[N], rgb[3 * COUNT];
 static const double up_double[3] = { 0, 0, 1 }, turned_double[4] = { 0.1, 0.2, 0.3, 0.9 };
@@ -102,8 +102,8 @@ static void shade_all_ways(void) {
     X(lmp_sh_dot, lmp_sh_dot(N, sh, sh)) \
     X(lmp_sh_reconstruct, lmp_sh_reconstruct(N, sh, up)) \
     X(lmp_sh_from_zonal, lmp_sh_from_zonal(N, lambda, up, out)) \
-    X(lmp_sh_rotation, lmp_sh_rotation(N, turned, matrices)) \
-    X(lmp_sh_rotation_from_matrix, lmp_sh_rotation_from_matrix(N, unturned, matrices)) \
+    X(lmp_sh_rotation, lmp_sh_rotation(N, rotated_by, matrices)) \
+    X(lmp_sh_rotation_from_matrix, lmp_sh_rotation_from_matrix(N, unrotated, matrices)) \
     X(lmp_sh_rotate_z, lmp_sh_rotate_z(N, 0.5f, sh, out)) \
     X(lmp_sh_rotate, lmp_sh_rotate(N, matrices, sh, out)) \
     X(lmp_sh_eval_double, lmp_sh_eval_double(N, up_double, out_double)) \

@@ -134,9 +134,9 @@ static inline unsigned char *bytes_of(const tensor *t, size_t *size) {
 
 static inline lmp_brdf *read_bytes(const unsigned char *bytes, size_t size) {
     lmp_brdf *brdf = NULL;
-    lmp_parse_error fault = { 0 };
-    if (lmp_brdf_read_rgl(NULL, bytes, size, &fault, &brdf) != LMP_OK)
-        fail_msg("%s", fault.text);
+    lmp_parse_error error = { 0 };
+    if (lmp_brdf_read_rgl(NULL, bytes, size, &error, &brdf) != LMP_OK)
+        fail_msg("%s", error.text);
     return brdf;
 }
 
