@@ -385,11 +385,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         SCENE_CAMERA_OPTION_ROWS(o.camera),
         SCENE_STRICT_OPTION_ROW(o.load),
         OVERRIDE_OPTION_ROW(o.materials),
-        { "exposure", 0, CLI_FLOAT, &o.exposure, "FACTOR", "of radiance; without it, automatic",
-          1e-12, 1e12, NULL, &o.exposure_given },
-        { "ev", 0, CLI_FLOAT, &o.stops, "STOPS", "brighter or darker by so many stops", -32, 32,
-          NULL, NULL },
-        IMAGE_TONE_OPTION_ROW(o.tone),
+        IMAGE_DISPLAY_OPTION_ROWS(o.exposure, o.exposure_given, o.stops, o.tone),
         { "from", 0, CLI_TEXT, &o.from, "FILE",
           "repeat a screenshot of lampion view: its settings count, beside -o, --gl-device and "
           "--max-pixels none of these; without SCENE its scene",

@@ -24,11 +24,19 @@ typedef struct image_tone_row {
 #define IMAGE_TONES_MAX 8
 extern const image_tone_row image_tones[]; /* ended by a row of NULLs */
 
-/* The names of the rows, NULL-terminated, and the option that chooses among them. */
+/* The names of the rows, NULL-terminated, and the help of the option that chooses among them. */
 const char *const *image_tone_names(void);
 const char *image_tone_help(void);
-#define IMAGE_TONE_OPTION_ROW(tone)                                                                \
-    { "tone", 0, CLI_CHOICE, &(tone), "CURVE", image_tone_help(), 0, 0, image_tone_names(), NULL }
+
+/* The rows of the options that say how radiance is shown. */
+#define IMAGE_DISPLAY_OPTION_ROWS(exposure, given, stops, tone)                                    \
+    { "exposure", 0,    CLI_FLOAT, &(exposure), "FACTOR", "of radiance; without it, automatic",    \
+      1e-12,      1e12, NULL,      &(given) },                                                     \
+        { "ev", 0,  CLI_FLOAT, &(stops), "STOPS", "brighter or darker by so many stops",           \
+          -32,  32, NULL,      NULL },                                                             \
+    {                                                                                              \
+        "tone", 0, CLI_CHOICE, &(tone), "CURVE", image_tone_help(), 0, 0, image_tone_names(), NULL \
+    }
 
 /* How radiance is shown. */
 typedef struct image_display {

@@ -28,7 +28,7 @@ has app/method/method.h method_kind
 has app/method/method.c BANDS
 has include/lampion/shade.h lmp_shade_method
 has app/bench/kernels.c bench_kernels
-has app/material/material.c formats
+has app/material/file.c formats
 has app/material/material.c kinds
 has src/kernels/kernels.h lmp_kernels
 has app/image/tone.c image_tones
