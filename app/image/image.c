@@ -16,14 +16,14 @@ image_format image_format_of(const char *path) {
     return IMAGE_UNKNOWN;
 }
 
-bool image_fail_format(const char *path, cli_error *error) {
+static bool fail_format(const char *path, cli_error *error) {
     return cli_fail(error, path, "unknown kind of image (name it .png or .exr)");
 }
 
 bool image_check_path(const char *path, cli_error *error) {
     file_writer writer;
     if (image_format_of(path) == IMAGE_UNKNOWN)
-        return image_fail_format(path, error);
+        return fail_format(path, error);
     if (!file_write_begin(&writer, path, error))
         return false;
     file_write_abort(&writer);
@@ -37,7 +37,7 @@ static bool write_by_extension(const image *pixels, const char *path, const imag
     if (format == IMAGE_EXR)
         return image_write_exr_layers(path, &(image_layer) { NULL, pixels }, 1, error);
     if (format != IMAGE_PNG)
-        return image_fail_format(path, error);
+        return fail_format(path, error);
     unsigned char *rgb8 = malloc(3 * (size_t)pixels->width * (size_t)pixels->height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");

@@ -4,6 +4,7 @@
 #define LAMPION_IMAGE_H
 
 #include "app/image/exr.h"
+#include "app/image/hdr.h"
 #include "app/image/png.h"
 #include "app/image/tone.h"
 
@@ -15,7 +16,6 @@ bool image_write(const image *image, const char *path, const image_display *disp
 /* By the extension of path, whatever its case. */
 typedef enum image_format { IMAGE_UNKNOWN, IMAGE_PNG, IMAGE_EXR } image_format;
 image_format image_format_of(const char *path);
-bool image_fail_format(const char *path, cli_error *error); /* what to say of an unknown one */
 
 /* The same for a drawing, whose colors (0 … 1) are meant to be seen as they are: no exposure and
  * no tone curve. */
@@ -25,8 +25,9 @@ bool image_write_figure(const image *image, const char *path, cli_error *error);
  * long work. */
 bool image_check_path(const char *path, cli_error *error);
 
-/* Reads a .exr (R, G, B channels; linear) or an 8-bit .png (sRGB, linearized) of at most pixels_max
- * pixels, and the text of a .png's chunk of that key, to be freed. Both decode in a sandbox. */
+/* Reads a .exr (R, G, B channels; linear), a .hdr (linear) or an 8-bit .png (sRGB, linearized) of
+ * at most pixels_max pixels, and the text of a .png's chunk of that key, to be freed. Both decode
+ * in a sandbox. */
 #define IMAGE_READ_PIXELS (1 << 25) /* unless a user wants more: 8K */
 bool image_read(const char *path, long long pixels_max, image *image, cli_error *error);
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error);

@@ -9,14 +9,17 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #define FILE_SIZE_MAX ((size_t)2 << 30)
 
+typedef bool image_decoder(const image_source *source, image *image, cli_error *error);
+
 typedef struct decoding {
     image_source source;
-    image_format format;
+    image_decoder *decoder;
     const char *key; /* of the text that is wanted; NULL: the pixels are */
 } decoding;
 
@@ -42,9 +45,7 @@ static bool write_all(int output, const void *data, size_t size) {
 static bool decode_pixels(void *context, int output, cli_error *error) {
     const decoding *const d = context;
     image pixels;
-    const bool ok = d->format == IMAGE_PNG ? image_decode_png(&d->source, &pixels, error)
-                                           : image_decode_exr(&d->source, &pixels, error);
-    if (!ok)
+    if (!d->decoder(&d->source, &pixels, error))
         return false;
     const decoded_size size = { pixels.width, pixels.height };
     const size_t bytes = 3 * sizeof(float) * (size_t)pixels.width * (size_t)pixels.height;
@@ -95,13 +96,28 @@ static bool take_image(const decoding *d, const void *block, size_t size, image 
     return cli_fail(error, d->source.path, "cannot be read (is it damaged?)");
 }
 
+/* By the extension of path, whatever its case; NULL: of none that is known. */
+static image_decoder *decoder_of(const char *path) {
+    static const struct {
+        const char *extension;
+        image_decoder *decoder;
+    } known[] = { { ".png", image_decode_png },
+                  { ".exr", image_decode_exr },
+                  { ".hdr", image_decode_hdr } };
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof known / sizeof *known; i++)
+        if (strcasecmp(dot, known[i].extension) == 0)
+            return known[i].decoder;
+    return NULL;
+}
+
 bool image_read(const char *path, long long pixels_max, image *pixels, cli_error *error) {
-    decoding d = { .source.pixels_max = pixels_max, .format = image_format_of(path) };
+    decoding d = { .source.pixels_max = pixels_max, .decoder = decoder_of(path) };
     void *block;
     size_t size;
     memset(pixels, 0, sizeof *pixels);
-    if (d.format == IMAGE_UNKNOWN)
-        return image_fail_format(path, error);
+    if (!d.decoder)
+        return cli_fail(error, path, "unknown kind of image (.png, .exr and .hdr are read)");
     if (!decode(&d, path, &block, &size, error))
         return false;
     const bool ok = take_image(&d, block, size, pixels, error);
@@ -110,7 +126,7 @@ bool image_read(const char *path, long long pixels_max, image *pixels, cli_error
 }
 
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {
-    decoding d = { .format = IMAGE_PNG, .key = key };
+    decoding d = { .key = key };
     void *block;
     size_t size;
     if (!decode(&d, path, &block, &size, error))

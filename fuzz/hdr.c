@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* Environments: .hdr. */
+#include "app/image/hdr.h"
+#include "fuzz/file.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    const image_source source = { "input", data, size, 1 << 22 };
+    image pixels;
+    cli_error error;
+    if (image_decode_hdr(&source, &pixels, &error))
+        image_free(&pixels);
+    return 0;
+}
