@@ -23,9 +23,18 @@ vec3 pixel_emission(ivec2 at) {
     return texelFetch(emission_texture, at, 0).rgb;
 }
 
-pixel pixel_read(ivec2 at) {
+/* From the eye, 1 along its direction. */
+vec3 pixel_ray(ivec2 at) {
     vec2 screen = (vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0 + jitter.xy;
-    vec3 ray = forward.xyz + right.xyz * screen.x + down.xyz * screen.y;
+    return forward.xyz + right.xyz * screen.x + down.xyz * screen.y;
+}
+
+vec3 pixel_view(ivec2 at) {
+    return -normalize(pixel_ray(at));
+}
+
+pixel pixel_read(ivec2 at) {
+    vec3 ray = pixel_ray(at);
     vec4 base_metallic = texelFetch(base_metallic_texture, at, 0);
     pixel p;
     p.surface.position = eye.xyz + ray * (eye.w / texelFetch(depth_texture, at, 0).r);

@@ -42,6 +42,7 @@ layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
 #endif
 
 #include "pixel.glsl"
+#include "environment.glsl"
 #ifdef TABLE_FULL
 #include "table.glsl"
 #endif
@@ -69,12 +70,15 @@ void main() {
     if (any(greaterThanEqual(at, ivec2(size_lights.xy))))
         return;
     int kind = pixel_kind(at);
-    vec3 radiance = background.rgb;
-    if (kind == SHARED_KIND_LIGHT) {
+    vec3 radiance = vec3(0.0);
+    if (kind == SHARED_KIND_NONE) {
+        radiance = environment_seen(-pixel_view(at));
+    } else if (kind == SHARED_KIND_LIGHT) {
         radiance = pixel_light_radiance(at);
     } else if (kind == SHARED_KIND_SURFACE) {
         pixel p = pixel_read(at);
-        radiance = SHADE(p.surface, p.material) + pixel_emission(at);
+        radiance = SHADE(p.surface, p.material) + environment_shade(p.surface, p.material) +
+                   pixel_emission(at);
     }
 #if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
     if (kind >= SHARED_KIND_TABLE)

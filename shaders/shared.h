@@ -64,6 +64,11 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_ZONAL         7
 #define SHARED_ZONAL_ENTRIES 1024
 
+/* Texture unit of what is seen of the environment, and storage block of its coefficients
+ * (environment.glsl). */
+#define SHARED_BACKDROP    9
+#define SHARED_ENVIRONMENT 5
+
 /* Side of the square of pixels one compute group shades: 64 threads. */
 #define SHARED_GROUP 8
 
@@ -76,6 +81,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 background;  /* radiance where nothing is */
     vec4 size_lights; /* width, height, number of lights */
     vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1 */
+    vec4 surroundings; /* of the environment: bands (0: none), azimuth, 1 if it is seen */
 }
 SHARED_END(shared_frame);
 
@@ -143,7 +149,7 @@ typedef struct shared_preintegrated_lobe {
 
 static_assert(offsetof(shared_frame, eye) == 64, "std140");
 static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
-static_assert(sizeof(shared_frame) == 176, "std140");
+static_assert(sizeof(shared_frame) == 192, "std140");
 static_assert(sizeof(shared_light) == 48, "std140");
 static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
 static_assert(offsetof(shared_material, matrix) == 64, "std140");

@@ -7,6 +7,7 @@
 #include "lampion.glsl"
 
 #include "pixel.glsl"
+#include "environment.glsl"
 
 layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
 layout(std430, binding = 0) writeonly restrict buffer pixels_block {
@@ -27,7 +28,7 @@ void main() {
     o.base_color = vec4(p.material.base_color, 0.0);
     o.emission = vec4(kind == SHARED_KIND_LIGHT     ? pixel_light_radiance(at)
                       : kind != SHARED_KIND_NONE    ? pixel_emission(at)
-                                                    : background.rgb,
+                                                    : environment_seen(-p.surface.view),
                       0.0);
     pixels[(at.y - first_row) * int(size_lights.x) + at.x] = o;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/reference.h"
 #include "app/command/command.h"
+#include "app/environment/environment.h"
 #include "app/method/method.h"
 #include "app/override/override.h"
 #include "app/reference/quadrature.h"
@@ -14,6 +15,7 @@ typedef struct reference_arguments {
     int size[2];
     scene_camera_options camera;
     scene_lights_options lights;
+    environment_options environment;
     cli_list materials;
     reference_settings settings;
     int bands, window;
@@ -29,11 +31,14 @@ typedef struct reference_arguments {
 
 /* A linear image carries its standard error as a second layer. */
 static bool write_image(const reference_arguments *a, const image *radiance,
-                        const image *standard_error, cli_error *error) {
+                        const image *standard_error, size_t light_count, cli_error *error) {
     const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
     if (image_format_of(a->output) == IMAGE_EXR)
         return image_write_exr_layers(a->output, layers, 2, error);
-    const float exposure = a->exposure_given ? a->exposure : image_auto_exposure(radiance);
+    float exposure = a->exposure_given ? a->exposure
+                                       : environment_exposure(a->settings.environment, light_count);
+    if (!(exposure > 0))
+        exposure = image_auto_exposure(radiance);
     const image_display display = { exposure * image_exposure_of_stops(a->stops), a->tone };
     return image_write(radiance, a->output, &display, error);
 }
@@ -67,6 +72,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
 
 static bool render(reference_arguments *a, const char *name, cli_error *error) {
     scene world;
+    environment around = { .bands = 0 };
     image radiance = { .rgb = NULL }, standard_error = { .rgb = NULL };
     reference_settings *settings = &a->settings;
     reference_material_source *sources = NULL;
@@ -75,15 +81,18 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
         return false;
     settings->width = a->size[0];
     settings->height = a->size[1];
+    settings->environment = &around;
     const bool ok = scene_apply_lights(&world, &a->lights, error) &&
+                    environment_open(&a->environment, &world, &around, error) &&
                     scene_place_camera(&world, &a->camera, a->size, &settings->camera, error) &&
                     choose_materials(a, &world, &all, &sources, error) &&
                     reference_render(&world, settings, &radiance, &standard_error, error) &&
-                    write_image(a, &radiance, &standard_error, error);
+                    write_image(a, &radiance, &standard_error, world.light_count, error);
     image_free(&radiance);
     image_free(&standard_error);
     free(sources);
     override_free(&all);
+    environment_free(&around);
     scene_free(&world);
     return ok;
 }
@@ -153,6 +162,7 @@ static int execute(const cli_command *command, reference_arguments *a, int count
 static int run(const cli_command *command, int argc, char **argv) {
     reference_arguments a = { .size = { 1280, 720 },
                               .settings = { .samples = 64, .seed = 1 },
+                              .environment = ENVIRONMENT_DEFAULTS,
                               .window = LMP_WINDOW_HANNING,
                               .normal = { 0, 1, 0 },
                               .view = { 0, 1, 0 },
@@ -182,6 +192,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "threads", 0, CLI_INT, &a.settings.threads, "N",
           "0 means all processors; the result is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),
+        ENVIRONMENT_OPTION_ROWS(a.environment),
         SCENE_STRICT_OPTION_ROW(a.load),
         { "point", 0, CLI_VEC3, a.point, "X,Y,Z",
           "no image: print the radiance that one point reflects, by quadrature", 0, 0, NULL,

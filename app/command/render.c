@@ -2,6 +2,7 @@
 #include "app/animation/animation.h"
 #include "app/bake/bake.h"
 #include "app/command/command.h"
+#include "app/environment/environment.h"
 #include "app/file/file.h"
 #include "app/override/override.h"
 #include "app/shade/shade.h"
@@ -22,7 +23,8 @@ typedef struct render_options {
     int size[2], bands, method, window, tone, device_kind, repeat, samples, pixels_max;
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
-    bool exposure_given, frames_given, shard_given, stats, compare;
+    bool exposure_given, frames_given, shard_given, background_given, stats, compare;
+    environment_options environment;
     scene_camera_options camera;
     scene_lights_options lights;
     cli_list materials;
@@ -33,6 +35,7 @@ typedef struct render_options {
 typedef struct job {
     const render_options *options;
     scene world;
+    environment around;
     gpu_context context;
     gpu_renderer *renderer;
     gpu_frame frame;
@@ -105,15 +108,19 @@ static void move_lights(job *j, int index) {
     j->frame.lights = j->moved;
 }
 
-/* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker. */
+/* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker.
+ * What is seen past everything does not count, and the studio has an exposure of its own. */
 static bool settle_exposure(job *j, cli_error *error) {
     const render_options *o = j->options;
-    float factor = o->exposure;
-    if (!o->exposure_given) {
+    float factor =
+        o->exposure_given ? o->exposure : environment_exposure(&j->around, j->world.light_count);
+    if (!(factor > 0)) {
         move_lights(j, 0);
         image pixels;
         gpu_frame frame = j->frame;
         frame.samples = 1;
+        frame.hide_backdrop = true;
+        memset(frame.background, 0, sizeof frame.background);
         if (!gpu_render(j->renderer, &frame, NULL, error) ||
             !gpu_read_image(j->renderer, &pixels, error))
             return false;
@@ -257,6 +264,13 @@ static bool settle_shading(job *j, cli_error *error) {
     j->shading =
         chosen ? method_device(method, (device_kind)o->device_kind, j->context.software, o->bands)
                : DEVICE_GPU;
+    if (o->materials.count > 0 && environment_shines(&j->around)) {
+        if (o->device_kind == DEVICE_GPU)
+            return cli_fail(error, NULL,
+                            "tabulated materials reflect an environment on the CPU alone (--device "
+                            "cpu, or --environment none)");
+        j->shading = DEVICE_CPU;
+    }
     if (o->bands > method_table[method].bands_max[j->shading])
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
                         o->bands, method_table[method].name);
@@ -274,11 +288,16 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     name_frame(o, 0, path);
     if (!image_check_path(path, error) || !scene_load(name, &o->load, &j->world, error) ||
         !scene_apply_lights(&j->world, &o->lights, error) ||
+        !environment_open(&o->environment, &j->world, &j->around, error) ||
+        !environment_project(&j->around, o->bands, error) ||
         !animation_open(o->animate, &j->world, &j->path, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
         !gpu_context_create(o->device, &j->context, error) || !settle_shading(j, error))
         return false;
     j->renderer = gpu_renderer_create(&j->context, &j->world, error);
+    if (j->renderer)
+        gpu_set_environment(j->renderer, &j->around);
+    j->frame.hide_backdrop = o->background_given;
     j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
     j->frame.width = o->size[0];
     j->frame.height = o->size[1];
@@ -299,6 +318,7 @@ static void close_job(job *j) {
     gpu_renderer_destroy(j->renderer);
     override_free(&j->materials);
     gpu_context_destroy(&j->context);
+    environment_free(&j->around);
     scene_free(&j->world);
     lmp_preintegrated_lobe_destroy(j->lobes);
     free(j->moved);
@@ -363,6 +383,7 @@ static const render_options defaults = { .size = { 1280, 720 },
                                          .bands = LMP_SHADE_BANDS_DEFAULT,
                                          .window = LMP_WINDOW_HANNING,
                                          .samples = 1,
+                                         .environment = ENVIRONMENT_DEFAULTS,
                                          .pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
                                          .repeat = 5,
@@ -382,6 +403,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
           method_window_names(), NULL },
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
+        ENVIRONMENT_OPTION_ROWS(o.environment),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
         SCENE_STRICT_OPTION_ROW(o.load),
         OVERRIDE_OPTION_ROW(o.materials),
@@ -393,8 +415,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "max-pixels", 0, CLI_INT, &o.pixels_max, "N",
           "refuse a screenshot of more, which takes 85 bytes a pixel", 1, IMAGE_PIXELS_MAX, NULL,
           NULL },
-        { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
-          NULL, NULL },
+        { "background", 0, CLI_VEC3, o.background, "R,G,B",
+          "radiance where nothing is, in place of what the environment shows", 0, 1e30, NULL,
+          &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
           "numbered images (%04d in FILE) while the lights move: the first N, or A to B", 0,
           FRAME_MAX, NULL, &o.frames_given },

@@ -91,6 +91,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     }
     o->fps = 24;
     o->settings.samples = 8;
+    o->environment.strength = 1;
     const cli_option options[] = {
         { "size", 's', CLI_SIZE, a.size, "WxH", "of the window", 1, 8192, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
@@ -99,6 +100,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "window", 0, CLI_CHOICE, &a.window, "WINDOW", "damps the ringing of few bands", 0, 0,
           method_window_names(), NULL },
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
+        ENVIRONMENT_OPTION_ROWS(o->environment),
         SCENE_CAMERA_OPTION_ROWS(o->camera),
         SCENE_STRICT_OPTION_ROW(o->load),
         OVERRIDE_OPTION_ROW(a.materials),

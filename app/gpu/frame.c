@@ -56,6 +56,7 @@ bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float o
         !scale_to(block->down, half_height))
         return cli_fail(error, "camera", "it looks along its up direction, or at itself");
     memcpy(block->background, frame->background, sizeof frame->background);
+    gpu_describe_environment(r, frame, block->surroundings);
     block->size_lights[0] = (float)frame->width;
     block->size_lights[1] = (float)frame->height;
     block->size_lights[2] = (float)r->shaded_lights;

@@ -72,6 +72,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     g->frame = frame;
     g->tables = r->tables;
     g->brdfs = r->brdfs;
+    g->environment = r->environment;
     return true;
 }
 
@@ -120,6 +121,15 @@ static void decode_light(const gpu_gbuffer *g, unsigned index, size_t x, gpu_row
     row->emission[0][x] = radiance.r;
     row->emission[1][x] = radiance.g;
     row->emission[2][x] = radiance.b;
+}
+
+/* What is seen past everything. */
+static lmp_rgb decode_nothing(const gpu_gbuffer *g, size_t x, const gpu_row *row) {
+    const float *background = g->block.background;
+    const float away[3] = { -row->view[0][x], -row->view[1][x], -row->view[2][x] };
+    if (g->block.surroundings[2] > 0)
+        return environment_seen(g->environment, away);
+    return (lmp_rgb) { background[0], background[1], background[2] };
 }
 
 /* Positions and views of every pixel; what is no surface is nonsense. */
@@ -210,10 +220,8 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
             decode_light(g, g->normal[first + x].u, x, row);
             continue;
         }
-        const lmp_rgb emission = kind == SHARED_KIND_NONE
-                                     ? (lmp_rgb) { g->block.background[0], g->block.background[1],
-                                                   g->block.background[2] }
-                                     : decode_emission(g->emission[first + x]);
+        const lmp_rgb emission = kind == SHARED_KIND_NONE ? decode_nothing(g, x, row)
+                                                          : decode_emission(g->emission[first + x]);
         row->emission[0][x] = emission.r;
         row->emission[1][x] = emission.g;
         row->emission[2][x] = emission.b;

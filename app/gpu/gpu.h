@@ -7,6 +7,7 @@
 #ifndef LAMPION_GPU_H
 #define LAMPION_GPU_H
 
+#include "app/environment/environment.h"
 #include "app/image/image.h"
 #include "app/method/method.h"
 #include "app/scene/scene.h"
@@ -53,8 +54,9 @@ typedef struct gpu_frame {
     int bands; /* 1 … those of the method on its device */
     lmp_window window;
     const scene_light *lights;
-    size_t light_count; /* <= SCENE_LIGHTS_MAX */
-    float background[3];
+    size_t light_count;                  /* <= SCENE_LIGHTS_MAX */
+    float background[3];                 /* where nothing is, and no backdrop */
+    bool hide_backdrop;                  /* of the environment, which shines all the same */
     int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
     const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
     gpu_host_shader host;                /* instead of the compute pass, or NULL */
@@ -89,6 +91,10 @@ bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables,
  * They must outlive the renderer. */
 void gpu_set_preintegrated_brdfs(gpu_renderer *renderer,
                                  const lmp_preintegrated_brdf *const *brdfs);
+
+/* Light from all around, whose coefficients environment_project has made, or NULL. It must outlive
+ * the renderer. Tabulated materials reflect it on the host alone. */
+void gpu_set_environment(gpu_renderer *renderer, const environment *environment);
 
 /* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number
  * of bands and a window. times may be NULL, and then nothing waits for the device. */
@@ -186,6 +192,9 @@ void gpu_row_free(gpu_row *row);
 
 /* From any thread, each with a row of its own. */
 void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
+
+/* The environment that shines on its surfaces; NULL: none. */
+const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer);
 
 /* --- sources -----------------------------------------------------------------------------------
  */

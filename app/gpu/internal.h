@@ -105,6 +105,16 @@ bool gpu_bind_preintegrated_brdf(gpu_renderer *renderer, cli_error *error);
 /* Binds the table of Z_l of so many bands, made at its first use. */
 bool gpu_bind_zonal(gpu_renderer *renderer, int bands, cli_error *error);
 
+/* --- environment.c ------------------------------------------------------------------------------
+ */
+
+/* Uploads what the shaders read of the environment, once for so many bands and a window. */
+bool gpu_bind_environment(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
+
+/* Fills the frame block's member. */
+void gpu_describe_environment(const gpu_renderer *renderer, const gpu_frame *frame,
+                              vec4 surroundings);
+
 /* --- gbuffer.c ----------------------------------------------------------------------------------
  */
 
@@ -128,6 +138,7 @@ struct gpu_gbuffer {
     const gpu_frame *frame;
     const lmp_brdf_table *const *tables;
     const lmp_preintegrated_brdf *const *brdfs;
+    const environment *environment;
 };
 
 /* Allocates at the first frame of a size. */
@@ -172,8 +183,12 @@ struct gpu_renderer {
     method_kind tables_method;                           /* that it was made for */
     const lmp_preintegrated_brdf *brdfs[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
     GLuint brdf_texels, brdf_block;                      /* texture, buffer; or 0 */
-    float near;                                          /* distance of the near plane */
-    gpu_gbuffer gbuffer;                                 /* of host shaders */
+    const environment *environment;                      /* or NULL; not owned */
+    GLuint backdrop, environment_block;                  /* texture, buffer; or 0 */
+    int environment_bands;                               /* that the block was made for */
+    lmp_window environment_window;
+    float near;          /* distance of the near plane */
+    gpu_gbuffer gbuffer; /* of host shaders */
 };
 
 /* --- targets.c ----------------------------------------------------------------------------------

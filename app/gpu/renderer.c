@@ -94,6 +94,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->lights_block);
     glDeleteBuffers(1, &r->ggx_block);
     gpu_set_preintegrated_brdfs(r, NULL);
+    gpu_set_environment(r, NULL);
     glDeleteBuffers(1, &r->lobe_block);
     glDeleteTextures(1, &r->lobe_pairs);
     glDeleteTextures(1, &r->zonal);
@@ -160,6 +161,8 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
     if ((!frame->host && !program) || !gpu_targets_create(r, frame->width, frame->height, error))
         return false;
     if (!frame->host && !gpu_variant_bind(r, frame, error))
+        return false;
+    if (!gpu_bind_environment(r, frame, error))
         return false;
     gpu_upload_lights(r, frame);
     if (times)

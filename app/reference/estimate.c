@@ -18,8 +18,9 @@ typedef struct plan {
     const reference_surface *surface;
     struct reference_candidate *candidates;
     int count;
-    double by_lobe[REFERENCE_LOBES];
-    double known[3]; /* what single directions give, which needs no samples */
+    double by_lobe[REFERENCE_LOBES], by_environment;
+    double direction[LMP_BANDS_MAX]; /* a direction of the environment as a series */
+    double known[3];                 /* what single directions give, which needs no samples */
 } plan;
 
 bool reference_estimator_create(reference_estimator *estimator, const scene_light *lights,
@@ -137,6 +138,17 @@ static double add_candidate(const reference_source *source, const scene_light *l
     return any ? part : 0;
 }
 
+/* Half of the samples of a lobe and the environment are the lobe's; of a truncated series, of which
+ * there is nothing to sample, none. */
+static void add_environment(const reference_environment *e, plan *p) {
+    for (int k = 0; k < REFERENCE_LOBES; k++) {
+        const double strength = mean_of_product(p->surface->lobes[k].weight, e->mean);
+        const double part = p->surface->band_limited ? 0 : 0.5;
+        p->by_environment += strength * (1 - part);
+        p->by_lobe[k] += strength * part;
+    }
+}
+
 static bool is_light_a_series(const reference_surface *surface) {
     return surface->ggx && surface->band_limited;
 }
@@ -146,6 +158,7 @@ static bool is_light_a_series(const reference_surface *surface) {
 static void plan_series(const reference_estimator *estimator, const reference_surface *surface,
                         plan *p) {
     double total = 0;
+    reference_series_of_direction(&surface->limit, p->direction);
     for (size_t i = 0; i < estimator->light_count; i++) {
         const scene_light *light = &estimator->lights[i];
         reference_source sources[REFERENCE_SOURCES_MAX];
@@ -188,8 +201,12 @@ static void plan_samples(const reference_estimator *estimator, const reference_s
             else
                 add_known(estimator, &sources[k], p);
     }
+    if (estimator->environment)
+        add_environment(estimator->environment, p);
+    total += p->by_environment;
     for (int k = 0; k < REFERENCE_LOBES; k++)
         total += p->by_lobe[k];
+    p->by_environment /= total > 0 ? total : 1;
     for (int i = 0; i < p->count; i++) {
         p->candidates[i].density /= total;
         p->candidates[i].cumulative /= total;
@@ -211,7 +228,8 @@ static int find_candidate(const plan *p, double u) {
 }
 
 /* A direction by one of the plan's ways; *sampled is the light it was drawn for, or -1. */
-static reference_vec draw(const plan *p, const double u[3], int *sampled) {
+static reference_vec draw(const reference_estimator *estimator, const plan *p, const double u[3],
+                          int *sampled) {
     double way = u[0];
     *sampled = -1;
     for (int k = 0; k < REFERENCE_LOBES; k++) {
@@ -224,7 +242,9 @@ static reference_vec draw(const plan *p, const double u[3], int *sampled) {
         }
         way -= p->by_lobe[k];
     }
-    *sampled = find_candidate(p, way);
+    if (p->by_environment > 0 && (way < p->by_environment || p->count == 0))
+        return reference_environment_draw(estimator->environment, u[1], u[2]);
+    *sampled = find_candidate(p, way - p->by_environment);
     const struct reference_candidate *c = &p->candidates[*sampled];
     const double t = u[1] * c->source.one_minus_cos;
     return reference_around(c->source.axis, 1 - t, sqrt(t * (2 - t)), u[2]);
@@ -247,7 +267,30 @@ static double accumulate(const reference_estimator *estimator, const plan *p, re
         for (int k = 0; k < 3; k++)
             radiance[k] += c->source.color[k];
     }
+    if (estimator->environment) {
+        double all_around[3] = { 0 };
+        density +=
+            p->by_environment * reference_environment_at(estimator->environment, w, all_around);
+        for (int k = 0; isinf(path) && k < 3; k++)
+            radiance[k] += all_around[k];
+    }
     return density;
+}
+
+/* One direction of the environment stands for all: it is a series around itself. */
+static void add_environment_series(const reference_estimator *estimator, const plan *p,
+                                   reference_vec w, uint64_t key, double radiance[3]) {
+    const reference_environment *e = estimator->environment;
+    const uint64_t first = 2 * (uint64_t)p->count;
+    double from_there[3] = { 0 };
+    const reference_vec axis = reference_environment_draw(e, reference_random(key, first),
+                                                          reference_random(key, first + 1));
+    const double density = reference_environment_at(e, axis, from_there);
+    const double scale =
+        reference_series_at(p->surface->limit.bands, p->direction, reference_dot(w, axis)) /
+        density;
+    for (int k = 0; isinf(free_path(estimator, p->surface, axis)) && k < 3; k++)
+        radiance[k] += scale * from_there[k];
 }
 
 /* The same of lights that are series; `key` draws where those lie that may be hidden. */
@@ -273,6 +316,8 @@ static void accumulate_series(const reference_estimator *estimator, const plan *
         for (int k = 0; k < 3; k++)
             radiance[k] += scale * c->source.color[k];
     }
+    if (estimator->environment)
+        add_environment_series(estimator, p, w, key, radiance);
 }
 
 static void take_sample(const reference_estimator *estimator, const plan *p, uint64_t key,
@@ -281,7 +326,7 @@ static void take_sample(const reference_estimator *estimator, const plan *p, uin
     int sampled;
     for (int k = 0; k < 3; k++)
         u[k] = reference_random(key, 3 * (uint64_t)number + (uint64_t)k);
-    const reference_vec w = draw(p, u, &sampled);
+    const reference_vec w = draw(estimator, p, u, &sampled);
     double density = reflect(p, w, reflected);
     value[0] = value[1] = value[2] = 0;
     if (reflected[0] == 0 && reflected[1] == 0 && reflected[2] == 0)
@@ -312,7 +357,7 @@ reference_result reference_estimate(const reference_estimator *estimator,
     plan_samples(estimator, surface, &p);
     for (int c = 0; c < 3; c++)
         result.mean[c] = p.known[c];
-    if (p.count == 0)
+    if (p.count == 0 && !estimator->environment)
         return result;
     for (int n = 0; n < stop->samples;) {
         double value[3], error = 0, mean = 0;

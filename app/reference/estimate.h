@@ -3,6 +3,7 @@
 #ifndef LAMPION_REFERENCE_ESTIMATE_H
 #define LAMPION_REFERENCE_ESTIMATE_H
 
+#include "app/reference/environment.h"
 #include "app/reference/light.h"
 #include "app/reference/lobe.h"
 
@@ -14,8 +15,9 @@ typedef double (*reference_visibility)(reference_vec point, reference_vec direct
 typedef struct reference_estimator {
     const scene_light *lights;
     size_t light_count;
-    struct reference_candidate *candidates; /* REFERENCE_SOURCES_MAX a light */
-    reference_visibility visibility;        /* NULL: nothing hides a light */
+    struct reference_candidate *candidates;   /* REFERENCE_SOURCES_MAX a light */
+    const reference_environment *environment; /* or NULL; its power is above 0 */
+    reference_visibility visibility;          /* NULL: nothing hides a light */
     void *visibility_user;
 } reference_estimator;
 
@@ -34,10 +36,10 @@ typedef struct reference_result {
     int samples;
 } reference_result;
 
-/* Independent samples, numbered from the stream `key`: of the lights' solid angles and of the
- * lobes, weighted by the balance heuristic over all of them (Veach 1997); what lights of a single
- * direction give is added without sampling. Unbiased. Of truncated lobes
- * the sum is the series' own: it may be negative. */
+/* Independent samples, numbered from the stream `key`: of the lights' solid angles, of the image of
+ * the environment and of the lobes, weighted by the balance heuristic over all of them (Veach
+ * 1997); what lights of a single direction give is added without sampling. Unbiased. Of truncated
+ * lobes the sum is the series' own: it may be negative. */
 reference_result reference_estimate(const reference_estimator *estimator,
                                     const reference_surface *surface, const reference_stop *stop,
                                     uint64_t key);

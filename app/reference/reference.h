@@ -6,6 +6,7 @@
 #ifndef LAMPION_REFERENCE_H
 #define LAMPION_REFERENCE_H
 
+#include "app/environment/environment.h"
 #include "app/image/image.h"
 #include "app/reference/lobe.h"
 #include "app/scene/scene.h"
@@ -18,14 +19,15 @@ typedef struct reference_settings {
     uint64_t seed; /* of the noise: the same seed gives the same bits on any thread count */
     int threads;   /* 0 means all processors */
     bool shadows;  /* whether triangles hide lights from each other */
+    const environment *environment;  /* or NULL: none */
     reference_band_limit band_limit; /* band limit of the lobes, as render has it; zero: none */
     const reference_material_source *materials; /* instead of the scene's, one for each of them;
                                                    NULL: none */
 } reference_settings;
 
 /* Radiance through the center of every pixel, and its standard error. Triangles and the glowing
- * spheres are seen; where there is neither, the image is black. Both images are created here;
- * free them. Shows progress. */
+ * spheres are seen; where there is neither, the backdrop of the environment is, or nothing. Both
+ * images are created here; free them. Shows progress. */
 bool reference_render(const scene *scene, const reference_settings *settings, image *radiance,
                       image *standard_error, cli_error *error);
 

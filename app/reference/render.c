@@ -11,7 +11,8 @@ typedef struct frame {
     const scene *scene;
     const reference_settings *settings;
     const reference_tracer *tracer;
-    reference_vec eye, forward, right, up; /* right and up reach to the image's edges */
+    const reference_environment *environment; /* or NULL */
+    reference_vec eye, forward, right, up;    /* right and up reach to the image's edges */
     image *radiance, *standard_error;
 } frame;
 
@@ -106,6 +107,17 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     }
 }
 
+static void see_backdrop(const frame *f, reference_vec direction, double emission[3]) {
+    const environment *e = f->settings->environment;
+    if (!e || !e->backdrop.rgb)
+        return;
+    const lmp_rgb seen = environment_seen(
+        e, (float[]) { (float)direction.x, (float)direction.y, (float)direction.z });
+    emission[0] = (double)seen.r;
+    emission[1] = (double)seen.g;
+    emission[2] = (double)seen.b;
+}
+
 static void store(image *pixels, size_t pixel, int channel, double value) {
     pixels->rgb[3 * pixel + (size_t)channel] = (float)value;
 }
@@ -123,7 +135,9 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
         const float *radiance = &light->emitter.radiance.r;
         for (int c = 0; c < 3; c++)
             emission[c] = (double)radiance[c];
-    } else if (isfinite(hit.distance)) {
+    } else if (!isfinite(hit.distance)) {
+        see_backdrop(f, direction, emission);
+    } else {
         const reference_stop stop = { settings->samples, settings->error };
         reference_surface surface;
         describe(f, own, &hit, reference_scale(-1, direction), &surface, emission);
@@ -154,6 +168,7 @@ static bool trace_rows(const frame *f, int threads) {
 #pragma omp atomic write
             ok = false;
         }
+        own.estimator.environment = f->environment;
         if (f->settings->shadows) {
             own.estimator.visibility = reference_tracer_free_path;
             own.estimator.visibility_user = (void *)(uintptr_t)f->tracer;
@@ -181,17 +196,22 @@ bool reference_render(const scene *world, const reference_settings *settings, im
         .scene = world, .settings = settings, .radiance = radiance, .standard_error = standard_error
     };
     reference_tracer *tracer = NULL;
+    reference_environment around;
     *radiance = *standard_error = (image) { .rgb = NULL };
-    bool ok = reference_tracer_create(world, &tracer, error) &&
+    bool ok = (reference_environment_create(settings->environment, &around) ||
+               cli_fail(error, NULL, "out of memory")) &&
+              reference_tracer_create(world, &tracer, error) &&
               image_create(radiance, settings->width, settings->height, error) &&
               image_create(standard_error, settings->width, settings->height, error);
     if (ok) {
         f.tracer = tracer;
+        f.environment = reference_environment_shines(&around) ? &around : NULL;
         set_camera(&f);
         ok = trace_rows(&f, settings->threads ? settings->threads : omp_get_num_procs()) ||
              cli_fail(error, NULL, "out of memory");
     }
     reference_tracer_destroy(tracer);
+    reference_environment_free(&around);
     if (!ok) {
         image_free(radiance);
         image_free(standard_error);

@@ -4,7 +4,6 @@
 #include "app/scene/scene.h"
 #include "app/scene/vector.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* Random lights: radii relative to the scene's size, and the mean irradiance (a white light spread
@@ -70,51 +69,6 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
     return true;
 }
 
-/* A studio light: where it stands as the camera sees it, in half diagonals of the bounds, and the
- * irradiance that it gives the middle of the scene. */
-typedef struct studio_light {
-    float right, up, towards;
-    float radius, irradiance;
-    lmp_rgb color;
-} studio_light;
-
-static const studio_light studio_lights[] = {
-    { -1.46f, 1.10f, 1.22f, 0.25f, 3.2f, { 1.0f, 0.90f, 0.76f } }, /* key */
-    { 2.03f, 0.50f, 1.17f, 0.40f, 1.0f, { 0.72f, 0.86f, 1.0f } },  /* fill */
-    { 0.61f, 2.30f, -1.06f, 0.25f, 2.2f, { 0.90f, 0.96f, 1.0f } }, /* rim */
-};
-
-/* Out of the image of an automatic camera, and hidden from any other. */
-static void add_studio_lights(scene *s) {
-    const scene_camera camera = scene_default_camera(s, 1.0f);
-    const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
-    const lmp_vec3 center = vec_scale(vec_add(lo, hi), 0.5f), up = vec(0.0f, 1.0f, 0.0f);
-    const float half = fmaxf(0.5f * scene_size(s), 1e-6f);
-    lmp_vec3 towards = vec_sub(vec_load(camera.eye), vec_load(camera.target));
-    towards.y = 0.0f;
-    towards = vec_normalize(towards, vec(0.0f, 0.0f, 1.0f));
-    const lmp_vec3 right = vec_cross(up, towards);
-    for (size_t i = 0; i < sizeof studio_lights / sizeof *studio_lights; i++) {
-        const studio_light *from = &studio_lights[i];
-        const lmp_vec3 offset =
-            vec_add(vec_add(vec_scale(right, from->right), vec_scale(up, from->up)),
-                    vec_scale(towards, from->towards));
-        /* E = I / d², and I = pi r² L. */
-        const float intensity = from->irradiance * vec_dot(offset, offset);
-        const float radiance = lmp_sphere_radiance_from_intensity(intensity, from->radius);
-        s->lights[s->light_count++] = (scene_light) {
-            .emitter = { .position = vec_add(center, vec_scale(offset, half)),
-                         .radius = half * from->radius,
-                         .radiance = rgb_scale(from->color, radiance) },
-            .hidden = 1,
-        };
-    }
-    fprintf(stderr,
-            "lampion: %s: no lights in it, using three studio lights (--lights, --random-lights "
-            "choose others)\n",
-            s->origin);
-}
-
 /* Points become spheres and parallel rays suns, of the same intensity and irradiance. */
 static void widen_lights(scene *s, const scene_lights_options *options) {
     const float angle = options->sun_angle * PI / 180.0f, sine = sinf(angle);
@@ -142,7 +96,6 @@ bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error
     if (options->random_count > 0 &&
         !scene_add_random_lights(s, options->random_count, options->seed, error))
         return false;
-    if (s->light_count == 0 && !options->file)
-        add_studio_lights(s);
+    s->lights_chosen = options->file || options->random_count > 0;
     return true;
 }

@@ -106,6 +106,7 @@ typedef struct scene {
     size_t camera_count, motion_count, offset_count, left_out_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
     size_t light_count;
+    bool lights_chosen; /* by the command line: none of them is then a wish for darkness */
     float minimum[3], maximum[3]; /* bounds; of a scene without triangles: a unit box */
     double area;                  /* of all triangles */
     void *block;                  /* owned by the scene */
@@ -196,8 +197,7 @@ typedef struct scene_lights_options {
         .help = "keep the scene's own lights beside --lights and --random-lights"                  \
     }
 
-/* Gives the scene the lights that the command line asks for. A scene that then has none gets three
- * studio lights (key, fill and rim, hidden, sized by its bounds), with a note on stderr. */
+/* Gives the scene the lights that the command line asks for. */
 bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_error *error);
 
 /* The scene's first camera, or one that frames its bounds. In an image narrower than the camera's

@@ -8,11 +8,40 @@ typedef struct shading {
     lmp_shade_settings settings;
     const lmp_light *lights;
     size_t light_count;
+    const environment *environment; /* or NULL */
 } shading;
+
+static lmp_vec3_array from(const lmp_vec3_array *planes, size_t first) {
+    return (lmp_vec3_array) { planes->x + first, planes->y + first, planes->z + first,
+                              planes->stride };
+}
 
 static lmp_vec3_array vectors(float *const planes[3], size_t first) {
     return (lmp_vec3_array) { planes[0] + first, planes[1] + first, planes[2] + first,
                               sizeof(float) };
+}
+
+enum { RUN = 64 };
+
+static void add_environment(const shading *s, const lmp_surfaces *all, size_t count, float *rgba) {
+    const lmp_environment light = { s->environment->sh, s->environment->bands };
+    for (size_t first = 0; first < count; first += RUN) {
+        const size_t some = count - first < RUN ? count - first : RUN;
+        const lmp_surfaces run = {
+            .normal = from(&all->normal, first),
+            .view = from(&all->view, first),
+            .material = all->material + first,
+            .material_stride = all->material_stride,
+        };
+        lmp_rgb reflected[RUN];
+        lmp_shade_environment_n(&s->settings, &run, some, &light, 0, &reflected->r);
+        for (size_t i = 0; i < some; i++) {
+            float *pixel = rgba + 4 * (first + i);
+            pixel[0] += reflected[i].r;
+            pixel[1] += reflected[i].g;
+            pixel[2] += reflected[i].b;
+        }
+    }
 }
 
 /* Neighbors in a row, from `first` on. */
@@ -26,6 +55,8 @@ static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t
         .material_stride = sizeof *row->material,
     };
     lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float), rgba);
+    if (s->environment)
+        add_environment(s, &surfaces, count, rgba);
 }
 
 /* Runs of surfaces are shaded together; what lies between them shows what it emits. */
@@ -54,7 +85,8 @@ bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba
                           .window = frame->window,
                           .lobe = frame->lobes },
                         lights,
-                        frame->light_count };
+                        frame->light_count,
+                        gpu_gbuffer_environment(gbuffer) };
     bool ok = lights;
     for (size_t i = 0; ok && i < frame->light_count; i++)
         lights[i] = frame->lights[i].emitter;

@@ -38,6 +38,9 @@ struct view_compositor {
     scene draft; /* without vertices: the scene itself serves */
     gpu_screen *screen;
     side sides[2];
+    environment around;
+    char around_name[VIEW_PATH_SIZE]; /* what it was made of */
+    float around_numbers[2];
     kept_lobe lobes[LOBES_KEPT];
     scene_camera camera; /* of the last draft */
     unsigned clock;
@@ -75,6 +78,7 @@ void view_compositor_destroy(view_compositor *s) {
     close_side(&s->sides[1]);
     for (int i = 0; i < LOBES_KEPT; i++)
         lmp_preintegrated_lobe_destroy(s->lobes[i].lobe);
+    environment_free(&s->around);
     gpu_screen_destroy(s->screen);
     view_draft_free(&s->draft);
     free(s);
@@ -197,15 +201,45 @@ static bool open_side(view_compositor *s, side *own, quality fineness, cli_error
     if (simplify && !s->draft.vertices && !view_draft_make(s->world, DRAFT_CELLS, &s->draft, error))
         return false;
     *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
+    if (*renderer)
+        gpu_set_environment(*renderer, &s->around);
     return *renderer &&
            (own->count == 0 || override_apply(&own->materials, s->world, *renderer, error));
+}
+
+/* Opens the environment of the settings, with the coefficients of both sides. */
+static bool settle_environment(view_compositor *s, const view_settings *settings,
+                               cli_error *error) {
+    const int first = settings->shading[0].bands, second = settings->shading[1].bands;
+    const int bands = first > second ? first : second;
+    const float numbers[2] = { settings->environment_rotation, settings->environment_strength };
+    const environment_options options = { settings->environment, numbers[0], numbers[1] };
+    const bool same = strcmp(s->around_name, settings->environment) == 0 &&
+                      memcmp(s->around_numbers, numbers, sizeof numbers) == 0;
+    if (same && (!environment_shines(&s->around) || s->around.bands >= bands))
+        return true;
+    for (int i = 0; i < 2 * QUALITIES; i++)
+        if (s->sides[i / QUALITIES].renderers[i % QUALITIES])
+            gpu_set_environment(s->sides[i / QUALITIES].renderers[i % QUALITIES], &s->around);
+    if (!same) {
+        environment_free(&s->around);
+        s->around_name[0] = '\0';
+        if (!environment_open(&options, s->world, &s->around, error))
+            return false;
+        memcpy(s->around_name, settings->environment, sizeof s->around_name);
+        memcpy(s->around_numbers, numbers, sizeof numbers);
+    }
+    return environment_project(&s->around, bands, error);
 }
 
 /* How to draw a side: how many samples come from what samples counts. */
 static bool fill_frame(view_compositor *s, const view_settings *settings,
                        const view_shading *shading, int divisor, gpu_frame *frame,
                        device_kind *device, cli_error *error) {
-    *device = method_device(shading->method, DEVICE_AUTO, s->context.software, shading->bands);
+    *device =
+        settings->material_count > 0 && environment_shines(&s->around)
+            ? DEVICE_CPU /* tables reflect the environment there alone */
+            : method_device(shading->method, DEVICE_AUTO, s->context.software, shading->bands);
     *frame = (gpu_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
@@ -231,6 +265,8 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
     const quality fineness = divisor > 1 ? choose_quality(s, settings) : FINE;
     memset(statistics, 0, sizeof *statistics);
+    if (!settle_environment(s, settings, error))
+        return false;
     for (int i = 0; i < sides; i++) {
         side *own = &s->sides[i];
         const view_shading *shading = &settings->shading[i];
@@ -281,11 +317,16 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
     device_kind device;
     image pixels;
     side *own = &s->sides[0];
-    if (!open_side(s, own, FINE, error) ||
+    if (!settle_environment(s, settings, error) || !open_side(s, own, FINE, error) ||
         !settle_materials(s, own, settings, &settings->shading[0], error) ||
         !fill_frame(s, settings, &settings->shading[0], 1, &frame, &device, error))
         return false;
+    *exposure = environment_exposure(&s->around, settings->light_count);
+    if (*exposure > 0)
+        return true;
     frame.samples = 1;
+    frame.hide_backdrop = true;
+    memset(frame.background, 0, sizeof frame.background);
     if (!gpu_render(own->renderers[FINE], &frame, NULL, error) ||
         !gpu_read_image(own->renderers[FINE], &pixels, error))
         return false;

@@ -77,6 +77,10 @@ cJSON *view_settings_to_json(const view_settings *s) {
     file_json_add_floats(root, "exposure", &s->exposure, 1);
     cJSON_AddStringToObject(root, "tone", image_tones[s->tone].name);
     file_json_add_floats(root, "background", s->background, 3);
+    cJSON *around = cJSON_AddObjectToObject(root, "environment");
+    cJSON_AddStringToObject(around, "name", s->environment);
+    file_json_add_floats(around, "rotation", &s->environment_rotation, 1);
+    file_json_add_floats(around, "strength", &s->environment_strength, 1);
     add_camera(root, &s->camera);
     cJSON *both = cJSON_AddArrayToObject(root, "looks");
     add_shading(both, &s->shading[0]);
@@ -199,12 +203,23 @@ static bool read_materials(const cJSON *root, view_settings *s) {
     return true;
 }
 
-static bool read_scene(const cJSON *root, char name[VIEW_PATH_SIZE]) {
-    const cJSON *item = file_json_member(root, "scene");
+static bool read_path(const cJSON *object, const char *member, char name[VIEW_PATH_SIZE]) {
+    const cJSON *item = file_json_member(object, member);
     if (!cJSON_IsString(item) || strlen(item->valuestring) >= VIEW_PATH_SIZE)
         return false;
     strcpy(name, item->valuestring);
     return true;
+}
+
+/* Screenshots of before there were environments have none. */
+static bool read_environment(const cJSON *root, view_settings *s) {
+    const cJSON *object = file_json_member(root, "environment");
+    if (!object)
+        strcpy(s->environment, "none");
+    return !object ||
+           (read_path(object, "name", s->environment) &&
+            read_float(object, "rotation", -360, 360, &s->environment_rotation) &&
+            read_float(object, "strength", 0, ENVIRONMENT_STRENGTH_MAX, &s->environment_strength));
 }
 
 bool view_settings_from_json(const cJSON *root, const char *subject, view_settings *s,
@@ -212,13 +227,14 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
     memset(s, 0, sizeof *s);
     int split = 0;
     const char *wrong = !cJSON_IsObject(root)                                          ? "settings"
-                        : !read_scene(root, s->scene)                                  ? "scene"
+                        : !read_path(root, "scene", s->scene)                          ? "scene"
                         : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
                         : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
                         : !read_tone(root, &s->tone)                                   ? "tone"
                         : !read_floats(root, "background", 0, 1e30, s->background) ? "background"
+                        : !read_environment(root, s)                               ? "environment"
                         : !read_camera(root, &s->camera)                           ? "camera"
                         : !read_both_shadings(root, s->shading)                    ? "looks"
                         : !read_choice(root, "split", view_split_names, &split)    ? "split"

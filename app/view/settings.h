@@ -4,6 +4,7 @@
 #ifndef LAMPION_VIEW_SETTINGS_H
 #define LAMPION_VIEW_SETTINGS_H
 
+#include "app/environment/environment.h"
 #include "app/gpu/gpu.h"
 
 #define VIEW_PATH_SIZE     1024
@@ -24,6 +25,8 @@ typedef struct view_settings {
     float exposure; /* a factor on radiance */
     int tone;       /* a row of image_tones */
     float background[3];
+    char environment[VIEW_PATH_SIZE]; /* a name of environment_options */
+    float environment_rotation, environment_strength;
     scene_camera camera;
     view_shading shading[2]; /* the second one of a split image */
     gpu_split split;

@@ -10,6 +10,7 @@ typedef struct view_options {
     bool expose;            /* find the exposure; then times settings.exposure */
     bool keep_lights;       /* the lights of settings, not the scene's */
     scene_lights_options lights;
+    environment_options environment; /* with keep_lights that of settings */
     scene_options load;
     scene_camera_options camera; /* where camera_wanted; else settings.camera */
     bool camera_wanted;

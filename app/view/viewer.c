@@ -116,6 +116,20 @@ static bool loop(viewer *v, cli_error *error) {
     return true;
 }
 
+static bool choose_environment(viewer *v, cli_error *error) {
+    const view_options *o = v->options;
+    view_settings *now = &v->state.now;
+    if (o->keep_lights)
+        return true;
+    const char *name = environment_choose(&o->environment, v->world);
+    if (strlen(name) >= sizeof now->environment)
+        return cli_fail(error, name, "is too long a name");
+    strcpy(now->environment, name);
+    now->environment_rotation = o->environment.rotation;
+    now->environment_strength = o->environment.strength;
+    return true;
+}
+
 static bool open_viewer(viewer *v, cli_error *error) {
     const view_options *o = v->options;
     view_settings settings = o->settings;
@@ -133,6 +147,8 @@ static bool open_viewer(viewer *v, cli_error *error) {
         (o->camera_wanted &&
          !scene_place_camera(v->world, &o->camera, size, &settings.camera, error)) ||
         !view_state_open(v->world, &settings, o->animate, &v->state, error))
+        return false;
+    if (!choose_environment(v, error))
         return false;
     if (o->keep_lights) {
         memcpy(v->state.now.lights, settings.lights, sizeof settings.lights);

@@ -7,6 +7,7 @@
 #include "tests/oracle/kinds.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
 
@@ -98,6 +99,45 @@ static void both_devices_draw_the_same_image(void **state) {
         lmp_preintegrated_lobe_destroy(lobe);
         close_stage(&s);
     }
+}
+
+/* Its light on the surfaces and its image past them; lights beside it, and without them. */
+static void an_environment_is_drawn_alike(void **state) {
+    (void)state;
+    stage s;
+    cli_error error;
+    environment e = { .azimuth = 0.4f };
+    expect(image_create(&e.light, 32, 16, &error), &error);
+    for (int i = 0; i < 3 * 32 * 16; i++)
+        e.light.rgb[i] = (float)(i * 7919 % 101) / 25;
+    e.backdrop = e.light;
+    open_stage(&s, "builtin:ball");
+    expect(environment_project(&e, 12, &error), &error);
+    gpu_set_environment(s.renderer, &e);
+    lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
+    s.frame.lobes = lobes;
+    for (int pass = 0; pass < 2; pass++, s.frame.light_count = 0)
+        for (int m = 0; m < METHODS; m++) {
+            s.frame.method = (method_kind)m;
+            s.frame.host = NULL;
+            draw_first(s.renderer, &s.frame);
+            s.frame.host = shade_frame;
+            draw(s.renderer, &s.frame, second);
+            assert_int_equal(beyond(1), 0);
+        }
+    /* Up in the sky is nothing but the backdrop. */
+    memcpy(s.frame.camera.target, s.frame.camera.eye, sizeof s.frame.camera.eye);
+    s.frame.camera.target[0] += 0.1f;
+    s.frame.camera.target[1] += 1;
+    for (int hidden = 0; hidden < 2; hidden++) {
+        s.frame.hide_backdrop = hidden;
+        image sky = render_image(s.renderer, &s.frame);
+        assert_int_equal(sky.rgb[3 * (PIXELS / 2 + WIDTH / 2)] > 0, !hidden);
+        image_free(&sky);
+    }
+    lmp_preintegrated_lobe_destroy(lobes);
+    close_stage(&s);
+    environment_free(&e);
 }
 
 static void check_preintegrated(stage *s) {
@@ -223,6 +263,7 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_tables(void **state) 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_devices_draw_the_same_image),
+        cmocka_unit_test(an_environment_is_drawn_alike),
         cmocka_unit_test(preintegrated_images_are_those_of_coefficients),
         cmocka_unit_test(measured_materials_are_drawn_alike_by_sums_and_by_tables),
         cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_image),

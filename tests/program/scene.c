@@ -321,33 +321,6 @@ static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
     scene_free(&s);
 }
 
-static void a_scene_without_lights_gets_hidden_studio_lights(void **state) {
-    (void)state;
-    folder_write_text("square.obj", square_obj);
-    folder_write_text("square.mtl", "newmtl glow\n");
-    folder_write_text("lights.json", "{\"lights\":[]}");
-    scene s = load(in_folder("square.obj"), true);
-    cli_error error = { 0 };
-    assert_true(scene_apply_lights(&s, &(scene_lights_options) { 0 }, &error));
-    assert_int_equal(s.light_count, 3);
-    for (size_t i = 0; i < 3; i++)
-        assert_true(s.lights[i].hidden && s.lights[i].emitter.radius > 0.0f);
-    /* The key light gives the middle an irradiance of 3.2: that of its distance. */
-    const lmp_vec3 c = s.lights[0].emitter.position;
-    const double square =
-        (double)c.x * (double)c.x + (double)c.y * (double)c.y + (double)c.z * (double)c.z;
-    CHECK_NEAR(3.2,
-               (double)lmp_sphere_intensity_from_radiance(s.lights[0].emitter.radiance.r,
-                                                          s.lights[0].emitter.radius) /
-                   square,
-               1e-4);
-    /* An empty lights file is a wish for darkness. */
-    scene_lights_options dark = { .file = in_folder("lights.json") };
-    assert_true(scene_apply_lights(&s, &dark, &error));
-    assert_int_equal(s.light_count, 0);
-    scene_free(&s);
-}
-
 static void cameras_out_of_reach_are_refused(void **state) {
     (void)state;
     scene s = load("builtin:ball", true);
@@ -434,7 +407,6 @@ int main(void) {
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
         cmocka_unit_test(cameras_out_of_reach_are_refused),
-        cmocka_unit_test(a_scene_without_lights_gets_hidden_studio_lights),
         cmocka_unit_test(a_scene_without_cameras_fills_nine_tenths_of_the_image),
         cmocka_unit_test(a_narrow_image_widens_the_camera_s_view),
     };

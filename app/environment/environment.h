@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT */
+/* environment.h - light from all around and far away: an image of it, or the built-in studio. */
+#ifndef LAMPION_ENVIRONMENT_H
+#define LAMPION_ENVIRONMENT_H
+
+#include "app/image/image.h"
+#include "app/scene/scene.h"
+
+typedef struct environment_options {
+    const char *name; /* a file, "studio" or "none"; NULL: the studio where nothing else shines */
+    float rotation;   /* degrees, counter-clockwise as seen from above */
+    float strength;   /* a factor on radiance */
+} environment_options;
+
+#define ENVIRONMENT_DEFAULTS                                                                       \
+    { .strength = 1 }
+#define ENVIRONMENT_STRENGTH_MAX 1e6
+
+/* The rows of a command's option table that fill an environment_options variable, which begins as
+ * ENVIRONMENT_DEFAULTS. */
+#define ENVIRONMENT_OPTION_ROWS(variable)                                                          \
+    { .name = "environment",                                                                       \
+      .kind = CLI_TEXT,                                                                            \
+      .target = &(variable).name,                                                                  \
+      .argument = "FILE",                                                                          \
+      .help = "light from all around: a .hdr, .exr or .png of the surroundings, studio, or none; " \
+              "without it, studio where nothing else shines" },                                    \
+        { .name = "environment-rotation",                                                          \
+          .kind = CLI_FLOAT,                                                                       \
+          .target = &(variable).rotation,                                                          \
+          .argument = "DEGREES",                                                                   \
+          .help = "rotates it counter-clockwise, as seen from above",                              \
+          .minimum = -360,                                                                         \
+          .maximum = 360 },                                                                        \
+    {                                                                                              \
+        .name = "environment-strength", .kind = CLI_FLOAT, .target = &(variable).strength,         \
+        .argument = "FACTOR", .help = "of its radiance", .minimum = 0,                             \
+        .maximum = ENVIRONMENT_STRENGTH_MAX                                                        \
+    }
+
+/* Both images are latitude-longitude, as lmp_latlong has them. Zero: there is none. */
+typedef struct environment {
+    image light;    /* its radiance */
+    image backdrop; /* what is seen of it; without pixels: nothing */
+    float azimuth;  /* of the center columns, radians from +x toward +z */
+    bool studio;    /* it is the built-in one */
+    float *sh;      /* its coefficients, lmp_environment, of `bands` bands */
+    int bands;
+} environment;
+
+/* What the options name for a scene: without a name the studio, with a note on stderr, or none. */
+const char *environment_choose(const environment_options *options, const scene *world);
+
+/* Opens what the options name for a scene. */
+bool environment_open(const environment_options *options, const scene *world, environment *e,
+                      cli_error *error);
+void environment_free(environment *e);
+
+static inline bool environment_shines(const environment *e) {
+    return e && e->light.rgb;
+}
+
+/* The exposure that suits a scene that nothing but the studio lights; else 0: find one. */
+static inline float environment_exposure(const environment *e, size_t light_count) {
+    return e && e->studio && light_count == 0 ? 1 : 0;
+}
+
+/* Makes its coefficients, of so many bands at least. */
+bool environment_project(environment *e, int bands, cli_error *error);
+
+/* What is seen of it in a direction of any length, interpolated between pixels; backdrop.glsl does
+ * the same. */
+lmp_rgb environment_seen(const environment *e, const float direction[3]);
+
+/* The built-in studio, and what is seen of it: a hemisphere with soft boxes, whose front is the
+ * center column. */
+bool environment_make_studio(environment *e, cli_error *error);
+
+/* Spreads a cube map, the unfolded cross of 4 x 3 or 3 x 4 faces, over a latitude-longitude image;
+ * *map is created. The middle of the cross is what a camera that looks along -z sees. */
+bool environment_unfold(const image *cross, image *map, cli_error *error);
+
+#endif

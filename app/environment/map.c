@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT */
+/* map.c - what a latitude-longitude image is: its coefficients, and its color in a direction. */
+#include "app/environment/environment.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* Columns that a band's shortest wave asks for: fewer would weaken it. */
+enum { COLUMNS_A_BAND = 8, COLUMNS_MIN = 256 };
+
+/* How many pixels of each side become one, so that enough of them are left. */
+static int step_of(const image *light, int bands) {
+    const int enough = COLUMNS_A_BAND * bands > COLUMNS_MIN ? COLUMNS_A_BAND * bands : COLUMNS_MIN;
+    int step = 1;
+    while (light->width / (2 * step) >= enough && light->width % (2 * step) == 0 &&
+           light->height % (2 * step) == 0)
+        step *= 2;
+    return step;
+}
+
+/* The mean of a square of pixels, by their solid angles. */
+static void average(const image *light, int step, int column, int row, float rgb[3]) {
+    double sum[3] = { 0 }, total = 0;
+    for (int y = row * step; y < (row + 1) * step; y++) {
+        const double solid_angle = cos(pi * y / light->height) - cos(pi * (y + 1) / light->height);
+        for (int x = column * step; x < (column + 1) * step; x++) {
+            const float *pixel = light->rgb + 3 * ((size_t)y * (size_t)light->width + (size_t)x);
+            for (int c = 0; c < 3; c++)
+                sum[c] += solid_angle * (double)pixel[c];
+            total += solid_angle;
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (float)(sum[c] / total);
+}
+
+bool environment_project(environment *e, int bands, cli_error *error) {
+    image small;
+    if (!e->light.rgb || e->bands >= bands)
+        return true;
+    const int step = step_of(&e->light, bands);
+    if (!image_create(&small, e->light.width / step, e->light.height / step, error))
+        return false;
+    free(e->sh);
+    e->sh = calloc(3 * LMP_SH_COUNT(bands), sizeof *e->sh);
+    e->bands = e->sh ? bands : 0;
+    for (int y = 0; y < small.height; y++)
+        for (int x = 0; x < small.width; x++)
+            average(&e->light, step, x, y,
+                    small.rgb + 3 * ((size_t)y * (size_t)small.width + (size_t)x));
+    const lmp_latlong map = { .pixels = small.rgb,
+                              .width = small.width,
+                              .height = small.height,
+                              .channels = 3,
+                              .azimuth = e->azimuth };
+    if (e->sh)
+        lmp_sh_project_latlong(bands, &map, e->sh);
+    image_free(&small);
+    return e->sh || cli_fail(error, NULL, "out of memory");
+}
+
+lmp_rgb environment_seen(const environment *e, const float d[3]) {
+    const image *map = &e->backdrop;
+    const float turns = (atan2f(d[2], d[0]) - e->azimuth) / (2 * (float)pi) + 0.5f;
+    const float polar = atan2f(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) / (float)pi;
+    const float u = (turns - floorf(turns)) * (float)map->width - 0.5f;
+    const float v = fminf(fmaxf(polar * (float)map->height - 0.5f, 0), (float)map->height - 1);
+    const int x = (int)floorf(u), y = (int)v;
+    const float across = u - floorf(u), down = v - (float)y;
+    const int left = x < 0 ? map->width - 1 : x, right = left + 1 == map->width ? 0 : left + 1;
+    const int below = y + 1 < map->height ? y + 1 : y;
+    const size_t corners[4] = { (size_t)(y * map->width + left), (size_t)(y * map->width + right),
+                                (size_t)(below * map->width + left),
+                                (size_t)(below * map->width + right) };
+    const float weights[4] = { (1 - across) * (1 - down), across * (1 - down), (1 - across) * down,
+                               across * down };
+    lmp_rgb seen = { 0, 0, 0 };
+    for (int i = 0; i < 4; i++) {
+        const float *pixel = map->rgb + 3 * corners[i];
+        seen.r += weights[i] * pixel[0];
+        seen.g += weights[i] * pixel[1];
+        seen.b += weights[i] * pixel[2];
+    }
+    return seen;
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* environment.c - light from all around, for shaders/environment.glsl. */
+#include "app/gpu/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void forget(gpu_renderer *r) {
+    glDeleteTextures(1, &r->backdrop);
+    glDeleteBuffers(1, &r->environment_block);
+    r->backdrop = r->environment_block = 0;
+    r->environment_bands = 0;
+}
+
+void gpu_set_environment(gpu_renderer *r, const environment *e) {
+    forget(r);
+    r->environment = e;
+}
+
+static void upload_backdrop(gpu_renderer *r) {
+    const image *seen = &r->environment->backdrop;
+    glCreateTextures(GL_TEXTURE_2D, 1, &r->backdrop);
+    glTextureStorage2D(r->backdrop, 1, GL_RGB32F, seen->width, seen->height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage2D(r->backdrop, 0, 0, 0, seen->width, seen->height, GL_RGB, GL_FLOAT,
+                        seen->rgb);
+}
+
+/* Windowed, as the lobes are. */
+static bool upload_coefficients(gpu_renderer *r, int bands, lmp_window window, cli_error *error) {
+    const environment *e = r->environment;
+    const size_t count = LMP_SH_COUNT(e->bands);
+    float weights[LMP_BANDS_MAX];
+    vec4 *block = calloc(count, sizeof *block);
+    if (!block)
+        return cli_fail(error, NULL, "out of memory");
+    lmp_sh_window(bands, window, 0, weights);
+    for (int l = 0; l < bands && l < e->bands; l++)
+        for (int m = -l; m <= l; m++)
+            for (size_t c = 0; c < 3; c++)
+                block[LMP_SH_INDEX(l, m)][c] =
+                    weights[l] * e->sh[c * count + (size_t)LMP_SH_INDEX(l, m)];
+    glDeleteBuffers(1, &r->environment_block);
+    glCreateBuffers(1, &r->environment_block);
+    glNamedBufferStorage(r->environment_block, (GLsizeiptr)(count * sizeof *block), block, 0);
+    free(block);
+    return true;
+}
+
+bool gpu_bind_environment(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
+    if (!environment_shines(r->environment))
+        return true;
+    if (!r->backdrop && r->environment->backdrop.rgb)
+        upload_backdrop(r);
+    if ((r->environment_bands != frame->bands || r->environment_window != frame->window) &&
+        !upload_coefficients(r, frame->bands, frame->window, error))
+        return false;
+    r->environment_bands = frame->bands;
+    r->environment_window = frame->window;
+    glBindTextureUnit(SHARED_BACKDROP, r->backdrop);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_ENVIRONMENT, r->environment_block);
+    return true;
+}
+
+void gpu_describe_environment(const gpu_renderer *r, const gpu_frame *frame, vec4 surroundings) {
+    const environment *e = r->environment;
+    if (!environment_shines(e))
+        return;
+    surroundings[0] = (float)(e->bands < frame->bands ? e->bands : frame->bands);
+    surroundings[1] = e->azimuth;
+    surroundings[2] = e->backdrop.rgb && !frame->hide_backdrop;
+}
+
+const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer) {
+    return environment_shines(gbuffer->environment) ? gbuffer->environment : NULL;
+}

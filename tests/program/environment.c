@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT */
+/* Environments: where an image's colors are seen, what its coefficients are, and what is refused.
+ */
+#include "app/environment/environment.h"
+#include "tests/program/folder.h"
+
+#include <math.h>
+
+static scene lit_scene(void) {
+    return (scene) { .maximum = { 1, 1, 1 }, .light_count = 1, .origin = "test" };
+}
+
+static image filled(int width, int height, float red) {
+    cli_error error;
+    image pixels;
+    assert_true(image_create(&pixels, width, height, &error));
+    for (int i = 0; i < width * height; i++)
+        pixels.rgb[3 * i] = red, pixels.rgb[3 * i + 1] = 2 * red, pixels.rgb[3 * i + 2] = 4 * red;
+    return pixels;
+}
+
+/* Writes it, and opens it as an environment. */
+static bool opens(const image *pixels, float rotation, float strength, environment *e,
+                  cli_error *error) {
+    const scene world = lit_scene();
+    const environment_options options = { in_folder("map.exr"), rotation, strength };
+    *error = (cli_error) { .text = "" };
+    if (!image_write(pixels, options.name, &(image_display) { .exposure = 1 }, error))
+        fail_msg("%s", error->text);
+    return environment_open(&options, &world, e, error);
+}
+
+static void expect_seen(const environment *e, float x, float y, float z, double red) {
+    const lmp_rgb seen = environment_seen(e, (float[]) { x, y, z });
+    CHECK_WITHIN(fabs((double)seen.r - red), 1e-5);
+}
+
+static void an_even_image_is_an_even_light(void **state) {
+    (void)state;
+    image pixels = filled(64, 32, 1.5f);
+    environment e;
+    cli_error error;
+    assert_true(opens(&pixels, 33, 2, &e, &error));
+    assert_true(environment_project(&e, 6, &error));
+    /* Up to 42; pixels count by their middles. */
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < 36; i++)
+            CHECK_WITHIN(
+                fabs((double)e.sh[36 * c + i] - (i == 0 ? 3 * (1 << c) * sqrt(4 * M_PI) : 0)),
+                0.04);
+    expect_seen(&e, 1, 2, 3, 3);
+    environment_free(&e);
+    image_free(&pixels);
+}
+
+/* The center column is +x and columns run toward +z; a quarter turn moves +x to -z. */
+static void directions_and_rotations_are_as_documented(void **state) {
+    (void)state;
+    image pixels = filled(8, 4, 0);
+    environment e;
+    cli_error error;
+    for (int x = 4; x < 6; x++) /* from the center to the middle of +x and +z */
+        pixels.rgb[3 * (8 + x)] = pixels.rgb[3 * (16 + x)] = 1;
+    assert_true(opens(&pixels, 0, 1, &e, &error));
+    expect_seen(&e, 1, 0, 1, 1);
+    expect_seen(&e, 1, 0, -1, 0);
+    expect_seen(&e, -1, 0, 1, 0);
+    environment_free(&e);
+    assert_true(opens(&pixels, 90, 1, &e, &error));
+    expect_seen(&e, 1, 0, -1, 1);
+    expect_seen(&e, 1, 0, 1, 0);
+    /* Its series is largest there, too. */
+    assert_true(environment_project(&e, 3, &error));
+    const float half = (float)sqrt(0.5);
+    const lmp_vec3 bright = { half, 0, -half }, dark = { -half, 0, half };
+    assert_true(lmp_sh_reconstruct(3, e.sh, bright) > lmp_sh_reconstruct(3, e.sh, dark) + 0.5f);
+    environment_free(&e);
+    image_free(&pixels);
+}
+
+/* Faces by their columns and rows in a cross, with the axis each is on; the middle is -z. */
+static void crosses_are_unfolded(void **state) {
+    (void)state;
+    static const int wide[6][2] = { { 1, 1 }, { 2, 1 }, { 0, 1 }, { 1, 0 }, { 1, 2 }, { 3, 1 } };
+    static const int tall[6][2] = { { 1, 1 }, { 2, 1 }, { 0, 1 }, { 1, 0 }, { 1, 2 }, { 1, 3 } };
+    static const float axes[6][3] = { { 0, 0, -1 }, { 1, 0, 0 },  { -1, 0, 0 },
+                                      { 0, 1, 0 },  { 0, -1, 0 }, { 0, 0, 1 } };
+    enum { SIZE = 8 };
+    for (int kind = 0; kind < 2; kind++) {
+        image pixels = filled(kind ? 3 * SIZE : 4 * SIZE, kind ? 4 * SIZE : 3 * SIZE, 0);
+        environment e;
+        cli_error error;
+        for (int i = 0; i < 6; i++) {
+            const int *place = kind ? tall[i] : wide[i];
+            for (int y = 0; y < SIZE; y++)
+                for (int x = 0; x < SIZE; x++)
+                    pixels.rgb[3 * ((place[1] * SIZE + y) * pixels.width + place[0] * SIZE + x)] =
+                        (float)(i + 1) + (i == 5 && !kind ? (y < SIZE / 2 ? 0.5f : 0) : 0) +
+                        (i == 5 && kind ? (y >= SIZE / 2 ? 0.5f : 0) : 0);
+        }
+        assert_true(opens(&pixels, 0, 1, &e, &error));
+        for (int i = 0; i < 5; i++)
+            expect_seen(&e, axes[i][0], axes[i][1], axes[i][2], i + 1);
+        /* Behind, the upper half is brighter: in a tall cross it hangs upside down. */
+        expect_seen(&e, 0.1f, 0.5f, 1, 6.5);
+        expect_seen(&e, 0.1f, -0.5f, 1, 6);
+        environment_free(&e);
+        image_free(&pixels);
+    }
+}
+
+/* Large images are averaged first; few bands do not notice. */
+static void a_large_image_has_the_coefficients_of_all_its_pixels(void **state) {
+    (void)state;
+    enum { WIDTH = 1024, HEIGHT = 512, BANDS = 5 };
+    image pixels = filled(WIDTH, HEIGHT, 0);
+    environment e;
+    cli_error error;
+    float direct[3 * BANDS * BANDS];
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++)
+        pixels.rgb[i] = (float)check_random();
+    const lmp_latlong map = {
+        .pixels = pixels.rgb, .width = WIDTH, .height = HEIGHT, .channels = 3
+    };
+    lmp_sh_project_latlong(BANDS, &map, direct);
+    assert_true(opens(&pixels, 0, 1, &e, &error));
+    assert_true(environment_project(&e, BANDS, &error));
+    for (int i = 0; i < 3 * BANDS * BANDS; i++)
+        CHECK_WITHIN(fabs((double)e.sh[i] - (double)direct[i]), 1e-3);
+    environment_free(&e);
+    image_free(&pixels);
+}
+
+static void what_is_no_environment_is_refused(void **state) {
+    (void)state;
+    environment e;
+    cli_error error;
+    image square = filled(8, 8, 1), hole = filled(8, 4, 1), negative = filled(8, 4, -1);
+    hole.rgb[3 * (8 + 5)] = NAN;
+    assert_false(opens(&square, 0, 1, &e, &error));
+    assert_non_null(strstr(error.text, "is 8 x 8 pixels: no panorama of 2:1"));
+    assert_false(opens(&hole, 0, 1, &e, &error));
+    assert_non_null(strstr(error.text, "a pixel (5, 1) that is not finite"));
+    assert_true(opens(&negative, 0, 1, &e, &error)); /* ringing of a filter */
+    expect_seen(&e, 1, 0, 0, 0);
+    environment_free(&e);
+    const scene world = lit_scene();
+    const char *const names[] = { "missing.hdr", "photo.jpg", "none.exr" };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const environment_options options = { names[i], 0, 1 };
+        assert_false(environment_open(&options, &world, &e, &error));
+        assert_non_null(strstr(error.text, names[i]));
+    }
+    image_free(&square);
+    image_free(&hole);
+    image_free(&negative);
+}
+
+static void the_studio_shines_where_nothing_else_does(void **state) {
+    (void)state;
+    const environment_options none = { NULL, 0, 1 };
+    scene world = lit_scene();
+    environment e;
+    cli_error error;
+    assert_string_equal(environment_choose(&none, &world), "none");
+    world.light_count = 0;
+    assert_string_equal(environment_choose(&none, &world), "studio");
+    world.lights_chosen = true;
+    assert_string_equal(environment_choose(&none, &world), "none");
+    assert_true(environment_open(&(environment_options) { "studio", 0, 1 }, &world, &e, &error));
+    assert_true(environment_shines(&e) && environment_exposure(&e, 0) > 0);
+    assert_true(environment_exposure(&e, 1) <= 0);
+    /* White paper that faces up is bright and not overexposed. */
+    assert_true(environment_project(&e, 3, &error));
+    const lmp_rgb paper = lmp_probe_irradiance(3, e.sh, (lmp_vec3) { 0, 1, 0 });
+    printf("white paper that faces up: %.3f\n", (double)paper.g / M_PI);
+    assert_true(paper.g > 1.5f && paper.g < 5);
+    environment_free(&e);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_even_image_is_an_even_light),
+        cmocka_unit_test(directions_and_rotations_are_as_documented),
+        cmocka_unit_test(crosses_are_unfolded),
+        cmocka_unit_test(a_large_image_has_the_coefficients_of_all_its_pixels),
+        cmocka_unit_test(what_is_no_environment_is_refused),
+        cmocka_unit_test(the_studio_shines_where_nothing_else_does),
+    };
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+}
