@@ -157,7 +157,7 @@ static double never(reference_vec point, reference_vec w, void *user) {
     (void)point;
     (void)w;
     (void)user;
-    return INFINITY;
+    return (double)INFINITY;
 }
 
 /* Directions drawn in lights that may be hidden, and are not, give what the lights give. */
