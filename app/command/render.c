@@ -4,6 +4,7 @@
 #include "app/command/command.h"
 #include "app/environment/environment.h"
 #include "app/file/file.h"
+#include "app/image/sequence.h"
 #include "app/override/override.h"
 #include "app/shade/shade.h"
 #include "app/timing/timing.h"
@@ -47,34 +48,11 @@ typedef struct job {
     image_display display;
 } job;
 
-/* --- names of the frames ------------------------------------------------------------------------
- */
-
-/* The place of a %d or %0Nd in path, and what follows it; NULL if there is none. */
-static const char *find_number(const char *path, int *digits, const char **rest) {
-    for (const char *at = strchr(path, '%'); at; at = strchr(at + 1, '%')) {
-        const char *end = at + 1 + strspn(at + 1, "0123456789");
-        if (*end != 'd' || end - at > 3)
-            continue;
-        *digits = atoi(at + 1);
-        *rest = end + 1;
-        return at;
-    }
-    return NULL;
-}
-
-/* The file of a frame: the number takes the place of %04d, or goes before the extension. */
 static void name_frame(const render_options *o, int index, char path[PATH_SIZE]) {
-    int digits = 4;
-    const char *rest = strrchr(o->output, '.');
-    if (!o->frames_given) {
+    if (o->frames_given)
+        image_sequence_name(o->output, index, path, PATH_SIZE);
+    else
         snprintf(path, PATH_SIZE, "%s", o->output);
-        return;
-    }
-    const char *number = find_number(o->output, &digits, &rest);
-    const char *separator = number ? "" : "_";
-    const int before = (int)((number ? number : rest) - o->output);
-    snprintf(path, PATH_SIZE, "%.*s%s%0*d%s", before, o->output, separator, digits, index, rest);
 }
 
 /* --- one image --------------------------------------------------------------------------------
@@ -415,9 +393,8 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "max-pixels", 0, CLI_INT, &o.pixels_max, "N",
           "refuse a screenshot of more, which takes 85 bytes a pixel", 1, IMAGE_PIXELS_MAX, NULL,
           NULL },
-        { "background", 0, CLI_VEC3, o.background, "R,G,B",
-          "radiance where nothing is, in place of what the environment shows", 0, 1e30, NULL,
-          &o.background_given },
+        { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
+          NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
           "numbered images (%04d in FILE) while the lights move: the first N, or A to B", 0,
           FRAME_MAX, NULL, &o.frames_given },
@@ -428,8 +405,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "how they move: " ANIMATION_NAMES " (without it, scene if the file moves its lights, "
           "else orbit)",
           0, 0, NULL, NULL },
-        { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second of their time", 0.01, 1000, NULL,
-          NULL },
+        { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second", 0.01, 1000, NULL, NULL },
         { "samples", 0, CLI_INT, &o.samples, "N", "samples a pixel: 8 make smooth edges", 1,
           SAMPLES_MAX, NULL, NULL },
         { "stats", 0, CLI_FLAG, &o.stats, NULL,

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* sequence.h - the files of an image sequence. */
+#ifndef LAMPION_IMAGE_SEQUENCE_H
+#define LAMPION_IMAGE_SEQUENCE_H
+
+#include <stddef.h>
+
+/* The file of image `index`: the number takes the place of %d or %0Nd in the pattern, or goes
+ * before its extension with four digits. */
+void image_sequence_name(const char *pattern, int index, char *path, size_t size);
+
+#endif
