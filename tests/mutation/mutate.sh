@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-# sh tests/mutation/mutate.sh [COUNT]: whether the tests notice COUNT small changes (by default 40), drawn evenly
-# from those that mutants.awk makes of the files below. Works on a copy of the tree in build/mutation; prints the
+# sh tests/mutation/mutate.sh [COUNT [FOLDER]]: whether the tests notice COUNT small changes (by default 40), drawn
+# evenly from those that mutants.awk makes of the files below, or of those in FOLDER alone. Works on a copy of the tree in build/mutation; prints the
 # survivors, as FILE:LINE: THE CHANGED LINE, and the score. Many survivors change nothing that could be seen.
 set -eu
 cd "$(dirname "$0")/../.."
-count=${1:-40}
+count=${1:-40} folder=${2:-}
 tree=$PWD/build/mutation/tree
 build=$PWD/build/mutation/build
 
 # What is changed, and the tests that should notice.
 subjects() {
-    cat <<'END'
+    grep "^$folder" <<'END'
 app/reference/texture.c reference.texture
 app/reference/lobe.c reference.texture reference.estimate
 app/compare/ssim.c reference.compare
