@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # sh tests/mutation/mutate.sh [COUNT [FOLDER]]: whether the tests notice COUNT small changes (by default 40), drawn
-# evenly from those that mutants.awk makes of the files below, or of those in FOLDER alone. Works on a copy of the tree in build/mutation; prints the
-# survivors, as FILE:LINE: THE CHANGED LINE, and the score. Many survivors change nothing that could be seen.
+# evenly from those that mutants.awk makes of the files below, or of those in FOLDER alone. Works on a copy of the
+# tree in build/mutation; prints the survivors, as FILE:LINE: THE CHANGED LINE, and the score. Many survivors
+# change nothing that could be seen.
 set -eu
 cd "$(dirname "$0")/../.."
 count=${1:-40} folder=${2:-}

@@ -138,26 +138,34 @@ static void the_albedo_is_that_of_each_channel(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* The window of the paper weakens each band as lmp_sh_window says. */
-static void windows_scale_the_bands(void **state) {
-    (void)state;
-    lmp_brdf *brdf = phong(10);
+/* Bands of l + 1 coefficients where m < 0 is left out, else of 2 l + 1. */
+static void check_window(lmp_brdf *brdf, bool mirrored) {
+    enum { BANDS = 8, VIEWS = 3, AZIMUTHS = 4 };
     lmp_brdf_table *plain = NULL, *windowed = NULL;
-    lmp_brdf_table_desc desc = { .bands = 8, .views = 3 };
+    lmp_brdf_table_desc desc = {
+        .bands = BANDS, .views = VIEWS, .azimuths = AZIMUTHS, .rings_max = 64
+    };
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &plain), LMP_OK);
     desc.window = LMP_WINDOW_LANCZOS;
     desc.window_size = 9;
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &windowed), LMP_OK);
-    float weights[8];
-    lmp_sh_window(8, LMP_WINDOW_LANCZOS, 9, weights);
+    float weights[BANDS];
+    lmp_sh_window(BANDS, LMP_WINDOW_LANCZOS, 9, weights);
     const float *a = lmp_brdf_table_coefficients(plain), *b = lmp_brdf_table_coefficients(windowed);
-    for (int plane = 0; plane < 9; plane++)
-        for (int l = 0; l < 8; l++)
-            for (int m = 0; m <= l; m++, a++, b++)
+    for (int plane = 0; plane < 3 * VIEWS * (mirrored ? 1 : AZIMUTHS); plane++)
+        for (int l = 0; l < BANDS; l++)
+            for (int m = mirrored ? 0 : -l; m <= l; m++, a++, b++)
                 CHECK_WITHIN(fabsf(*a * weights[l] - *b), 1e-7);
     lmp_brdf_table_destroy(plain);
     lmp_brdf_table_destroy(windowed);
     lmp_brdf_destroy(brdf);
+}
+
+/* The window of the paper weakens each band as lmp_sh_window says. */
+static void windows_scale_the_bands(void **state) {
+    (void)state;
+    check_window(phong(10), true);
+    check_window(ggx(0.5f, 0.3f), false);
 }
 
 /* The largest error of interpolated coefficients over views off the nodes, relative to the largest
