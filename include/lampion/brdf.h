@@ -78,10 +78,11 @@ LMP_API lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectan
                                          lmp_brdf **brdf);
 
 /* Microfacets: GGX normals (Walter et al. 2007), height-correlated Smith masking, Schlick's
- * Fresnel term, plus diffuse/pi. Anisotropic where the alphas differ. */
+ * Fresnel term F; what it lets through, 1 - F, of diffuse/pi: glTF 2.0, appendix B. Anisotropic
+ * where the alphas differ. */
 typedef struct lmp_ggx {
     float alpha_x, alpha_y; /* widths along x and y, 0.001 … 1; alpha_y 0 means alpha_x */
-    lmp_rgb f0;             /* reflectance at normal incidence, >= 0 */
+    lmp_rgb f0;             /* reflectance at normal incidence, 0 … 1 */
     lmp_rgb diffuse;        /* albedo of the diffuse part, >= 0 */
 } lmp_ggx;
 LMP_API lmp_result lmp_brdf_create_ggx(const lmp_host *host, const lmp_ggx *ggx, lmp_brdf **brdf);

@@ -89,7 +89,7 @@ static void eval_ggx(const lmp_brdf *brdf, const double a[3], const double b[3],
     const double u = fmax(0, 1 - brdf_dot(a, h)), u5 = u * u * u * u * u;
     for (int c = 0; c < 3; c++) {
         const double f = ggx->f0[c] + (1 - ggx->f0[c]) * u5;
-        rgb[c] = ggx->diffuse[c] / BRDF_PI + f * d * g;
+        rgb[c] = (1 - f) * ggx->diffuse[c] / BRDF_PI + f * d * g;
     }
 }
 

@@ -49,6 +49,52 @@ static void rough_ggx_keeps_nearly_all_energy_when_smooth(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
+/* Its formulas as written there, material by material; F is 1 at grazing whatever F0 is. */
+static double appendix_b(double alpha, double f0, double base, const double l[3],
+                         const double v[3]) {
+    const double h[3] = { l[0] + v[0], l[1] + v[1], l[2] + v[2] };
+    const double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), a2 = alpha * alpha;
+    const double nh = h[2] / length, nl = l[2], nv = v[2];
+    const double vh = (v[0] * h[0] + v[1] * h[1] + v[2] * h[2]) / length;
+    const double distribution = a2 / (ORACLE_PI * pow(nh * nh * (a2 - 1) + 1, 2));
+    const double visibility =
+        0.5 / (nl * sqrt(nv * nv * (1 - a2) + a2) + nv * sqrt(nl * nl * (1 - a2) + a2));
+    const double fresnel = f0 + (1 - f0) * pow(1 - fabs(vh), 5);
+    return (1 - fresnel) * base / ORACLE_PI + fresnel * visibility * distribution;
+}
+
+static void unit_upper(double x, double y, double z, double unit[3]) {
+    const double length = sqrt(x * x + y * y + z * z);
+    unit[0] = x / length;
+    unit[1] = y / length;
+    unit[2] = fabs(z) / length;
+}
+
+static void ggx_is_that_of_gltf(void **state) {
+    (void)state;
+    static const float alphas[] = { 0.001f, 0.01f, 0.1f, 0.5f, 1 };
+    for (int i = 0; i < 5; i++) {
+        const lmp_ggx desc = { alphas[i], 0, { 0.04f, 0.5f, 1 }, { 0.8f, 0, 0.3f } };
+        lmp_brdf *brdf = NULL;
+        assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
+        for (int n = 0; n < 2000; n++) {
+            const lmp_vec3 at = random_upper(), off = random_upper();
+            /* around the mirror direction, and anywhere */
+            const double part = n % 2 ? 1 : 2 * (double)alphas[i] * check_random();
+            double l[3], v[3], rgb[3];
+            unit_upper((double)at.x, (double)at.y, (double)at.z, v);
+            unit_upper(part * (double)off.x - v[0], part * (double)off.y - v[1], v[2], l);
+            lmp_brdf_eval_double(brdf, l, v, rgb);
+            for (int c = 0; c < 3; c++) {
+                const double expected = appendix_b((double)alphas[i], (double)(&desc.f0.r)[c],
+                                                   (double)(&desc.diffuse.r)[c], l, v);
+                CHECK_WITHIN(fabs(rgb[c] / expected - 1), 1e-8);
+            }
+        }
+        lmp_brdf_destroy(brdf);
+    }
+}
+
 static void parametric_brdfs_are_reciprocal(void **state) {
     (void)state;
     lmp_brdf *const brdfs[] = { lambert(0.8f, 0.5f, 0.2f), phong(20), ggx(0.3f, 0), ggx(0.4f, 0.1f),
@@ -155,6 +201,7 @@ int main(void) {
         cmocka_unit_test(lambert_reflects_its_albedo),
         cmocka_unit_test(phong_is_normalised_head_on),
         cmocka_unit_test(rough_ggx_keeps_nearly_all_energy_when_smooth),
+        cmocka_unit_test(ggx_is_that_of_gltf),
         cmocka_unit_test(parametric_brdfs_are_reciprocal),
         cmocka_unit_test(nothing_is_reflected_below_the_surface),
         cmocka_unit_test(parameters_out_of_range_are_refused),
