@@ -103,54 +103,56 @@ LMP_INLINE void lobe_lanes_load(const lmp_kernel_preintegrated_lobe *lobe,
     lanes->angle = vf_load(positions->lobe_angle + e);
 }
 
-/* What a light, a cap of solid angle `covered`, gives two lobes that read `first` and `second`: the
- * mean over the cap, reading / (cap's + lobe's angle), times that angle, by one division. */
-LMP_INLINE void lobe_weigh(const lobe_lanes lobes[2], const shade_aim *aim, vf covered,
-                           vf readings[2]) {
-    const vf first = covered + lobes[0].angle, second = covered + lobes[1].angle;
+/* What a light gives two lobes, by the cosines of its axis with theirs: the mean over the cap,
+ * reading / (cap's + lobe's angle), times the cap's, with one division for both. */
+LMP_INLINE void lobe_pair(const lobe_lanes *first_lobe, const lobe_lanes *second_lobe,
+                          const shade_aim *aim, vf u, vf v, vf answers[2]) {
+    /* A NaN becomes 0, which reads inside the table. */
+    const vf t = vf_max(aim->t, vf_set(0)), a = lmp_lookup_arc(t), covered = 2 * LMP_KERNEL_PI * t;
+    const vf one = lobe_read(first_lobe, lmp_lookup_acos(u), a);
+    const vf other = lobe_read(second_lobe, lmp_lookup_acos(v), a);
+    const vf first = covered + first_lobe->angle, second = covered + second_lobe->angle;
     const vf each = 2 * LMP_KERNEL_PI * aim->weight / (first * second);
-    readings[0] = readings[0] * second * each;
-    readings[1] = readings[1] * first * each;
+    answers[0] = one * second * each;
+    answers[1] = other * first * each;
     if (__builtin_expect(aim->everywhere, 0)) {
-        readings[0] = readings[0] + aim->ambient;
-        readings[1] = readings[1] + aim->ambient;
+        answers[0] = answers[0] + aim->ambient;
+        answers[1] = answers[1] + aim->ambient;
     }
 }
 
-/* lobes: the diffuse one first. */
-LMP_INLINE void lobe_answer(int count, const lobe_lanes *lobes, const shade_aim *aim, lmp_rgb rgb,
-                            shade_sums *sums) {
-    /* A NaN becomes 0, which reads inside the table. */
-    const vf t = vf_max(aim->t, vf_set(0)), a = lmp_lookup_arc(t), covered = 2 * LMP_KERNEL_PI * t;
-    vf readings[1 + LMP_KERNEL_LOBES_MAX];
-    readings[0] = lobe_read(&lobes[0], lmp_lookup_acos(aim->u), a);
-    LMP_UNROLL for (int k = 0; k < count; k++) readings[1 + k] =
-        lobe_read(&lobes[1 + k], lmp_lookup_acos(aim->v[k]), a);
-    LMP_UNROLL for (int k = 0; k < count; k += 2) lobe_weigh(lobes + k, aim, covered, readings + k);
-    shade_gather(rgb, readings[0], sums->diffuse);
-    LMP_UNROLL for (int k = 0; k < count; k++)
-        shade_gather(rgb, readings[1 + k], sums->specular[k]);
-}
+static_assert(LMP_KERNEL_LOBES_MAX == 1 + 2, "the first goes with the diffuse one, two together");
 
-static_assert(LMP_KERNEL_LOBES_MAX % 2 == 1, "lobes, the diffuse one among them, go two by two");
-
+/* Lights go by once for each pair: more lobes at once would not find registers. */
 LMP_INLINE void lobe_surfaces(int count, const lmp_kernel_preintegrated_lobe *lobe,
                               const lmp_kernel_lobe_positions *diffuse,
                               const lmp_kernel_lobe_positions *specular,
                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                               size_t light_count, size_t surface_count,
                               const lmp_kernel_accumulated *accumulated) {
-    lobe_lanes lobes[1 + LMP_KERNEL_LOBES_MAX];
+    lobe_lanes normal_lobe, lobes[2];
     shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
-    lobe_lanes_load(lobe, diffuse, 0, &lobes[0]);
+    vf answers[2];
+    lobe_lanes_load(lobe, diffuse, 0, &normal_lobe);
     for (size_t e = 0; e < surface_count; e += LMP_LANES) {
         shade_sums sums;
         shade_sums_load(count, accumulated, e, &sums);
         shade_aim_all(count, surfaces, lights, light_count, e, aims);
-        LMP_UNROLL for (int k = 0; k < count; k++)
-            lobe_lanes_load(lobe, &specular[k], e, &lobes[1 + k]);
-        for (size_t i = 0; i < light_count; i++)
-            lobe_answer(count, lobes, &aims[i], lights[i].radiance, &sums);
+        lobe_lanes_load(lobe, &specular[0], e, &lobes[0]);
+        for (size_t i = 0; i < light_count; i++) {
+            lobe_pair(&normal_lobe, &lobes[0], &aims[i], aims[i].u, aims[i].v[0], answers);
+            shade_gather(lights[i].radiance, answers[0], sums.diffuse);
+            shade_gather(lights[i].radiance, answers[1], sums.specular[0]);
+        }
+        if (count > 1) {
+            lobe_lanes_load(lobe, &specular[1], e, &lobes[0]);
+            lobe_lanes_load(lobe, &specular[2], e, &lobes[1]);
+        }
+        for (size_t i = 0; i < light_count && count > 1; i++) {
+            lobe_pair(&lobes[0], &lobes[1], &aims[i], aims[i].v[1], aims[i].v[2], answers);
+            shade_gather(lights[i].radiance, answers[0], sums.specular[1]);
+            shade_gather(lights[i].radiance, answers[1], sums.specular[2]);
+        }
         shade_sums_store(count, &sums, e, accumulated);
     }
 }
