@@ -24,7 +24,7 @@ typedef struct render_options {
     int size[2], bands, method, window, tone, device_kind, repeat, samples, pixels_max;
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
-    bool exposure_given, frames_given, shard_given, background_given, stats, compare;
+    bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;
     environment_options environment;
     scene_camera_options camera;
     scene_lights_options lights;
@@ -260,6 +260,10 @@ static bool settle_shading(job *j, cli_error *error) {
     return ok;
 }
 
+static int default_samples(const render_options *o) {
+    return image_format_of(o->output) == IMAGE_EXR ? 1 : 8;
+}
+
 static bool open_job(const char *name, job *j, cli_error *error) {
     const render_options *o = j->options;
     char path[PATH_SIZE];
@@ -282,7 +286,7 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     j->frame.method = (method_kind)o->method;
     j->frame.bands = o->bands;
     j->frame.window = (lmp_window)o->window;
-    j->frame.samples = o->samples;
+    j->frame.samples = o->samples_given ? o->samples : default_samples(o);
     j->frame.lights = j->world.lights;
     j->frame.light_count = j->world.light_count;
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
@@ -360,7 +364,6 @@ static int repeat_shot(const render_options *o, const char *name) {
 static const render_options defaults = { .size = { 1280, 720 },
                                          .bands = LMP_SHADE_BANDS_DEFAULT,
                                          .window = LMP_WINDOW_HANNING,
-                                         .samples = 1,
                                          .environment = ENVIRONMENT_DEFAULTS,
                                          .pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
@@ -406,14 +409,14 @@ static int run(const cli_command *command, int argc, char **argv) {
           "else orbit)",
           0, 0, NULL, NULL },
         { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second", 0.01, 1000, NULL, NULL },
-        { "samples", 0, CLI_INT, &o.samples, "N", "samples a pixel: 8 make smooth edges", 1,
-          SAMPLES_MAX, NULL, NULL },
+        { "samples", 0, CLI_INT, &o.samples, "N",
+          "samples a pixel; without it 8, of a .exr the one in its middle, as reference has it", 1,
+          SAMPLES_MAX, NULL, &o.samples_given },
         { "stats", 0, CLI_FLAG, &o.stats, NULL,
           "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },
         { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1, REPEAT_MAX,
           NULL, NULL },
-        { "compare-methods", 0, CLI_FLAG, &o.compare, NULL, "--stats times every method", 0, 0,
-          NULL, NULL },
+        { "compare-methods", 0, CLI_FLAG, &o.compare, NULL, "--stats times all", 0, 0, NULL, NULL },
         { "gl-device", 0, CLI_TEXT, &o.device, "DEVICE", "a number, part of a name, or software", 0,
           0, NULL, NULL },
         { .name = NULL },
