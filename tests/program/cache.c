@@ -78,7 +78,7 @@ static void a_damaged_entry_is_none(void **state) {
         write_entry("a", bytes, cut);
         assert_false(holds("a", first));
     }
-    for (size_t bit = 0; bit < 8 * size; bit += 8 * step - 7, tried++) {
+    for (size_t bit = 0; bit < 8 * size; bit += 8 * step + 1, tried++) {
         bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
         write_entry("a", bytes, size);
         assert_false(holds("a", first));
