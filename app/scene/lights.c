@@ -96,6 +96,8 @@ bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error
     if (options->random_count > 0 &&
         !scene_add_random_lights(s, options->random_count, options->seed, error))
         return false;
+    for (size_t i = 0; options->hide && i < s->light_count; i++)
+        s->lights[i].hidden = 1;
     s->lights_chosen = options->file || options->random_count > 0;
     return true;
 }

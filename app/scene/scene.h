@@ -155,6 +155,7 @@ typedef struct scene_lights_options {
     int random_count; /* random lights */
     uint64_t seed;
     bool keep;          /* keep the scene's own lights beside these, which otherwise replace them */
+    bool hide;          /* all lights shine without being seen */
     float point_radius; /* of the scene's own point lights, which become spheres; 0: points */
     float sun_angle;    /* degrees: half that of its directional lights; 0: parallel rays */
 } scene_lights_options;
@@ -192,6 +193,10 @@ typedef struct scene_lights_options {
           .help = "make its directional lights suns of this angular radius (ours has 0.27)",       \
           .minimum = 0,                                                                            \
           .maximum = 89 },                                                                         \
+        { .name = "hide-lights",                                                                   \
+          .kind = CLI_FLAG,                                                                        \
+          .target = &(variable).hide,                                                              \
+          .help = "let all lights shine without being seen" },                                     \
     {                                                                                              \
         .name = "keep-lights", .kind = CLI_FLAG, .target = &(variable).keep,                       \
         .help = "keep the scene's own lights beside --lights and --random-lights"                  \

@@ -318,6 +318,11 @@ static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
     CHECK_NEAR(100.0, lmp_sphere_power_from_radiance(s.lights[1].emitter.radiance.b, 2.0f), 1e-4);
     CHECK_NEAR(100.0, lmp_sphere_intensity_from_radiance(s.lights[2].emitter.radiance.r, 2.0f),
                1e-4);
+    assert_true(scene_light_is_drawn(&s.lights[0]));
+    options.hide = true;
+    assert_true(scene_apply_lights(&s, &options, &error));
+    for (size_t n = 0; n < s.light_count; n++)
+        assert_false(scene_light_is_drawn(&s.lights[n]));
     scene_free(&s);
 }
 
