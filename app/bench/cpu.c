@@ -100,7 +100,7 @@ static void print_row(const bench_options *o, bool first, const bench_kernel *ke
                first ? "" : ",\n", kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower,
                m->ns.upper, m->peak_fraction, m->vs_paper, vs_scalar);
     else
-        printf("%-14s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9s\n", kernel->name, bands,
+        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9s\n", kernel->name, bands,
                m->isa, name, m->ns.median, m->ns.lower, m->ns.upper, m->peak_fraction, m->vs_paper,
                vs_scalar);
     fflush(stdout);
@@ -179,7 +179,7 @@ static bool measure_threads(const bench_options *o, bench_inputs *in) {
                     first ? "" : ",\n", bench_kernels[k].name, lmp_cpu_name(), threads, median,
                     alone / median);
             else
-                printf("%-14s    10  %-7s %2d threads %10.4g ns  x %.2f\n", bench_kernels[k].name,
+                printf("%-23s    10  %-7s %2d threads %10.4g ns  x %.2f\n", bench_kernels[k].name,
                        lmp_cpu_name(), threads, median, alone / median);
             first = false;
         }
@@ -204,7 +204,7 @@ static void print_header(const bench_options *o) {
         "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each); "
         "times the speed of the paper's\nEq. 12 and 13 one by one, and of the scalar build\n",
         BENCH_LIGHTS);
-    printf("%-14s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
+    printf("%-23s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
            "ns", "quartiles", "peak", "x paper", "x scalar");
 }
 

@@ -62,7 +62,7 @@ static void print_json(const bench_scene *s, const bench_row *c, const bench_res
     cJSON_AddNumberToObject(row, "table_bytes", (double)tables.bytes);
     add_number(row, "table_ms", tables.ms);
     add_number(row, "lobes_ms", tables.lobes_ms);
-    add_number(row, "response_ms", tables.preintegrated_ms);
+    add_number(row, "preintegrated_ms", tables.preintegrated_ms);
     char *text = cJSON_PrintUnformatted(row);
     printf("%s    %s", s->first ? "" : ",\n", text ? text : "null");
     cJSON_free(text);
@@ -124,5 +124,5 @@ void bench_print_header(const bench_scene *s) {
            o->materials.count ? "\n" : "", s->context.software ? "wall clock" : "timer queries");
     printf("%-15s %-4s %-14s %5s %6s  %9s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene", "dev",
            "method", "bands", "lights", "size", "ms", "frames", "ns/pair", "x paper", "compile",
-           "table KB", "table", "lobes", "response");
+           "table KB", "table", "lobes", "preint.");
 }

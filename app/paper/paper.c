@@ -21,7 +21,7 @@ static const paper_step steps[] = {
     { "sponza", "Figure 5: thirty lights, five and eight bands", paper_step_sponza },
     { "materials", "Figure 6: measured materials", paper_step_materials },
     { "cost", "What band limiting costs", paper_step_cost },
-    { "response", "What preintegrated lobes cost", paper_step_preintegrated },
+    { "preintegrated", "What preintegrated lobes cost", paper_step_preintegrated },
 };
 #define STEPS ((int)(sizeof steps / sizeof *steps))
 

@@ -75,7 +75,7 @@ bool paper_step_preintegrated(paper *p, cli_error *error) {
     page_table table;
     page_text(&p->page, "Preintegrated lobes against their series of bands, %d values each.",
               EXPONENTS * RATIOS * ANGLES);
-    if (!page_table_begin(&p->page, &table, "response",
+    if (!page_table_begin(&p->page, &table, "preintegrated",
                           "bands|bound %|KB|largest error %|rms error %|seconds", error))
         return false;
     bool ok = true;
@@ -95,7 +95,7 @@ bool paper_step_preintegrated(paper *p, cli_error *error) {
     for (int s = 0; s < 2 * SETTINGS; s++)
         series[s] = (plot_series) { names[s], x[s % SETTINGS], y[s], BOUNDS };
     return page_plot_write(&p->page,
-                           &(page_plot) { .file = "response-memory",
+                           &(page_plot) { .file = "preintegrated-memory",
                                           .title = "Preintegrated lobes: memory and error",
                                           .x_label = "KB",
                                           .y_label = "error, % of the peak",

@@ -39,7 +39,7 @@ static char *read_output(const char *name) {
 static cJSON *rows_of(const char *arguments) {
     static const char *const numbers[] = {
         "bands",      "lights",      "width",    "height",   "ms",          "ns_per_pixel_light",
-        "compile_ms", "table_bytes", "table_ms", "lobes_ms", "response_ms",
+        "compile_ms", "table_bytes", "table_ms", "lobes_ms", "preintegrated_ms",
     };
     if (bench(arguments) != 0)
         fail_msg("%s: %s", arguments, read_output("err"));
@@ -113,7 +113,7 @@ static void materials_are_in_the_rows(void **state) {
         assert_true(number_at(with, i, "table_bytes") > number_at(without, i, "table_bytes"));
         assert_true(number_at(with, i, "table_ms") > 0 && number_at(without, i, "table_ms") <= 0);
         assert_int_equal(number_at(with, i, "lobes_ms") > 0, i);
-        assert_int_equal(number_at(with, i, "response_ms") > 0, i);
+        assert_int_equal(number_at(with, i, "preintegrated_ms") > 0, i);
     }
     assert_string_equal(cJSON_GetArrayItem(cJSON_GetObjectItem(with, "materials"), 0)->valuestring,
                         "wall=phong:5");

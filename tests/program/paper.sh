@@ -3,7 +3,7 @@
 set -eu
 . tests/house/common.sh
 
-"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step response >"$WORK/out" ||
+"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated >"$WORK/out" ||
     fail "the quick steps fail"
 [ "$(cat "$WORK/out")" = "$WORK/page/index.html" ] || fail "the page's name is not printed"
 grep -q '</html>' "$WORK/page/index.html" || fail "the page is cut"
@@ -18,7 +18,7 @@ grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$W
     fail "the page hides what contradicts the paper"
 awk -F, '!/^form|^"?largest/ { if ($(NF - 1) + 0 > $NF + 0) exit 1 }' "$WORK/page/tabulated.csv" ||
     fail "a part of the angles has a larger error than all of them"
-for file in figure4.svg accuracy.csv tabulated.csv response.csv response-memory.svg; do
+for file in figure4.svg accuracy.csv tabulated.csv preintegrated.csv preintegrated-memory.svg; do
     [ -s "$WORK/page/$file" ] || fail "$file is missing"
     grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"
 done
