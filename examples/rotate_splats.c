@@ -117,7 +117,7 @@ static void rotate_orientation(lmp_quat q, float o[4]) {
     o[3] = q.w * z + q.x * y - q.y * x + q.z * w;
 }
 
-/* The first band is the same from everywhere, so that the others rotate alone. */
+/* The first band is the same in every direction, so that the others rotate alone. */
 static void rotate_color(const rotation *r, float *rest) {
     const size_t count = LMP_SH_COUNT(r->bands);
     for (int channel = 0; channel < 3; channel++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* environment.glsl - light from all around: what lobes gather of its coefficients (lmp_environment),
+/* environment.glsl - light from all around: the responses of lobes to its coefficients (lmp_environment),
  * and what is seen of it. */
 
 /* red, green, blue of coefficient l² + l + m, windowed; surroundings.x bands */
@@ -11,7 +11,7 @@ layout(binding = SHARED_BACKDROP) uniform sampler2D backdrop_map;
 /* A Phong lobe of integral 1 around an axis; with exponent 1 it is the diffuse one. Its factors
  * fall by two bands at a time, lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), and each column m
  * begins where they stand at l = m. */
-vec3 environment_gather(vec3 axis, float exponent) {
+vec3 environment_response(vec3 axis, float exponent) {
     int bands = int(surroundings.x);
     vec3 sum = vec3(0.0);
     float diagonal = 0.28209479, c = 1.0, s = 0.0;
@@ -52,9 +52,9 @@ vec3 environment_shade(lmp_surface surface, lmp_metallic_roughness material) {
     if (surroundings.x == 0.0)
         return vec3(0.0);
     lmp_lobes lobes = lmp_lobes_of(surface, material);
-    vec3 sum = lobes.diffuse * environment_gather(surface.normal, 1.0);
+    vec3 sum = lobes.diffuse * environment_response(surface.normal, 1.0);
     for (int k = 0; k < LMP_LOBES; k++)
-        sum += lobes.weight[k] * environment_gather(lobes.axis[k], lobes.exponent[k]);
+        sum += lobes.weight[k] * environment_response(lobes.axis[k], lobes.exponent[k]);
     return max(sum, vec3(0.0));
 }
 

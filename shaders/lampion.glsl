@@ -15,7 +15,7 @@
  *   LMP_LIGHT_SPHERE(i)      vec4: center and radius of light i, 0 <= i < LMP_LIGHT_COUNT
  *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
  * and, where some lights are no spheres,
- *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from everywhere, a sun or a sky; SPHERE(i) is
+ *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from all around, a sun or a sky; SPHERE(i) is
  *                            then its unit axis and 1 - cos a, a its half angle; default false
  *   LMP_LIGHT_COLOR(i, p)    vec3: its radiance towards p; default LMP_LIGHT_RADIANCE(i)
  *
@@ -561,18 +561,18 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_lobes lobes) {
     /* x and z of the lobes' axes; y is 0 */
     LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0) * world_to_local, lobes.axis);
     LMP_EACH z = LMP_DOT(surface.normal, lobes.axis), power = LMP_EACH(1.0), p, p1, p2;
-    vec3 gathered_diffuse = vec3(0.0), gathered_glossy = vec3(0.0);
+    vec3 diffuse_response = vec3(0.0), glossy_response = vec3(0.0);
     float diagonal = 0.25, norm = 0.0;
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         LMP_MONIC(l, m, z, p, p1, p2)                                                              \
         norm = l == m ? diagonal                                                                   \
                       : norm * float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m);           \
-        gathered_glossy += sum[LMP_HALF_INDEX(l, m)] *                                             \
+        glossy_response += sum[LMP_HALF_INDEX(l, m)] *                                             \
                            (lobes.weight * (norm * power * p * glossy[LMP_BAND(l)]));              \
         if (m == 0) {                                                                              \
             LMP_MONIC(l, m, 1.0, q, q1, q2)                                                        \
-            gathered_diffuse += sum[LMP_HALF_INDEX(l, m)] * (norm * q * diffuse[LMP_BAND(l)]);     \
+            diffuse_response += sum[LMP_HALF_INDEX(l, m)] * (norm * q * diffuse[LMP_BAND(l)]);     \
         }                                                                                          \
     }
 #define LMP_COLUMN(m)                                                                              \
@@ -586,7 +586,7 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_lobes lobes) {
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
 #undef LMP_ROW
-    return max(lobes.diffuse / LMP_PI * gathered_diffuse + gathered_glossy, vec3(0.0));
+    return max(lobes.diffuse / LMP_PI * diffuse_response + glossy_response, vec3(0.0));
 }
 #undef LMP_POWER
 #undef LMP_MONIC

@@ -41,33 +41,33 @@ vec3 paper_shade(lmp_surface surface, lmp_metallic_roughness material) {
 
     lmp_lobe_diffuse(diffuse);
     lmp_lobe_phong(lobes.exponent, glossy);
-    vec3 gathered_diffuse = vec3(0.0), gathered_glossy[LMP_LOBES];
+    vec3 diffuse_response = vec3(0.0), glossy_response[LMP_LOBES];
     lmp_sh_eval(surface.normal, sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        gathered_diffuse += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];     \
+        diffuse_response += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];     \
         if (m > 0)                                                                                 \
-            gathered_diffuse += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)]; \
+            diffuse_response += diffuse[LMP_BAND(l)] * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)]; \
     }
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW
     for (int k = 0; k < LMP_LOBES; k++) {
         lmp_sh_eval(LMP_LOBE(lobes.axis, k), sh);
-        gathered_glossy[k] = vec3(0.0);
+        glossy_response[k] = vec3(0.0);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         float factor = LMP_LOBE(glossy[LMP_BAND(l)], k);                                           \
-        gathered_glossy[k] += factor * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];                 \
+        glossy_response[k] += factor * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];                 \
         if (m > 0)                                                                                 \
-            gathered_glossy[k] += factor * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)];           \
+            glossy_response[k] += factor * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)];           \
     }
         LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW
 #undef LMP_COLUMN
     }
-    vec3 reflected = lobes.diffuse / LMP_PI * gathered_diffuse;
+    vec3 reflected = lobes.diffuse / LMP_PI * diffuse_response;
     for (int k = 0; k < LMP_LOBES; k++)
-        reflected += LMP_LOBE(lobes.weight, k) * gathered_glossy[k];
+        reflected += LMP_LOBE(lobes.weight, k) * glossy_response[k];
     return max(reflected, vec3(0.0));
 }
 

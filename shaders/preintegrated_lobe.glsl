@@ -59,8 +59,8 @@ float lmp_preintegrated_lobe_read(lmp_lobe_position position, float g, float a) 
 }
 
 #ifdef LMP_LIGHT_COUNT
-/* What a lobe gathers from a cap of radiance 1, whose axis has this cosine with the lobe's. */
-float lmp_preintegrated_lobe_gather(lmp_lobe_position position, lmp_cap cap, float cosine) {
+/* A lobe's response to a cap of radiance 1, whose axis has this cosine with the lobe's. */
+float lmp_preintegrated_lobe_response(lmp_lobe_position position, lmp_cap cap, float cosine) {
     /* more than a hemisphere: ambient light less the complementary cap */
     bool inside = cap.base > 2.0;
     float covered = 2.0 * LMP_PI * cap.one_minus_cos;
@@ -77,10 +77,10 @@ vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_lobes lobes) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
         lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
-        vec3 reflected = lobes.diffuse * lmp_preintegrated_lobe_gather(diffuse, cap, dot(cap.axis, surface.normal));
+        vec3 reflected = lobes.diffuse * lmp_preintegrated_lobe_response(diffuse, cap, dot(cap.axis, surface.normal));
         for (int k = 0; k < LMP_LOBES; k++)
             reflected += LMP_LOBE(lobes.weight, k) *
-                         lmp_preintegrated_lobe_gather(specular[k], cap, dot(cap.axis, LMP_LOBE(lobes.axis, k)));
+                         lmp_preintegrated_lobe_response(specular[k], cap, dot(cap.axis, LMP_LOBE(lobes.axis, k)));
         sum += LMP_LIGHT_COLOR(i, surface.position) * reflected;
     }
     return max(sum, vec3(0.0));

@@ -86,7 +86,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
 SHARED_END(shared_frame);
 
 /* What a light is: a sphere that is seen, or one that only shades; a spot's small sphere; or the
- * same cap from everywhere, with its axis and 1 - cos a for center and radius. */
+ * same cap from all around, with its axis and 1 - cos a for center and radius. */
 #define SHARED_LIGHT_DRAWN  0
 #define SHARED_LIGHT_HIDDEN 1
 #define SHARED_LIGHT_SPOT   2

@@ -4,7 +4,7 @@
  *   base.h           version, results, vectors, strides, what the library asks of its host
  *   sh.h             spherical harmonics: basis, rotation, windows, projection, products
  *   light.h          lights of every kind, and their projection
- *   lobe.h           lobes around an axis, and what they gather of lights
+ *   lobe.h           lobes around an axis, and their responses to lights
  *   probe.h          probes: irradiance, fitting, conventions of other software
  *   brdf.h           measured and parametric BRDFs, their files and tables
  *   preintegrated.h  lobes and BRDFs integrated beforehand

@@ -54,7 +54,7 @@ typedef struct lmp_light {
     lmp_rgb ground; /* radiance of a hemisphere light's lower half */
 } lmp_light;
 
-/* What any light is from one point: a cap of at most a hemisphere, plus light from everywhere,
+/* What any light is from one point: a cap of at most a hemisphere, plus light from all around,
  *
  *     L_lm = strength R_l(1 - one_minus_cos) Y_lm(axis)  +  2 sqrt(pi) ambient  for l = m = 0
  *

@@ -103,7 +103,7 @@ typedef struct lmp_kernel_light {
 /* Lights that one call of a shading kernel takes at most. */
 #define LMP_KERNEL_LIGHTS_MAX 32
 
-/* What the lobes gather, in planes of red, green, blue; added to. */
+/* What the lobes receive, in planes of red, green, blue; added to. */
 typedef struct lmp_kernel_accumulated {
     float *diffuse[3], *specular[LMP_KERNEL_LOBES_MAX][3];
 } lmp_kernel_accumulated;
@@ -139,11 +139,12 @@ typedef struct lmp_kernels {
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
                  const lmp_kernel_out *out);
-    /* Adds what the lobes, cut to `bands` bands with window[l] and diffuse[l] the factors of the
-     * diffuse lobe of integral 1, gather from the lights. */
+    /* Adds what the lobes, truncated to `bands` bands with window[l] and diffuse[l] the factors of
+     * the diffuse lobe of integral 1, reflect of the lights. */
     void (*shade_zonal)(int bands, const float *window, const float *diffuse,
                         const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                        size_t light_count, size_t count, const lmp_kernel_accumulated *gathered);
+                        size_t light_count, size_t count,
+                        const lmp_kernel_accumulated *accumulated);
     /* The same from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX times,
      * `specular` are those of each Phong lobe. */
     void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *lobe,
@@ -151,7 +152,7 @@ typedef struct lmp_kernels {
                                      const lmp_kernel_lobe_positions *specular,
                                      const lmp_kernel_surfaces *surfaces,
                                      const lmp_kernel_light *lights, size_t light_count,
-                                     size_t count, const lmp_kernel_accumulated *gathered);
+                                     size_t count, const lmp_kernel_accumulated *accumulated);
     /* Adds what a BRDF reflects, in planes of red, green, blue, of the lights and of
      * ambient radiance. Lobes are not read. */
     void (*shade_preintegrated_brdf)(const lmp_kernel_preintegrated_brdf *material,

@@ -23,7 +23,7 @@ typedef struct brdf_block {
 /* A light's cap (u and v are not set), the angle from the mirror direction to its axis, and the
  * azimuth around it. */
 typedef struct brdf_direction {
-    shade_aim cap;
+    shade_direction cap;
     vf angle, azimuth;
 } brdf_direction;
 
@@ -323,7 +323,7 @@ static void kernel_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf 
             brdf_slices(material, &block, &positions[i], slices);
             for (int k = 0; k < live; k++)
                 brdf_read(material->texels, slices, k, radiance[i], sums.at[k]);
-            if (__builtin_expect(directions[i].cap.everywhere, 0))
+            if (__builtin_expect(directions[i].cap.is_ambient, 0))
                 brdf_ambient(&block, lights[i].radiance, directions[i].cap.ambient, from_all);
         }
         brdf_channels(&sums, from_caps);

@@ -106,18 +106,19 @@ LMP_INLINE void lobe_lanes_load(const lmp_kernel_preintegrated_lobe *lobe,
 /* What a light gives two lobes, by the cosines of its axis with theirs: the mean over the cap,
  * reading / (cap's + lobe's angle), times the cap's, with one division for both. */
 LMP_INLINE void lobe_pair(const lobe_lanes *first_lobe, const lobe_lanes *second_lobe,
-                          const shade_aim *aim, vf u, vf v, vf answers[2]) {
+                          const shade_direction *direction, vf u, vf v, vf responses[2]) {
     /* A NaN becomes 0, which reads inside the table. */
-    const vf t = vf_max(aim->t, vf_set(0)), a = lmp_lookup_arc(t), covered = 2 * LMP_KERNEL_PI * t;
+    const vf t = vf_max(direction->t, vf_set(0)), a = lmp_lookup_arc(t),
+             covered = 2 * LMP_KERNEL_PI * t;
     const vf one = lobe_read(first_lobe, lmp_lookup_acos(u), a);
     const vf other = lobe_read(second_lobe, lmp_lookup_acos(v), a);
     const vf first = covered + first_lobe->angle, second = covered + second_lobe->angle;
-    const vf each = 2 * LMP_KERNEL_PI * aim->weight / (first * second);
-    answers[0] = one * second * each;
-    answers[1] = other * first * each;
-    if (__builtin_expect(aim->everywhere, 0)) {
-        answers[0] = answers[0] + aim->ambient;
-        answers[1] = answers[1] + aim->ambient;
+    const vf each = 2 * LMP_KERNEL_PI * direction->weight / (first * second);
+    responses[0] = one * second * each;
+    responses[1] = other * first * each;
+    if (__builtin_expect(direction->is_ambient, 0)) {
+        responses[0] = responses[0] + direction->ambient;
+        responses[1] = responses[1] + direction->ambient;
     }
 }
 
@@ -131,27 +132,29 @@ LMP_INLINE void lobe_surfaces(int count, const lmp_kernel_preintegrated_lobe *lo
                               size_t light_count, size_t surface_count,
                               const lmp_kernel_accumulated *accumulated) {
     lobe_lanes normal_lobe, lobes[2];
-    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
-    vf answers[2];
+    shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
+    vf responses[2];
     lobe_lanes_load(lobe, diffuse, 0, &normal_lobe);
     for (size_t e = 0; e < surface_count; e += LMP_LANES) {
         shade_sums sums;
         shade_sums_load(count, accumulated, e, &sums);
-        shade_aim_all(count, surfaces, lights, light_count, e, aims);
+        shade_directions(count, surfaces, lights, light_count, e, directions);
         lobe_lanes_load(lobe, &specular[0], e, &lobes[0]);
         for (size_t i = 0; i < light_count; i++) {
-            lobe_pair(&normal_lobe, &lobes[0], &aims[i], aims[i].u, aims[i].v[0], answers);
-            shade_gather(lights[i].radiance, answers[0], sums.diffuse);
-            shade_gather(lights[i].radiance, answers[1], sums.specular[0]);
+            lobe_pair(&normal_lobe, &lobes[0], &directions[i], directions[i].u, directions[i].v[0],
+                      responses);
+            shade_accumulate(lights[i].radiance, responses[0], sums.diffuse);
+            shade_accumulate(lights[i].radiance, responses[1], sums.specular[0]);
         }
         if (count > 1) {
             lobe_lanes_load(lobe, &specular[1], e, &lobes[0]);
             lobe_lanes_load(lobe, &specular[2], e, &lobes[1]);
         }
         for (size_t i = 0; i < light_count && count > 1; i++) {
-            lobe_pair(&lobes[0], &lobes[1], &aims[i], aims[i].v[1], aims[i].v[2], answers);
-            shade_gather(lights[i].radiance, answers[0], sums.specular[1]);
-            shade_gather(lights[i].radiance, answers[1], sums.specular[2]);
+            lobe_pair(&lobes[0], &lobes[1], &directions[i], directions[i].v[1], directions[i].v[2],
+                      responses);
+            shade_accumulate(lights[i].radiance, responses[0], sums.specular[1]);
+            shade_accumulate(lights[i].radiance, responses[1], sums.specular[2]);
         }
         shade_sums_store(count, &sums, e, accumulated);
     }

@@ -2,9 +2,9 @@
 /* shade.h - what the kernels that shade surfaces share (shade.h of the API): lanes are surfaces,
  * each with lobes of its own; lights are broadcast.
  *
- * Of each light a surface needs a number a lobe: what the diffuse and the Phong lobes answer to its
- * cap. shade_zonal.h sums bands, preintegrated_lobe.h reads them from a table. The number of Phong
- * lobes is a constant wherever `lobes` is passed. */
+ * Of each light a surface needs a number a lobe: what the diffuse and the Phong lobes respond to
+ * its cap. shade_zonal.h sums bands, preintegrated_lobe.h reads them from a table. The number of
+ * Phong lobes is a constant wherever `lobes` is passed. */
 #ifndef LAMPION_KERNELS_SHADE_H
 #define LAMPION_KERNELS_SHADE_H
 
@@ -16,17 +16,17 @@ typedef struct shade_block {
 } shade_block;
 
 /* What of a light they need: of its cap of at most a hemisphere u and v, the cosines of its axis
- * with the normal and with the axis of each lobe, and t; the weight of its answers, t but for the
- * light's scale and sign. With `everywhere`, light from all around besides (lmp_cap). */
-typedef struct shade_aim {
+ * with the normal and with the axis of each lobe, and t; the weight of its responses, t but for the
+ * light's scale and sign. With `is_ambient`, light from all around besides (lmp_cap). */
+typedef struct shade_direction {
     vf u, v[LMP_KERNEL_LOBES_MAX], t, weight;
-    vf ambient; /* set if everywhere */
-    int everywhere;
-} shade_aim;
+    vf ambient; /* set if is_ambient */
+    int is_ambient;
+} shade_direction;
 
 /* Sets all but u and v. Of the cap, x, y, z times per_d are its axis. */
 LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf point[3],
-                               shade_aim *aim) {
+                               shade_direction *direction) {
     vf x = vf_set(light->x), y = vf_set(light->y), z = vf_set(light->z);
     if (light->w > 0) {
         x = x - point[0];
@@ -39,17 +39,17 @@ LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf
         /* even is -1 inside: the complementary cap is taken away from light all around. */
         cap.per_d = cap.per_d * cap.even;
         weight = weight * cap.even;
-        aim->ambient = (vf_set(1) - cap.even) * 0.5f;
+        direction->ambient = (vf_set(1) - cap.even) * 0.5f;
     }
     if (__builtin_expect(light->scale != NULL, 0)) {
         const vf scale = vf_load(light->scale + e);
         weight = weight * scale;
         if (cap.inside)
-            aim->ambient = aim->ambient * scale;
+            direction->ambient = direction->ambient * scale;
     }
-    aim->everywhere = cap.inside;
-    aim->t = cap.t;
-    aim->weight = weight;
+    direction->is_ambient = cap.inside;
+    direction->t = cap.t;
+    direction->weight = weight;
     return cap;
 }
 
@@ -57,23 +57,23 @@ LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
     return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
 }
 
-LMP_INLINE void shade_aim_at(int lobes, const lmp_kernel_light *light, size_t e,
-                             const shade_block *block, shade_aim *aim) {
-    const cap_lanes cap = shade_cap(light, e, block->point, aim);
-    aim->u = shade_dot(block->normal, &cap) * cap.per_d;
-    LMP_UNROLL for (int k = 0; k < lobes; k++) aim->v[k] =
+LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, size_t e,
+                                   const shade_block *block, shade_direction *direction) {
+    const cap_lanes cap = shade_cap(light, e, block->point, direction);
+    direction->u = shade_dot(block->normal, &cap) * cap.per_d;
+    LMP_UNROLL for (int k = 0; k < lobes; k++) direction->v[k] =
         shade_dot(block->axis[k], &cap) * cap.per_d;
 }
 
-/* What the lobes of a block of surfaces have gathered: red, green, blue. */
+/* What the lobes of a block of surfaces have accumulated: red, green, blue. */
 typedef struct shade_sums {
     vf diffuse[3], specular[LMP_KERNEL_LOBES_MAX][3];
 } shade_sums;
 
-LMP_INLINE void shade_gather(lmp_rgb rgb, vf answer, vf sums[3]) {
-    sums[0] = sums[0] + rgb.r * answer;
-    sums[1] = sums[1] + rgb.g * answer;
-    sums[2] = sums[2] + rgb.b * answer;
+LMP_INLINE void shade_accumulate(lmp_rgb rgb, vf response, vf sums[3]) {
+    sums[0] = sums[0] + rgb.r * response;
+    sums[1] = sums[1] + rgb.g * response;
+    sums[2] = sums[2] + rgb.b * response;
 }
 
 LMP_INLINE void shade_planes(const lmp_kernel_vec3 *planes, size_t e, vf to[3]) {
@@ -82,36 +82,36 @@ LMP_INLINE void shade_planes(const lmp_kernel_vec3 *planes, size_t e, vf to[3]) 
     to[2] = vf_load(planes->z + e);
 }
 
-LMP_INLINE void shade_sums_load(int lobes, const lmp_kernel_accumulated *gathered, size_t e,
+LMP_INLINE void shade_sums_load(int lobes, const lmp_kernel_accumulated *accumulated, size_t e,
                                 shade_sums *sums) {
     for (int c = 0; c < 3; c++) {
-        sums->diffuse[c] = vf_load(gathered->diffuse[c] + e);
+        sums->diffuse[c] = vf_load(accumulated->diffuse[c] + e);
         LMP_UNROLL for (int k = 0; k < lobes; k++) sums->specular[k][c] =
-            vf_load(gathered->specular[k][c] + e);
+            vf_load(accumulated->specular[k][c] + e);
     }
 }
 
 LMP_INLINE void shade_sums_store(int lobes, const shade_sums *sums, size_t e,
-                                 const lmp_kernel_accumulated *gathered) {
+                                 const lmp_kernel_accumulated *accumulated) {
     for (int c = 0; c < 3; c++) {
-        vf_store(gathered->diffuse[c] + e, sums->diffuse[c]);
+        vf_store(accumulated->diffuse[c] + e, sums->diffuse[c]);
         LMP_UNROLL for (int k = 0; k < lobes; k++)
-            vf_store(gathered->specular[k][c] + e, sums->specular[k][c]);
+            vf_store(accumulated->specular[k][c] + e, sums->specular[k][c]);
     }
 }
 
 /* All lights first, then their lobes: in one loop, the roots and quotients of a light would wait
  * for each other at its beginning. */
-LMP_INLINE void shade_aim_all(int lobes, const lmp_kernel_surfaces *surfaces,
-                              const lmp_kernel_light *lights, size_t light_count, size_t e,
-                              shade_aim *aims) {
+LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
+                                 const lmp_kernel_light *lights, size_t light_count, size_t e,
+                                 shade_direction *directions) {
     shade_block block;
     shade_planes(&surfaces->point, e, block.point);
     shade_planes(&surfaces->normal, e, block.normal);
     LMP_UNROLL for (int k = 0; k < lobes; k++)
         shade_planes(&surfaces->lobe[k].axis, e, block.axis[k]);
     for (size_t i = 0; i < light_count; i++)
-        shade_aim_at(lobes, &lights[i], e, &block, &aims[i]);
+        shade_direction_of(lobes, &lights[i], e, &block, &directions[i]);
 }
 
 #endif

@@ -25,9 +25,9 @@ typedef vf zonal_number;
 #define ZONAL_BANDS_MIN 3
 
 /* What is the same for every surface, by band. The factors of R_l P_l hold their norms, of l = 0
- * those of strength and solid angle, which are pi (1 + |cos a|) and 2 pi times an aim's weight.
- * Even bands of the diffuse lobe take two steps at once:
- * P_l = (even_a u² - even_b) P_(l-2) - even_c P_(l-4), even_a = 1 in monic form. */
+ * those of strength and solid angle, which are pi (1 + |cos a|) and 2 pi times a direction's
+ * weight. Even bands of the diffuse lobe take two steps at once: P_l = (even_a u² - even_b) P_(l-2)
+ * - even_c P_(l-4), even_a = 1 in monic form. */
 typedef struct zonal_tables {
     zonal_number phong[LMP_BANDS_MAX];
     zonal_number cap[ZONAL_MONIC_BANDS], lobe[ZONAL_MONIC_BANDS]; /* c_l; only in monic form */
@@ -134,26 +134,26 @@ LMP_INLINE void zonal_step(int lobes, const zonal_tables *tables, int l, vf x, c
 }
 
 LMP_INLINE zonal_sums zonal_monic(int lobes, int bands, const zonal_tables *tables,
-                                  const zonal_weights *weights, const shade_aim *aim) {
-    const vf one = vf_set(1), square = aim->u * aim->u, x = one - aim->t;
+                                  const zonal_weights *weights, const shade_direction *direction) {
+    const vf one = vf_set(1), square = direction->u * direction->u, x = one - direction->t;
     zonal_sums sums = { .r1 = x,
                         .r0 = one,
                         .p1 = square - tables->even_b[1],
                         .p0 = one,
-                        .diffuse = tables->diffuse_1 * aim->u };
+                        .diffuse = tables->diffuse_1 * direction->u };
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
-        sums.q1[k] = aim->v[k] * aim->v[k] - tables->lobe[2];
-        sums.q0[k] = aim->v[k];
-        sums.specular[k] = weights->of[k][1] * aim->v[k];
+        sums.q1[k] = direction->v[k] * direction->v[k] - tables->lobe[2];
+        sums.q0[k] = direction->v[k];
+        sums.specular[k] = weights->of[k][1] * direction->v[k];
     }
     sums.diffuse = sums.diffuse + tables->diffuse[1] * (x * sums.p1);
     zonal_add_specular(lobes, weights, 2, &sums);
     LMP_UNROLL for (int l = 3; l < bands; l += 2) {
-        zonal_step(lobes, tables, l, x, aim->v, &sums);
+        zonal_step(lobes, tables, l, x, direction->v, &sums);
         zonal_add_specular(lobes, weights, l, &sums);
         if (l + 1 == bands)
             break;
-        zonal_step(lobes, tables, l + 1, x, aim->v, &sums);
+        zonal_step(lobes, tables, l + 1, x, direction->v, &sums);
         zonal_add_specular(lobes, weights, l + 1, &sums);
         zonal_add_diffuse(tables, l + 1, square, &sums);
     }
@@ -163,20 +163,20 @@ LMP_INLINE zonal_sums zonal_monic(int lobes, int bands, const zonal_tables *tabl
 /* The same of more bands: R_l by its differences r0 = R_l - R_(l-1), which keeps more of them
  * exact. */
 LMP_INLINE zonal_sums zonal_long(int lobes, int bands, const zonal_tables *tables,
-                                 const zonal_weights *weights, const shade_aim *aim) {
-    const vf one = vf_set(1), zero = vf_set(0), square = aim->u * aim->u;
-    zonal_sums sums = { one, zero, one, zero, .diffuse = tables->diffuse_1 * aim->u };
+                                 const zonal_weights *weights, const shade_direction *direction) {
+    const vf one = vf_set(1), zero = vf_set(0), square = direction->u * direction->u;
+    zonal_sums sums = { one, zero, one, zero, .diffuse = tables->diffuse_1 * direction->u };
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
-        sums.q1[k] = aim->v[k];
+        sums.q1[k] = direction->v[k];
         sums.q0[k] = one;
-        sums.specular[k] = weights->of[k][1] * aim->v[k];
+        sums.specular[k] = weights->of[k][1] * direction->v[k];
     }
     LMP_ROLLED for (int l = 2; l < bands; l++) {
         const float *d = lmp_table_legendre_d, *t = lmp_table_legendre_t;
-        sums.r0 = lmp_table_cap_d[l] * sums.r0 - lmp_table_cap_t[l] * (aim->t * sums.r1);
+        sums.r0 = lmp_table_cap_d[l] * sums.r0 - lmp_table_cap_t[l] * (direction->t * sums.r1);
         sums.r1 = sums.r1 + sums.r0;
         LMP_UNROLL for (int k = 0; k < lobes; k++) {
-            const vf q2 = t[l] * (aim->v[k] * sums.q1[k]) - d[l] * sums.q0[k];
+            const vf q2 = t[l] * (direction->v[k] * sums.q1[k]) - d[l] * sums.q0[k];
             sums.q0[k] = sums.q1[k];
             sums.q1[k] = q2;
         }
@@ -187,71 +187,73 @@ LMP_INLINE zonal_sums zonal_long(int lobes, int bands, const zonal_tables *table
     return sums;
 }
 
-/* A lobe's answer, of its sum from l = 1 on and its number of l = 0. */
-LMP_INLINE vf zonal_answer(const shade_aim *aim, vf sum, vf whole) {
-    const vf answer = aim->weight * ((vf_set(2) - aim->t) * sum + whole);
-    return __builtin_expect(aim->everywhere, 0) ? answer + 2 * whole * aim->ambient : answer;
+/* A lobe's response, of its sum from l = 1 on and its number of l = 0. */
+LMP_INLINE vf zonal_response(const shade_direction *direction, vf sum, vf whole) {
+    const vf response = direction->weight * ((vf_set(2) - direction->t) * sum + whole);
+    return __builtin_expect(direction->is_ambient, 0) ? response + 2 * whole * direction->ambient
+                                                      : response;
 }
 
-/* Adds one light's answers to the block's sums. The chains of successive lights run side by side:
+/* Adds one light's responses to the block's sums. The chains of successive lights run side by side:
  * none waits for the one before. */
 LMP_INLINE void zonal_light(int lobes, int bands, int monic, const zonal_tables *tables,
-                            const zonal_weights *weights, const shade_aim *aim, lmp_rgb rgb,
-                            shade_sums *sums) {
-    const zonal_sums zonal = monic ? zonal_monic(lobes, bands, tables, weights, aim)
-                                   : zonal_long(lobes, bands, tables, weights, aim);
-    shade_gather(rgb, zonal_answer(aim, zonal.diffuse, zonal_lanes(tables->diffuse[0])),
-                 sums->diffuse);
-    LMP_UNROLL for (int k = 0; k < lobes; k++) shade_gather(
-        rgb, zonal_answer(aim, zonal.specular[k], weights->of[k][0]), sums->specular[k]);
+                            const zonal_weights *weights, const shade_direction *direction,
+                            lmp_rgb rgb, shade_sums *sums) {
+    const zonal_sums zonal = monic ? zonal_monic(lobes, bands, tables, weights, direction)
+                                   : zonal_long(lobes, bands, tables, weights, direction);
+    shade_accumulate(rgb, zonal_response(direction, zonal.diffuse, zonal_lanes(tables->diffuse[0])),
+                     sums->diffuse);
+    LMP_UNROLL for (int k = 0; k < lobes; k++) shade_accumulate(
+        rgb, zonal_response(direction, zonal.specular[k], weights->of[k][0]), sums->specular[k]);
 }
 
 LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_tables *tables,
                           const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                           size_t light_count, size_t count,
-                          const lmp_kernel_accumulated *gathered) {
-    shade_aim aims[LMP_KERNEL_LIGHTS_MAX];
+                          const lmp_kernel_accumulated *accumulated) {
+    shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
     zonal_weights weights;
     for (size_t e = 0; e < count; e += LMP_LANES) {
         shade_sums sums;
-        shade_sums_load(lobes, gathered, e, &sums);
+        shade_sums_load(lobes, accumulated, e, &sums);
         for (int k = 0; k < lobes; k++) {
             const float *exponent = surfaces->lobe[k].exponent + e;
             /* Neighbors are often of one material. */
             if (e == 0 || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
                 zonal_phong(bands, tables, vf_load(exponent), weights.of[k]);
         }
-        shade_aim_all(lobes, surfaces, lights, light_count, e, aims);
+        shade_directions(lobes, surfaces, lights, light_count, e, directions);
         for (size_t i = 0; i < light_count; i++) {
             LMP_OPAQUE(tables);
-            zonal_light(lobes, bands, monic, tables, &weights, &aims[i], lights[i].radiance, &sums);
+            zonal_light(lobes, bands, monic, tables, &weights, &directions[i], lights[i].radiance,
+                        &sums);
         }
-        shade_sums_store(lobes, &sums, e, gathered);
+        shade_sums_store(lobes, &sums, e, accumulated);
     }
 }
 
 LMP_INLINE void zonal_surfaces(int bands, int constant, int lobes, const zonal_tables *tables,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                size_t light_count, size_t count,
-                               const lmp_kernel_accumulated *gathered) {
+                               const lmp_kernel_accumulated *accumulated) {
     if (constant || bands <= ZONAL_MONIC_BANDS)
-        zonal_all(lobes, bands, 1, tables, surfaces, lights, light_count, count, gathered);
+        zonal_all(lobes, bands, 1, tables, surfaces, lights, light_count, count, accumulated);
     else
-        zonal_all(lobes, bands, 0, tables, surfaces, lights, light_count, count, gathered);
+        zonal_all(lobes, bands, 0, tables, surfaces, lights, light_count, count, accumulated);
 }
 
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                size_t light_count, size_t count,
-                               const lmp_kernel_accumulated *gathered) {
+                               const lmp_kernel_accumulated *accumulated) {
     zonal_tables tables;
     zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
     if (surfaces->lobe_count == 1) {
         BASIS_SPECIALISE(bands, zonal_surfaces, 1, &tables, surfaces, lights, light_count, count,
-                         gathered)
+                         accumulated)
     } else {
         BASIS_SPECIALISE(bands, zonal_surfaces, LMP_KERNEL_LOBES_MAX, &tables, surfaces, lights,
-                         light_count, count, gathered)
+                         light_count, count, accumulated)
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* environment.c - what surfaces reflect of the light from all around: a lobe of factors lambda_l
- * around an axis q gathers Σ_l lambda_l Σ_m L_lm Y_lm(q).
+ * around an axis q accumulates Σ_l lambda_l Σ_m L_lm Y_lm(q).
  *
  * Surfaces go through in runs, which the loops over them make vectors of; each is summed in the
  * same order by itself, so that no run changes a bit. */
@@ -57,9 +57,9 @@ static void sum_column(const lmp_environment *e, int bands, int m, const lobe_ru
     }
 }
 
-/* Adds what the lobes gather, times their weights, to rgb. */
+/* Adds the responses of the lobes, times their weights, to rgb. */
 static void add_lobes(const lmp_environment *e, int bands, const lobe_run *run, float rgb[3][RUN]) {
-    float c[RUN], s[RUN] = { 0 }, gathered[3][RUN] = { { 0 } };
+    float c[RUN], s[RUN] = { 0 }, response[3][RUN] = { { 0 } };
     for (int i = 0; i < RUN; i++)
         c[i] = 1;
     for (int m = 0; m < bands; m++) {
@@ -67,7 +67,7 @@ static void add_lobes(const lmp_environment *e, int bands, const lobe_run *run, 
         sum_column(e, bands, m, run, &sums);
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < RUN; i++)
-                gathered[k][i] += sums.cosine[k][i] * c[i] + sums.sine[k][i] * s[i];
+                response[k][i] += sums.cosine[k][i] * c[i] + sums.sine[k][i] * s[i];
         for (int i = 0; i < RUN; i++) {
             const float turned = run->x[i] * c[i] - run->y[i] * s[i];
             s[i] = run->x[i] * s[i] + run->y[i] * c[i];
@@ -76,7 +76,7 @@ static void add_lobes(const lmp_environment *e, int bands, const lobe_run *run, 
     }
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < RUN; i++)
-            rgb[k][i] += run->weight[k][i] * gathered[k][i];
+            rgb[k][i] += run->weight[k][i] * response[k][i];
 }
 
 /* --- surfaces --------------------------------------------------------------------------------- */

@@ -6,7 +6,7 @@
 #include "src/kernels/batch.h"
 #include "src/shade/material.h"
 
-/* A Phong lobe of each surface, and what it has gathered: red, green, blue. */
+/* A Phong lobe of each surface, and what it has accumulated: red, green, blue. */
 typedef struct shade_lobe_planes {
     lmp_batch_vec3 axis, weight;
     lmp_batch_plane exponent;
@@ -19,11 +19,13 @@ typedef struct shade_planes {
     shade_lobe_planes lobe[LMP_KERNEL_LOBES_MAX];
 } shade_planes;
 
-/* The lobes of the surfaces at[0 … count-1], `lobes` Phong ones each; nothing gathered is set. */
+/* The lobes of the surfaces at[0 … count-1], `lobes` Phong ones each; what they accumulate is not
+ * set.
+ */
 void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobes,
                     const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view, shade_planes *planes);
 
-/* What the lobes have gathered and ambient light, weighted: into what the diffuse one has. */
+/* What the lobes have accumulated and ambient light, weighted: into what the diffuse one has. */
 void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade_planes *planes);
 
 #endif

@@ -140,7 +140,7 @@ static lmp_rgb scaled(lmp_rgb color, float factor) {
     return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
 }
 
-/* A cap seen alike from everywhere. */
+/* A cap seen alike from all around. */
 static lmp_kernel_light fixed_cap(lmp_vec3 direction, float sine, lmp_rgb radiance) {
     return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL };
 }

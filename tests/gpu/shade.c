@@ -37,7 +37,7 @@ static double scale_of(int bands, const float *lambda) {
 
 /* What each light alone would reflect with every term of its series positive: the scale of
  * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of all lobes, times the
- * strength of the light's cap over pi, and four times what shines from everywhere. */
+ * strength of the light's cap over pi, and four times what shines from all around. */
 static double magnitude(const gpu_pixel *p, const gpu_frame *frame) {
     float lambda[LMP_BANDS_MAX];
     lmp_ggx_lobes ggx;

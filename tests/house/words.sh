@@ -24,6 +24,9 @@ rungs?=stage
 [a-z_]*share_of[a-z_]*=fraction, weight
 [a-z_]*_turn(ed|s)?=rotate
 (view|add|read|describe)_looks?=view_shading
+[a-z_]*gather(ed|s|ing)?[a-z_]*=accumulated, response
+shade_aims?=light direction
+shade-(response|measured)=shade-preintegrated, shade-brdf
 gpu_set_responses=gpu_set_preintegrated_brdfs
 END
 }

@@ -38,8 +38,17 @@ static char *read_output(const char *name) {
 /* The whole output; its rows have every key. */
 static cJSON *rows_of(const char *arguments) {
     static const char *const numbers[] = {
-        "bands",      "lights",      "width",    "height",   "ms",          "ns_per_pixel_light",
-        "compile_ms", "table_bytes", "table_ms", "lobes_ms", "preintegrated_ms",
+        "bands",
+        "lights",
+        "width",
+        "height",
+        "ms",
+        "ns_per_pixel_light",
+        "compile_ms",
+        "table_bytes",
+        "table_ms",
+        "lobes_ms",
+        "preintegrated_ms",
     };
     if (bench(arguments) != 0)
         fail_msg("%s: %s", arguments, read_output("err"));

@@ -129,8 +129,8 @@ static void add_cap(const fit_node *node, const double p[PARAMETERS], int cap, e
     }
 }
 
-static void gather(const fit_node *node, const double p[PARAMETERS],
-                   const double toward[PARAMETERS], double pull, equations *e) {
+static void accumulate(const fit_node *node, const double p[PARAMETERS],
+                       const double toward[PARAMETERS], double pull, equations *e) {
     static const double scale[4] = { 1, 0.5, 2, 2 };
     memset(e, 0, sizeof *e);
     for (int cap = 0; cap < CAPS; cap++)
@@ -190,7 +190,7 @@ double node_fit(const fit_node *node, double p[PARAMETERS], const double toward[
                 double pull, int steps) {
     equations now, next;
     double damping = 1e-3, step[PARAMETERS], tried[PARAMETERS];
-    gather(node, p, toward, pull, &now);
+    accumulate(node, p, toward, pull, &now);
     equations_bound(&now, p);
     for (int i = 0; i < steps && damping < 1e6; i++) {
         if (!solve(&now, damping, step)) {
@@ -199,7 +199,7 @@ double node_fit(const fit_node *node, double p[PARAMETERS], const double toward[
         }
         for (int k = 0; k < PARAMETERS; k++)
             tried[k] = fmin(fmax(p[k] + step[k], least[k % 4]), most[k % 4]);
-        gather(node, tried, toward, pull, &next);
+        accumulate(node, tried, toward, pull, &next);
         if (next.error < now.error) {
             const bool done = next.error > now.error * (1 - 1e-7);
             memcpy(p, tried, sizeof tried);
@@ -217,6 +217,6 @@ double node_fit(const fit_node *node, double p[PARAMETERS], const double toward[
 
 double node_error(const fit_node *node) {
     equations alone;
-    gather(node, node->fit, node->fit, 0, &alone);
+    accumulate(node, node->fit, node->fit, 0, &alone);
     return sqrt(alone.error / (SIZES * MATERIALS));
 }
