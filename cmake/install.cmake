@@ -9,7 +9,7 @@ install(TARGETS ${lampion_libraries} EXPORT lampionTargets
   RUNTIME COMPONENT library)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion)
-install(FILES shaders/lampion.glsl shaders/preintegrated_lookup.h shaders/preintegrated_lobe.glsl shaders/preintegrated_brdf.glsl
+install(FILES shaders/lampion.glsl shaders/coefficients.glsl shaders/preintegrated_lookup.h shaders/preintegrated_lobe.glsl shaders/preintegrated_brdf.glsl
   shaders/probe.glsl shaders/ggx.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

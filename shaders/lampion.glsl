@@ -10,7 +10,7 @@
  *                            damps the ringing of the material's truncated series
  *   LMP_WINDOW_SIZE          the band whose weight falls to 0; default LMP_BANDS
  *   LMP_WINDOW_WEIGHTS       in place of these two, LMP_BANDS weights separated by commas
- * and, to have the two lmp_shade_… functions,
+ * and, to have the lmp_shade_… functions,
  *   LMP_LIGHT_COUNT          int: number of lights
  *   LMP_LIGHT_SPHERE(i)      vec4: center and radius of light i, 0 <= i < LMP_LIGHT_COUNT
  *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
@@ -43,13 +43,11 @@
  *
  * What there is
  *   lmp_shade_zonal          radiance to the viewer under all lights: O(LMP_BANDS) a light
- *   lmp_shade_coefficients   the same by the paper's method: O(LMP_BANDS²) a light
  *   lmp_lobes_of             what a surface reflects by, for passes of your own
- *   lmp_sphere_project       the LMP_SH_COUNT coefficients of a sphere light, for probes
- *   lmp_sh_eval              Y_lm of a direction
  *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
  *   lmp_cap_of_light, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
- * and in preintegrated_lobe.glsl, after this file, lmp_shade_preintegrated: one cost for any bands.
+ * After this file, coefficients.glsl has the coefficients themselves, for probes and the paper's
+ * method, and preintegrated_lobe.glsl lmp_shade_preintegrated, of one cost for any bands.
  * All of them also take a lmp_metallic_roughness, glTF's material, where ggx.glsl stands before.
  * All names begin with lmp_ or LMP_. Nothing is kept: no uniforms, buffers or bindings.
  *
@@ -83,7 +81,6 @@
 #define LMP_PI       3.14159265358979
 #define LMP_SH_COUNT (LMP_BANDS * LMP_BANDS)
 /* coefficients with m >= 0, all that a function symmetric to y has */
-#define LMP_HALF_COUNT (LMP_BANDS * (LMP_BANDS + 1) / 2)
 
 /* A point to shade; view points to the viewer. */
 struct lmp_surface {
@@ -141,30 +138,8 @@ struct lmp_cap {
     X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15) X(16) X(17) X(18)  \
     X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
 
-/* X(l, m) for l = 0 … 31 and one m; each body starts with the constant test LMP_INSIDE(l, m). */
-#define LMP_FOR_COLUMN(X, m)                                                                       \
-    X(0, m) X(1, m) X(2, m) X(3, m) X(4, m) X(5, m) X(6, m) X(7, m) X(8, m) X(9, m) X(10, m)       \
-    X(11, m) X(12, m) X(13, m) X(14, m) X(15, m) X(16, m) X(17, m) X(18, m) X(19, m) X(20, m)      \
-    X(21, m) X(22, m) X(23, m) X(24, m) X(25, m) X(26, m) X(27, m) X(28, m) X(29, m) X(30, m)      \
-    X(31, m)
-/* X(m) for m = 0 … LMP_BANDS-1: only the columns there are, or 32² dead blocks would be parsed. */
-#if LMP_BANDS <= 4
-#define LMP_FOR_COLUMNS(X) X(0) X(1) X(2) X(3)
-#elif LMP_BANDS <= 8
-#define LMP_FOR_COLUMNS(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
-#elif LMP_BANDS <= 16
-#define LMP_FOR_COLUMNS(X)                                                                         \
-    X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
-#else
-#define LMP_FOR_COLUMNS(X)                                                                         \
-    X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15) X(16)    \
-    X(17) X(18) X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
-#endif
-#define LMP_INSIDE(l, m) (l >= m && l < LMP_BANDS)
-/* Indices that stay legal in the blocks the constant tests remove. */
-#define LMP_BAND(l)     (l < LMP_BANDS ? l : 0)
-#define LMP_INDEX(l, m) (l < LMP_BANDS && l >= (m < 0 ? -(m) : m) ? l * l + l + m : 0)
-#define LMP_HALF_INDEX(l, m) (LMP_INSIDE(l, m) ? l * (l + 1) / 2 + m : 0)
+/* An index that stays legal in the blocks the constant tests remove. */
+#define LMP_BAND(l) (l < LMP_BANDS ? l : 0)
 
 /* Weight of band l under LMP_WINDOW; a constant for a constant l. */
 #ifdef LMP_WINDOW_WEIGHTS
@@ -339,57 +314,6 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 }
 #endif
 
-/* Y_lm(w) (paper Eq. 1), in Cartesian form: no angles, no poles. */
-void lmp_sh_eval(vec3 w, out float sh[LMP_SH_COUNT]) {
-    float c = 1.0, s = 0.0, diagonal = sqrt(0.25 / LMP_PI), q, q1, q2, t;
-#define LMP_ROW(l, m)                                                                              \
-    if (LMP_INSIDE(l, m)) {                                                                        \
-        q = l == m ? diagonal                                                                      \
-                   : sqrt(float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m)) *              \
-                         (w.z * q1 - sqrt(float(l == m ? 0 : (l - 1) * (l - 1) - m * m) /          \
-                                          float(l == 0 ? 1 : 4 * (l - 1) * (l - 1) - 1)) * q2);    \
-        q2 = q1;                                                                                   \
-        q1 = q;                                                                                    \
-        sh[LMP_INDEX(l, m)] = q * c;                                                               \
-        if (m > 0)                                                                                 \
-            sh[LMP_INDEX(l, -m)] = q * s;                                                          \
-    }
-#define LMP_COLUMN(m)                                                                              \
-    if (m < LMP_BANDS) {                                                                           \
-        q1 = q2 = 0.0;                                                                             \
-        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
-        diagonal *= m == 0 ? -sqrt(3.0) : -sqrt(float(2 * m + 3) / float(2 * m + 2));              \
-        t = w.x * c - w.y * s;                                                                     \
-        s = w.x * s + w.y * c;                                                                     \
-        c = t;                                                                                     \
-    }
-    LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-}
-
-/* Coefficients of a cap of radiance 1 (paper Eq. 12 and 13). */
-void lmp_cap_project(lmp_cap cap, out float sh[LMP_SH_COUNT]) {
-    float R[LMP_BANDS];
-    lmp_cap_series(cap, R);
-    lmp_sh_eval(cap.axis, sh);
-#define LMP_ROW(l, m)                                                                              \
-    if (LMP_INSIDE(l, m)) {                                                                        \
-        sh[LMP_INDEX(l, m)] *= LMP_PI * R[LMP_BAND(l)];                                            \
-        if (m > 0)                                                                                 \
-            sh[LMP_INDEX(l, -m)] *= LMP_PI * R[LMP_BAND(l)];                                       \
-    }
-#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
-    LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-}
-
-/* Coefficients at `point` of a sphere of radiance 1. */
-void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
-    lmp_cap_project(lmp_cap_of_sphere(sphere, point), sh);
-}
-
 #ifdef LMP_LIGHT_COUNT
 #ifndef LMP_LIGHT_FIXED
 #define LMP_LIGHT_FIXED(i) false
@@ -483,116 +407,7 @@ mat3 lmp_view_frame(lmp_surface surface) {
     return transpose(mat3(tangent, cross(normal, tangent), normal));
 }
 
-/* The next q_l(z), monic, from the two before it, which begin as 0. */
-#define LMP_MONIC(l, m, z, q, q1, q2)                                                              \
-    q = l == m ? q1 + 1.0                                                                          \
-               : z * q1 - float((l - 1) * (l - 1) - m * m) / float(4 * (l - 1) * (l - 1) - 1) * q2; \
-    q2 = q1;                                                                                       \
-    q1 = q;
-/* The next real part of (x + iy)^m from the two before it, with around = x² + y². */
-#define LMP_POWER(x, around, c, next)                                                              \
-    t = 2.0 * x * next - around * c;                                                               \
-    c = next;                                                                                      \
-    next = t;
-
-/* The same by the paper's method: the coefficients of all lights are summed, then multiplied with
- * those of the material.
- *
- * All lobes lie in the plane of normal and view. In a frame whose z is the normal and whose x lies
- * in that plane their coefficients vanish for m < 0, so only the others are summed; the lights'
- * directions are brought into that frame, which is cheaper than rotating coefficients. Y_lm is
- * carried as q_l(z) times the real part of (x + iy)^m, with q_l monic; the squares of its norms are
- * applied once, to the sums. */
-vec3 lmp_shade_coefficients(lmp_surface surface, lmp_lobes lobes) {
-    mat3 world_to_local = lmp_view_frame(surface);
-
-    vec3 sum[LMP_HALF_COUNT];
-#define LMP_ROW(l, m)                                                                              \
-    if (LMP_INSIDE(l, m))                                                                          \
-        sum[LMP_HALF_INDEX(l, m)] = vec3(0.0);
-#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
-    LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-
-    float q, q1, q2, c, d, t;
-    /* Two lights at once: each sum is read and written half as often. An odd last light is paired
-     * with darkness. */
-    for (int i = 0; i < LMP_LIGHT_COUNT; i += 2) {
-        int j = min(i + 1, LMP_LIGHT_COUNT - 1);
-        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position), cap2 = LMP_LIGHT_CAP(j, surface.position);
-        vec3 w = world_to_local * cap.axis, w2 = world_to_local * cap2.axis;
-        vec3 radiance = LMP_LIGHT_COLOR(i, surface.position);
-        vec3 radiance2 =
-            i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_COLOR(j, surface.position) : vec3(0.0);
-        float R[LMP_BANDS], R2[LMP_BANDS];
-        lmp_cap_series(cap, R);
-        lmp_cap_series(cap2, R2);
-        /* c and c1: the real parts of (x + iy)^m and of the next power */
-        float c1 = w.x, c2 = w2.x, p, p1, p2;
-        float around = w.x * w.x + w.y * w.y, around2 = w2.x * w2.x + w2.y * w2.y;
-        vec3 color, color2;
-        c = d = 1.0;
-#define LMP_ROW(l, m)                                                                              \
-    if (LMP_INSIDE(l, m)) {                                                                        \
-        LMP_MONIC(l, m, w.z, q, q1, q2)                                                            \
-        LMP_MONIC(l, m, w2.z, p, p1, p2)                                                           \
-        sum[LMP_HALF_INDEX(l, m)] +=                                                               \
-            color * (q * R[LMP_BAND(l)]) + color2 * (p * R2[LMP_BAND(l)]);                         \
-    }
-#define LMP_COLUMN(m)                                                                              \
-    if (m < LMP_BANDS) {                                                                           \
-        q1 = q2 = p1 = p2 = 0.0;                                                                   \
-        color = radiance * c;                                                                      \
-        color2 = radiance2 * d;                                                                    \
-        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
-        LMP_POWER(w.x, around, c, c1)                                                              \
-        LMP_POWER(w2.x, around2, d, c2)                                                            \
-    }
-        LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-    }
-
-    float diffuse[LMP_BANDS];
-    LMP_EACH glossy[LMP_BANDS];
-    lmp_lobe_diffuse(diffuse);
-    lmp_lobe_phong(lobes.exponent, glossy);
-    /* x and z of the lobes' axes; y is 0 */
-    LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0) * world_to_local, lobes.axis);
-    LMP_EACH z = LMP_DOT(surface.normal, lobes.axis), power = LMP_EACH(1.0), p, p1, p2;
-    vec3 diffuse_response = vec3(0.0), glossy_response = vec3(0.0);
-    float diagonal = 0.25, norm = 0.0;
-#define LMP_ROW(l, m)                                                                              \
-    if (LMP_INSIDE(l, m)) {                                                                        \
-        LMP_MONIC(l, m, z, p, p1, p2)                                                              \
-        norm = l == m ? diagonal                                                                   \
-                      : norm * float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m);           \
-        glossy_response += sum[LMP_HALF_INDEX(l, m)] *                                             \
-                           (lobes.weight * (norm * power * p * glossy[LMP_BAND(l)]));              \
-        if (m == 0) {                                                                              \
-            LMP_MONIC(l, m, 1.0, q, q1, q2)                                                        \
-            diffuse_response += sum[LMP_HALF_INDEX(l, m)] * (norm * q * diffuse[LMP_BAND(l)]);     \
-        }                                                                                          \
-    }
-#define LMP_COLUMN(m)                                                                              \
-    if (m < LMP_BANDS) {                                                                           \
-        p1 = p2 = LMP_EACH(0.0);                                                                   \
-        q1 = q2 = 0.0;                                                                             \
-        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
-        diagonal *= m == 0 ? 3.0 : float(2 * m + 3) / float(2 * m + 2);                            \
-        power *= x;                                                                                \
-    }
-    LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-    return max(lobes.diffuse / LMP_PI * diffuse_response + glossy_response, vec3(0.0));
-}
-#undef LMP_POWER
-#undef LMP_MONIC
-
 LMP_SHADE_MATERIALS(lmp_shade_zonal)
-LMP_SHADE_MATERIALS(lmp_shade_coefficients)
 
 #endif
 #endif

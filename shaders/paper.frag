@@ -9,6 +9,7 @@
 #include "light.glsl"
 #include "material.glsl"
 #include "lampion.glsl"
+#include "coefficients.glsl"
 
 #include "pixel.glsl"
 

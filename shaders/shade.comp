@@ -15,6 +15,7 @@ layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
 #endif
 #include "material.glsl"
 #include "lampion.glsl"
+#include "coefficients.glsl"
 
 #ifdef SHADE_PREINTEGRATED
 layout(binding = SHARED_PREINTEGRATED_LOBE_PAIRS) uniform sampler2D lobe_pairs;

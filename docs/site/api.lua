@@ -89,7 +89,7 @@ function api.index()
     for path in os.getenv('API_SOURCES'):gmatch('%S+') do
         for _, group in ipairs(api.groups(api.read(path))) do
             for _, name in ipairs(api.defined(group.code)) do
-                -- the macros of lampion.glsl are its own affair
+                -- the macros of a shader are its own affair
                 if not (path:match('%.glsl$') and name:match('^LMP_')) then
                     index[name] = index[name] or path
                 end

@@ -10,7 +10,7 @@ guide="docs/getting-started.md docs/method.md docs/cookbook.md docs/gallery.md d
 use="docs/scenes.md docs/materials.md docs/shading.md docs/preintegration.md docs/sequences.md docs/reference.md docs/formats.md docs/migrating.md docs/security.md"
 judge="docs/accuracy.md docs/benchmarks.md docs/performance-notes.md"
 project="docs/design.md docs/extending.md CONTRIBUTING.md CHANGELOG.md"
-API_SOURCES="$(echo include/lampion/*.h) shaders/lampion.glsl"
+API_SOURCES="$(echo include/lampion/*.h) shaders/lampion.glsl shaders/coefficients.glsl"
 export API_SOURCES
 
 version=$(sed -n 's/^#define LMP_VERSION_[A-Z]* //p' include/lampion/base.h | paste -sd .)

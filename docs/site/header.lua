@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- Pandoc reader of a public header (or of lampion.glsl): its comments as text, its declarations as
+-- Pandoc reader of a public header (or of a shader): its comments as text, its declarations as
 -- code whose names are anchors and links. A function without a comment is an error.
 local folder = PANDOC_SCRIPT_FILE:match('^(.*/)')
 local api = dofile(folder .. 'api.lua')

@@ -39,12 +39,13 @@ static const char main_function[] =
     "    }\n"
     "}\n";
 
-static GLuint build(const char *head, const char *file, const char *main) {
-    const char *text[] = { head, source(file), main };
+/* more: a file to include after the first, or NULL. */
+static GLuint build(const char *head, const char *file, const char *more, const char *main) {
+    const char *text[] = { head, source(file), more ? source(more) : "", main };
     const GLuint program = glCreateProgram(), shader = glCreateShader(GL_COMPUTE_SHADER);
     GLint ok = 0;
     char log[512] = "";
-    glShaderSource(shader, 3, text, NULL);
+    glShaderSource(shader, 4, text, NULL);
     glCompileShader(shader);
     glAttachShader(program, shader);
     glDeleteShader(shader);
@@ -86,7 +87,7 @@ static void coefficients_agree_with_the_library(void **state) {
         const size_t count = LMP_SH_COUNT(bands), size = POINTS * count * 2 * sizeof(float);
         char head[64];
         snprintf(head, sizeof head, "#version 450 core\n#define LMP_BANDS %d\n", bands);
-        const GLuint program = build(head, "lampion.glsl", main_function);
+        const GLuint program = build(head, "lampion.glsl", "coefficients.glsl", main_function);
         GLuint buffers[2];
         glCreateBuffers(2, buffers);
         glNamedBufferStorage(buffers[0], sizeof points, points, 0);
@@ -145,7 +146,7 @@ static void irradiance_agrees_with_the_library(void **state) {
         memcpy(normals[i], (const float[4]) { n.x, n.y, n.z }, sizeof normals[i]);
     }
     lmp_probe_constants_of(3, 1, sh, &constants);
-    const GLuint program = build("#version 450 core\n", "probe.glsl", probe_main);
+    const GLuint program = build("#version 450 core\n", "probe.glsl", NULL, probe_main);
     GLuint buffers[3];
     glCreateBuffers(3, buffers);
     glNamedBufferStorage(buffers[0], sizeof normals, normals, 0);
@@ -220,7 +221,7 @@ static void ggx_lobes_agree_with_the_library(void **state) {
         views[i][3] = (float)check_random_between(-0.1, 1.1);
     }
     lmp_lobe_ggx_texels(texels[0]);
-    const GLuint program = build(ggx_head, "ggx.glsl", ggx_main);
+    const GLuint program = build(ggx_head, "ggx.glsl", NULL, ggx_main);
     GLuint buffers[3];
     glCreateBuffers(3, buffers);
     glNamedBufferStorage(buffers[0], sizeof views, views, 0);

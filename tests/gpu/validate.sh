@@ -33,7 +33,7 @@ GLSL
         cat shaders/ggx.glsl
         material="lmp_metallic_roughness(vec3(0.5), 0.5, 0.4)"
     fi
-    cat shaders/lampion.glsl shaders/preintegrated_lookup.h
+    cat shaders/lampion.glsl shaders/coefficients.glsl shaders/preintegrated_lookup.h
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D pairs;
 layout(std430, binding = 2) readonly buffer lobe_block { vec4 shape; vec4 cells[64]; float remap[LMP_LOOKUP_REMAP_COUNT]; };
