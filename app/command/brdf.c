@@ -5,6 +5,7 @@
 #include "app/csv/csv.h"
 #include "app/method/method.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,7 @@ static const double pi = 3.14159265358979323846;
 static const char *const kind_names[] = { "Lambert",      "Phong",
                                           "GGX",          "SGD (fit of a MERL material)",
                                           "MERL .binary", "RGL .bsdf tensor file" };
+static_assert(sizeof kind_names / sizeof *kind_names == LMP_BRDF_KINDS, "a name for each kind");
 
 static void print_table_info(const lmp_brdf_table *table) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);

@@ -96,14 +96,14 @@ static void print_names(const char *what, const char *name, size_t size, size_t 
 
 /* "30: 28 sphere, 2 spot" */
 static void print_lights(const scene *s) {
-    size_t of_kind[SCENE_LIGHT_KINDS] = { 0 }, hidden = 0;
+    size_t of_kind[LMP_LIGHT_KINDS] = { 0 }, hidden = 0;
     for (size_t i = 0; i < s->light_count; i++) {
         of_kind[s->lights[i].emitter.kind]++;
         hidden += s->lights[i].hidden;
     }
     const char *separator = ": ";
     printf("%-10s %zu", "lights", s->light_count);
-    for (int kind = 0; kind < SCENE_LIGHT_KINDS; kind++)
+    for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++)
         if (of_kind[kind]) {
             printf("%s%zu %s", separator, of_kind[kind], scene_light_kinds[kind].name);
             separator = ", ";

@@ -15,7 +15,7 @@
 #define COLOR(name, optional)                                                                      \
     { #name, SCENE_LIGHT_COLOR, offsetof(lmp_light, name), optional, NULL }
 
-const scene_light_kind scene_light_kinds[SCENE_LIGHT_KINDS] = {
+const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
     [LMP_LIGHT_SPHERE] = { "sphere",
                            { POSITION,
                              { "radius", SCENE_LIGHT_RADIUS, offsetof(lmp_light, radius), false,
@@ -102,7 +102,7 @@ bool scene_light_check_member(const lmp_light *emitter, const scene_light_member
 
 bool scene_light_check(const scene_light *light, scene_light_error *error) {
     const lmp_light *emitter = &light->emitter;
-    if ((unsigned)emitter->kind >= SCENE_LIGHT_KINDS) {
+    if ((unsigned)emitter->kind >= LMP_LIGHT_KINDS) {
         snprintf(error->text, sizeof error->text, " is of no known kind");
         return false;
     }

@@ -38,8 +38,7 @@ typedef struct scene_light_kind {
     scene_light_member members[SCENE_LIGHT_MEMBERS_MAX + 1]; /* ended by one without a name */
 } scene_light_kind;
 
-#define SCENE_LIGHT_KINDS (LMP_LIGHT_HEMISPHERE + 1)
-extern const scene_light_kind scene_light_kinds[SCENE_LIGHT_KINDS]; /* by lmp_light_kind */
+extern const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS]; /* by lmp_light_kind */
 
 /* Whether lights of this one's kind have a member of a type. */
 bool scene_light_has(const scene_light *light, scene_light_type type);

@@ -23,12 +23,12 @@ static bool read_kind(const cJSON *object, scene_light *light, scene_light_error
     const cJSON *item = file_json_member(object, "kind");
     const char *name = cJSON_IsString(item) ? item->valuestring : "";
     size_t used = 0;
-    for (int i = 0; i < SCENE_LIGHT_KINDS; i++)
+    for (int i = 0; i < LMP_LIGHT_KINDS; i++)
         if (strcmp(item ? name : scene_light_kinds[0].name, scene_light_kinds[i].name) == 0) {
             light->emitter.kind = (lmp_light_kind)i;
             return true;
         }
-    for (int i = 0; i < SCENE_LIGHT_KINDS; i++)
+    for (int i = 0; i < LMP_LIGHT_KINDS; i++)
         used += (size_t)snprintf(error->text + used, sizeof error->text - used, "%s%s",
                                  i ? ", " : ".kind is none of ", scene_light_kinds[i].name);
     return false;

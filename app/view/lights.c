@@ -209,7 +209,7 @@ void view_change_kind(view_state *s, int step) {
         return;
     lmp_light *light = &s->now.lights[s->selected].emitter;
     const lmp_vec3 position = light->position;
-    const int kind = ((int)light->kind + step + SCENE_LIGHT_KINDS) % SCENE_LIGHT_KINDS;
+    const int kind = ((int)light->kind + step + LMP_LIGHT_KINDS) % LMP_LIGHT_KINDS;
     *light = model_light(s, (lmp_light_kind)kind);
     light->position = position; /* for when it has one again */
     s->drag = VIEW_DRAG_NONE;

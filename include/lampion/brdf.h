@@ -41,6 +41,7 @@ typedef enum lmp_brdf_kind {
     LMP_BRDF_MERL,
     LMP_BRDF_RGL
 } lmp_brdf_kind;
+#define LMP_BRDF_KINDS (LMP_BRDF_RGL + 1) /* of the last one */
 
 /* Frees any BRDF, through the host it was made with; accepts NULL. */
 LMP_API void lmp_brdf_destroy(lmp_brdf *brdf);

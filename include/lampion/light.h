@@ -37,6 +37,7 @@ typedef enum lmp_light_kind {
     LMP_LIGHT_CAP,         /* direction (to the light), angle, radiance: a sun */
     LMP_LIGHT_HEMISPHERE   /* direction (up), radiance above, ground below: a sky */
 } lmp_light_kind;
+#define LMP_LIGHT_KINDS (LMP_LIGHT_HEMISPHERE + 1) /* of the last one */
 
 /* A light; zero-initialize it and set the members its kind names. Unused members are ignored. */
 typedef struct lmp_light {

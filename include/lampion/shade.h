@@ -61,6 +61,7 @@ typedef enum lmp_shade_method {
     LMP_SHADE_PREINTEGRATED, /* lobes read from settings.lobe, tables from material.preintegrated:
                                 a cost that the bands do not change */
 } lmp_shade_method;
+#define LMP_SHADE_METHODS (LMP_SHADE_PREINTEGRATED + 1) /* of the last one */
 
 /* How to shade; zero-initialized: by zonal sums of 10 bands, no window. */
 typedef struct lmp_shade_settings {

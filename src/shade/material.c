@@ -15,7 +15,7 @@ lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings) {
     if (resolved.bands == 0)
         resolved.bands = LMP_SHADE_BANDS_DEFAULT;
     assert(lmp_is_bands(resolved.bands));
-    assert(resolved.method >= LMP_SHADE_ZONAL && resolved.method <= LMP_SHADE_PREINTEGRATED);
+    assert((unsigned)resolved.method < LMP_SHADE_METHODS);
     return resolved;
 }
 

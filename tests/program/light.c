@@ -38,7 +38,7 @@ static bool read_text(const char *text, scene_light *light, scene_light_error *w
 static void every_kind_is_read_as_it_was_written(void **state) {
     (void)state;
     for (int i = 0; i < 600; i++) {
-        const scene_light light = random_light(i % SCENE_LIGHT_KINDS);
+        const scene_light light = random_light(i % LMP_LIGHT_KINDS);
         scene_light again;
         scene_light_error wrong = { "" };
         cJSON *object = scene_light_to_json(&light);
@@ -74,7 +74,7 @@ static void directions_become_unit_vectors(void **state) {
 static void values_out_of_range_are_named(void **state) {
     (void)state;
     const float bad[] = { NAN, INFINITY, -1e30f };
-    for (int kind = 0; kind < SCENE_LIGHT_KINDS; kind++)
+    for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++)
         for (const scene_light_member *m = scene_light_kinds[kind].members; m->name; m++)
             for (size_t i = 0; i < sizeof bad / sizeof *bad && !m->convert; i++) {
                 scene_light light = random_light(kind);
@@ -95,7 +95,7 @@ static void the_document_names_every_kind_and_member(void **state) {
     size_t size;
     cli_error error;
     assert_true(file_read(DOCUMENT, 1 << 20, (void **)&text, &size, &error));
-    for (int kind = 0; kind < SCENE_LIGHT_KINDS; kind++) {
+    for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++) {
         snprintf(row, sizeof row, "\n| `%s` |", scene_light_kinds[kind].name);
         char *at = strstr(text, row), *end = at ? strchr(at + 1, '\n') : NULL;
         if (!end)

@@ -129,9 +129,9 @@ static void lights_take_every_kind(void **unused) {
     place_light();
     key("Tab");
     const scene_light *light = &state.now.lights[0];
-    for (int i = 1; i <= SCENE_LIGHT_KINDS; i++) {
+    for (int i = 1; i <= LMP_LIGHT_KINDS; i++) {
         key("k");
-        assert_int_equal(light->emitter.kind, i % SCENE_LIGHT_KINDS);
+        assert_int_equal(light->emitter.kind, i % LMP_LIGHT_KINDS);
         for (int step = 0; step < 60; step++)
             key("]");
         key("h");
