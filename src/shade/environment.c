@@ -162,13 +162,7 @@ void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfa
 
 lmp_rgb lmp_shade_environment(const lmp_shade_settings *settings, const lmp_material *material,
                               const lmp_surface *surface, const lmp_environment *environment) {
-    const lmp_surfaces one = {
-        .position = lmp_vec3_array_same(&surface->position),
-        .normal = lmp_vec3_array_same(&surface->normal),
-        .view = lmp_vec3_array_same(&surface->view),
-        .tangent = lmp_vec3_array_same(&surface->tangent),
-        .material = material,
-    };
+    const lmp_surfaces one = lmp_surfaces_of(material, surface);
     lmp_rgb color;
     lmp_shade_environment_n(settings, &one, 1, environment, 0, &color.r);
     return color;

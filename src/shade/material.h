@@ -79,6 +79,16 @@ static inline const lmp_material *lmp_material_at(const lmp_surfaces *surfaces, 
     return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
 }
 
+/* One surface as many, which functions of one hand to those of many. */
+static inline lmp_surfaces lmp_surfaces_of(const lmp_material *material,
+                                           const lmp_surface *surface) {
+    return (lmp_surfaces) { .position = lmp_vec3_array_same(&surface->position),
+                            .normal = lmp_vec3_array_same(&surface->normal),
+                            .view = lmp_vec3_array_same(&surface->view),
+                            .tangent = lmp_vec3_array_same(&surface->tangent),
+                            .material = material };
+}
+
 static inline bool lmp_are_surfaces(const lmp_surfaces *surfaces, size_t count) {
     for (size_t i = 0; i < count; i++)
         if (!lmp_is_material(lmp_material_at(surfaces, i)))

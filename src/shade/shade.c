@@ -6,13 +6,7 @@
 static lmp_rgb shade_batch_of_one(const lmp_shade_settings *settings, const lmp_material *material,
                                   const lmp_surface *surface, const lmp_light *lights,
                                   size_t count) {
-    const lmp_surfaces one = {
-        .position = lmp_vec3_array_same(&surface->position),
-        .normal = lmp_vec3_array_same(&surface->normal),
-        .view = lmp_vec3_array_same(&surface->view),
-        .tangent = lmp_vec3_array_same(&surface->tangent),
-        .material = material,
-    };
+    const lmp_surfaces one = lmp_surfaces_of(material, surface);
     lmp_rgb color;
     lmp_shade_n(settings, &one, 1, lights, count, 0, &color.r);
     return color;
