@@ -7,8 +7,11 @@
 
 #include <string.h>
 
-/* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. */
-#define LMP_BATCH 64
+/* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. Who has
+ * many planes defines a smaller one before. */
+#ifndef LMP_BATCH
+#define LMP_BATCH 128
+#endif
 
 typedef struct lmp_batch_plane {
     float at[LMP_BATCH] __attribute__((aligned(64)));

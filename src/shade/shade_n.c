@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* shade_n.c - shading many surfaces: chunks of planes, every light as a sphere or a fixed cap. */
 #include "src/base/tables.h"
-#include "src/kernels/batch.h"
 #include "src/light/cap.h"
 #include "src/preintegrated/lobe_eval.h"
 #include "src/shade/planes.h"
