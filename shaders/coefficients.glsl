@@ -120,13 +120,13 @@ void lmp_lights_project(lmp_surface surface, mat3 world_to_local, out vec3 sum[L
     float q, q1, q2, c, d, t;
     /* Two lights at once: each sum is read and written half as often. An odd last light is paired
      * with darkness. */
-    for (int i = 0; i < LMP_LIGHT_COUNT; i += 2) {
-        int j = min(i + 1, LMP_LIGHT_COUNT - 1);
-        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position), cap2 = LMP_LIGHT_CAP(j, surface.position);
+    for (int i = 0; i < lmp_light_count(); i += 2) {
+        int j = min(i + 1, lmp_light_count() - 1);
+        lmp_cap cap = lmp_light_cap(i, surface.position), cap2 = lmp_light_cap(j, surface.position);
         vec3 w = world_to_local * cap.axis, w2 = world_to_local * cap2.axis;
-        vec3 radiance = LMP_LIGHT_COLOR(i, surface.position);
+        vec3 radiance = lmp_light_color(i, surface.position);
         vec3 radiance2 =
-            i + 1 < LMP_LIGHT_COUNT ? LMP_LIGHT_COLOR(j, surface.position) : vec3(0.0);
+            i + 1 < lmp_light_count() ? lmp_light_color(j, surface.position) : vec3(0.0);
         float R[LMP_BANDS], R2[LMP_BANDS];
         lmp_cap_series(cap, R);
         lmp_cap_series(cap2, R2);

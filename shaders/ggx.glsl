@@ -12,6 +12,11 @@
 #define LMP_GGX_ROUGHNESSES   32
 #define LMP_GGX_ROUGHNESS_MIN 0.0316227766
 
+/* What the includer defined is read here alone, where no local name can stand for one of its own. */
+vec4 lmp_ggx_texel(int lmp_i) {
+    return LMP_GGX_TEXEL(lmp_i);
+}
+
 /* Reflectance of the lobe: f0 F0 + f90 F90. */
 struct lmp_ggx_lobe {
     vec3 axis;
@@ -44,8 +49,8 @@ lmp_ggx_place lmp_ggx_lookup(vec3 normal, vec3 view, float roughness) {
 lmp_ggx_lobe lmp_ggx_lobe_at(lmp_ggx_place place, vec3 normal, vec3 view, int k) {
     int i = (place.node.y * LMP_GGX_VIEWS + place.node.x) * LMP_GGX_LOBES + k;
     int j = i + LMP_GGX_VIEWS * LMP_GGX_LOBES;
-    vec4 near = mix(LMP_GGX_TEXEL(i), LMP_GGX_TEXEL(i + LMP_GGX_LOBES), place.fraction.x);
-    vec4 far = mix(LMP_GGX_TEXEL(j), LMP_GGX_TEXEL(j + LMP_GGX_LOBES), place.fraction.x);
+    vec4 near = mix(lmp_ggx_texel(i), lmp_ggx_texel(i + LMP_GGX_LOBES), place.fraction.x);
+    vec4 far = mix(lmp_ggx_texel(j), lmp_ggx_texel(j + LMP_GGX_LOBES), place.fraction.x);
     vec4 p = mix(near, far, place.fraction.y);
     float rise = place.cosine + place.alpha * p.x + place.along;
     lmp_ggx_lobe lobe;
@@ -59,7 +64,7 @@ lmp_ggx_lobe lmp_ggx_lobe_at(lmp_ggx_place place, vec3 normal, vec3 view, int k)
 /* The diffuse part is (1 - (1 - x) F0 - x F90) base / pi. */
 float lmp_ggx_diffuse_f90(lmp_ggx_place place) {
     int i = LMP_GGX_ROUGHNESSES * LMP_GGX_VIEWS * LMP_GGX_LOBES + place.node.x;
-    return mix(LMP_GGX_TEXEL(i).x, LMP_GGX_TEXEL(i + 1).x, place.fraction.x);
+    return mix(lmp_ggx_texel(i).x, lmp_ggx_texel(i + 1).x, place.fraction.x);
 }
 
 #endif

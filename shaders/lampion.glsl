@@ -332,7 +332,16 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 #else
 #define LMP_SHADE_MATERIALS(shade) LMP_SHADE_MATERIAL(shade, lmp_material)
 #endif
-#define LMP_LIGHT_CAP(i, p) lmp_cap_of_light(LMP_LIGHT_SPHERE(i), LMP_LIGHT_FIXED(i), p)
+/* What the includer defined is read here alone, where no local name can stand for one of its own. */
+int lmp_light_count() {
+    return LMP_LIGHT_COUNT;
+}
+lmp_cap lmp_light_cap(int lmp_i, vec3 lmp_p) {
+    return lmp_cap_of_light(LMP_LIGHT_SPHERE(lmp_i), LMP_LIGHT_FIXED(lmp_i), lmp_p);
+}
+vec3 lmp_light_color(int lmp_i, vec3 lmp_p) {
+    return LMP_LIGHT_COLOR(lmp_i, lmp_p);
+}
 
 /* Radiance to the viewer under all lights, by the addition theorem: O(LMP_BANDS) a light.
  *
@@ -362,8 +371,8 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_lobes lobes) {
 #undef LMP_STEP
 
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
+    for (int i = 0; i < lmp_light_count(); i++) {
+        lmp_cap cap = lmp_light_cap(i, surface.position);
         float u = dot(cap.axis, surface.normal), r = 1.0, difference = 0.0;
         float p0 = 1.0, p1 = u, p2, d = 0.0;
         LMP_EACH v = LMP_DOT(cap.axis, lobes.axis), q0 = LMP_EACH(1.0), q1 = v, q2;
@@ -392,7 +401,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_lobes lobes) {
 #undef LMP_STEP
         d = diffuse[0] * cap.base + cap.strength * d;
         g = glossy[0] * cap.base + cap.strength * g;
-        sum += LMP_LIGHT_COLOR(i, surface.position) * (lobes.diffuse * d + lobes.weight * g);
+        sum += lmp_light_color(i, surface.position) * (lobes.diffuse * d + lobes.weight * g);
     }
     return max(sum, vec3(0.0));
 }

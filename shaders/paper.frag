@@ -28,8 +28,8 @@ vec3 paper_shade(lmp_surface surface, lmp_metallic_roughness material) {
 #undef LMP_ROW
 
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap_project(LMP_LIGHT_CAP(i, surface.position), sh);
-        vec3 color = LMP_LIGHT_COLOR(i, surface.position);
+        lmp_cap_project(lmp_light_cap(i, surface.position), sh);
+        vec3 color = lmp_light_color(i, surface.position);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         sum[LMP_INDEX(l, m)] += color * sh[LMP_INDEX(l, m)];                                       \

@@ -11,6 +11,14 @@
 #ifndef LAMPION_PREINTEGRATED_BRDF_GLSL
 #define LAMPION_PREINTEGRATED_BRDF_GLSL
 
+/* What the includer defined is read here alone, where no local name can stand for one of its own. */
+vec3 lmp_preintegrated_brdf_texel(vec2 lmp_p) {
+    return LMP_PREINTEGRATED_BRDF_TEXEL(lmp_p);
+}
+float lmp_preintegrated_brdf_value(int lmp_i) {
+    return LMP_PREINTEGRATED_BRDF_VALUE(lmp_i);
+}
+
 /* Where a view lies in the BRDF whose numbers begin at `first`. */
 struct lmp_preintegrated_brdf {
     int first, view, caps, cap_remap, slices;
@@ -19,7 +27,7 @@ struct lmp_preintegrated_brdf {
 };
 
 float lmp_preintegrated_brdf_header(lmp_preintegrated_brdf m, int index) {
-    return LMP_PREINTEGRATED_BRDF_VALUE(m.first + index);
+    return lmp_preintegrated_brdf_value(m.first + index);
 }
 
 /* The slice coordinate at `at` = 0 ... 1 of the remap that begins at `first`: the slice, and the
@@ -28,8 +36,8 @@ float lmp_preintegrated_brdf_lookup(int first, int steps, int count, float at, o
     float entry = clamp(at, 0.0, 1.0) * float(steps);
     int i = lmp_lookup_first(entry, float(steps - 1));
     float coordinate =
-        lmp_lookup_between(LMP_PREINTEGRATED_BRDF_VALUE(first + i),
-                           LMP_PREINTEGRATED_BRDF_VALUE(first + i + 1), entry - float(i));
+        lmp_lookup_between(lmp_preintegrated_brdf_value(first + i),
+                           lmp_preintegrated_brdf_value(first + i + 1), entry - float(i));
     slice = lmp_lookup_first(coordinate, float(count - 2));
     return coordinate - float(slice);
 }
@@ -53,28 +61,28 @@ lmp_preintegrated_brdf lmp_preintegrated_brdf_view(int first, float cos_theta_o)
     ambient += 3 * m.view;
     for (int c = 0; c < 3; c++)
         m.ambient[c] =
-            lmp_lookup_between(LMP_PREINTEGRATED_BRDF_VALUE(ambient + c),
-                               LMP_PREINTEGRATED_BRDF_VALUE(ambient + 3 + c), m.fraction);
+            lmp_lookup_between(lmp_preintegrated_brdf_value(ambient + c),
+                               lmp_preintegrated_brdf_value(ambient + 3 + c), m.fraction);
     return m;
 }
 
 /* A slice's value: 4 x 4 coefficients of cubic B-splines by four readings (preintegrated_lobe.glsl). */
 vec3 lmp_preintegrated_brdf_slice(int slice, float s, float azimuth) {
-    float rows = LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_ROWS);
-    float columns = LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_COLUMNS);
-    float row = s * LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_ROW_DENSITY) -
-                LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_ROW_ORIGIN);
-    float column = azimuth * LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_COLUMN_DENSITY) + 1.0;
+    float rows = lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_ROWS);
+    float columns = lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_COLUMNS);
+    float row = s * lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_ROW_DENSITY) -
+                lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_ROW_ORIGIN);
+    float column = azimuth * lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_COLUMN_DENSITY) + 1.0;
     int i = lmp_lookup_base(row, rows - 3.0), j = lmp_lookup_base(column, columns - 3.0);
-    vec2 corner = vec2(LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_CORNER_X),
-                       LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_CORNER_Y)) +
+    vec2 corner = vec2(lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_CORNER_X),
+                       lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_CORNER_Y)) +
                   vec2(j, i) - 0.5;
     vec3 across = lmp_spline(lmp_lookup_past(column, j)), down = lmp_spline(lmp_lookup_past(row, i));
-    vec3 upper = mix(LMP_PREINTEGRATED_BRDF_TEXEL(corner + vec2(across.x, down.x)),
-                     LMP_PREINTEGRATED_BRDF_TEXEL(corner + vec2(across.y, down.x)), across.z);
-    vec3 lower = mix(LMP_PREINTEGRATED_BRDF_TEXEL(corner + vec2(across.x, down.y)),
-                     LMP_PREINTEGRATED_BRDF_TEXEL(corner + vec2(across.y, down.y)), across.z);
-    return mix(upper, lower, down.z) * LMP_PREINTEGRATED_BRDF_VALUE(slice + LMP_LOOKUP_VALUE_MAX);
+    vec3 upper = mix(lmp_preintegrated_brdf_texel(corner + vec2(across.x, down.x)),
+                     lmp_preintegrated_brdf_texel(corner + vec2(across.y, down.x)), across.z);
+    vec3 lower = mix(lmp_preintegrated_brdf_texel(corner + vec2(across.x, down.y)),
+                     lmp_preintegrated_brdf_texel(corner + vec2(across.y, down.y)), across.z);
+    return mix(upper, lower, down.z) * lmp_preintegrated_brdf_value(slice + LMP_LOOKUP_VALUE_MAX);
 }
 
 /* The mean over a cap of BRDF times cosine; the axis is in the frame of the view. */
@@ -109,12 +117,12 @@ vec3 lmp_shade_preintegrated_brdf(lmp_surface surface, int first) {
     mat3 world_to_local = lmp_view_frame(surface);
     lmp_preintegrated_brdf m = lmp_preintegrated_brdf_view(first, dot(surface.view, surface.normal));
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
+    for (int i = 0; i < lmp_light_count(); i++) {
+        lmp_cap cap = lmp_light_cap(i, surface.position);
         vec3 covered = lmp_preintegrated_brdf_mean(m, world_to_local * cap.axis, cap.one_minus_cos) *
                        (2.0 * LMP_PI * cap.one_minus_cos);
         /* more than a hemisphere: ambient light less the complementary cap */
-        sum += LMP_LIGHT_COLOR(i, surface.position) * (cap.base > 2.0 ? m.ambient - covered : covered);
+        sum += lmp_light_color(i, surface.position) * (cap.base > 2.0 ? m.ambient - covered : covered);
     }
     return max(sum, vec3(0.0));
 }

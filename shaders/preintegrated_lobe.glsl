@@ -15,6 +15,20 @@
 #error "include preintegrated_lookup.h before preintegrated_lobe.glsl"
 #endif
 
+/* What the includer defined is read here alone, where no local name can stand for one of its own. */
+vec2 lmp_preintegrated_lobe_pair(vec2 lmp_p) {
+    return LMP_PREINTEGRATED_LOBE_PAIR(lmp_p);
+}
+vec4 lmp_preintegrated_lobe_cell(int lmp_i) {
+    return LMP_PREINTEGRATED_LOBE_CELL(lmp_i);
+}
+float lmp_preintegrated_lobe_remap(int lmp_i) {
+    return LMP_PREINTEGRATED_LOBE_REMAP(lmp_i);
+}
+vec4 lmp_preintegrated_lobe_shape() {
+    return LMP_PREINTEGRATED_LOBE_SHAPE;
+}
+
 /* Where the lobe of an exponent lies. */
 struct lmp_lobe_position {
     vec2 corner;
@@ -24,15 +38,15 @@ struct lmp_lobe_position {
 lmp_lobe_position lmp_preintegrated_lobe_lookup(float exponent) {
     float e = clamp(exponent, 0.0, LMP_LOOKUP_EXPONENT_MAX), entry = lmp_lookup_exponent(e);
     int i = lmp_lookup_first(entry, float(LMP_LOOKUP_REMAP_COUNT - 2));
-    float slice = lmp_lookup_between(LMP_PREINTEGRATED_LOBE_REMAP(i),
-                                     LMP_PREINTEGRATED_LOBE_REMAP(i + 1), entry - float(i));
-    int k = lmp_lookup_first(slice, LMP_PREINTEGRATED_LOBE_SHAPE.y - 1.0);
-    vec4 cell = LMP_PREINTEGRATED_LOBE_CELL(k);
+    float slice = lmp_lookup_between(lmp_preintegrated_lobe_remap(i),
+                                     lmp_preintegrated_lobe_remap(i + 1), entry - float(i));
+    int k = lmp_lookup_first(slice, lmp_preintegrated_lobe_shape().y - 1.0);
+    vec4 cell = lmp_preintegrated_lobe_cell(k);
     lmp_lobe_position position;
     position.corner = cell.zw;
     position.fraction = slice - float(k);
     position.density = lmp_lookup_density(cell.x, cell.y, e);
-    position.angle = lmp_lookup_solid_angle(e, LMP_PREINTEGRATED_LOBE_SHAPE.x);
+    position.angle = lmp_lookup_solid_angle(e, lmp_preintegrated_lobe_shape().x);
     return position;
 }
 
@@ -50,10 +64,10 @@ float lmp_preintegrated_lobe_read(lmp_lobe_position position, float g, float a) 
     float x = g * position.density, y = a * position.density;
     vec2 corner = position.corner + floor(vec2(x, y)) + 0.5;
     vec3 across = lmp_spline(fract(x)), down = lmp_spline(fract(y));
-    vec2 upper = mix(LMP_PREINTEGRATED_LOBE_PAIR(corner + vec2(across.x, down.x)),
-                     LMP_PREINTEGRATED_LOBE_PAIR(corner + vec2(across.y, down.x)), across.z);
-    vec2 lower = mix(LMP_PREINTEGRATED_LOBE_PAIR(corner + vec2(across.x, down.y)),
-                     LMP_PREINTEGRATED_LOBE_PAIR(corner + vec2(across.y, down.y)), across.z);
+    vec2 upper = mix(lmp_preintegrated_lobe_pair(corner + vec2(across.x, down.x)),
+                     lmp_preintegrated_lobe_pair(corner + vec2(across.y, down.x)), across.z);
+    vec2 lower = mix(lmp_preintegrated_lobe_pair(corner + vec2(across.x, down.y)),
+                     lmp_preintegrated_lobe_pair(corner + vec2(across.y, down.y)), across.z);
     vec2 slices = mix(upper, lower, down.z);
     return mix(slices.x, slices.y, position.fraction) * LMP_LOOKUP_COEFFICIENT_MAX;
 }
@@ -75,13 +89,13 @@ vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_lobes lobes) {
     for (int k = 0; k < LMP_LOBES; k++)
         specular[k] = lmp_preintegrated_lobe_lookup(LMP_LOBE(lobes.exponent, k));
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
-        lmp_cap cap = LMP_LIGHT_CAP(i, surface.position);
+    for (int i = 0; i < lmp_light_count(); i++) {
+        lmp_cap cap = lmp_light_cap(i, surface.position);
         vec3 reflected = lobes.diffuse * lmp_preintegrated_lobe_response(diffuse, cap, dot(cap.axis, surface.normal));
         for (int k = 0; k < LMP_LOBES; k++)
             reflected += LMP_LOBE(lobes.weight, k) *
                          lmp_preintegrated_lobe_response(specular[k], cap, dot(cap.axis, LMP_LOBE(lobes.axis, k)));
-        sum += LMP_LIGHT_COLOR(i, surface.position) * reflected;
+        sum += lmp_light_color(i, surface.position) * reflected;
     }
     return max(sum, vec3(0.0));
 }

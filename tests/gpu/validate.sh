@@ -20,48 +20,48 @@ shader() {
     esac
     cat <<'GLSL'
 layout(local_size_x = 64) in;
-layout(std140, binding = 0) uniform lights_block { vec4 lights[64]; };
+layout(std140, binding = 0) uniform lights_block { vec4 user_lights[64]; };
 layout(std430, binding = 0) buffer out_block { vec4 values[]; };
 #define LMP_LIGHT_COUNT       32
-#define LMP_LIGHT_SPHERE(i)   lights[2 * (i)]
-#define LMP_LIGHT_RADIANCE(i) lights[2 * (i) + 1].rgb
+#define LMP_LIGHT_SPHERE(at)   user_lights[2 * (at)]
+#define LMP_LIGHT_RADIANCE(at) user_lights[2 * (at) + 1].rgb
 GLSL
     material="lmp_material(vec3(0.5), vec3(0.04), 20.0)"
     if [ $(($2 % 2)) = 1 ]; then
-        echo "layout(std430, binding = 5) readonly buffer ggx_block { vec4 ggx_texels[]; };"
-        echo "#define LMP_GGX_TEXEL(i) ggx_texels[i]"
+        echo "layout(std430, binding = 5) readonly buffer ggx_block { vec4 user_ggx_texels[]; };"
+        echo "#define LMP_GGX_TEXEL(at) user_ggx_texels[at]"
         cat shaders/ggx.glsl
         material="lmp_metallic_roughness(vec3(0.5), 0.5, 0.4)"
     fi
     cat shaders/lampion.glsl shaders/coefficients.glsl shaders/preintegrated_lookup.h
     cat <<'GLSL'
-layout(binding = 1) uniform highp sampler2D pairs;
-layout(std430, binding = 2) readonly buffer lobe_block { vec4 shape; vec4 cells[64]; float remap[LMP_LOOKUP_REMAP_COUNT]; };
-#define LMP_PREINTEGRATED_LOBE_PAIR(p) textureLod(pairs, p / 2048.0, 0.0).rg
-#define LMP_PREINTEGRATED_LOBE_CELL(i) cells[i]
-#define LMP_PREINTEGRATED_LOBE_REMAP(i) remap[i]
-#define LMP_PREINTEGRATED_LOBE_SHAPE   shape
+layout(binding = 1) uniform highp sampler2D user_pairs;
+layout(std430, binding = 2) readonly buffer lobe_block { vec4 user_shape; vec4 user_cells[64]; float user_remap[LMP_LOOKUP_REMAP_COUNT]; };
+#define LMP_PREINTEGRATED_LOBE_PAIR(at) textureLod(user_pairs, at / 2048.0, 0.0).rg
+#define LMP_PREINTEGRATED_LOBE_CELL(at) user_cells[at]
+#define LMP_PREINTEGRATED_LOBE_REMAP(at) user_remap[at]
+#define LMP_PREINTEGRATED_LOBE_SHAPE   user_shape
 GLSL
     cat shaders/preintegrated_lobe.glsl
     cat <<'GLSL'
-layout(binding = 3) uniform highp sampler2D texels;
-layout(std430, binding = 4) readonly buffer brdf_block { float brdf_values[]; };
-#define LMP_PREINTEGRATED_BRDF_TEXEL(p) textureLod(texels, p / 4096.0, 0.0).rgb
-#define LMP_PREINTEGRATED_BRDF_VALUE(i) brdf_values[i]
+layout(binding = 3) uniform highp sampler2D user_texels;
+layout(std430, binding = 4) readonly buffer brdf_block { float user_brdf_values[]; };
+#define LMP_PREINTEGRATED_BRDF_TEXEL(at) textureLod(user_texels, at / 4096.0, 0.0).rgb
+#define LMP_PREINTEGRATED_BRDF_VALUE(at) user_brdf_values[at]
 GLSL
     cat shaders/preintegrated_brdf.glsl
     echo "#define MATERIAL $material"
     cat <<'GLSL'
 void main() {
-    lmp_surface s;
-    s.position = vec3(gl_GlobalInvocationID);
-    s.normal = s.view = vec3(0.0, 0.0, 1.0);
+    lmp_surface surface;
+    surface.position = vec3(gl_GlobalInvocationID);
+    surface.normal = surface.view = vec3(0.0, 0.0, 1.0);
     float sh[LMP_SH_COUNT];
-    lmp_sphere_project(lights[0], s.position, sh);
+    lmp_sphere_project(user_lights[0], surface.position, sh);
     values[gl_GlobalInvocationID.x] =
-        vec4(lmp_shade_zonal(s, MATERIAL) + lmp_shade_coefficients(s, MATERIAL) +
-                 lmp_shade_preintegrated(s, MATERIAL) +
-                 lmp_shade_preintegrated_brdf(s, 0),
+        vec4(lmp_shade_zonal(surface, MATERIAL) + lmp_shade_coefficients(surface, MATERIAL) +
+                 lmp_shade_preintegrated(surface, MATERIAL) +
+                 lmp_shade_preintegrated_brdf(surface, 0),
              sh[0]);
 }
 GLSL
@@ -107,6 +107,22 @@ for version in "450 core" "310 es"; do
     window "$version" >"$WORK/window.frag"
     glslangValidator "$WORK/window.frag" >"$WORK/log" 2>&1 || fail "lanterns.frag: $(cat "$WORK/log")"
 done
+# Names of one letter are the includer's: each letter in turn for what the macros read.
+letters=$(echo a b c d e f g h i j k l m n o p q r s t u v w x y z | sed 's/.*/& &/' | awk '{ for (i = 27; i <= 52; i++) $i = toupper($i); print }')
+shader "310 es" 3 1 | sed 's/^#define LMP_LIGHT_COUNT .*/uniform int user_count;\n#define LMP_LIGHT_COUNT user_count/' >"$WORK/named.comp"
+step=5
+[ "${LAMPION_LONG-}" != 1 ] || step=1
+for first in $(seq 1 $step 52); do
+    index=$first
+    renamed=
+    for name in lights count ggx_texels pairs cells remap shape texels brdf_values; do
+        renamed="$renamed;s/\\buser_$name\\b/$(echo "$letters" | cut -d' ' -f$index)/g"
+        index=$((index % 52 + 1))
+    done
+    sed "${renamed#;}" "$WORK/named.comp" >"$WORK/letters.comp"
+    glslangValidator "$WORK/letters.comp" >"$WORK/log" 2>&1 || fail "a name of one letter is taken: $(cat "$WORK/log")"
+done
+
 sed 's/lmp_shade_zonal(surface/lmp_shade_zonal(surfaces/' "$WORK/window.frag" >"$WORK/wrong.frag"
 ! glslangValidator "$WORK/wrong.frag" >"$WORK/log" 2>&1 || fail "an unknown name goes unseen"
 if shader "450 core" 33 0 >"$WORK/shader.comp" && (cd "$WORK" && glslangValidator shader.comp) >"$WORK/log"; then
