@@ -9,10 +9,9 @@ static double solid_angle_of(const image *map, size_t row) {
     return (top - bottom) * 2 * REFERENCE_PI / map->width;
 }
 
-static double power_of(const image *map, size_t pixel) {
+static double brightness_of(const image *map, size_t pixel) {
     const float *rgb = map->rgb + 3 * pixel;
-    return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3 *
-           solid_angle_of(map, pixel / (size_t)map->width);
+    return ((double)rgb[0] + (double)rgb[1] + (double)rgb[2]) / 3;
 }
 
 static size_t count_of(const image *map) {
@@ -28,12 +27,14 @@ bool reference_environment_create(const environment *source, reference_environme
     e->cumulative = malloc(count_of(map) * sizeof *e->cumulative);
     if (!e->cumulative)
         return false;
-    for (size_t i = 0; i < count_of(map); i++) {
-        const double part = solid_angle_of(map, i / (size_t)map->width) / (4 * REFERENCE_PI);
-        sum += power_of(map, i);
-        e->cumulative[i] = sum;
-        for (size_t c = 0; c < 3; c++)
-            e->mean[c] += part * (double)map->rgb[3 * i + c];
+    for (size_t row = 0, i = 0; row < (size_t)map->height; row++) {
+        const double solid_angle = solid_angle_of(map, row);
+        for (const size_t end = i + (size_t)map->width; i < end; i++) {
+            sum += brightness_of(map, i) * solid_angle;
+            e->cumulative[i] = sum;
+            for (size_t c = 0; c < 3; c++)
+                e->mean[c] += solid_angle / (4 * REFERENCE_PI) * (double)map->rgb[3 * i + c];
+        }
     }
     return true;
 }
@@ -81,5 +82,5 @@ double reference_environment_at(const reference_environment *e, reference_vec w,
     const size_t pixel = row * (size_t)map->width + column;
     for (size_t c = 0; c < 3; c++)
         radiance[c] += (double)map->rgb[3 * pixel + c];
-    return power_of(map, pixel) / solid_angle_of(map, row) / e->cumulative[count_of(map) - 1];
+    return brightness_of(map, pixel) / e->cumulative[count_of(map) - 1];
 }

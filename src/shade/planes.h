@@ -22,9 +22,8 @@ typedef struct shade_planes {
     shade_lobe_planes lobe[LMP_KERNEL_LOBES_MAX];
 } shade_planes;
 
-/* The lobes of the surfaces at[0 … count-1], `lobes` Phong ones each; what they accumulate is not
- * set.
- */
+/* The lobes of the surfaces at[0 … count-1], `lobes` Phong ones each; what they accumulate
+ * is not set. */
 void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobes,
                     const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view, shade_planes *planes);
 

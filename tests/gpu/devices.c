@@ -71,6 +71,18 @@ static void close_stage(stage *s) {
     scene_free(&s->world);
 }
 
+/* Both devices draw the frame by each method, within one level of 255. */
+static void check_every_method(stage *s) {
+    for (int m = 0; m < METHODS; m++) {
+        s->frame.method = (method_kind)m;
+        s->frame.host = NULL;
+        draw_first(s->renderer, &s->frame);
+        s->frame.host = shade_frame;
+        draw(s->renderer, &s->frame, second);
+        assert_int_equal(beyond(1), 0);
+    }
+}
+
 static lmp_preintegrated_lobe *lobe_of(const gpu_frame *frame) {
     lmp_preintegrated_lobe *lobe;
     const lmp_preintegrated_lobe_desc desc = { .bands = frame->bands,
@@ -88,14 +100,7 @@ static void both_devices_draw_the_same_image(void **state) {
         open_stage(&s, scenes[i]);
         lmp_preintegrated_lobe *lobe = lobe_of(&s.frame);
         s.frame.lobes = lobe;
-        for (int m = 0; m < METHODS; m++) {
-            s.frame.method = (method_kind)m;
-            s.frame.host = NULL;
-            draw_first(s.renderer, &s.frame);
-            s.frame.host = shade_frame;
-            draw(s.renderer, &s.frame, second);
-            assert_int_equal(beyond(1), 0);
-        }
+        check_every_method(&s);
         lmp_preintegrated_lobe_destroy(lobe);
         close_stage(&s);
     }
@@ -117,14 +122,7 @@ static void an_environment_is_drawn_alike(void **state) {
     lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
     s.frame.lobes = lobes;
     for (int pass = 0; pass < 2; pass++, s.frame.light_count = 0)
-        for (int m = 0; m < METHODS; m++) {
-            s.frame.method = (method_kind)m;
-            s.frame.host = NULL;
-            draw_first(s.renderer, &s.frame);
-            s.frame.host = shade_frame;
-            draw(s.renderer, &s.frame, second);
-            assert_int_equal(beyond(1), 0);
-        }
+        check_every_method(&s);
     /* Up in the sky is nothing but the backdrop. */
     memcpy(s.frame.camera.target, s.frame.camera.eye, sizeof s.frame.camera.eye);
     s.frame.camera.target[0] += 0.1f;
