@@ -126,6 +126,11 @@ LMP_API void lmp_light_zonal(int bands, const lmp_light *light, lmp_vec3 point, 
 LMP_API void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                                float *sh);
 
+/* The same to channels wherever they are, LMP_SH_COUNT(bands) values each: a probe whose planes are
+ * padded, or one channel alone. Of those that are NULL nothing is written. */
+LMP_API void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count,
+                                        lmp_vec3 point, float *red, float *green, float *blue);
+
 /* --- batches (sh.h) -----------------------------------------------------------------------------
  * Distances and radii are 0 or in 1e-15 … 1e15; geometry is otherwise free, as above. */
 

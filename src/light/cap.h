@@ -36,9 +36,9 @@ static inline bool lmp_are_spheres(const lmp_spheres *spheres, size_t count) {
 bool lmp_is_light(const lmp_light *light);
 bool lmp_are_lights(const lmp_light *lights, size_t count);
 
-/* Adds the coefficients of bands low … high-1 to three planes, red, green, blue, of as many values.
- */
-void lmp_cap_add(int low, int high, const lmp_cap *cap, float *sh);
+/* Adds the coefficients of bands low … high-1, as many values, to each of the planes, red, green,
+ * blue, that is not NULL. */
+void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]);
 
 /* R_l(1 - one_minus_cos), l < bands, one_minus_cos in 0 … 1, by differences: cos a itself, rounded
  * near 1, would cost l² units. */

@@ -145,42 +145,52 @@ void lmp_light_zonal(int bands, const lmp_light *light, lmp_vec3 point, float *z
     *axis = away ? opposite(cap.axis) : cap.axis;
 }
 
-void lmp_cap_add(int low, int high, const lmp_cap *cap, float *sh) {
-    const size_t first = LMP_SH_COUNT(low), plane = LMP_SH_COUNT(high) - first;
-    float *red = sh, *green = red + plane, *blue = green + plane;
-    float r[LMP_BANDS_MAX], q[LMP_BANDS_MAX];
-    lmp_cap_polynomials(high, cap->one_minus_cos, r);
-    if (low == 0) {
-        red[0] += cap->ambient.r / lmp_table_pole[0];
-        green[0] += cap->ambient.g / lmp_table_pole[0];
-        blue[0] += cap->ambient.b / lmp_table_pole[0];
+static void add_column(int low, int high, int m, const float *radial, lmp_azimuth a, float strength,
+                       float *plane) {
+    const size_t first = LMP_SH_COUNT(low);
+    for (int l = m > low ? m : low; l < high; l++) {
+        plane[LMP_SH_INDEX(l, m) - first] += strength * (radial[l] * a.c);
+        if (m > 0)
+            plane[LMP_SH_INDEX(l, -m) - first] += strength * (radial[l] * a.s);
     }
+}
+
+void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]) {
+    const float strength[3] = { cap->strength.r, cap->strength.g, cap->strength.b };
+    const float ambient[3] = { cap->ambient.r, cap->ambient.g, cap->ambient.b };
+    float r[LMP_BANDS_MAX], q[LMP_BANDS_MAX];
     lmp_azimuth a = { 1, 0 };
+    lmp_cap_polynomials(high, cap->one_minus_cos, r);
+    for (int c = 0; low == 0 && c < 3; c++)
+        if (planes[c])
+            planes[c][0] += ambient[c] / lmp_table_pole[0];
     for (int m = 0; m < high; m++) {
         lmp_sh_column(high, m, cap->axis.z, q);
-        for (int l = m > low ? m : low; l < high; l++) {
-            const float cosine = q[l] * r[l] * a.c, sine = q[l] * r[l] * a.s;
-            const size_t plus = LMP_SH_INDEX(l, m) - first, minus = LMP_SH_INDEX(l, -m) - first;
-            red[plus] += cap->strength.r * cosine;
-            green[plus] += cap->strength.g * cosine;
-            blue[plus] += cap->strength.b * cosine;
-            if (m > 0) {
-                red[minus] += cap->strength.r * sine;
-                green[minus] += cap->strength.g * sine;
-                blue[minus] += cap->strength.b * sine;
-            }
-        }
+        for (int l = m > low ? m : low; l < high; l++)
+            q[l] *= r[l];
+        for (int c = 0; c < 3; c++)
+            if (planes[c])
+                add_column(low, high, m, q, a, strength[c], planes[c]);
         a = lmp_azimuth_next(a, cap->axis);
+    }
+}
+
+void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
+                                float *red, float *green, float *blue) {
+    assert(lmp_is_bands(bands));
+    float *const planes[3] = { red, green, blue };
+    for (int c = 0; c < 3; c++)
+        if (planes[c])
+            memset(planes[c], 0, LMP_SH_COUNT(bands) * sizeof *planes[c]);
+    for (size_t i = 0; i < count; i++) {
+        lmp_cap cap;
+        lmp_light_cap(&lights[i], point, &cap);
+        lmp_cap_add(0, bands, &cap, planes);
     }
 }
 
 void lmp_light_project(int bands, const lmp_light *lights, size_t count, lmp_vec3 point,
                        float *sh) {
-    assert(lmp_is_bands(bands));
-    memset(sh, 0, 3 * LMP_SH_COUNT(bands) * sizeof *sh);
-    for (size_t i = 0; i < count; i++) {
-        lmp_cap cap;
-        lmp_light_cap(&lights[i], point, &cap);
-        lmp_cap_add(0, bands, &cap, sh);
-    }
+    const size_t plane = LMP_SH_COUNT(bands);
+    lmp_light_project_channels(bands, lights, count, point, sh, sh + plane, sh + 2 * plane);
 }

@@ -32,11 +32,12 @@ static band_range bands_after(int bands, band_range range) {
 
 static void add_light_bands(band_range range, const lmp_light *lights, size_t count, lmp_vec3 point,
                             float *sh) {
+    float *const planes[3] = { sh, sh + range.count, sh + 2 * range.count };
     memset(sh, 0, 3 * range.count * sizeof *sh);
     for (size_t i = 0; i < count; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], point, &cap);
-        lmp_cap_add(range.low, range.high, &cap, sh);
+        lmp_cap_add(range.low, range.high, &cap, planes);
     }
 }
 
@@ -108,6 +109,7 @@ static lmp_vec3 into(const frame *f, lmp_vec3 v) {
 
 static void add_light_in_frame(band_range range, const frame *view, lmp_vec3 point,
                                const lmp_light *from, float *sh) {
+    float *const planes[3] = { sh, sh + range.count, sh + 2 * range.count };
     lmp_light light = *from;
     lmp_cap cap;
     const lmp_vec3 offset = { light.position.x - point.x, light.position.y - point.y,
@@ -115,7 +117,7 @@ static void add_light_in_frame(band_range range, const frame *view, lmp_vec3 poi
     light.position = into(view, offset);
     light.direction = into(view, light.direction);
     lmp_light_cap(&light, (lmp_vec3) { 0, 0, 0 }, &cap);
-    lmp_cap_add(range.low, range.high, &cap, sh);
+    lmp_cap_add(range.low, range.high, &cap, planes);
 }
 
 /* Adds what the light's coefficients give with the table's, m >= 0 alone if mirrored. */

@@ -251,6 +251,35 @@ static void lights_add_up(void **state) {
         assert_true(sh[k] == 0);
 }
 
+/* Some of the channels, each where it belongs: the same bits, and nothing beside them. */
+static void channels_go_where_they_belong(void **state) {
+    (void)state;
+    enum { STRIDE = COUNT + 7 };
+    const lmp_light lights[2] = {
+        { .position = { 1, 2, 3 }, .radius = 0.5f, .radiance = { 3, 2, 1 } },
+        { .kind = LMP_LIGHT_HEMISPHERE,
+          .direction = { 0, 1, 0 },
+          .radiance = { 1, 2, 3 },
+          .ground = { 0.25f, 0.5f, 1 } }
+    };
+    float sh[3 * COUNT], apart[3 * STRIDE];
+    lmp_light_project(BANDS, lights, 2, origin, sh);
+    for (int left_out = -1; left_out < 3; left_out++) {
+        float *planes[3];
+        for (int i = 0; i < 3 * STRIDE; i++)
+            apart[i] = -77;
+        for (int c = 0; c < 3; c++)
+            planes[c] = c == left_out ? NULL : apart + c * STRIDE;
+        lmp_light_project_channels(BANDS, lights, 2, origin, planes[0], planes[1], planes[2]);
+        for (int c = 0; c < 3; c++) {
+            for (int i = c == left_out ? 0 : COUNT; i < STRIDE; i++)
+                assert_true(apart[c * STRIDE + i] == -77);
+            if (c != left_out)
+                assert_memory_equal(apart + c * STRIDE, sh + c * COUNT, COUNT * sizeof *sh);
+        }
+    }
+}
+
 /* --- units ------------------------------------------------------------------------------------ */
 
 static void a_sphere_has_the_power_its_radiance_says(void **state) {
@@ -301,6 +330,7 @@ int main(void) {
         cmocka_unit_test(a_spot_light_with_equal_cones_has_a_hard_edge),
         cmocka_unit_test(a_hemisphere_light_is_sky_and_ground),
         cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(channels_go_where_they_belong),
         cmocka_unit_test(a_sphere_has_the_power_its_radiance_says),
         cmocka_unit_test(a_sphere_sends_its_power_through_any_shell),
         cmocka_unit_test(the_sun_has_the_radiance_its_irradiance_says),

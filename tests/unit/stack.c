@@ -128,6 +128,7 @@ static void shade_all_ways(void) {
     X(lmp_light_cap, lmp_light_cap(lights, at, &cap)) \
     X(lmp_light_zonal, lmp_light_zonal(N, lights, at, lambda, &vectors[0])) \
     X(lmp_light_project, lmp_light_project(N, lights, LIGHTS, at, out)) \
+    X(lmp_light_project_channels, lmp_light_project_channels(N, lights, LIGHTS, at, out, NULL, slopes)) \
     X(lmp_sphere_zonal, lmp_sphere_zonal(N, 0.5f, 1, lambda)) \
     X(lmp_sphere_project, lmp_sphere_project(N, up, 0.5f, at, out)) \
     X(lmp_sphere_project_gradient, lmp_sphere_project_gradient(N, up, 0.5f, at, out, slopes)) \
