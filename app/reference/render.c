@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/estimate.h"
 #include "app/reference/reference.h"
-#include "app/reference/texture.h"
 #include "app/reference/trace.h"
+#include "app/trace/texture.h"
 
 #include <omp.h>
 
@@ -55,7 +55,7 @@ static const scene_light *seen_light(const frame *f, reference_vec direction, do
 
 static void sample(const frame *f, const scene_texture_use *use, const reference_hit *hit,
                    double rgba[4]) {
-    reference_texture_at(f->scene, use, hit->uv + 2 * use->set, rgba);
+    trace_texture_at(f->scene, use, hit->uv + 2 * use->set, rgba);
 }
 
 static reference_vec mapped_normal(const frame *f, const reference_hit *hit,

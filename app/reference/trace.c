@@ -1,46 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/trace.h"
 
-#include "app/reference/texture.h"
+#include "app/trace/trace.h"
 
-#include <embree3/rtcore.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* One Embree geometry a mesh. */
-typedef struct tracer_mesh {
-    const scene *scene;
-    const scene_mesh *mesh;
-    const scene_material *material;
-} tracer_mesh;
-
 struct reference_tracer {
     const scene *scene;
-    tracer_mesh *meshes;
-    RTCDevice device;
-    RTCScene rays;
-    double lift; /* of ray origins off their surface, against rounding */
+    trace_bvh *bvh;
+    double lift;
 };
-
-/* Embree hands the context it was called with to the filter. */
-typedef struct tracer_context {
-    struct RTCIntersectContext embree;
-    bool sees; /* a camera's ray */
-} tracer_context;
 
 /* The three vertices of a triangle and where on it a hit lies. */
 typedef struct corner_weights {
     const scene_vertex *vertices[3];
     double weights[3];
 } corner_weights;
-
-static corner_weights corners(const tracer_mesh *mesh, uint32_t triangle, float u, float v) {
-    const scene *world = mesh->scene;
-    const uint32_t *index = world->indices + mesh->mesh->first_index + 3 * (size_t)triangle;
-    return (corner_weights) { { &world->vertices[index[0]], &world->vertices[index[1]],
-                                &world->vertices[index[2]] },
-                              { 1 - (double)u - (double)v, (double)u, (double)v } };
-}
 
 /* Σ weight * the three floats at `offset` bytes in each vertex. */
 static reference_vec blend(const corner_weights *c, size_t offset) {
@@ -74,121 +50,41 @@ static reference_vec face_normal(const corner_weights *c) {
                            reference_subtract(reference_from_floats(c->vertices[2]->position), p));
 }
 
-static bool cut_out(const tracer_mesh *mesh, const corner_weights *c) {
-    const scene_material *material = mesh->material;
-    double uv[4], rgba[4], color[4];
-    if (!(material->flags & SCENE_ALPHA_MASK))
-        return false;
-    blend_uv(c, uv);
-    blend_color(c, material, color);
-    reference_texture_at(mesh->scene, &material->base_color_map,
-                         uv + 2 * material->base_color_map.set, rgba);
-    return rgba[3] * color[3] * (double)material->base_color[3] < (double)material->alpha_cutoff;
-}
-
-static void filter(const struct RTCFilterFunctionNArguments *arguments) {
-    const tracer_context *context = (const tracer_context *)(const void *)arguments->context;
-    const tracer_mesh *mesh = arguments->geometryUserPtr;
-    const struct RTCRay *ray = (const struct RTCRay *)(const void *)arguments->ray;
-    const struct RTCHit *hit = (const struct RTCHit *)(const void *)arguments->hit;
-    const corner_weights c = corners(mesh, hit->primID, hit->u, hit->v);
-    if (context->sees && !(mesh->material->flags & SCENE_DOUBLE_SIDED)) {
-        const float along[3] = { ray->dir_x, ray->dir_y, ray->dir_z };
-        if (reference_dot(face_normal(&c), reference_from_floats(along)) >= 0)
-            arguments->valid[0] = 0;
-    }
-    if (cut_out(mesh, &c))
-        arguments->valid[0] = 0;
-}
-
-static bool add_mesh(reference_tracer *tracer, size_t number) {
-    const scene *world = tracer->scene;
-    tracer_mesh *mesh = &tracer->meshes[number];
-    RTCGeometry geometry = rtcNewGeometry(tracer->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    mesh->scene = world;
-    mesh->mesh = &world->meshes[number];
-    mesh->material = &world->materials[mesh->mesh->material];
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               world->vertices, 0, sizeof *world->vertices, world->vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, world->indices,
-                               mesh->mesh->first_index * sizeof *world->indices,
-                               3 * sizeof *world->indices, mesh->mesh->index_count / 3);
-    rtcSetGeometryUserData(geometry, mesh);
-    rtcSetGeometryIntersectFilterFunction(geometry, filter);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(tracer->rays, geometry, (unsigned)number);
-    rtcReleaseGeometry(geometry);
-    return rtcGetDeviceError(tracer->device) == RTC_ERROR_NONE;
-}
-
 bool reference_tracer_create(const scene *world, reference_tracer **tracer, cli_error *error) {
     reference_tracer *t = *tracer = calloc(1, sizeof *t);
-    bool ok = t && (t->meshes = calloc(world->mesh_count + 1, sizeof *t->meshes));
-    double size = 0;
-    if (ok) {
-        t->scene = world;
-        t->device = rtcNewDevice(NULL);
-        ok = t->device && (t->rays = rtcNewScene(t->device));
-    }
-    if (ok)
-        rtcSetSceneFlags(t->rays, RTC_SCENE_FLAG_ROBUST);
-    for (size_t i = 0; ok && i < world->mesh_count; i++)
-        ok = add_mesh(t, i);
-    if (ok) {
-        rtcCommitScene(t->rays);
-        ok = rtcGetDeviceError(t->device) == RTC_ERROR_NONE;
-    }
-    if (!ok) {
-        reference_tracer_destroy(t);
+    if (!t || !(t->bvh = trace_create(world))) {
+        free(t);
         *tracer = NULL;
         return cli_fail(error, world->origin,
                         "cannot be prepared for ray tracing (out of memory?)");
     }
-    for (int i = 0; i < 3; i++)
-        size = fmax(size, fmax(fabs((double)world->minimum[i]), fabs((double)world->maximum[i])));
-    t->lift = 1e-5 * size;
+    t->scene = world;
+    t->lift = trace_lift(world);
     return true;
 }
 
 void reference_tracer_destroy(reference_tracer *tracer) {
-    if (!tracer)
-        return;
-    if (tracer->rays)
-        rtcReleaseScene(tracer->rays);
-    if (tracer->device)
-        rtcReleaseDevice(tracer->device);
-    free(tracer->meshes);
+    if (tracer)
+        trace_destroy(tracer->bvh);
     free(tracer);
 }
 
-static struct RTCRayHit cast(const reference_tracer *tracer, reference_vec origin,
-                             reference_vec direction, bool sees) {
-    tracer_context context = { .sees = sees };
-    struct RTCRayHit query = {
-        .ray = { .org_x = (float)origin.x,
-                 .org_y = (float)origin.y,
-                 .org_z = (float)origin.z,
-                 .tnear = 0,
-                 .dir_x = (float)direction.x,
-                 .dir_y = (float)direction.y,
-                 .dir_z = (float)direction.z,
-                 .tfar = INFINITY,
-                 .mask = ~0u },
-        .hit = { .geomID = RTC_INVALID_GEOMETRY_ID },
-    };
-    rtcInitIntersectContext(&context.embree);
-    rtcIntersect1(tracer->rays, &context.embree, &query);
-    return query;
+static trace_hit cast(const reference_tracer *tracer, trace_kind kind, reference_vec origin,
+                      reference_vec direction) {
+    const float from[3] = { (float)origin.x, (float)origin.y, (float)origin.z };
+    const float along[3] = { (float)direction.x, (float)direction.y, (float)direction.z };
+    return trace_nearest(tracer->bvh, kind, from, along);
 }
 
 reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec origin,
                                    reference_vec direction) {
-    const struct RTCRayHit query = cast(tracer, origin, direction, true);
+    const trace_hit found = cast(tracer, TRACE_CAMERA, origin, direction);
     reference_hit hit = { .distance = (double)INFINITY };
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    if (found.mesh == TRACE_NOTHING)
         return hit;
-    const tracer_mesh *mesh = &tracer->meshes[query.hit.geomID];
-    const corner_weights c = corners(mesh, query.hit.primID, query.hit.u, query.hit.v);
+    const uint32_t material = tracer->scene->meshes[found.mesh].material;
+    corner_weights c;
+    trace_corners(tracer->scene, &found, c.vertices, c.weights);
     const reference_vec face = reference_normalize(face_normal(&c));
     const double side = reference_dot(face, direction) > 0 ? -1 : 1;
     hit.position = blend(&c, offsetof(scene_vertex, position));
@@ -199,13 +95,11 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
     hit.tangent = reference_normalize(blend(&c, offsetof(scene_vertex, tangent)));
     hit.handedness = (double)c.vertices[0]->tangent[3];
     blend_uv(&c, hit.uv);
-    blend_color(&c, mesh->material, hit.color);
-    hit.material = mesh->mesh->material;
+    blend_color(&c, &tracer->scene->materials[material], hit.color);
+    hit.material = material;
     return hit;
 }
 
 double reference_tracer_free_path(reference_vec point, reference_vec direction, void *user) {
-    const reference_tracer *tracer = user;
-    const struct RTCRayHit query = cast(tracer, point, direction, false);
-    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? (double)INFINITY : (double)query.ray.tfar;
+    return (double)cast(user, TRACE_LIGHT, point, direction).distance;
 }

@@ -12,7 +12,7 @@ build=$PWD/build/mutation/build
 # What is changed, and the tests that should notice.
 subjects() {
     grep "^$folder" <<'END'
-app/reference/texture.c reference.texture
+app/trace/texture.c reference.texture
 app/reference/lobe.c reference.texture reference.estimate
 app/compare/ssim.c reference.compare
 app/gpu/renderer.c gpu.draw

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Textures and lobes of the ground truth against closed forms. */
-#include "app/reference/texture.h"
+#include "app/trace/texture.h"
 #include "app/reference/lobe.h"
 #include "tests/oracle/check.h"
 
@@ -37,7 +37,7 @@ static void paint(uint32_t srgb) {
 /* The position of a texel's center counts from 0, as channel_at does. */
 static void read_at(double column, double row, double rgba[4]) {
     const double uv[2] = { (column + 0.5) / COLUMNS, (row + 0.5) / ROWS };
-    reference_texture_at(&world, &use, uv, rgba);
+    trace_texture_at(&world, &use, uv, rgba);
 }
 
 static void expect_at(double column, double row, double seen_column, double seen_row) {
@@ -104,13 +104,13 @@ static void coordinates_are_transformed_first(void **state) {
     double moved[4], plain[4];
     paint(0);
     const double uv[2] = { 0.3, 0.8 }, expected[2] = { -0.4 + 0.9, 0.15 + 0.25 };
-    reference_texture_at(&world, &use, expected, plain);
+    trace_texture_at(&world, &use, expected, plain);
     use = (scene_texture_use) { 0, { 0, -0.5f, 0.5f, 0 }, { 0.9f, 0.25f }, 0 };
-    reference_texture_at(&world, &use, uv, moved);
+    trace_texture_at(&world, &use, uv, moved);
     for (int c = 0; c < 4; c++)
         CHECK_WITHIN(fabs(moved[c] - plain[c]), 1e-6);
     use.texture = -1;
-    reference_texture_at(&world, &use, uv, moved);
+    trace_texture_at(&world, &use, uv, moved);
     for (int c = 0; c < 4; c++)
         assert_true(moved[c] == 1);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/reference/texture.h"
+#include "app/trace/texture.h"
 
 #include <math.h>
 
@@ -33,8 +33,8 @@ static void add_texel(const scene *world, const scene_texture *texture, double x
     }
 }
 
-void reference_texture_at(const scene *world, const scene_texture_use *use, const double uv[2],
-                          double rgba[4]) {
+void trace_texture_at(const scene *world, const scene_texture_use *use, const double uv[2],
+                      double rgba[4]) {
     for (int c = 0; c < 4; c++)
         rgba[c] = use->texture < 0;
     if (use->texture < 0)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* texture.h - texture look-ups in double: base level, bilinear. */
-#ifndef LAMPION_REFERENCE_TEXTURE_H
-#define LAMPION_REFERENCE_TEXTURE_H
+#ifndef LAMPION_TRACE_TEXTURE_H
+#define LAMPION_TRACE_TEXTURE_H
 
 #include "app/scene/scene.h"
 
 /* The RGBA value at `uv`, colors linear; white where there is no texture. */
-void reference_texture_at(const scene *scene, const scene_texture_use *use, const double uv[2],
-                          double rgba[4]);
+void trace_texture_at(const scene *scene, const scene_texture_use *use, const double uv[2],
+                      double rgba[4]);
 
 #endif

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/* trace.h - rays through the triangles of a scene, by Embree. What an alpha mask cuts out stops
+ * none of them. */
+#ifndef LAMPION_TRACE_H
+#define LAMPION_TRACE_H
+
+#include "app/scene/scene.h"
+
+typedef struct trace_bvh trace_bvh;
+
+/* NULL without memory. The scene must outlive it. */
+trace_bvh *trace_create(const scene *scene);
+void trace_destroy(trace_bvh *bvh);
+
+/* How far a ray that leaves a surface starts off it, against rounding. */
+double trace_lift(const scene *scene);
+
+/* Which triangles stop a ray. */
+typedef enum trace_kind {
+    TRACE_CAMERA, /* those seen from a side that is drawn */
+    TRACE_LIGHT   /* all */
+} trace_kind;
+
+/* Rays side by side; those of length < 0 are none. */
+#define TRACE_LANES 16
+typedef struct trace_rays {
+    float origin[3][TRACE_LANES], direction[3][TRACE_LANES], length[TRACE_LANES];
+} trace_rays;
+
+#define TRACE_NOTHING UINT32_MAX
+typedef struct trace_hit {
+    float distance; /* in lengths of the direction; INFINITY of nothing */
+    uint32_t mesh;  /* or TRACE_NOTHING: the rest is not set */
+    uint32_t triangle;
+    float u, v; /* weights of its second and third corner */
+} trace_hit;
+
+/* The three corners of the hit triangle and their weights. */
+void trace_corners(const scene *scene, const trace_hit *hit, const scene_vertex *corners[3],
+                   double weights[3]);
+
+/* The nearest triangle along a ray, from any thread. */
+trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origin[3],
+                        const float direction[3]);
+
+/* The same of rays beside each other. */
+void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
+                     trace_hit hits[TRACE_LANES]);
+
+/* Which rays of light a triangle stops within their length: 1, or 0. */
+void trace_hidden_n(const trace_bvh *bvh, const trace_rays *rays,
+                    unsigned char hidden[TRACE_LANES]);
+
+#endif
