@@ -55,10 +55,10 @@ int main(int argc, char **argv) {
            info.count);
     puts("degrees  reflects  its series");
     for (int view = 0; view < info.views; view += 16) {
-        lmp_rgb measured, series;
-        lmp_brdf_table_albedo(table, view, 0, &measured, &series);
+        lmp_rgb exact, series;
+        lmp_brdf_table_albedo(table, view, 0, &exact, &series);
         printf("%7.1f  %8.3f  %10.3f\n", (double)(info.theta_step * (float)view) * 57.29578,
-               (double)measured.g, (double)series.g);
+               (double)exact.g, (double)series.g);
     }
 
     const lmp_light lamp = { .position = { -1, 2, 0 }, .radius = 0.3f, .radiance = { 10, 10, 10 } };

@@ -74,7 +74,7 @@ static GLuint build_program(const char *lampion, const char *scene) {
 }
 
 /* Lanterns on a ring that bobs: center and radius, then radiance. */
-static void place_lights(float seconds, float lights[LIGHTS][2][4]) {
+static void move_lights(float seconds, float lights[LIGHTS][2][4]) {
     for (int i = 0; i < LIGHTS; i++) {
         const float angle = 0.5f * seconds + 6.2832f * (float)i / LIGHTS;
         const float warm = (float)i / (LIGHTS - 1), radius = 0.14f + 0.08f * warm;
@@ -127,7 +127,7 @@ int main(int argc, char **argv) {
     for (int frame = 0; !glfwWindowShouldClose(window); frame++) {
         int width, height;
         float lights[LIGHTS][2][4];
-        place_lights(frames ? (float)frame / 60 : (float)glfwGetTime(), lights);
+        move_lights(frames ? (float)frame / 60 : (float)glfwGetTime(), lights);
         glfwGetFramebufferSize(window, &width, &height);
         glViewport(0, 0, width, height);
         glUniform1f(aspect_at, (float)width / (float)(height ? height : 1));

@@ -11,7 +11,7 @@
 enum { BANDS = 4, COEFFICIENTS = BANDS * BANDS, NX = 9, NZ = 7, PROBES = NX * NZ, LIGHTS = 3 };
 
 /* Probes lie at height 1, a unit apart, x from 0 to 8 and z from 0 to 6. */
-static lmp_vec3 places[PROBES];
+static lmp_vec3 positions[PROBES];
 static float probes[PROBES][3][COEFFICIENTS];
 
 static void move(lmp_light *lights, float seconds) {
@@ -24,7 +24,7 @@ static void move(lmp_light *lights, float seconds) {
 /* All lights into all probes, in one call. */
 static void update(const lmp_light *lights) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, LIGHTS, lmp_vec3_array_of(places), PROBES,
+    lmp_sphere_accumulate_n(BANDS, &spheres, LIGHTS, lmp_vec3_array_of(positions), PROBES,
                             LMP_SH_INTERLEAVED, 0, &probes[0][0][0]);
 }
 
@@ -50,7 +50,7 @@ int main(void) {
         { .radius = 0.2f, .radiance = { 30, 30, 30 } },
     };
     for (int i = 0; i < PROBES; i++)
-        places[i] = (lmp_vec3) { (float)(i % NX), 1, (float)(i / NX) };
+        positions[i] = (lmp_vec3) { (float)(i % NX), 1, (float)(i / NX) };
     const lmp_vec3 point = { 3.3f, 1, 2.6f }, up = { 0, 1, 0 };
     float lambda[BANDS];
     lmp_lobe_diffuse(BANDS, lambda);

@@ -8,8 +8,8 @@
 
 #include <stdlib.h>
 
-/* Every index, count and number must be such that the program may use it; places alone may be too
- * far away, and a material too few, which the importer checks by itself. */
+/* Every index, count and number must be such that the program may use it; positions alone may be
+ * too far away, and a material too few, which the importer checks by itself. */
 static inline void fuzz_scene_check(const scene_builder *builder) {
     const size_t vertices = builder_count(builder, BLOB_VERTICES);
     const uint32_t *indices = builder_items(builder, BLOB_INDICES);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* environment.glsl - light from all around: the responses of lobes to its coefficients (lmp_environment),
+/* environment.glsl - ambient light from far away: the responses of lobes to its coefficients (lmp_environment),
  * and what is seen of it. */
 
 /* red, green, blue of coefficient l² + l + m, windowed; surroundings.x bands */
@@ -37,9 +37,9 @@ vec3 environment_response(vec3 axis, float exponent) {
             next = following;
         }
         sum += cosine * c + sine * s;
-        float turned = axis.x * c - axis.y * s;
+        float rotated = axis.x * c - axis.y * s;
         s = axis.x * s + axis.y * c;
-        c = turned;
+        c = rotated;
         diagonal *= m == 0 ? -sqrt(3.0) : -sqrt(float(2 * m + 3) / float(2 * m + 2));
         float following = lambda0 * (exponent - float(m)) / (exponent + float(m + 3));
         lambda0 = lambda1;

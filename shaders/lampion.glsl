@@ -15,7 +15,7 @@
  *   LMP_LIGHT_SPHERE(i)      vec4: center and radius of light i, 0 <= i < LMP_LIGHT_COUNT
  *   LMP_LIGHT_RADIANCE(i)    vec3: its radiance, W/(sr m²)
  * and, where some lights are no spheres,
- *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from all around, a sun or a sky; SPHERE(i) is
+ *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from every point, a sun or a sky; SPHERE(i) is
  *                            then its unit axis and 1 - cos a, a its half angle; default false
  *   LMP_LIGHT_COLOR(i, p)    vec3: its radiance towards p; default LMP_LIGHT_RADIANCE(i)
  *

@@ -6,7 +6,7 @@ layout(location = 0) out vec3 world_position;
 layout(location = 1) flat out int light;
 
 void main() {
-    /* a strip of 14 corners runs round the six faces */
+    /* a strip of 14 corners runs around the six faces */
     int corner = gl_VertexID;
     vec3 unit = vec3((0x287a >> corner) & 1, (0x02af >> corner) & 1, (0x31e3 >> corner) & 1);
     vec4 sphere = lights[gl_InstanceID].sphere;

@@ -6,15 +6,15 @@
 #define LAMPION_SHADERS_SHARED_H
 
 #ifdef LAMPION_SHADER
-#define SHARED_BLOCK(type, name, slot) layout(std140, binding = slot) uniform type
+#define SHARED_BLOCK(type, name, point) layout(std140, binding = point) uniform type
 #define SHARED_END(name)
 #else
 #include <assert.h>
 #include <stddef.h>
 typedef float vec4[4];
 typedef float mat4[16]; /* column-major */
-#define SHARED_BLOCK(type, name, slot) typedef struct name
-#define SHARED_END(name)               name
+#define SHARED_BLOCK(type, name, point) typedef struct name
+#define SHARED_END(name)                name
 #endif
 
 #define SHARED_LIGHTS_MAX 1025 /* one of them holds what all skies have in common */
@@ -86,7 +86,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
 SHARED_END(shared_frame);
 
 /* What a light is: a sphere that is seen, or one that only shades; a spot's small sphere; or the
- * same cap from all around, with its axis and 1 - cos a for center and radius. */
+ * same cap from every point, with its axis and 1 - cos a for center and radius. */
 #define SHARED_LIGHT_DRAWN  0
 #define SHARED_LIGHT_HIDDEN 1
 #define SHARED_LIGHT_SPOT   2

@@ -7,12 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What may stand in a place: words, and one of the kinds below. */
+/* What may be written next: words, and one of the kinds below. */
 typedef enum kind { NOTHING, FILES, FOLDERS, SCENES, COMMANDS } kind;
-typedef struct place {
+typedef struct candidates {
     char words[1024]; /* divided by blanks */
     kind kind;
-} place;
+} candidates;
 
 static kind kind_of(const char *name, size_t length) {
     static const struct {
@@ -29,15 +29,15 @@ static kind kind_of(const char *name, size_t length) {
     return NOTHING;
 }
 
-static void add_word(place *p, const char *word, size_t length) {
+static void add_word(candidates *p, const char *word, size_t length) {
     const size_t used = strlen(p->words);
     snprintf(p->words + used, sizeof p->words - used, "%s%.*s", used ? " " : "", (int)length, word);
 }
 
 /* Reads alternatives such as orbit|bounce|FILE, up to a blank: what begins with a small letter
  * stands for itself. Returns what follows. */
-static const char *read_place(const char *text, place *p) {
-    *p = (place) { .kind = NOTHING };
+static const char *read_candidates(const char *text, candidates *p) {
+    *p = (candidates) { .kind = NOTHING };
     while (*text && *text != ' ') {
         const size_t length = strcspn(text, "| ");
         if (islower((unsigned char)*text))
@@ -49,22 +49,23 @@ static const char *read_place(const char *text, place *p) {
     return text + strspn(text, " ");
 }
 
-static place place_of_value(const cli_option *option) {
-    place p;
-    read_place(option->argument, &p);
+static candidates candidates_of_value(const cli_option *option) {
+    candidates p;
+    read_candidates(option->argument, &p);
     for (int i = 0; option->choices && option->choices[i]; i++)
         add_word(&p, option->choices[i], strlen(option->choices[i]));
     return p;
 }
 
 /* The first operand and the rest. */
-static void places_of_operands(const cli_command *command, place *first, place *rest) {
-    const char *const text = read_place(command->operands, first);
+static void candidates_of_operands(const cli_command *command, candidates *first,
+                                   candidates *rest) {
+    const char *const text = read_candidates(command->operands, first);
     *rest = *first;
     if (*text)
-        read_place(text, rest);
+        read_candidates(text, rest);
     if (!*text && first->words[0])
-        *rest = (place) { .kind = NOTHING };
+        *rest = (candidates) { .kind = NOTHING };
 }
 
 /* Prints text with `special` characters behind backslashes and a quote as `quote`. */
@@ -82,11 +83,11 @@ static void print_escaped(const char *text, const char *special, const char *quo
 
 /* Whether there is anything to offer as its value. */
 static bool offers(const cli_option *option) {
-    const place value = place_of_value(option);
+    const candidates value = candidates_of_value(option);
     return value.kind != NOTHING || value.words[0];
 }
 
-static void print_bash_place(const place *p) {
+static void print_bash_candidates(const candidates *p) {
     static const char *const kinds[] = { "nothing", "files", "folders", "scenes", "commands" };
     if (p->kind != NOTHING)
         printf("kind=%s ", kinds[p->kind]);
@@ -106,11 +107,11 @@ static void print_bash_values(const cli_option *rows, int count) {
     for (int i = 0; i < count; i++) {
         if (rows[i].kind == CLI_FLAG || !offers(&rows[i]))
             continue;
-        const place value = place_of_value(&rows[i]);
+        const candidates value = candidates_of_value(&rows[i]);
         printf("        ");
         print_bash_names(&rows[i]);
         printf(") ");
-        print_bash_place(&value);
+        print_bash_candidates(&value);
         printf(";;\n");
     }
     for (int i = 0; i < count; i++) {
@@ -127,19 +128,19 @@ static void print_bash_values(const cli_option *rows, int count) {
 void option_bash(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
     const int count = option_rows(options, rows);
-    place first, rest;
+    candidates first, rest;
     printf("    %s)\n        options='", command->name);
     for (int i = 0; i < count; i++)
         printf("%s--%s", i ? " " : "", rows[i].name);
     printf("'\n        case $previous in\n");
     print_bash_values(rows, count);
-    places_of_operands(command, &first, &rest);
+    candidates_of_operands(command, &first, &rest);
     printf("        *) ");
-    print_bash_place(&first);
+    print_bash_candidates(&first);
     printf("operand=yes ;;\n        esac\n");
     if (first.words[0]) {
         printf("        if [[ $operand ]] && _lampion_begun \"$words\" \"$begun\"; then words= ");
-        print_bash_place(&rest);
+        print_bash_candidates(&rest);
         printf("; fi\n");
     }
     printf("        ;;\n");
@@ -148,7 +149,7 @@ void option_bash(const cli_command *command, const cli_option *options) {
 /* --- zsh ----------------------------------------------------------------------------------------
  */
 
-static void print_zsh_place(const char *name, const place *p) {
+static void print_zsh_candidates(const char *name, const candidates *p) {
     static const char *const kinds[] = { " ", "_files", "_files -/", "_lampion_scenes",
                                          "_lampion_commands" };
     putchar(':');
@@ -162,7 +163,7 @@ static void print_zsh_place(const char *name, const place *p) {
 void option_zsh(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
     const int count = option_rows(options, rows);
-    place first, rest;
+    candidates first, rest;
     printf("    %s) _arguments -s : \\\n", command->name);
     for (int i = 0; i < count; i++) {
         const cli_option *const o = &rows[i];
@@ -178,23 +179,23 @@ void option_zsh(const cli_command *command, const cli_option *options) {
         print_escaped(o->help, "[]", "'\\''");
         putchar(']');
         if (o->kind != CLI_FLAG) {
-            const place value = place_of_value(o);
-            print_zsh_place(o->argument, &value);
+            const candidates value = candidates_of_value(o);
+            print_zsh_candidates(o->argument, &value);
         }
         printf("' \\\n");
     }
-    places_of_operands(command, &first, &rest);
+    candidates_of_operands(command, &first, &rest);
     printf("        '1");
-    print_zsh_place(command->operands, &first);
+    print_zsh_candidates(command->operands, &first);
     printf("' \\\n        '*");
-    print_zsh_place(command->operands, &rest);
+    print_zsh_candidates(command->operands, &rest);
     printf("' ;;\n");
 }
 
 /* --- fish ---------------------------------------------------------------------------------------
  */
 
-static void print_fish_place(const place *p) {
+static void print_fish_candidates(const candidates *p) {
     static const char *const kinds[] = { " -x", " -r -F", " -x -a '(__fish_complete_directories)'",
                                          " -r -F -a '(__lampion_scenes)'",
                                          " -x -a '(__lampion_commands)'" };
@@ -206,27 +207,27 @@ static void print_fish_place(const place *p) {
 void option_fish(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
     const int count = option_rows(options, rows);
-    place first, rest;
+    candidates first, rest;
     for (int i = 0; i < count; i++) {
         printf("complete -c lampion -n '__lampion_is %s' -l %s", command->name, rows[i].name);
         if (rows[i].letter)
             printf(" -s %c", rows[i].letter);
         if (rows[i].kind != CLI_FLAG) {
-            const place value = place_of_value(&rows[i]);
-            print_fish_place(&value);
+            const candidates value = candidates_of_value(&rows[i]);
+            print_fish_candidates(&value);
         }
         printf(" -d '");
         print_escaped(rows[i].help, "\\", "\\'");
         printf("'\n");
     }
-    places_of_operands(command, &first, &rest);
+    candidates_of_operands(command, &first, &rest);
     if (first.words[0])
         printf("complete -c lampion -n '__lampion_is %s; and not "
                "__fish_seen_subcommand_from %s' -a '%s'\n",
                command->name, first.words, first.words);
     if (rest.kind != NOTHING) {
         printf("complete -c lampion -n '__lampion_is %s'", command->name);
-        print_fish_place(&rest);
+        print_fish_candidates(&rest);
         putchar('\n');
     }
 }

@@ -11,7 +11,7 @@ bool option_store(const cli_option *option, const char *text, cli_error *error);
 #define OPTIONS_MAX      64
 #define OPTION_TEXT_SIZE 1024
 
-/* All rows that a command takes, into OPTIONS_MAX places: those of its table, and what every
+/* All rows that a command takes, into an array of OPTIONS_MAX: those of its table, and what every
  * command has. Returns their count. */
 int option_rows(const cli_option *options, cli_option *rows);
 

@@ -58,12 +58,12 @@ bool cli_fail_member(cli_error *error, const char *subject, const char *kind, co
                      const char *first, size_t stride, size_t count) {
     enum { NAMES = 64 };
     const char *names[NAMES + 1] = { NULL };
-    char place[512];
+    char where[512];
     for (size_t i = 0; i < count && i < NAMES; i++)
         names[i] = first + i * stride;
-    snprintf(place, sizeof place, "%.400s: no such %s", subject, kind);
-    return count ? cli_fail_word(error, place, word, names)
-                 : cli_fail(error, place, "\"%s\", for there is none", word);
+    snprintf(where, sizeof where, "%.400s: no such %s", subject, kind);
+    return count ? cli_fail_word(error, where, word, names)
+                 : cli_fail(error, where, "\"%s\", for there is none", word);
 }
 
 /* A member of the row `index` of a table; `first` is that of its first row. */

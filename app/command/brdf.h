@@ -13,7 +13,7 @@ typedef struct brdf_options {
     lmp_brdf_table_desc table;
 } brdf_options;
 
-/* Polar plots of the lobes in the plane of incidence, a row a view: f_r cos theta_i as measured,
+/* Polar plots of the lobes in the plane of incidence, a row a view: f_r cos theta_i itself,
  * then from its series at several numbers of bands. */
 bool brdf_plot(const brdf_options *options, const material *material, cli_error *error);
 

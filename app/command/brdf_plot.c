@@ -68,7 +68,7 @@ static void value_at(const panels *p, int column, double theta, double angle, co
     }
 }
 
-/* Largest value of the measured lobe, so that all columns of a row share one scale. */
+/* Largest value of the BRDF itself, so that all columns of a row share one scale. */
 static double row_scale(const panels *p, double theta) {
     float largest = 1e-20f, v[3];
     for (int i = 0; i <= STEPS; i++) {

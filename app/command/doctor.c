@@ -43,7 +43,7 @@ static bool print_opengl(const char *device) {
     const bool ok = gpu_context_create(device, &context, &error);
     if (ok)
         printf(LABEL "%s, %s%s\n", "OpenGL", context.device, context.driver,
-               context.software ? "; software: the processor shades" : "");
+               context.software ? "; software: the CPU shades" : "");
     else
         printf(LABEL "none: %s\n", "OpenGL", error.text);
     gpu_context_destroy(&context);
@@ -112,10 +112,10 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (clear)
         file_cache_clear();
     const uint32_t version = lmp_version();
-    char processor[160];
-    timing_cpu_name(processor, sizeof processor);
+    char cpu[160];
+    timing_cpu_name(cpu, sizeof cpu);
     printf(LABEL "%u.%u.%u\n", "lampion", version >> 16, version >> 8 & 0xFF, version & 0xFF);
-    printf(LABEL "%s, %d threads\n", "processor", processor, omp_get_max_threads());
+    printf(LABEL "%s, %d threads\n", "CPU", cpu, omp_get_max_threads());
     print_kernels(mask);
     const bool ok = print_opengl(device);
     print_libraries();

@@ -60,7 +60,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_paper = {
     .name = "paper",
     .operands = "",
-    .summary = "make the paper's figures and tables anew, as one page",
+    .summary = "make the paper's figures and tables again, as one page",
     .examples = "lampion paper -o out\n"
                 "lampion paper -o out --full --sponza Sponza.gltf\n",
     .run = run,

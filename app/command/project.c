@@ -29,7 +29,7 @@ typedef struct project_row {
     float center[3], radius, point[3];
 } project_row;
 
-/* Rows go to the batch kernels some at a time, on every processor. */
+/* Rows go to the batch kernels some at a time, on every core. */
 static void project_rows(const project_row *rows, size_t count, int bands, float radiance,
                          float *coefficients) {
     enum { SOME = 256 };

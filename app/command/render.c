@@ -218,7 +218,7 @@ static bool print_stats(job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "repeat", o->repeat);
     cJSON_AddStringToObject(stats, "shading", device_table[j->shading].name);
     if (j->lobes)
-        cJSON_AddNumberToObject(stats, "response_bytes",
+        cJSON_AddNumberToObject(stats, "preintegrated_bytes",
                                 (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
     if (!add_timings(j, stats, error)) {
         cJSON_Delete(stats);
@@ -399,7 +399,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "background", 0, CLI_VEC3, o.background, "R,G,B", "radiance where nothing is", 0, 1e30,
           NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
-          "numbered images (%04d in FILE) while the lights move: the first N, or A to B", 0,
+          "an image sequence (%04d in FILE) while the lights move: the first N, or A to B", 0,
           FRAME_MAX, NULL, &o.frames_given },
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,

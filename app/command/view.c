@@ -20,17 +20,17 @@ typedef struct view_arguments {
     cli_list materials;
 } view_arguments;
 
-/* SLOT=MATERIAL into the settings; whether the slot exists is found out when it is drawn. */
+/* NAME=MATERIAL into the settings; whether the scene has it is found out when it is drawn. */
 static bool add_materials(const cli_list *list, view_settings *settings, cli_error *error) {
     for (int i = 0; i < list->count; i++) {
         const char *text = list->items[i], *equals = strchr(text, '=');
-        char slot[SCENE_NAME_SIZE] = "";
+        char name[SCENE_NAME_SIZE] = "";
         if (!equals)
-            return cli_fail(error, text, "--material is SLOT=MATERIAL");
-        if ((size_t)(equals - text) >= sizeof slot)
+            return cli_fail(error, text, "--material is NAME=MATERIAL");
+        if ((size_t)(equals - text) >= sizeof name)
             return cli_fail(error, text, "no material has so long a name");
-        memcpy(slot, text, (size_t)(equals - text));
-        if (!view_set_material(settings, slot, equals + 1))
+        memcpy(name, text, (size_t)(equals - text));
+        if (!view_set_material(settings, name, equals + 1))
             return cli_fail(error, text, "is too long a name, or one material too many");
     }
     return true;

@@ -20,7 +20,7 @@ static size_t value_count(const image *candidate) {
     return 3 * (size_t)candidate->width * (size_t)candidate->height;
 }
 
-static void place(compare_result *result, const image *candidate, size_t value) {
+static void find_pixel(compare_result *result, const image *candidate, size_t value) {
     result->max_x = (int)(value / 3 % (size_t)candidate->width);
     result->max_y = (int)(value / 3 / (size_t)candidate->width);
 }
@@ -32,7 +32,7 @@ static bool count_bad_values(const image *candidate, const image *reference,
         const size_t bad =
             (isfinite(candidate->rgb[i]) ? 0U : 1U) + (isfinite(reference->rgb[i]) ? 0U : 1U);
         if (bad && !result->bad_values)
-            place(result, candidate, i);
+            find_pixel(result, candidate, i);
         result->bad_values += bad;
     }
     for (int m = 0; m < COMPARE_COUNT && result->bad_values; m++)
@@ -57,7 +57,7 @@ bool compare_images(const image *candidate, const image *reference, double peak,
         relative += difference * difference / (truth * truth + RELATIVE_FLOOR);
         if (difference > largest) {
             largest = difference;
-            place(result, candidate, i);
+            find_pixel(result, candidate, i);
         }
         if (peak <= 0)
             full = fmax(full, truth);

@@ -5,8 +5,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* A face: the axes along which column and row grow, the axis it is on, and its place in a cross of
- * 4 x 3 and of 3 x 4 faces; in the latter the last hangs upside down. */
+/* A face: the axes along which column and row grow, the axis it is on, and its position in a cross
+ * of 4 x 3 and of 3 x 4 faces; in the latter the last hangs upside down. */
 typedef struct face {
     signed char column[3], row[3], on[3];
     signed char wide[2], tall[2];

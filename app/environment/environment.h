@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* environment.h - light from all around and far away: an image of it, or the built-in studio. */
+/* environment.h - ambient light from far away: an image of it, or the built-in studio. */
 #ifndef LAMPION_ENVIRONMENT_H
 #define LAMPION_ENVIRONMENT_H
 
@@ -23,7 +23,7 @@ typedef struct environment_options {
       .kind = CLI_TEXT,                                                                            \
       .target = &(variable).name,                                                                  \
       .argument = "FILE",                                                                          \
-      .help = "light from all around: a .hdr, .exr or .png of the surroundings, studio, or none; " \
+      .help = "ambient light: a .hdr, .exr or .png of the surroundings, studio, or none; "         \
               "without it, studio where nothing else shines" },                                    \
         { .name = "environment-rotation",                                                          \
           .kind = CLI_FLOAT,                                                                       \

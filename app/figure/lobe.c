@@ -26,7 +26,7 @@ typedef struct canvas {
 
 /* A corner of the mesh. */
 typedef struct corner {
-    lmp_vec3 place; /* x to the right, y up, z to the viewer; from the center */
+    lmp_vec3 position; /* x to the right, y up, z to the viewer; from the center */
     float radius;
 } corner;
 
@@ -105,7 +105,8 @@ static lmp_vec3 to_canvas(const canvas *c, lmp_vec3 p) {
 
 static void draw_quad(canvas *c, const corner *above, const corner *below,
                       const figure_lobe *lobe) {
-    const lmp_vec3 a = above[0].place, b = above[1].place, d = below[0].place, e = below[1].place;
+    const lmp_vec3 a = above[0].position, b = above[1].position, d = below[0].position,
+                   e = below[1].position;
     /* diagonals: at the poles one side of the quad has no length */
     lmp_vec3 normal = cross(subtract(e, a), subtract(b, d));
     if (dot(normal, normal) == 0.0f)

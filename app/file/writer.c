@@ -102,7 +102,7 @@ static bool is_stale(int folder, const char *name) {
     return stale;
 }
 
-/* Once a folder, not before each of many numbered images. */
+/* Once a folder, not before each image of a sequence. */
 static void sweep(const char *folder) {
     static char swept[PATH_SIZE];
     if (strcmp(swept, folder) == 0)

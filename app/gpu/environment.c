@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* environment.c - light from all around, for shaders/environment.glsl. */
+/* environment.c - ambient light from far away, for shaders/environment.glsl. */
 #include "app/gpu/internal.h"
 
 #include <stdlib.h>

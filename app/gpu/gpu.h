@@ -92,8 +92,8 @@ bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables,
 void gpu_set_preintegrated_brdfs(gpu_renderer *renderer,
                                  const lmp_preintegrated_brdf *const *brdfs);
 
-/* Light from all around, whose coefficients environment_project has made, or NULL. It must outlive
- * the renderer. Tabulated materials reflect it on the host alone. */
+/* Ambient light from far away, whose coefficients environment_project has made, or NULL. It must
+ * outlive the renderer. Tabulated materials reflect it on the host alone. */
 void gpu_set_environment(gpu_renderer *renderer, const environment *environment);
 
 /* Renders into the renderer's HDR target; compiles shaders on the first use of a method, a number

@@ -149,7 +149,7 @@ void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
 /* --- lights.c -----------------------------------------------------------------------------------
  */
 
-/* The frame's lights, each at its own index, and one more if some shine from all around; returns
+/* The frame's lights, each at its own index, and one more if some are ambient; returns
  * how many the shaders have to take. */
 size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
 

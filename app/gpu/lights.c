@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lights.c - lights of every kind as the shaders take them: spheres, or caps that are the same from
- * everywhere. */
+/* lights.c - lights of every kind as the shaders take them: spheres, or caps that are fixed. */
 #include "app/gpu/internal.h"
 
 #include <math.h>

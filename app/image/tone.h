@@ -7,7 +7,7 @@
 
 /* The exposure (a factor on radiance) that maps the log-average of what is lit to middle gray:
  * the darkest and brightest twentieth, and pixels 8 stops darker than these, do not count: the tail
- * of a sharp lobe is as good as black. 1 for a black image. */
+ * of a specular lobe is as good as black. 1 for a black image. */
 float image_auto_exposure(const image *image);
 
 /* The factor that an exposure of `stops` EV means: 2^stops. */

@@ -16,25 +16,25 @@
 /* --- BRDFs and tables ---------------------------------------------------------------------------
  */
 
-static lmp_result read_table(const void *data, size_t size, lmp_parse_error *wrong,
+static lmp_result read_table(const void *data, size_t size, lmp_parse_error *error,
                              material_file *file) {
-    return lmp_brdf_table_read(NULL, data, size, wrong, &file->table);
+    return lmp_brdf_table_read(NULL, data, size, error, &file->table);
 }
 
-static lmp_result read_rgl(const void *data, size_t size, lmp_parse_error *wrong,
+static lmp_result read_rgl(const void *data, size_t size, lmp_parse_error *error,
                            material_file *file) {
-    return lmp_brdf_read_rgl(NULL, data, size, wrong, &file->brdf);
+    return lmp_brdf_read_rgl(NULL, data, size, error, &file->brdf);
 }
 
-static lmp_result read_merl(const void *data, size_t size, lmp_parse_error *wrong,
+static lmp_result read_merl(const void *data, size_t size, lmp_parse_error *error,
                             material_file *file) {
-    return lmp_brdf_read_merl(NULL, data, size, wrong, &file->brdf);
+    return lmp_brdf_read_merl(NULL, data, size, error, &file->brdf);
 }
 
 /* Formats are told apart by how their files begin; MERL's begin with nothing of their own. */
 typedef struct material_format {
     const char *magic;
-    lmp_result (*read)(const void *data, size_t size, lmp_parse_error *wrong, material_file *file);
+    lmp_result (*read)(const void *data, size_t size, lmp_parse_error *error, material_file *file);
 } material_format;
 static const material_format formats[] = { { "LMPT", read_table },
                                            { "tensor_file", read_rgl },
@@ -48,9 +48,9 @@ typedef struct reading {
 } reading;
 
 static bool read_bytes(const reading *r, material_file *file, cli_error *error) {
-    lmp_parse_error wrong = { 0 };
-    return r->format->read(r->data, r->size, &wrong, file) == LMP_OK ||
-           cli_fail(error, r->path, "%s (byte %zu)", wrong.text, wrong.offset);
+    lmp_parse_error parse_error = { 0 };
+    return r->format->read(r->data, r->size, &parse_error, file) == LMP_OK ||
+           cli_fail(error, r->path, "%s (byte %zu)", parse_error.text, parse_error.offset);
 }
 
 static bool try_in_child(void *context, int output, cli_error *error) {

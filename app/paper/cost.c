@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* What cutting lobes to a number of bands costs, against quadrature of the whole lobes. */
+/* What truncating lobes to a number of bands costs, against quadrature of the whole lobes. */
 #include "app/paper/paper.h"
 #include "app/reference/quadrature.h"
 
 #include <math.h>
 
-enum { ANGLES = 91, CUTS = 9, RATIOS = 14 }; /* 90 degrees is one of the angles */
+enum { ANGLES = 91, BAND_COUNTS = 9, RATIOS = 14 }; /* 90 degrees is one of the angles */
 
-static const int cuts[CUTS] = { 2, 3, 5, 8, 10, 15, 20, 30, 50 };
+static const int band_counts[BAND_COUNTS] = { 2, 3, 5, 8, 10, 15, 20, 30, 50 };
 
 /* One lobe of weight 1 and one light of unit radiance. */
 typedef struct setting {
@@ -62,19 +62,19 @@ static outcome measure(const setting *s, const double exact[ANGLES], int bands) 
 
 static bool plot_by(paper *p, const char *file, const char *title, const setting *settings,
                     const char *const *names, int count, cli_error *error) {
-    double x[CUTS], y[8][CUTS];
+    double x[BAND_COUNTS], y[8][BAND_COUNTS];
     plot_series series[8];
 #pragma omp parallel for schedule(dynamic)
     for (int s = 0; s < count; s++) {
         double exact[ANGLES];
         exact_responses(&settings[s], exact);
-        for (int c = 0; c < CUTS; c++)
-            y[s][c] = measure(&settings[s], exact, cuts[c]).largest;
+        for (int c = 0; c < BAND_COUNTS; c++)
+            y[s][c] = measure(&settings[s], exact, band_counts[c]).largest;
     }
-    for (int c = 0; c < CUTS; c++)
-        x[c] = cuts[c];
+    for (int c = 0; c < BAND_COUNTS; c++)
+        x[c] = band_counts[c];
     for (int s = 0; s < count; s++)
-        series[s] = (plot_series) { names[s], x, y[s], CUTS };
+        series[s] = (plot_series) { names[s], x, y[s], BAND_COUNTS };
     return page_plot_write(&p->page,
                            &(page_plot) { .file = file,
                                           .title = title,

@@ -12,9 +12,14 @@ static const struct {
     { "d", "ilm_solo_m_68", "nickel" },
     { "e", "cc_amber_citrine", "specular-yellow-phenolic" },
 };
-enum { MATERIALS = sizeof materials / sizeof *materials, CUTS = 3, TIMED_CUTS = 2, SAMPLES = 512 };
-static const int cuts[CUTS] = { 10, 20, 100 };
-static const char *const methods[CUTS] = { "zonal", "zonal", "preintegrated" };
+enum {
+    MATERIALS = sizeof materials / sizeof *materials,
+    BAND_COUNTS = 3,
+    TIMED_BANDS = 2,
+    SAMPLES = 512
+};
+static const int band_counts[BAND_COUNTS] = { 10, 20, 100 };
+static const char *const methods[BAND_COUNTS] = { "zonal", "zonal", "preintegrated" };
 
 static const int *size_of(const paper *p) {
     static const int reduced[] = { 300, 408 }, full[] = { 600, 816 };
@@ -45,12 +50,12 @@ static bool make_material(paper *p, int number, page_table *table, cli_error *er
         !paper_run(p, false, error, "reference %s --spp %d --noise-seed 2 -o %s", common, SAMPLES,
                    again))
         return false;
-    for (int c = 0; c < CUTS; c++) {
+    for (int c = 0; c < BAND_COUNTS; c++) {
         char pixels[64], bands[16];
-        snprintf(pixels, sizeof pixels, "figure6-%s-%d.exr", letter, cuts[c]);
-        snprintf(bands, sizeof bands, "%d", cuts[c]);
+        snprintf(pixels, sizeof pixels, "figure6-%s-%d.exr", letter, band_counts[c]);
+        snprintf(bands, sizeof bands, "%d", band_counts[c]);
         if (!paper_run(p, false, error, "render %s --bands %d --method %s --window hanning -o %s",
-                       common, cuts[c], methods[c], pixels) ||
+                       common, band_counts[c], methods[c], pixels) ||
             !report_error(table, number, bands, pixels, truth, error))
             return false;
     }
@@ -60,20 +65,20 @@ static bool make_material(paper *p, int number, page_table *table, cli_error *er
 static bool time_rows(paper *p, const gpu_context *context, const scene *world, page_table *table,
                       cli_error *error) {
     for (int i = 0; i < MATERIALS; i++)
-        for (int c = 0; c < TIMED_CUTS; c++) {
+        for (int c = 0; c < TIMED_BANDS; c++) {
             char assignment[128];
             paper_times ms;
             const gpu_frame frame = { .width = size_of(p)[0],
                                       .height = size_of(p)[1],
                                       .method = METHOD_COEFFICIENTS,
-                                      .bands = cuts[c],
+                                      .bands = band_counts[c],
                                       .window = LMP_WINDOW_HANNING };
             snprintf(assignment, sizeof assignment, "test_material=sgd:%s", materials[i].ours);
             if (!paper_time_frame(context, world, &frame, assignment, &ms, error))
                 return false;
             page_table_row(table, "%s|%s|%d|%.1f|%.1f|%s", materials[i].letter, materials[i].ours,
-                           cuts[c], ms.shade, ms.total,
-                           cuts[c] == 10                 ? "below 3"
+                           band_counts[c], ms.shade, ms.total,
+                           band_counts[c] == 10          ? "below 3"
                            : *materials[i].letter == 'd' ? "105"
                                                          : "");
         }

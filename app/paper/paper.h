@@ -66,7 +66,7 @@ typedef struct paper_times {
 } paper_times;
 
 /* On the device of `context`, for the scene's lights, seen by its default camera. `material`
- * replaces the scene's material SLOT by SLOT=MATERIAL; NULL: none. */
+ * is NAME=MATERIAL, as `render --material` takes it; NULL: none. */
 bool paper_time_frame(const gpu_context *context, const scene *world, const gpu_frame *frame,
                       const char *material, paper_times *times, cli_error *error);
 

@@ -39,5 +39,5 @@ void paper_name_device(paper *p, const gpu_context *context, int width, int heig
               "RTX 2080 at full size%s.",
               width, height, context->device,
               context->software ? "software, wall clock" : "timer queries", RUNS,
-              context->software ? ": a CPU that plays a GPU is no match" : "");
+              context->software ? ": a CPU in the part of a GPU is no match" : "");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* environment.h - light from all around, in double: the image itself, pixel by pixel. */
+/* environment.h - ambient light from far away, in double: the image itself, pixel by pixel. */
 #ifndef LAMPION_REFERENCE_ENVIRONMENT_H
 #define LAMPION_REFERENCE_ENVIRONMENT_H
 

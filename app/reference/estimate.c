@@ -153,8 +153,8 @@ static bool is_light_a_series(const reference_surface *surface) {
     return surface->ggx && surface->band_limited;
 }
 
-/* The material is sampled, whatever the lights are: they are a series, and everywhere. Of one that
- * may be hidden every sample takes a direction, which is a series by itself. */
+/* The material is sampled, whatever the lights are: they are a series over the whole sphere. Of one
+ * that may be hidden every sample takes a direction, which is a series by itself. */
 static void plan_series(const reference_estimator *estimator, const reference_surface *surface,
                         plan *p) {
     double total = 0;

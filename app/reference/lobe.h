@@ -31,7 +31,7 @@ typedef struct reference_surface {
     reference_vec position;
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
     reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular */
-    bool band_limited; /* they, or the measured material, are a truncated series */
+    bool band_limited; /* they, or the tabulated material, are a truncated series */
     /* One of these reflects instead of the lobes, which then only guide the samples; or none. */
     const reference_tabulated *tabulated;
     const reference_ggx *ggx;

@@ -17,7 +17,7 @@ typedef struct reference_settings {
     int samples;   /* light samples a pixel; the most if error > 0 */
     double error;  /* stop a pixel when its standard error falls below this part of it; 0: off */
     uint64_t seed; /* of the noise: the same seed gives the same bits on any thread count */
-    int threads;   /* 0 means all processors */
+    int threads;   /* 0 means all cores */
     bool shadows;  /* whether triangles hide lights from each other */
     const environment *environment;  /* or NULL: none */
     reference_band_limit band_limit; /* band limit of the lobes, as render has it; zero: none */

@@ -167,18 +167,18 @@ _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int outpu
 }
 
 int sandbox_open(const char *name, int *number, cli_error *error) {
-    message answer;
+    message reply;
     int file;
-    if (strlen(name) >= sizeof answer.text)
+    if (strlen(name) >= sizeof reply.text)
         cli_fail(error, NULL, "%.64s…: is too long a name", name);
     else if (!message_send(CHILD_SOCKET, MESSAGE_OPEN, name, -1) ||
-             !message_receive(CHILD_SOCKET, true, &answer, &file))
+             !message_receive(CHILD_SOCKET, true, &reply, &file))
         cli_fail(error, name, "cannot be asked for");
-    else if (answer.kind == MESSAGE_FILE && file >= 0) {
-        *number = atoi(answer.text);
+    else if (reply.kind == MESSAGE_FILE && file >= 0) {
+        *number = atoi(reply.text);
         return file;
     } else
-        cli_fail(error, NULL, "%s", answer.text);
+        cli_fail(error, NULL, "%s", reply.text);
     return -1;
 }
 

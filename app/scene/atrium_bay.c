@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* atrium_bay.c - one bay of a wall, in a frame whose x runs along the wall and whose z points into
- * the court; set all round, and the corners between. */
+ * the court; on all four sides, and the corners between. */
 #include "app/scene/atrium.h"
 
 #include "app/scene/vector.h"
@@ -128,7 +128,7 @@ void atrium_put_bays(court_plan *court) {
         const int count = end ? BAYS_ACROSS : court->bays;
         for (int i = 0; i < count; i++) {
             const float along = BAY * ((float)i - 0.5f * (float)(count - 1));
-            /* side 0 looks to +z from the far end, 1 to +x from the left, and so on round. */
+            /* side 0 looks to +z from the far end, 1 to +x from the left, and so on. */
             shaper->quarters = side;
             shaper->origin = side == 0   ? vec(along, 0.0f, -court->half_length)
                              : side == 1 ? vec(-HALF_WIDTH, 0.0f, along)

@@ -57,10 +57,10 @@ static void hang_in_court(court_plan *court, int number, int count) {
 /* One in a bay of an aisle, on either storey; neighbors come far apart. */
 static void hang_in_aisle(court_plan *court, int number) {
     uint64_t *random = &court->random;
-    const int slot = (int)(67u * (unsigned)number % (4u * (unsigned)court->bays));
-    const storey_plan *s = slot & 1 ? &atrium_upper : &atrium_lower;
-    const float side = slot & 2 ? 1.0f : -1.0f;
-    const float z = BAY * ((float)(slot / 4) - 0.5f * (float)(court->bays - 1));
+    const int bay = (int)(67u * (unsigned)number % (4u * (unsigned)court->bays));
+    const storey_plan *s = bay & 1 ? &atrium_upper : &atrium_lower;
+    const float side = bay & 2 ? 1.0f : -1.0f;
+    const float z = BAY * ((float)(bay / 4) - 0.5f * (float)(court->bays - 1));
     const lmp_vec3 center = vec(side * (HALF_WIDTH + 1.6f + random_between(random, -0.2f, 0.2f)),
                                 s->springing - random_between(random, 0.2f, 0.9f),
                                 z + random_between(random, -0.3f, 0.3f));

@@ -6,7 +6,7 @@
 
 #include "app/scene/sources.h"
 
-/* The key of a scene file: its content and place, and the version of the importer. */
+/* The key of a scene file: its content and path, and the version of the importer. */
 file_hash cache_key(const char *folder, const char *name, const void *data, size_t size);
 
 /* Maps the cached blob if it is there, valid, and every file it was made from is unchanged. */

@@ -108,8 +108,8 @@ static bool add_influences(const gltf *document, const skin *s, const cJSON *att
     return ok;
 }
 
-static void place_vertices(const double (*matrices)[17], const double world[16],
-                           mesh_draft *draft) {
+static void transform_vertices(const double (*matrices)[17], const double world[16],
+                               mesh_draft *draft) {
     mesh_transform transform = mesh_transform_make(world);
     bool mirrors = transform.mirrors;
     for (size_t i = 0; i < draft->vertex_count; i++) {
@@ -127,12 +127,12 @@ static void place_vertices(const double (*matrices)[17], const double world[16],
         mesh_flip(draft);
 }
 
-bool gltf_place(const gltf *document, const cJSON *node, const cJSON *attributes,
-                const double world[16], mesh_draft *draft, cli_error *error) {
+bool gltf_to_world(const gltf *document, const cJSON *node, const cJSON *attributes,
+                   const double world[16], mesh_draft *draft, cli_error *error) {
     const long index = gltf_index(node, "skin");
     skin s = { 0 };
     if (index < 0 || !gltf_member(attributes, "JOINTS_0")) {
-        place_vertices(NULL, world, draft);
+        transform_vertices(NULL, world, draft);
         return true;
     }
     /* Of each vertex the weighted sum of its joints' matrices, and of the weights. */
@@ -144,7 +144,7 @@ bool gltf_place(const gltf *document, const cJSON *node, const cJSON *attributes
         ok = add_influences(document, &s, attributes, set, draft->vertex_count, matrices, &there,
                             error);
     if (ok)
-        place_vertices((const double(*)[17])matrices, world, draft);
+        transform_vertices((const double(*)[17])matrices, world, draft);
     free(matrices);
     free(s.joints);
     return ok;

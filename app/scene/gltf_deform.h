@@ -12,7 +12,7 @@ bool gltf_morph(const gltf *document, const cJSON *node, const cJSON *primitive,
 
 /* Takes the vertices into the world: by the joints of the node's skin that each one hangs on, and
  * where none holds it by `world`. */
-bool gltf_place(const gltf *document, const cJSON *node, const cJSON *attributes,
-                const double world[16], mesh_draft *draft, cli_error *error);
+bool gltf_to_world(const gltf *document, const cJSON *node, const cJSON *attributes,
+                   const double world[16], mesh_draft *draft, cli_error *error);
 
 #endif

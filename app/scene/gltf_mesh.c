@@ -150,7 +150,7 @@ static bool add_primitive(const gltf *document, const cJSON *node, const cJSON *
     const bool ok = read_vertices(document, primitive, &draft, error) &&
                     read_corners(document, primitive, &draft, error) &&
                     gltf_morph(document, node, primitive, &draft, error) &&
-                    gltf_place(document, node, attributes, world, &draft, error) &&
+                    gltf_to_world(document, node, attributes, world, &draft, error) &&
                     mesh_add(&draft, builder, error);
     mesh_free(&draft);
     return ok;
@@ -180,7 +180,7 @@ static bool add_mesh(const gltf *document, const cJSON *node, const double world
 /* --- instances ----------------------------------------------------------------------------------
  */
 
-/* The mesh of a node at every place that EXT_mesh_gpu_instancing gives it. */
+/* The mesh of a node by every transform that EXT_mesh_gpu_instancing gives it. */
 static bool add_instances(const gltf *document, const cJSON *node, const cJSON *attributes,
                           const double world[16], scene_builder *builder, cli_error *error) {
     static const struct {
@@ -198,13 +198,13 @@ static bool add_instances(const gltf *document, const cJSON *node, const cJSON *
     for (size_t k = 0; k < count && ok; k++) {
         gltf_transform transform = { .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
         double *const to[3] = { transform.translation, transform.rotation, transform.scale };
-        double local[16], place[16];
+        double local[16], instance[16];
         for (int i = 0; i < 3; i++)
             for (int c = 0; numbers[i] && c < parts[i].width; c++)
                 to[i][c] = (double)numbers[i][k * (size_t)parts[i].width + (size_t)c];
         gltf_transform_matrix(&transform, local);
-        gltf_multiply(world, local, place);
-        ok = add_mesh(document, node, place, builder, error);
+        gltf_multiply(world, local, instance);
+        ok = add_mesh(document, node, instance, builder, error);
     }
     for (int i = 0; i < 3; i++)
         free(numbers[i]);
@@ -233,14 +233,14 @@ static void note_undrawn(const gltf *document, scene_builder *builder) {
 bool gltf_add_meshes(const gltf *document, scene_builder *builder, cli_error *error) {
     note_undrawn(document, builder);
     for (size_t i = 0; i < gltf_count(document, GLTF_NODES); i++) {
-        const gltf_node *place = &document->nodes[document->order[i]];
+        const gltf_node *drawn = &document->nodes[document->order[i]];
         const cJSON *node = gltf_item(document, GLTF_NODES, document->order[i]);
         const cJSON *instances =
             gltf_member(gltf_extension(node, "EXT_mesh_gpu_instancing"), "attributes");
-        if (!place->shown || !gltf_member(node, "mesh"))
+        if (!drawn->shown || !gltf_member(node, "mesh"))
             continue;
-        if (!(instances ? add_instances(document, node, instances, place->world, builder, error)
-                        : add_mesh(document, node, place->world, builder, error)))
+        if (!(instances ? add_instances(document, node, instances, drawn->world, builder, error)
+                        : add_mesh(document, node, drawn->world, builder, error)))
             return false;
     }
     return true;

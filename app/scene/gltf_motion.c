@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* gltf_motion.c - node animation, of which only the places of lights are kept: sampled at even
+/* gltf_motion.c - node animation, of which only the positions of lights are kept: sampled at even
  * steps, fine enough for images. */
 #include "app/scene/gltf.h"
 
@@ -143,7 +143,7 @@ bool gltf_rotates(const gltf_motions *all, size_t node) {
  */
 
 /* q and r with -r alike: the shorter way, at constant speed. */
-static void turn(const float *q, const float *r, double u, double *out) {
+static void rotate_between(const float *q, const float *r, double u, double *out) {
     double along = 0.0;
     for (int i = 0; i < 4; i++)
         along += (double)q[i] * (double)r[i];
@@ -183,7 +183,7 @@ static void sample(const channel *c, double seconds, double *out) {
     if (c->curve == CURVE_CUBIC && high > low)
         bend(c, low, step, u, out);
     else if (c->kind == CHANNEL_ROTATION && c->curve == CURVE_LINEAR)
-        turn(from, to, u, out);
+        rotate_between(from, to, u, out);
     else
         for (size_t i = 0; i < c->width; i++)
             out[i] = c->curve == CURVE_STEP && u < 1.0
@@ -191,8 +191,8 @@ static void sample(const channel *c, double seconds, double *out) {
                          : (double)from[i] + u * ((double)to[i] - (double)from[i]);
 }
 
-static void place_node(const gltf *document, const gltf_motions *all, long node, double seconds,
-                       double point[3]) {
+static void through_node(const gltf *document, const gltf_motions *all, long node, double seconds,
+                         double point[3]) {
     const cJSON *entry = gltf_item(document, GLTF_NODES, (size_t)node);
     gltf_transform transform;
     double *const parts[] = { transform.translation, transform.rotation, transform.scale };
@@ -226,10 +226,10 @@ bool gltf_add_motion(const gltf *document, const gltf_motions *all, size_t node,
     for (size_t i = 0; i < count; i++) {
         double point[3] = { 0.0, 0.0, 0.0 };
         for (long at = (long)node; at >= 0; at = document->nodes[at].parent)
-            place_node(document, all, at, all->period * (double)i / (double)(count - 1), point);
-        const double *place = &document->nodes[node].world[12];
-        offsets[i] = (lmp_vec3) { (float)(point[0] - place[0]), (float)(point[1] - place[1]),
-                                  (float)(point[2] - place[2]) };
+            through_node(document, all, at, all->period * (double)i / (double)(count - 1), point);
+        const double *origin = &document->nodes[node].world[12];
+        offsets[i] = (lmp_vec3) { (float)(point[0] - origin[0]), (float)(point[1] - origin[1]),
+                                  (float)(point[2] - origin[2]) };
     }
     return true;
 }

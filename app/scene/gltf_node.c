@@ -90,7 +90,7 @@ static bool find_parents(const gltf *document, cli_error *error) {
     return true;
 }
 
-static bool place_node(const gltf *document, size_t index, cli_error *error) {
+static bool find_world(const gltf *document, size_t index, cli_error *error) {
     const cJSON *entry = gltf_item(document, GLTF_NODES, index);
     gltf_node *node = &document->nodes[index];
     gltf_transform transform;
@@ -119,13 +119,13 @@ static size_t push_all(const cJSON *list, long *stack, size_t used) {
     return used + count;
 }
 
-/* Orders the nodes of the trees on the stack, and gives them their places in the world. */
+/* Orders the nodes of the trees on the stack, and finds their transforms to the world. */
 static bool order_nodes(const gltf *document, long *stack, size_t used, size_t *ordered,
                         cli_error *error) {
     while (used > 0) {
         const size_t node = (size_t)stack[--used];
         document->order[(*ordered)++] = node;
-        if (!place_node(document, node, error))
+        if (!find_world(document, node, error))
             return false;
         used =
             push_all(gltf_member(gltf_item(document, GLTF_NODES, node), "children"), stack, used);

@@ -80,7 +80,7 @@ static bool check_made(const import_job *job, const scene_builder *builder, cli_
         for (int k = 0; k < 3; k++)
             if (!(fabsf(vertices[i].position[k]) <= LMP_LENGTH_MAX))
                 return cli_fail(error, job->path,
-                                "has a vertex that is not at a finite place (up to %g)",
+                                "has a vertex that has no finite position (up to %g)",
                                 (double)LMP_LENGTH_MAX);
     }
     for (size_t i = 0; i < builder_count(builder, BLOB_OFFSETS); i++)

@@ -104,7 +104,7 @@ static int compare_keys(const void *a, const void *b) {
     return order ? order : (x->corner > y->corner) - (x->corner < y->corner);
 }
 
-/* Sums the normals of the corners in one place that belong to one smooth surface. */
+/* Sums the normals of the corners at one position that belong to one smooth surface. */
 static void smooth_group(mesh_draft *f, const corner_key *group, size_t count,
                          const lmp_vec3 *faces) {
     for (size_t i = 0; i < count; i++) {

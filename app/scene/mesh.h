@@ -27,7 +27,7 @@ typedef struct mesh_draft {
 bool mesh_add(mesh_draft *draft, scene_builder *builder, cli_error *error);
 void mesh_free(mesh_draft *draft);
 
-/* Turns every triangle over, as a transform that mirrors needs it. */
+/* Flips every triangle, as a transform that mirrors needs it. */
 void mesh_flip(mesh_draft *draft);
 
 /* An affine map of points, and of the normals and tangents that go with them. */

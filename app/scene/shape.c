@@ -161,7 +161,7 @@ static void put_revolved(const scene_shaper *shaper, const shape_revolution *sol
     const float c = cosf(angle), s = sinf(angle);
     float scale = 1.0f, slope = 0.0f;
     if (solid->flutes > 0) {
-        /* Round hollows with sharp arrises between them: |sin|. */
+        /* Round hollows with arrises between them: |sin|. */
         const float half = 0.5f * (float)solid->flutes;
         const float wave = sinf(half * angle);
         scale = 1.0f - solid->depth * fabsf(wave);

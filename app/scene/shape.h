@@ -21,7 +21,7 @@ typedef struct scene_shaper {
 /* Appends the meshes to the builder, named as their materials, and frees the shaper. */
 void shaper_finish(scene_shaper *shaper);
 
-/* A point of a profile: distance from the axis (or depth), and place along it (or height). */
+/* A point of a profile: distance from the axis (or depth), and position along it (or height). */
 typedef struct shape_point {
     float r, a;
 } shape_point;
@@ -40,14 +40,14 @@ typedef struct shape_revolution {
     int point_count;
     lmp_vec3 origin;
     char axis;      /* 'x', 'y' or 'z' */
-    float from, to; /* angles; both 0: all round */
+    float from, to; /* angles; both 0: a full turn */
     int segments;   /* around the axis */
     int flutes;     /* 0, or the number of hollows around the axis */
     float depth;    /* of a flute, relative to the radius */
 } shape_revolution;
 
 /* The outside is to the right of the profile's direction in the (r, a) plane. */
-void shape_revolve(scene_shaper *shaper, const shape_revolution *turning);
+void shape_revolve(scene_shaper *shaper, const shape_revolution *revolution);
 
 /* Sweeps a profile of (depth towards +z, height) along x. Its outside as for shape_revolve. */
 void shape_sweep(scene_shaper *shaper, const shape_point *profile, int point_count, lmp_vec3 origin,

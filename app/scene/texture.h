@@ -25,7 +25,7 @@ typedef struct texture_images {
     size_t count;
 } texture_images;
 
-/* Decodes an image of one of `formats` to RGBA and appends its texels; *texture gets their place
+/* Decodes an image of one of `formats` to RGBA and appends its texels; *texture gets their offset
  * and size. `subject` and `name` are for messages. */
 bool texture_decode(scene_builder *builder, const void *data, size_t size, texture_format formats,
                     const char *subject, const char *name, scene_texture *texture,

@@ -19,7 +19,7 @@ static frame frame_of(const scene_camera *camera) {
     return (frame) { eye, right, vec_cross(right, forward), forward, vec_length(way) };
 }
 
-/* Turns a direction to the right and up, with y staying up. */
+/* Rotates a direction to the right and up, with y staying up. */
 static lmp_vec3 rotated(lmp_vec3 direction, float right, float up) {
     const float heading = atan2f(direction.x, -direction.z) + right;
     const float height = asinf(fminf(fmaxf(direction.y, -1), 1)) + up;

@@ -5,10 +5,10 @@
 
 #include "app/scene/scene.h"
 
-/* Turns the eye around the target: to the right and up. Never over the poles. */
+/* Rotates the eye around the target: to the right and up. Never over the poles. */
 void view_orbit(scene_camera *camera, float right, float up);
 
-/* Turns the view around the eye. */
+/* Rotates the view around the eye. */
 void view_look_round(scene_camera *camera, float right, float up);
 
 /* Moves eye and target by parts of the image's height at the target. */

@@ -192,7 +192,7 @@ const view_key view_keys[] = {
     { NULL, "Camera", NULL, NULL, 0 },
     { NULL, "left drag", "orbit", NULL, 0 },
     { NULL, "Shift + left, middle drag", "pan", NULL, 0 },
-    { NULL, "right drag", "look round", NULL, 0 },
+    { NULL, "right drag", "look around", NULL, 0 },
     { NULL, "wheel", "nearer, farther", NULL, 0 },
     { NULL, "W A S D  Q E", "fly (Shift: faster)", NULL, 0 },
     { "f", "F", "frame everything", frame_all, 0 },

@@ -18,7 +18,7 @@ void view_add_light(view_state *state, int unused);
 void view_remove_light(view_state *state, int unused);
 void view_change_kind(view_state *state, int step);
 
-/* A spot turns to the point under the pointer, what shines from afar comes from there. */
+/* A spot is aimed at the point under the pointer, what shines from afar comes from there. */
 void view_direct_light(view_state *state, int unused);
 
 void view_frame_light(view_state *state, int unused);

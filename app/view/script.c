@@ -9,7 +9,7 @@
 
 #define FILE_LIMIT  ((size_t)256 << 10)
 #define SECONDS_MAX 1e6
-#define PLACE_MAX   1e6
+#define PIXEL_MAX   1e6
 #define SCROLL_MAX  1e3
 enum { WORDS_MAX = 5 };
 
@@ -62,7 +62,7 @@ static bool read_event(const words *w, view_script_line *line) {
         e->kind = what[0] == 'm' ? VIEW_MOVE : VIEW_SIZE;
         e->x = w->numbers[2];
         e->y = w->numbers[3];
-        return numbers_at(w, 2, 2, PLACE_MAX) &&
+        return numbers_at(w, 2, 2, PIXEL_MAX) &&
                (e->kind == VIEW_MOVE || (e->x >= 1 && e->y >= 1 && e->x <= 8192 && e->y <= 8192));
     }
     if (strcmp(what, "scroll") == 0) {

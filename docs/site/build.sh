@@ -1,14 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # build.sh FOLDER: the documents and the public headers as a site, by pandoc, without a network.
-# Every file of the repository keeps its place; .md becomes .html, README.md index.html.
+# Every file of the repository keeps its path; .md becomes .html, README.md index.html.
 set -eu
 cd "$(dirname "$0")/../.."
 out=$1
 home=README.md
 guide="docs/getting-started.md docs/method.md docs/cookbook.md docs/gallery.md docs/viewer.md"
 use="docs/scenes.md docs/materials.md docs/shading.md docs/preintegration.md docs/sequences.md docs/reference.md docs/formats.md docs/migrating.md docs/security.md"
-judge="docs/accuracy.md docs/benchmarks.md docs/performance-notes.md"
+accuracy="docs/accuracy.md docs/benchmarks.md docs/performance-notes.md"
 project="docs/design.md docs/extending.md CONTRIBUTING.md CHANGELOG.md"
 API_SOURCES="$(echo include/lampion/*.h) shaders/lampion.glsl shaders/coefficients.glsl"
 export API_SOURCES
@@ -52,7 +52,7 @@ make_navigation() {
     section "Begin" $home $guide
     section "Use" $use
     section "API" docs/api.md $API_SOURCES
-    section "Judge" $judge
+    section "Accuracy and performance" $accuracy
     section "Project" $project
     more=
     for source in docs/*.md; do

@@ -10,7 +10,7 @@ local function escape(text)
     return (text:gsub('[&<>]', { ['&'] = '&amp;', ['<'] = '&lt;', ['>'] = '&gt;' }))
 end
 
--- Code as HTML: names in `own` are anchors at their first place, others link to theirs.
+-- Code as HTML: names in `own` are anchors where they first stand, others link to theirs.
 local function code_html(code, own)
     local defined = {}
     for _, name in ipairs(own) do

@@ -55,7 +55,7 @@ typedef struct lmp_light {
     lmp_rgb ground; /* radiance of a hemisphere light's lower half */
 } lmp_light;
 
-/* What any light is from one point: a cap of at most a hemisphere, plus light from all around,
+/* What any light is from one point: a cap of at most a hemisphere, plus ambient light,
  *
  *     L_lm = strength R_l(1 - one_minus_cos) Y_lm(axis)  +  2 sqrt(pi) ambient  for l = m = 0
  *
@@ -112,7 +112,7 @@ LMP_API void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radiu
 
 /* --- any light -------------------------------------------------------------------------------- */
 
-/* Zonal coefficients at `point` of a light of unit strength, and the axis they are round: towards
+/* Zonal coefficients at `point` of a light of unit strength, and the axis they are around: towards
  * the light (a hemisphere light: up).
  *
  * zonal receives `bands` values for radiance, intensity or irradiance 1 (a hemisphere light: for

@@ -26,7 +26,7 @@ LMP_API void lmp_lobe_phong(int bands, float exponent, float *lambda);
 /* von Mises-Fisher: k/(2 pi (1 - exp(-2k))) exp(k (t - 1)); concentration k > 0. */
 LMP_API void lmp_lobe_vmf(int bands, float concentration, float *lambda);
 
-/* Coefficients of the lobe round `axis`: lambda_l Y_lm(axis).
+/* Coefficients of the lobe around `axis`: lambda_l Y_lm(axis).
  *
  * axis must be unit; sh receives LMP_SH_COUNT(bands) values */
 LMP_API void lmp_lobe_project(int bands, const float *lambda, lmp_vec3 axis, float *sh);

@@ -58,7 +58,7 @@ typedef struct lmp_probe_samples {
  *
  * 1 … LMP_PROBE_FIT_BANDS_MAX bands, smoothness >= 0; sh receives LMP_SH_COUNT(bands) values.
  * LMP_ERROR_ARGUMENT: a value that is not finite or outside its range, or samples that leave some
- * coefficient undetermined (too few, or all in one place); a smoothness determines all but the
+ * coefficient undetermined (too few, or all in one direction); a smoothness determines all but the
  * constant. LMP_ERROR_MEMORY: bands⁴ doubles are needed. host may be NULL */
 #define LMP_PROBE_FIT_BANDS_MAX 32
 LMP_API lmp_result lmp_probe_fit(const lmp_host *host, int bands, float smoothness,

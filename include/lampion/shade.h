@@ -108,8 +108,8 @@ typedef struct lmp_surfaces {
  * Split the surfaces among your threads: no split changes a bit.
  *
  * Lobes summed by LMP_SHADE_ZONAL differ from lmp_shade by rounding, at n bands up to 3e-6 + 2e-7
- * n² of a light's peak (what it gives where the lobes point at it), which counts where a sharp lobe
- * points at a small light. Two limits besides, of both methods that are vectorized:
+ * n² of a light's peak (what it gives where the lobes point at it), which counts where a narrow
+ * lobe points at a small light. Two limits besides, of both methods that are vectorized:
  *   - A cap, sky or sphere that covers about a hemisphere: up to 5e-4, for cos a comes from sin a.
  *   - A point or spot light is a sphere of radius LMP_POINT_DISTANCE_MIN: no other from d = 2e-3 to
  *     1e13, but nearer by its highlight loses (1e-6 n / d)² / 15 (of 128 bands 0.1 % at 1e-3, 9 %
@@ -124,7 +124,7 @@ LMP_API void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces 
                          size_t rgb_stride, float *rgb);
 
 /* --- an environment ------------------------------------------------------------------------------
- * Light from all around, far away: the coefficients of its radiance, three planes, red, green,
+ * Ambient light from far away: the coefficients of its radiance, three planes, red, green,
  * blue, of LMP_SH_COUNT(bands), as lmp_sh_project_latlong and lmp_sh_project_cubemap make them.
  *
  * What a surface reflects of it is an integral like that of lmp_shade, clamped at 0 by itself: add

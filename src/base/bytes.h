@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Each returns the place after what it wrote. */
+/* Each returns the address after what it wrote. */
 static inline unsigned char *lmp_bytes_store_u16(unsigned char *to, uint16_t value) {
     to[0] = (unsigned char)value;
     to[1] = (unsigned char)(value >> 8);
@@ -92,7 +92,7 @@ typedef struct lmp_bytes_format {
 
 enum { LMP_BYTES_BEGIN = 12, LMP_BYTES_CHECKSUM = 4 };
 
-/* Writes the magic and the version; returns the place after them. */
+/* Writes the magic and the version; returns the address after them. */
 unsigned char *lmp_bytes_begin(void *bytes, const lmp_bytes_format *format);
 /* Writes the checksum of all from bytes to end there. */
 void lmp_bytes_end(void *bytes, unsigned char *end);

@@ -12,7 +12,7 @@
 
 #define LMP_TABLE_COUNT (LMP_BANDS_MAX * (LMP_BANDS_MAX + 1) / 2)
 
-/* The place of (l, m), 0 <= m <= l < LMP_BANDS_MAX, in a triangular table. */
+/* The index of (l, m), 0 <= m <= l < LMP_BANDS_MAX, in a triangular table. */
 static inline size_t lmp_table_index(int l, int m) {
     return (size_t)(m * LMP_BANDS_MAX - m * (m - 1) / 2 + l - m);
 }

@@ -34,7 +34,7 @@ typedef struct brdf_grid {
 typedef struct brdf_rgl {
     int phi_count, theta_count;
     bool isotropic, jacobian;
-    int turn;           /* the file covers 1/turn of phi_i: 1, 2 or 4 */
+    int symmetry;       /* the file covers 1/symmetry of a turn of phi_i: 1, 2 or 4 */
     const float *phi;   /* [phi_count] */
     const float *theta; /* [theta_count] */
     brdf_grid ndf, sigma;

@@ -35,7 +35,7 @@ static void half_angles(const double a[3], const double b[3], double fractions[3
     fractions[2] = phi / BRDF_PI;
 }
 
-/* The samples of a pair of directions along phi_d, and their place in them. */
+/* The samples of a pair of directions along phi_d, and the position among them. */
 static const float *find_row(const brdf_merl *merl, const double a[3], const double b[3], int *k) {
     const int *shape = merl->shape;
     double fractions[3];

@@ -84,8 +84,8 @@ static void transform_ring(const brdf_projection *p, const brdf_quadrature *q, d
         const double *c = q->cosine + (size_t)j * (size_t)bands;
         const double *d = q->sine + (size_t)j * (size_t)bands;
         const double x = s * q->x[j], y = s * q->y[j];
-        const double light[3] = { p->turn[0] * x - p->turn[1] * y, p->turn[1] * x + p->turn[0] * y,
-                                  z };
+        const double light[3] = { p->rotation[0] * x - p->rotation[1] * y,
+                                  p->rotation[1] * x + p->rotation[0] * y, z };
         double rgb[3];
         if (p->mirrored && p->brdf->eval_mirrored)
             p->brdf->eval_mirrored(p->brdf, p->view, light, rgb);

@@ -29,8 +29,8 @@ void lmp_brdf_quadrature_destroy(const lmp_host *host, brdf_quadrature *quadratu
 /* How a view is projected. */
 typedef struct brdf_projection {
     const lmp_brdf *brdf;
-    double view[3], turn[2]; /* wo in the material's frame; cos and sin of the turn of wi's frame */
-    bool mirrored;           /* m >= 0 alone */
+    double view[3], rotation[2]; /* wo in the material's frame; cos, sin of the rotation of wi's */
+    bool mirrored;               /* m >= 0 alone */
 } brdf_projection;
 
 /* cosine and sine parts: [channel][LMP_SH_HALF_COUNT(bands)], by m. sine is left alone if mirrored.

@@ -77,20 +77,20 @@ size_t lmp_rgl_accumulate(brdf_rgl *rgl) {
     return slices;
 }
 
-/* A cell of a grid: its lower corner and the place in it. */
+/* A cell of a grid: its lower corner and the position in it. */
 static size_t grid_cell(double u, int count, double *fraction) {
-    const double place = fmin(fmax(u, 0), 1) * (count - 1);
-    const int cell = count < 2 ? 0 : (int)place < count - 2 ? (int)place : count - 2;
-    *fraction = place - cell;
+    const double position = fmin(fmax(u, 0), 1) * (count - 1);
+    const int cell = count < 2 ? 0 : (int)position < count - 2 ? (int)position : count - 2;
+    *fraction = position - cell;
     return (size_t)cell;
 }
 
-/* Σ of the slices' values at one place of their tables. */
-static double mix(const float *tables, size_t stride, const rgl_slices *slices, size_t place) {
+/* Σ of the slices' values at one offset in their tables. */
+static double mix(const float *tables, size_t stride, const rgl_slices *slices, size_t offset) {
     double sum = 0;
     for (int k = 0; k < 4; k++)
         if (slices->weight[k] > 0)
-            sum += slices->weight[k] * (double)tables[slices->index[k] * stride + place];
+            sum += slices->weight[k] * (double)tables[slices->index[k] * stride + offset];
     return sum;
 }
 
@@ -131,12 +131,12 @@ double lmp_rgl_bilinear(const brdf_grid *grid, const double s[2]) {
 static void fold(const brdf_rgl *rgl, double a[3], double b[3]) {
     const double middle = ((double)rgl->phi[0] + (double)rgl->phi[rgl->phi_count - 1]) / 2;
     const double x = cos(middle), y = sin(middle);
-    if (rgl->turn == 2 && a[0] * x + a[1] * y < 0)
+    if (rgl->symmetry == 2 && a[0] * x + a[1] * y < 0)
         for (int k = 0; k < 2; k++) {
             a[k] = -a[k];
             b[k] = -b[k];
         }
-    if (rgl->turn == 4)
+    if (rgl->symmetry == 4)
         for (int k = 0; k < 2; k++)
             if (a[k] * (k ? y : x) < 0) {
                 a[k] = -a[k];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* rgl.h - what the reader and the writer of RGL tensor files share: the names of the format and the
- * warp from normals to the unit square of the samples. */
+ * remapping from normals to the unit square of the samples. */
 #ifndef LAMPION_BRDF_RGL_H
 #define LAMPION_BRDF_RGL_H
 
@@ -18,14 +18,15 @@ typedef struct rgl_slices {
     double weight[4];
 } rgl_slices;
 
-/* Slices round (theta_i, phi_i), held to the ends. */
+/* Slices around (theta_i, phi_i), held to the ends. */
 rgl_slices lmp_rgl_slices(const brdf_rgl *rgl, double theta, double phi);
 
 /* Makes the cumulative tables of every slice of rgl->density and scales each to integral 1. Returns
  * the first slice whose integral is not positive, or phi_count * theta_count. */
 size_t lmp_rgl_accumulate(brdf_rgl *rgl);
 
-/* The place in the unit square of samples of a normal's coordinates u (Dupuy and Jakob 2018, §4.2).
+/* The position in the unit square of samples of a normal's coordinates u (Dupuy and Jakob 2018,
+ * §4.2).
  */
 void lmp_rgl_warp(const brdf_rgl *rgl, const rgl_slices *slices, const double u[2], double s[2]);
 

@@ -233,13 +233,13 @@ static bool check_angles(const rgl_file *file, brdf_rgl *rgl) {
     if (fabs(first) > 2 * BRDF_PI + 1e-3 || span > 2 * BRDF_PI + 1e-3)
         return wrong(file, file->fields[FIELD_PHI].offset, "'phi_i' leaves one turn");
     rgl->isotropic = rgl->phi_count <= 2;
-    rgl->turn = 1;
+    rgl->symmetry = 1;
     if (rgl->isotropic)
         return true;
     const double parts = 2 * BRDF_PI / span, quarters = first / (BRDF_PI / 2);
-    rgl->turn = parts < 1.5 ? 1 : parts < 3 ? 2 : 4;
-    if (!(fabs(parts - rgl->turn) <= 0.15 * rgl->turn) ||
-        (rgl->turn == 4 && !(fabs(quarters - floor(quarters + 0.5)) <= 0.02)))
+    rgl->symmetry = parts < 1.5 ? 1 : parts < 3 ? 2 : 4;
+    if (!(fabs(parts - rgl->symmetry) <= 0.15 * rgl->symmetry) ||
+        (rgl->symmetry == 4 && !(fabs(quarters - floor(quarters + 0.5)) <= 0.02)))
         return wrong(file, file->fields[FIELD_PHI].offset,
                      "'phi_i' does not span a full, half or quarter turn");
     return true;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Sampling any BRDF into an RGL tensor file. The format stores f_r cos theta over a microfacet
- * model's own estimate, on a grid warped so that samples crowd where visible normals do. Any
+ * model's own estimate, on a grid remapped so that samples crowd where visible normals do. Any
  * positive estimate makes a valid file; a good one makes it smooth. Here it is the distribution of
  * normals seen in retro-reflection, D(m) ~ 4 f_r(m, m) cos² theta_m. */
 #include "src/brdf/rgl.h"
@@ -119,8 +119,8 @@ static void fill_sigma(const writer *w) {
     }
 }
 
-/* The coordinate u[axis] whose position in the square is s: the warp grows along each axis, and the
- * second of its coordinates depends on u[1] alone. */
+/* The coordinate u[axis] whose position in the square is s: the remapping grows along each axis,
+ * and the second of its coordinates depends on u[1] alone. */
 static double unwarp(const brdf_rgl *rgl, const rgl_slices *slices, int axis, double s, double v) {
     double low = 0, high = 1;
     for (int step = 0; step < 32; step++) {
@@ -285,7 +285,7 @@ static void set_shape(writer *w) {
     const bool isotropic = !w->brdf->info.anisotropic;
     r->isotropic = isotropic;
     r->jacobian = true;
-    r->turn = 1;
+    r->symmetry = 1;
     r->phi_count = isotropic ? 1 : ANISO_PHI_COUNT;
     r->theta_count = isotropic ? THETA_COUNT : ANISO_THETA_COUNT;
     r->ndf.width = NDF_WIDTH;

@@ -91,7 +91,7 @@ static lmp_result make_view(size_t index, void *data) {
     const brdf_projection projection = {
         .brdf = job->brdf,
         .view = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) },
-        .turn = { cos(phi), sin(phi) },
+        .rotation = { cos(phi), sin(phi) },
         .mirrored = info->mirrored,
     };
     lmp_brdf_project_view(&projection, job->quadrature, parts, parts + 3 * half);
@@ -185,11 +185,10 @@ static bool within(int value, int minimum, int maximum) {
 }
 
 /* Five views to the wavelength of the last band, 2 pi / bands, at least: with fewer the cubic
- * between two views shows a sharp lobe twice. (An anisotropic table would take a gigabyte.) */
+ * between two views shows a narrow lobe twice. (An anisotropic table would take a gigabyte.) */
 static int default_views(const lmp_brdf *brdf, int bands) {
-    const int sharp = (5 * bands + 3) / 4;
-    return sharp > LMP_BRDF_VIEWS_DEFAULT && !brdf->info.anisotropic ? sharp
-                                                                     : LMP_BRDF_VIEWS_DEFAULT;
+    const int fine = (5 * bands + 3) / 4;
+    return fine > LMP_BRDF_VIEWS_DEFAULT && !brdf->info.anisotropic ? fine : LMP_BRDF_VIEWS_DEFAULT;
 }
 
 /* The desc with its defaults in place; false if a value is out of range. */
@@ -267,7 +266,7 @@ lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings, const lm
         const brdf_projection projection = {
             .brdf = brdf,
             .view = { x / length, y / length, z / length },
-            .turn = { 1, 0 },
+            .rotation = { 1, 0 },
         };
         lmp_brdf_project_view(&projection, &quadrature, parts, parts + 3 * half);
         const lmp_brdf_table_info info = { .bands = bands, .count = LMP_SH_COUNT(bands) };
@@ -353,11 +352,11 @@ size_t lmp_brdf_table_bands(const lmp_brdf_table *table, float cos_theta_o, floa
     const lmp_brdf_table_info *info = &table->info;
     const float theta = acosf(fminf(fmaxf(cos_theta_o, 0), 1));
     const band_part part = part_of(info, low, high);
-    const bool has_place = !isnan(cos_theta_o) && (info->azimuths == 1 || isfinite(phi_o));
-    assert(has_place);
+    const bool is_view = !isnan(cos_theta_o) && (info->azimuths == 1 || isfinite(phi_o));
+    assert(is_view);
     for (size_t i = 0; i < 3 * part.count; i++)
-        rgb[i] = has_place ? 0 : NAN;
-    if (!has_place)
+        rgb[i] = is_view ? 0 : NAN;
+    if (!is_view)
         return part.count;
     if (info->azimuths == 1) {
         add_azimuth(table, part, theta, 0, 1, rgb);

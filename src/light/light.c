@@ -49,8 +49,8 @@ static float spot_falloff(const lmp_light *light, lmp_vec3 from_light) {
     const lmp_vec3 d = light->direction;
     const float inner = cosf(light->inner), outer = cosf(light->outer);
     const float cosine = d.x * from_light.x + d.y * from_light.y + d.z * from_light.z;
-    const float place = (cosine - outer) / fmaxf(inner - outer, 1e-3f);
-    const float held = fminf(fmaxf(place, 0), 1);
+    const float position = (cosine - outer) / fmaxf(inner - outer, 1e-3f);
+    const float held = fminf(fmaxf(position, 0), 1);
     return held * held;
 }
 

@@ -9,7 +9,7 @@ void lmp_lobe_weights(int bands, const float *lambda, float *weights) {
         weights[l] = lmp_table_pole[l] * lmp_table_pole[l] * lambda[l];
 }
 
-/* P_l(q·w) by differences from 1 - |q·w| = |q ∓ w|²/2, as exact as q and w are where a sharp lobe
+/* P_l(q·w) by differences from 1 - |q·w| = |q ∓ w|²/2, as exact as q and w are where a narrow lobe
  * points at the light; the rounding of q·w itself would cost l² units there. */
 float lmp_lobe_sum(int bands, const float *weights, const float *r, lmp_vec3 q, lmp_vec3 w) {
     const float sign = q.x * w.x + q.y * w.y + q.z * w.z < 0 ? -1.f : 1.f;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* response.h - the addition theorem: a lobe's answer to a cap in one sum over l. */
+/* response.h - the addition theorem: a lobe's response to a cap in one sum over l. */
 #ifndef LAMPION_LOBE_RESPONSE_H
 #define LAMPION_LOBE_RESPONSE_H
 

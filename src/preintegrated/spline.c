@@ -10,7 +10,7 @@ static void add_scaled(float *restrict to, const float *restrict from, size_t wi
 }
 
 /* The far end as the anticausal half starts from it. */
-static void turn(float *restrict last, const float *restrict before, size_t width) {
+static void begin_back(float *restrict last, const float *restrict before, size_t width) {
     for (size_t j = 0; j < width; j++)
         last[j] = pole / (pole * pole - 1) * (last[j] + pole * before[j]);
 }
@@ -47,7 +47,7 @@ void lmp_spline_coefficients(float *values, size_t count, size_t width) {
         add_scaled(values, values + k * width, width, power);
     for (size_t k = 1; k < count; k++)
         add_scaled(values + k * width, values + (k - 1) * width, width, pole);
-    turn(values + (count - 1) * width, values + (count - 2) * width, width);
+    begin_back(values + (count - 1) * width, values + (count - 2) * width, width);
     for (size_t k = count - 1; k-- > 0;)
         step_back(values + k * width, values + (k + 1) * width, width);
     for (size_t i = 0; i < count * width; i++)

@@ -46,7 +46,7 @@ static void mirror_z(int bands, float *sh) {
                 sh[LMP_SH_INDEX(l, m)] = -sh[LMP_SH_INDEX(l, m)];
 }
 
-/* f(M w) of f(w): M = turn, or turn times a reflection of z. */
+/* f(M w) of f(w): M = a rotation, or one times a reflection of z. */
 static void change_axes(int bands, int m[3][3], float *sh) {
     static const int unchanged[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
     const bool mirrored = determinant(m) < 0;

@@ -31,7 +31,7 @@ static quadratic quadratic_of(int bands, const float *sh) {
     };
 }
 
-/* Rotates the axes p and q so that a[p][q] = 0 (Jacobi); linear turns along. */
+/* Rotates the axes p and q so that a[p][q] = 0 (Jacobi); linear is rotated along. */
 static void annihilate(quadratic *f, int p, int q) {
     if (f->a[p][q] == 0)
         return;

@@ -10,7 +10,7 @@ void lmp_sh_values(int bands, lmp_vec3 direction, float *sh) {
     for (int m = 0; m < bands; m++) {
         lmp_sh_column(bands, m, direction.z, q);
         for (int l = m; l < bands; l++) {
-            /* -m first: at m = 0 both are one place, and cosine wins */
+            /* -m first: at m = 0 both are one coefficient, and cosine wins */
             sh[LMP_SH_INDEX(l, -m)] = q[l] * a.s;
             sh[LMP_SH_INDEX(l, m)] = q[l] * a.c;
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* environment.c - what surfaces reflect of the light from all around: a lobe of factors lambda_l
+/* environment.c - what surfaces reflect of ambient light from far away: a lobe of factors lambda_l
  * around an axis q accumulates Σ_l lambda_l Σ_m L_lm Y_lm(q).
  *
  * Surfaces go through in runs, which the loops over them make vectors of; each is summed in the
@@ -69,9 +69,9 @@ static void add_lobes(const lmp_environment *e, int bands, const lobe_run *run, 
             for (int i = 0; i < RUN; i++)
                 response[k][i] += sums.cosine[k][i] * c[i] + sums.sine[k][i] * s[i];
         for (int i = 0; i < RUN; i++) {
-            const float turned = run->x[i] * c[i] - run->y[i] * s[i];
+            const float rotated = run->x[i] * c[i] - run->y[i] * s[i];
             s[i] = run->x[i] * s[i] + run->y[i] * c[i];
-            c[i] = turned;
+            c[i] = rotated;
         }
     }
     for (int k = 0; k < 3; k++)

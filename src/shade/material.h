@@ -8,8 +8,8 @@
 
 #include <lampion/shade.h>
 
-/* What a surface reflects by, as long as nothing is cut: a diffuse lobe of an albedo around the
- * normal, and Phong lobes, as many as lmp_shade_phong_count says. */
+/* What a surface reflects by, as long as nothing is truncated: a diffuse lobe of an albedo around
+ * the normal, and Phong lobes, as many as lmp_shade_phong_count says. */
 typedef struct shade_phong {
     lmp_vec3 axis;
     float exponent;
@@ -122,7 +122,7 @@ static inline float lmp_shade_passed(float diffuse_f90) {
 void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
                           shade_reflection *reflection);
 
-/* The same cut to bands. */
+/* The same truncated to bands. */
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
                      const lmp_surface *surface, shade_lobes *lobes);
 

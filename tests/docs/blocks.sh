@@ -9,7 +9,7 @@
 #   <!-- not run: REASON -->   the block is left out; the reason is printed
 #   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
 #   <!-- prints -->            a text block: what the block before it printed, to the letter
-# Images are small here, samples few, and materials cut to few bands and views: the last value of
+# Images are small here, samples few, and materials truncated to few bands and views: the last value of
 # an option counts, and the program's stand-in below adds its own; of the materials of `brdf bands`
 # it keeps the first. Nothing else is changed.
 set -eu

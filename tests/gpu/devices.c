@@ -48,13 +48,13 @@ static int beyond(int levels) {
     return count;
 }
 
-typedef struct stage {
+typedef struct fixture {
     scene world;
     gpu_renderer *renderer;
     gpu_frame frame;
-} stage;
+} fixture;
 
-static void open_stage(stage *s, const char *name) {
+static void open_fixture(fixture *s, const char *name) {
     cli_error error = { "" };
     expect(scene_load(name, &(scene_options) { .no_cache = true }, &s->world, &error), &error);
     expect(scene_apply_lights(&s->world, &(scene_lights_options) { .random_count = 20, .seed = 7 },
@@ -66,13 +66,13 @@ static void open_stage(stage *s, const char *name) {
     s->frame = frame_of(&s->world, WIDTH, HEIGHT);
 }
 
-static void close_stage(stage *s) {
+static void close_fixture(fixture *s) {
     gpu_renderer_destroy(s->renderer);
     scene_free(&s->world);
 }
 
 /* Both devices draw the frame by each method, within one level of 255. */
-static void check_every_method(stage *s) {
+static void check_every_method(fixture *s) {
     for (int m = 0; m < METHODS; m++) {
         s->frame.method = (method_kind)m;
         s->frame.host = NULL;
@@ -96,27 +96,27 @@ static void both_devices_draw_the_same_image(void **state) {
     (void)state;
     const char *const scenes[] = { "builtin:atrium", "builtin:balls" };
     for (int i = 0; i < 2; i++) {
-        stage s;
-        open_stage(&s, scenes[i]);
+        fixture s;
+        open_fixture(&s, scenes[i]);
         lmp_preintegrated_lobe *lobe = lobe_of(&s.frame);
         s.frame.lobes = lobe;
         check_every_method(&s);
         lmp_preintegrated_lobe_destroy(lobe);
-        close_stage(&s);
+        close_fixture(&s);
     }
 }
 
 /* Its light on the surfaces and its image past them; lights beside it, and without them. */
 static void an_environment_is_drawn_alike(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     cli_error error;
     environment e = { .azimuth = 0.4f };
     expect(image_create(&e.light, 32, 16, &error), &error);
     for (int i = 0; i < 3 * 32 * 16; i++)
         e.light.rgb[i] = (float)(i * 7919 % 101) / 25;
     e.backdrop = e.light;
-    open_stage(&s, "builtin:ball");
+    open_fixture(&s, "builtin:ball");
     expect(environment_project(&e, 12, &error), &error);
     gpu_set_environment(s.renderer, &e);
     lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
@@ -134,11 +134,11 @@ static void an_environment_is_drawn_alike(void **state) {
         image_free(&sky);
     }
     lmp_preintegrated_lobe_destroy(lobes);
-    close_stage(&s);
+    close_fixture(&s);
     environment_free(&e);
 }
 
-static void check_preintegrated(stage *s) {
+static void check_preintegrated(fixture *s) {
     s->frame.method = METHOD_COEFFICIENTS;
     draw_first(s->renderer, &s->frame);
     lmp_preintegrated_lobe *lobe = lobe_of(&s->frame);
@@ -157,8 +157,8 @@ static void preintegrated_images_are_those_of_coefficients(void **state) {
     const char *const scenes[] = { "builtin:atrium", "builtin:balls" };
     const int bands[] = { 5, 8, 12, 16, 20 };
     for (int i = 0; i < 2; i++) {
-        stage s;
-        open_stage(&s, scenes[i]);
+        fixture s;
+        open_fixture(&s, scenes[i]);
         for (int b = 0; b < 5; b++) {
             s.frame.bands = bands[b];
             s.frame.window = LMP_WINDOW_NONE;
@@ -166,15 +166,15 @@ static void preintegrated_images_are_those_of_coefficients(void **state) {
             s.frame.window = LMP_WINDOW_HANNING;
             check_preintegrated(&s);
         }
-        close_stage(&s);
+        close_fixture(&s);
     }
 }
 
-/* Measured materials on both devices; the gold is read from its lobe, the last by its bands. */
-static void measured_materials_are_drawn_alike_by_sums_and_by_tables(void **state) {
+/* Tabulated materials on both devices; the gold is read from its lobe, the last by its bands. */
+static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **state) {
     (void)state;
-    stage s;
-    open_stage(&s, "builtin:ball");
+    fixture s;
+    open_fixture(&s, "builtin:ball");
     s.frame.bands = 10;
     s.frame.window = LMP_WINDOW_HANNING;
     lmp_brdf_table *tables[2];
@@ -211,7 +211,7 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_tables(void **stat
         assert_int_equal(beyond(2), 0);
     }
     lmp_preintegrated_lobe_destroy(lobes);
-    close_stage(&s);
+    close_fixture(&s);
     for (int i = 0; i < 2; i++) {
         lmp_brdf_table_destroy(tables[i]);
         lmp_preintegrated_brdf_destroy(brdfs[i]);
@@ -220,8 +220,8 @@ static void measured_materials_are_drawn_alike_by_sums_and_by_tables(void **stat
 
 static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     (void)state;
-    stage s;
-    open_stage(&s, "builtin:atrium");
+    fixture s;
+    open_fixture(&s, "builtin:atrium");
     s.frame.method = METHOD_ZONAL;
     draw_first(s.renderer, &s.frame);
     s.frame.method = METHOD_PAPER;
@@ -234,13 +234,13 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     s.frame.method = METHOD_TABULATED_Z;
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 500);
-    close_stage(&s);
+    close_fixture(&s);
 }
 
 static void a_hundred_bands_are_drawn_alike_by_sums_and_by_tables(void **state) {
     (void)state;
-    stage s;
-    open_stage(&s, "builtin:balls");
+    fixture s;
+    open_fixture(&s, "builtin:balls");
     s.frame.bands = 100;
     s.frame.host = shade_frame;
     draw_first(s.renderer, &s.frame);
@@ -255,7 +255,7 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_tables(void **state) 
     assert_true(beyond(1) <= PIXELS / 1000);
     assert_int_equal(beyond(2), 0);
     lmp_preintegrated_lobe_destroy(lobe);
-    close_stage(&s);
+    close_fixture(&s);
 }
 
 int main(void) {
@@ -263,7 +263,7 @@ int main(void) {
         cmocka_unit_test(both_devices_draw_the_same_image),
         cmocka_unit_test(an_environment_is_drawn_alike),
         cmocka_unit_test(preintegrated_images_are_those_of_coefficients),
-        cmocka_unit_test(measured_materials_are_drawn_alike_by_sums_and_by_tables),
+        cmocka_unit_test(tabulated_materials_are_drawn_alike_by_sums_and_by_tables),
         cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_image),
         cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_tables),
     };

@@ -60,11 +60,11 @@ static GLuint build(const char *head, const char *file, const char *more, const 
 /* From touching the sphere to a million radii away, and inside. */
 static void fill_points(float points[POINTS][4]) {
     for (int i = 0; i < POINTS; i++) {
-        const float turn = 2.39996f * (float)i, z = 1 - 2 * ((float)i + 0.5f) / (float)POINTS;
+        const float azimuth = 2.39996f * (float)i, z = 1 - 2 * ((float)i + 0.5f) / (float)POINTS;
         const float around = sqrtf(1 - z * z);
         const float distance = 0.3f * powf(10, 7 * (float)(i * 37 % POINTS) / (float)POINTS);
-        points[i][0] = distance * around * cosf(turn);
-        points[i][1] = distance * around * sinf(turn);
+        points[i][0] = distance * around * cosf(azimuth);
+        points[i][1] = distance * around * sinf(azimuth);
         points[i][2] = distance * z;
         points[i][3] = 1;
     }
@@ -178,7 +178,7 @@ static const char ggx_head[] =
     "layout(std430, binding = 2) buffer texel_block { vec4 texels[]; };\n"
     "#define LMP_GGX_TEXEL(i) texels[i]\n";
 
-/* One thread a view: (direction, roughness) round the normal z; out receives two vec4 a lobe. */
+/* One thread a view: (direction, roughness) around the normal z; out receives two vec4 a lobe. */
 static const char ggx_main[] =
     "layout(local_size_x = 64) in;\n"
     "layout(std430, binding = 0) buffer in_block { vec4 views[]; };\n"

@@ -37,7 +37,7 @@ static double scale_of(int bands, const float *lambda) {
 
 /* What each light alone would reflect with every term of its series positive: the scale of
  * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of all lobes, times the
- * strength of the light's cap over pi, and four times what shines from all around. */
+ * strength of the light's cap over pi, and four times what is ambient. */
 static double magnitude(const gpu_pixel *p, const gpu_frame *frame) {
     float lambda[LMP_BANDS_MAX];
     lmp_ggx_lobes ggx;
@@ -153,7 +153,8 @@ static void methods_agree_with_lmp_shade_on_balls_among_random_lights(void **sta
     every_method_agrees_on("builtin:balls", 30, true);
 }
 
-/* --- lights in odd places -----------------------------------------------------------------------
+/* --- lights at odd positions
+ * -----------------------------------------------------------------------
  */
 
 static void with_balls(void (*check)(scene *world, gpu_renderer *renderer)) {

@@ -21,9 +21,9 @@ percent() {
 }
 
 for header in include/lampion/*.h; do
-    share=$(percent "$header")
-    [ "$share" -ge 40 ] && [ "$share" -le 55 ] ||
-        fail "$header: $share % of its lines are comment, not 40 to 55"
+    portion=$(percent "$header")
+    [ "$portion" -ge 40 ] && [ "$portion" -le 55 ] ||
+        fail "$header: $portion % of its lines are comment, not 40 to 55"
 done
 
 printf '/* one\n * two */\n\nint a; /* three */\nint b;\n' >"$WORK/half.h"

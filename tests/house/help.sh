@@ -11,7 +11,7 @@ grep -q "^## .*$version" CHANGELOG.md || fail "CHANGELOG.md does not know versio
 
 commands=$("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
 [ -n "$commands" ] || fail "--help lists no command"
-[ "$("$PROGRAM")" = "$("$PROGRAM" --help)" ] || fail "no argument at all is not answered with help"
+[ "$("$PROGRAM")" = "$("$PROGRAM" --help)" ] || fail "no argument at all does not print the help"
 for command in $commands; do
     help=$("$PROGRAM" "$command" --help) || fail "$command --help fails"
     [ "$help" = "$("$PROGRAM" help "$command")" ] || fail "help $command is not $command --help"

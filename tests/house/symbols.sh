@@ -36,7 +36,7 @@ state=$(objdump -t "$archive" | awk 'NF >= 5 && $(NF - 2) ~ /^\.(data|bss|tdata|
 libm=$(nm -D --defined-only "$(gcc -print-file-name=libm.so.6)" | names A-Zi | sed 's/@.*//' | sort -u)
 # What a hardened build puts in the place of memory functions, and calls when a guard is gone.
 guards='__stack_chk_fail __memcpy_chk __memmove_chk __memset_chk'
-# The compiler's own support library tells the processor (__builtin_cpu_supports).
+# The compiler's own support library tells the CPU (__builtin_cpu_supports).
 printf '%s\n' "$libm" __cpu_model __cpu_indicator_init $guards malloc free memcpy memmove memset memcmp strcmp strlen | sort -u >"$WORK/allowed"
 nm --defined-only --extern-only "$archive" | names A-Z >"$WORK/own"
 needed=$(nm --undefined-only "$archive" | names U | sort -u |

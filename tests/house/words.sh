@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # One word for a thing: what stands on the left is called what stands on the right, in identifiers, options,
-# help, comments and documents. Only words that mean nothing else here.
+# help, comments and documents. Only words that mean nothing else here, or what stands around those that do.
 set -eu
 . tests/house/common.sh
 
@@ -9,23 +9,39 @@ words() {
 pictures?=image
 matt=matte, diffuse
 graphics cards?=GPU
+processors=CPU, core
+the processor=CPU, core
 ladders?=stages
+rungs?=stage
 contestants?=benchmark case
 made anew=reproduced, drawn again
 one_minus=one_minus_cos
-lmp_(brdf|material)_response=lmp_preintegrated_brdf
 colours?=color
 centres?=center
 greys?=gray
-lmp_parse_error \*?fault=error
-[a-z_]+_fault=error, what is wrong
 sound=valid
-rungs?=stage
-[a-z_]*share_of[a-z_]*=fraction, weight
-[a-z_]*_turn(ed|s)?=rotate
-(view|add|read|describe)_looks?=view_shading
+lmp_parse_error \*?(fault|wrong)=error
+[a-z_]+_fault=error, what is wrong
+answer(s|ed|ing)?=response, reply
 [a-z_]*gather(ed|s|ing)?[a-z_]*=accumulated, response
+heaps?=allocator
+lmp_(brdf|material)_response=lmp_preintegrated_brdf
+(measured|several|two|of) responses=preintegrated lobes, BRDFs
+measured_materials_[a-z_]+=tabulated
+(sharp|broad) lobes?=narrow, specular; wide, diffuse
+cut(s|ting)? (lobes?|series|(the )?materials?)=truncate
+(lobes?|series|materials?|exponent [0-9]+) cut (at|to)=truncated
+[a-z_]*share_of[a-z_]*=fraction, weight
+(float|double|an?|the|its|their|per|each) shares?=fraction, weight
+[a-z_]*_turn(ed|s)?=rotate
+turned=rotated
+(int|void|float|double|lmp_quat) turn=rotate, rotation
+material slots?=material name
+(axis|lobe|look|cap|goes|runs) round=around
+numbered (images|frames)=image sequence
+warp(s|ed)?=remap
 shade_aims?=light direction
+(view|add|read|describe)_looks?=view_shading
 shade-(response|measured)=shade-preintegrated, shade-brdf
 gpu_set_responses=gpu_set_preintegrated_brdfs
 END

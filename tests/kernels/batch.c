@@ -136,19 +136,19 @@ static void lobes_respond_as_one_by_one(void **test) {
 
 static void basis_zonal_rotation_and_dot_are_the_scalar_ones(void **test) {
     (void)test;
-    const lmp_quat turn = check_random_rotation();
+    const lmp_quat rotation = check_random_rotation();
     static float matrices[LMP_SH_ROTATION_COUNT(BANDS)];
-    float dots[COUNT], distances[COUNT], sh[VALUES], turned[VALUES];
-    lmp_sh_rotation(BANDS, turn, matrices);
+    float dots[COUNT], distances[COUNT], sh[VALUES], rotated[VALUES];
+    lmp_sh_rotation(BANDS, rotation, matrices);
     lmp_sh_eval_n(BANDS, lmp_vec3_array_of(axes), COUNT, LMP_SH_INTERLEAVED, 0, out);
     lmp_sh_rotate_n(BANDS, matrices, out, COUNT, LMP_SH_INTERLEAVED, 0, other);
     lmp_sh_dot_n(BANDS, out, other, COUNT, LMP_SH_INTERLEAVED, 0, dots);
     for (int i = 0; i < COUNT; i++) {
         lmp_sh_eval(BANDS, axes[i], sh);
         check_same(sh, out + i * VALUES, VALUES);
-        lmp_sh_rotate(BANDS, matrices, sh, turned);
-        check_same(turned, other + i * VALUES, VALUES);
-        CHECK_WITHIN((double)(dots[i] - lmp_sh_dot(BANDS, sh, turned)), 1e-5);
+        lmp_sh_rotate(BANDS, matrices, sh, rotated);
+        check_same(rotated, other + i * VALUES, VALUES);
+        CHECK_WITHIN((double)(dots[i] - lmp_sh_dot(BANDS, sh, rotated)), 1e-5);
         distances[i] = 1 + lights[i].radius * (float)i;
     }
     const lmp_float_array radii = { &lights->radius, sizeof *lights };

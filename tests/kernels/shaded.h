@@ -41,7 +41,7 @@ static void see(const shading *s, int i, seen *surface) {
 }
 
 /* A light seen from a surface as lmp_light_cap puts it: a cap of at most a hemisphere, and inside a
- * sphere light all around less the cap. */
+ * sphere ambient light less the cap. */
 typedef struct seen_light {
     double center[3], point[3], radius; /* for oracle_sphere */
     double axis[3], t;                  /* 1 - cos a */
@@ -76,10 +76,11 @@ typedef struct shaded {
     double values[3 + 3 * LMP_KERNEL_LOBES_MAX], bound;
 } shaded;
 
-static void shaded_add(shaded *sum, int first, lmp_rgb rgb, double scale, const double answer[3]) {
-    sum->values[first] += (double)rgb.r * scale * answer[0];
-    sum->values[first + 1] += (double)rgb.g * scale * answer[1];
-    sum->values[first + 2] += (double)rgb.b * scale * answer[2];
+static void shaded_add(shaded *sum, int first, lmp_rgb rgb, double scale,
+                       const double response[3]) {
+    sum->values[first] += (double)rgb.r * scale * response[0];
+    sum->values[first + 1] += (double)rgb.g * scale * response[1];
+    sum->values[first + 2] += (double)rgb.b * scale * response[2];
 }
 
 /* A lobe's response from its definition, Σ lambda_l L_lm Y_lm(axis). */
@@ -164,7 +165,7 @@ static double read_lobe(const shading *s, uint32_t first, uint32_t columns, cons
     return sum * 2 / 32767 / (2 * ORACLE_PI * t + (double)position[2]);
 }
 
-/* From everywhere less the mean, or the mean, times the cap's solid angle. */
+/* Of ambient light less the mean, or the mean, times the cap's solid angle. */
 static void add_mean(const seen_light *one, const lmp_kernel_light *light, int first,
                      const double mean[3], const double ambient[3], shaded *to) {
     double value[3];

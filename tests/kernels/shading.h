@@ -78,8 +78,8 @@ static int16_t number(void) {
 
 /* Between nodes that lie whole steps apart, mirrored at both: as what depends on an angle is. */
 static size_t fold(size_t node, size_t count) {
-    const size_t turned = node % (2 * count);
-    return turned > count ? 2 * count - turned : turned;
+    const size_t along = node % (2 * count);
+    return along > count ? 2 * count - along : along;
 }
 
 /* Cells of 8 to 40 steps, rows of half as many. */
@@ -142,9 +142,9 @@ static void make_lobes(shading *s) {
         }
     }
 }
-static void make_warp(float *warp, int steps, int count) {
+static void make_remap(float *remap, int steps, int count) {
     for (int i = 0; i <= steps; i++)
-        warp[i] = (float)(count - 1) * (float)(i * i) / (float)(steps * steps);
+        remap[i] = (float)(count - 1) * (float)(i * i) / (float)(steps * steps);
 }
 
 /* Slices of 4 to 17 rows and 4 columns and more; some end before the coordinates do. Odd bands: of
@@ -180,8 +180,8 @@ static void make_preintegrated_brdf(shading *s) {
                                                         : (j + steps - 1) % steps];
         }
     }
-    make_warp(s->view_remap, VIEW_STEPS, VIEWS);
-    make_warp(s->cap_remap, CAP_STEPS, CAPS);
+    make_remap(s->view_remap, VIEW_STEPS, VIEWS);
+    make_remap(s->cap_remap, CAP_STEPS, CAPS);
     for (int i = 0; i < VIEWS; i++)
         s->colors[i] = (lmp_rgb) { 0.5f, 0.25f * (float)i, 1 - 0.125f * (float)i };
     s->brdf = (lmp_kernel_preintegrated_brdf) { .mirrored = mirrored,

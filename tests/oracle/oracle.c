@@ -227,7 +227,7 @@ void oracle_sphere(int bands, const double center[3], double radius, const doubl
 
 /* --- lobes ------------------------------------------------------------------------------------ */
 
-/* A point of an integral over s in 0 … 1: the weight ds carries, and the place t of P_l(t). */
+/* A point of an integral over s in 0 … 1: the weight ds carries, and the argument t of P_l(t). */
 typedef struct sample {
     long double weight, t;
 } sample;
@@ -314,12 +314,12 @@ void oracle_rotation(int bands, const double rotation[9], double *matrices) {
         for (int j = 0; j < 2 * bands; j++) {
             const double sine = sqrt((1 - x[i]) * (1 + x[i])), phi = pi * j / bands;
             const double w[3] = { sine * cos(phi), sine * sin(phi), x[i] };
-            double turned[3];
+            double direction[3];
             for (int k = 0; k < 3; k++)
-                turned[k] = rotation[3 * k] * w[0] + rotation[3 * k + 1] * w[1] +
-                            rotation[3 * k + 2] * w[2];
+                direction[k] = rotation[3 * k] * w[0] + rotation[3 * k + 1] * w[1] +
+                               rotation[3 * k + 2] * w[2];
             oracle_sh_eval(bands, w, y);
-            oracle_sh_eval(bands, turned, rotated);
+            oracle_sh_eval(bands, direction, rotated);
             double *entry = matrices;
             for (int l = 0; l < bands; l++)
                 for (int m = l * l; m < (l + 1) * (l + 1); m++)

@@ -29,7 +29,7 @@ void oracle_project(int bands, oracle_function function, void *user, int nodes, 
  * Y_l0 over the cap. */
 void oracle_cap_zonal(int bands, double one_minus_cos, double *zonal);
 
-/* Coefficients of a cap round `axis` by quadrature over the cap itself, in two dimensions. */
+/* Coefficients of a cap around `axis` by quadrature over the cap itself, in two dimensions. */
 void oracle_cap(int bands, const double axis[3], double one_minus_cos, double *sh);
 
 /* Coefficients at `point` of a sphere of radiance 1; on and inside it the convention of

@@ -35,7 +35,7 @@ static scene_light at(const animation *path, const scene *s, size_t number, doub
     return light;
 }
 
-static void check_place(const scene_light *light, double x, double y, double z) {
+static void check_position(const scene_light *light, double x, double y, double z) {
     CHECK_NEAR(x, light->emitter.position.x, 1e-5);
     CHECK_NEAR(y, light->emitter.position.y, 1e-5);
     CHECK_NEAR(z, light->emitter.position.z, 1e-5);
@@ -111,23 +111,23 @@ static void files_say_how_lights_move(void **state) {
     animation *path = open_path(file, &s);
     unlink(file);
     scene_light light = at(path, &s, 0, 1.5);
-    check_place(&light, 2.5, 1, 1);
+    check_position(&light, 2.5, 1, 1);
     light = at(path, &s, 0, 4e5 + 3.0); /* any number of rounds later */
-    check_place(&light, 2, 1, 1);
+    check_position(&light, 2, 1, 1);
     /* keys on a line at one speed: a smooth path is that line */
     light = at(path, &s, 1, 2.25);
-    check_place(&light, 2.25, 0, 0);
+    check_position(&light, 2.25, 0, 0);
     light = at(path, &s, 2, 1.0);
-    check_place(&light, 1, (double)light.emitter.radius, 1);
+    check_position(&light, 1, (double)light.emitter.radius, 1);
     light = at(path, &s, 3, 1.0); /* a quarter from x towards -z */
-    check_place(&light, 1, 1, -1);
+    check_position(&light, 1, 1, -1);
     light = at(path, &s, 3, 2.0);
-    check_place(&light, -1, 1, -1);
+    check_position(&light, -1, 1, -1);
     animation_close(path);
     scene_free(&s);
 }
 
-/* A lamp slides on an arm that turns: translation in 2 s, rotation by 90 degrees in 4 s. */
+/* A lamp slides on an arm that rotates: translation in 2 s, rotation by 90 degrees in 4 s. */
 static const char turning_arm[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],"
     "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"extras\":{"
@@ -156,9 +156,9 @@ static void scenes_move_their_own_lights(void **state) {
     assert_int_equal(s.motion_count, 1);
     animation *path = open_path(NULL, &s);
     scene_light light = at(path, &s, 0, 1.0);
-    check_place(&light, cos(M_PI / 8), 0, -sin(M_PI / 8));
-    light = at(path, &s, 0, 3.0); /* the slide has ended, the arm turns on */
-    check_place(&light, 2 * cos(3 * M_PI / 8), 0, -2 * sin(3 * M_PI / 8));
+    check_position(&light, cos(M_PI / 8), 0, -sin(M_PI / 8));
+    light = at(path, &s, 0, 3.0); /* the slide has ended, the arm rotates on */
+    check_position(&light, 2 * cos(3 * M_PI / 8), 0, -2 * sin(3 * M_PI / 8));
     animation_close(path);
     scene_clear_lights(&s);
     assert_int_equal(s.motion_count, 0);
@@ -216,8 +216,8 @@ static void bad_paths_are_refused_in_one_line(void **state) {
     scene_free(&s);
 }
 
-/* A sun goes around the axis of a circle and stays a unit vector; a spot turns on its way; what has
- * no position does not bounce or orbit. */
+/* A sun goes around the axis of a circle and stays a unit vector; a spot rotates on its way; what
+ * has no position does not bounce or orbit. */
 static void circles_rotate_directions(void **state) {
     (void)state;
     scene s = load("builtin:ball");
@@ -233,7 +233,7 @@ static void circles_rotate_directions(void **state) {
     const scene_light sun = at(path, &s, 0, 1.0), spot = at(path, &s, 1, 1.0);
     CHECK_NEAR(0.8, sun.emitter.direction.y, 1e-6);
     CHECK_NEAR(-0.6, sun.emitter.direction.z, 1e-6);
-    check_place(&spot, 0, 1, -2);
+    check_position(&spot, 0, 1, -2);
     CHECK_NEAR(1, spot.emitter.direction.z, 1e-6);
     animation_close(path);
     path = open_path("bounce", &s);

@@ -185,7 +185,7 @@ static void impossible_nodes_are_refused(void **state) {
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[NaN,1,1]}]", "is no valid JSON");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"scale\":[1e300,1e300,1]}]", "finite");
     assert_nodes_refused("\"nodes\":[{\"mesh\":0,\"translation\":[2e17,0,0]}]",
-                         "finite place (up to");
+                         "finite position (up to");
     static char nested[200001];
     memset(nested, '[', sizeof nested - 1);
     nested[0] = '{';

@@ -74,8 +74,8 @@ static void a_damaged_entry_is_none(void **state) {
     size_t size, tried = 0;
     file_cache_store("a", first, SIZE);
     unsigned char *bytes = read_entry("a", &size);
-    for (size_t cut = 0; cut < size; cut += step, tried++) {
-        write_entry("a", bytes, cut);
+    for (size_t length = 0; length < size; length += step, tried++) {
+        write_entry("a", bytes, length);
         assert_false(holds("a", first));
     }
     for (size_t bit = 0; bit < 8 * size; bit += 8 * step + 1, tried++) {

@@ -61,7 +61,7 @@ static outcome parse(int argc, char **argv) {
         { "size", 0, CLI_SIZE, &v->size, "WxH", "pixels", 1, 16384, NULL, NULL },
         { "seed", 0, CLI_SEED, &v->seed, "N", "seed", 0, 0, NULL, NULL },
         { "fov", 0, CLI_FLOAT, &v->fov, "R", "field of view", 0.01, 3.1, NULL, NULL },
-        { "eye", 0, CLI_VEC3, v->eye, "X,Y,Z", "place", 0, 0, NULL, &v->eye_given },
+        { "eye", 0, CLI_VEC3, v->eye, "X,Y,Z", "position", 0, 0, NULL, &v->eye_given },
         { "method", 0, CLI_CHOICE, &v->method, "NAME", "method", 0, 0, methods, NULL },
         { "output", 'o', CLI_TEXT, &v->output, "FILE", "image", 0, 0, NULL, NULL },
         { "frames", 0, CLI_RANGE, v->frames, "N|A-B", "frames", 0, 99, NULL, NULL },
@@ -185,7 +185,7 @@ static void a_forgotten_value_does_not_eat_the_next_option(void **state) {
     assert_non_null(strstr(o.complaint, "--output needs a value: --output FILE"));
 }
 
-static void unknown_options_are_answered_with_the_nearest(void **state) {
+static void unknown_options_name_the_nearest(void **state) {
     (void)state;
     assert_non_null(strstr(PARSE("--band", "3").complaint, "did you mean --bands?"));
     assert_non_null(strstr(PARSE("--szie=3x3").complaint, "--szie (did you mean --size?)"));
@@ -242,7 +242,7 @@ int main(void) {
         cmocka_unit_test(absent_options_keep_their_defaults),
         cmocka_unit_test(wrong_values_are_refused_in_one_line),
         cmocka_unit_test(a_forgotten_value_does_not_eat_the_next_option),
-        cmocka_unit_test(unknown_options_are_answered_with_the_nearest),
+        cmocka_unit_test(unknown_options_name_the_nearest),
         cmocka_unit_test(help_shows_defaults_ranges_and_examples),
         cmocka_unit_test(errors_are_one_line_free_of_control_characters),
         cmocka_unit_test(too_many_list_items_are_refused),

@@ -8,7 +8,7 @@ export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
 export XDG_CACHE_HOME="$WORK/cache"
 folder=$XDG_CACHE_HOME/lampion
 "$PROGRAM" doctor >"$WORK/out" || fail "doctor: $(cat "$WORK/out")"
-for word in 'lampion  *[0-9]' 'processor .* threads' 'kernels .*scalar' 'OpenGL .*4\.' 'Assimp [0-9]' 'Embree [0-9]' \
+for word in 'lampion  *[0-9]' 'CPU .* threads' 'kernels .*scalar' 'OpenGL .*4\.' 'Assimp [0-9]' 'Embree [0-9]' \
     'OpenEXR [0-9]' 'libpng [0-9]' 'cJSON [0-9]' 'GLFW [0-9]' 'Pango [0-9]' "cache  *$folder: 0 files, 0.0 of at most 2048 MiB" 'configuration'; do
     grep -q "$word" "$WORK/out" || fail "doctor tells nothing of $word: $(cat "$WORK/out")"
 done

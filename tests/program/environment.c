@@ -91,10 +91,11 @@ static void crosses_are_unfolded(void **state) {
         environment e;
         cli_error error;
         for (int i = 0; i < 6; i++) {
-            const int *place = kind ? tall[i] : wide[i];
+            const int *position = kind ? tall[i] : wide[i];
             for (int y = 0; y < SIZE; y++)
                 for (int x = 0; x < SIZE; x++)
-                    pixels.rgb[3 * ((place[1] * SIZE + y) * pixels.width + place[0] * SIZE + x)] =
+                    pixels.rgb[3 *
+                               ((position[1] * SIZE + y) * pixels.width + position[0] * SIZE + x)] =
                         (float)(i + 1) + (i == 5 && !kind ? (y < SIZE / 2 ? 0.5f : 0) : 0) +
                         (i == 5 && kind ? (y >= SIZE / 2 ? 0.5f : 0) : 0);
         }

@@ -151,25 +151,25 @@ static float any_float(void) {
     return value;
 }
 
-static float noise(double share) {
-    return check_random() < share ? any_float() : 0.25f;
+static float noise(double fraction) {
+    return check_random() < fraction ? any_float() : 0.25f;
 }
 
-static image make(int width, int height, float (*fill)(double), double share) {
+static image make(int width, int height, float (*fill)(double), double fraction) {
     image pixels;
     cli_error error;
     assert_true(image_create(&pixels, width, height, &error));
     for (size_t i = 0; i < 3 * (size_t)width * (size_t)height; i++)
-        pixels.rgb[i] = fill ? fill(share) : (float)share * (float)i;
+        pixels.rgb[i] = fill ? fill(fraction) : (float)fraction * (float)i;
     return pixels;
 }
 
-/* Layers of which one is all noise, one a smooth ramp, and one noise in a share of its values, so
- * that some chunks deflate to just about what they were. */
-static void check_size(int width, int height, double share) {
+/* Layers of which one is all noise, one a smooth ramp, and one noise in a fraction of its values,
+ * so that some chunks deflate to just about what they were. */
+static void check_size(int width, int height, double fraction) {
     cli_error error = { "" };
-    image images[LAYERS] = { make(width, height, noise, share), make(width, height, noise, 1),
-                             make(width, height, share < 1 ? NULL : noise, share) };
+    image images[LAYERS] = { make(width, height, noise, fraction), make(width, height, noise, 1),
+                             make(width, height, fraction < 1 ? NULL : noise, fraction) };
     const image_layer layers[LAYERS] = { { "", &images[0] },
                                          { "noise", &images[1] },
                                          { "other", &images[2] } };

@@ -48,7 +48,7 @@ static void a_ball_covers_the_area_of_a_disc_without_holes(void **state) {
     for (int i = 0; i < 100 * 100; i++)
         covered += pixels.rgb[3 * i] > 0.0f;
     const double disc = 3.14159265 * 0.8 * 0.8 * 47 * 47;
-    /* the pixels on the edge count whole: half a pixel more all round */
+    /* the pixels on the edge count whole: half a pixel more on every side */
     CHECK_WITHIN(fabs(covered - disc - 3.14159265 * 0.8 * 47), 0.01 * disc);
     image_free(&pixels);
 }

@@ -35,11 +35,11 @@ static void an_index_past_the_vertices_is_refused(void **state) {
 
 static void a_number_that_is_not_finite_is_refused(void **state) {
     (void)state;
-    static const size_t places[] = { POSITIONS, TIMES, PLACES };
+    static const size_t offsets[] = { POSITIONS, TIMES, TRANSLATIONS };
     const float numbers[] = { NAN, INFINITY, -INFINITY };
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+    for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++)
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) {
-            memcpy(bytes + places[i], &numbers[k], sizeof *numbers);
+            memcpy(bytes + offsets[i], &numbers[k], sizeof *numbers);
             expect(document, "not finite", "a number");
             fill_bytes();
         }
@@ -103,7 +103,7 @@ static void sparse_accessors_replace_their_elements(void **state) {
     char to[300];
     scene_builder builder;
     cli_error error;
-    /* Of the places, the second is (1, 1, 1). */
+    /* Of the translations, the second is (1, 1, 1). */
     snprintf(to, sizeof to, format, 2);
     char *text = changed("{\"bufferView\":0,\"byteOffset\":0,", to);
     assert_true(reads(text, &builder, &error));

@@ -14,7 +14,7 @@
  */
 
 /* Its bytes: four positions, three indices in each of three types, two matrices, two times, two
- * places, a joint and a weight a vertex, and an image of one pixel. */
+ * translations, a joint and a weight a vertex, and an image of one pixel. */
 enum {
     POSITIONS = 0,
     BYTES = 48,
@@ -22,7 +22,7 @@ enum {
     INTS = 60,
     MATRIX = 72,
     TIMES = 136,
-    PLACES = 144,
+    TRANSLATIONS = 144,
     JOINTS = 168,
     WEIGHTS = 184,
     PIXEL = 248
@@ -93,7 +93,7 @@ static unsigned char bytes[320];
 
 static inline void fill_bytes(void) {
     static const float positions[12] = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 };
-    static const float times[2] = { 0, 1 }, places[6] = { 0, 0, 0, 1, 1, 1 };
+    static const float times[2] = { 0, 1 }, translations[6] = { 0, 0, 0, 1, 1, 1 };
     static const uint16_t shorts[3] = { 0, 1, 2 };
     static const uint32_t ints[3] = { 0, 1, 2 };
     float matrix[16] = { 0 };
@@ -106,7 +106,7 @@ static inline void fill_bytes(void) {
     memcpy(bytes + INTS, ints, sizeof ints);
     memcpy(bytes + MATRIX, matrix, sizeof matrix);
     memcpy(bytes + TIMES, times, sizeof times);
-    memcpy(bytes + PLACES, places, sizeof places);
+    memcpy(bytes + TRANSLATIONS, translations, sizeof translations);
     for (size_t i = 0; i < 4; i++)
         memcpy(bytes + WEIGHTS + 16 * i, &matrix[0], sizeof *matrix);
     memcpy(bytes + PIXEL, pixel_png, sizeof pixel_png);

@@ -53,7 +53,7 @@ static void a_cone_that_is_not_given_is_an_eighth_of_a_circle(void **state) {
     CHECK_WITHIN(fabs((double)light.outer - M_PI / 4), 1e-6);
 }
 
-/* Its rays go along -z, so that it is seen toward +z; its place is of no account. */
+/* Its rays go along -z, so that it is seen toward +z; its position is of no account. */
 static void parallel_light_is_directional(void **state) {
     (void)state;
     const lmp_light light = read_light(SPOT, "\"directional\",\"intensity\":3,\"color\":[0,1,0.5]");
@@ -74,7 +74,7 @@ static void a_point_is_a_point_and_with_a_radius_a_sphere(void **state) {
     CHECK_WITHIN(fabs(M_PI * 0.25 * (double)light.radiance.b - 3), 1e-6);
 }
 
-/* The place of an animated node moves the light, and its rotation is named. */
+/* The position of an animated node moves the light, and its rotation is named. */
 static void a_direction_that_is_animated_is_left_out(void **state) {
     (void)state;
     char *values = changed("\"count\":4,\"type\":\"VEC4\"}]",

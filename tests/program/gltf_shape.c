@@ -27,7 +27,7 @@ static void read_changed(const char *from, const char *to, scene_builder *builde
 static void a_skin_follows_its_joints_alone(void **state) {
     (void)state;
     scene_builder builder;
-    /* The node's own place is of no account. */
+    /* The node's own transform is of no account. */
     read_changed("{\"mesh\":0,\"skin\":0}", "{\"mesh\":0,\"skin\":0,\"translation\":[9,9,9]}",
                  &builder);
     assert_position(&builder, 0, 1, 2, 3);
@@ -85,7 +85,7 @@ static void morph_targets_are_added_by_their_weights(void **state) {
     free(text);
 }
 
-static void instances_are_meshes_each_in_its_place(void **state) {
+static void instances_are_meshes_each_by_its_transform(void **state) {
     (void)state;
     scene_builder builder;
     read_changed("{\"mesh\":0,\"skin\":0}",
@@ -155,7 +155,7 @@ int main(void) {
         cmocka_unit_test(a_skin_follows_its_joints_alone),
         cmocka_unit_test(joints_share_a_vertex_by_their_weights),
         cmocka_unit_test(morph_targets_are_added_by_their_weights),
-        cmocka_unit_test(instances_are_meshes_each_in_its_place),
+        cmocka_unit_test(instances_are_meshes_each_by_its_transform),
         cmocka_unit_test(colors_of_vertices_are_read),
         cmocka_unit_test(two_sets_of_coordinates_are_kept),
         cmocka_unit_test(unlit_materials_glow_and_reflect_nothing),

@@ -6,7 +6,7 @@ set -eu
 "$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated >"$WORK/out" ||
     fail "the quick steps fail"
 [ "$(cat "$WORK/out")" = "$WORK/page/index.html" ] || fail "the page's name is not printed"
-grep -q '</html>' "$WORK/page/index.html" || fail "the page is cut"
+grep -q '</html>' "$WORK/page/index.html" || fail "the page is truncated"
 ! grep -q 'class="failed"' "$WORK/page/index.html" || fail "a step failed"
 for form in 3,3,5 6,13,19; do
     grep -q "^closed forms (Sloan 2008),$form,0," "$WORK/page/operations.csv" ||

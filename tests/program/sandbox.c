@@ -332,7 +332,7 @@ static void every_escape_fails(void **state) {
     assert_string_equal(text, "untouched");
 }
 
-/* The context is a descriptor of the parent's, and the place of a secret in its environment. */
+/* The context is a descriptor of the parent's, and the address of a secret in its environment. */
 typedef struct belongings {
     int descriptor;
     const char *secret;

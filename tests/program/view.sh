@@ -181,7 +181,7 @@ wait $viewer || status=$?
 
 # a script: dropped files, a recording; the same again gives the same
 cat >demo.txt <<'DEMO'
-# the wall becomes a mirror, the camera goes round
+# the wall becomes a mirror, the camera orbits
 0    move 80 30
 0.1  drop ggx:0.2:0.9
 0.2  key Page_Up
@@ -190,17 +190,17 @@ cat >demo.txt <<'DEMO'
 0.5  move 120 40
 0.6  release left
 0.7  key space
-1.0  shot turned.png
+1.0  shot after.png
 1.1  key Ctrl+Q
 DEMO
 for run in one two; do
     mkdir $run
     "$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 160x90 \
         --samples 2 --script demo.txt --record $run --state state.json || fail "the script ends in $?"
-    mv dropped.png turned.png $run
+    mv dropped.png after.png $run
 done
 grep -q '"wall=ggx:0.2:0.9"' state.json || fail "the dropped material is not in the state"
-cmp -s one/dropped.png one/turned.png && fail "the script changes nothing"
+cmp -s one/dropped.png one/after.png && fail "the script changes nothing"
 count=$(find one -name 'frame_*.png' | wc -l)
 [ "$count" -gt 20 ] || fail "only $count frames are recorded"
 diff -r one two || fail "two runs of a script differ"

@@ -8,7 +8,7 @@ static double light_distance(const scene_light *a, const scene_light *b) {
 }
 
 /* One light between camera and scene. */
-static void place_light(void) {
+static void put_light(void) {
     state.now.light_count = 1;
     state.now.lights[0] = (scene_light) {
         .emitter = { .position = { 0, 0.5f, 6 }, .radius = 0.25f, .radiance = { 4, 2, 1 } }
@@ -18,7 +18,7 @@ static void place_light(void) {
 static void lights_are_dragged_with_the_pointer(void **unused) {
     (void)unused;
     double x, y, scale;
-    place_light();
+    put_light();
     const scene_camera *camera = &state.now.camera;
     assert_true(view_project(camera, 640, 480, (lmp_vec3) { 0, 0.5f, 6 }, &x, &y, &scale));
     at(x + 3, y);
@@ -47,7 +47,7 @@ static void moving_lights_are_dragged_too(void **unused) {
     (void)unused;
     static view_settings shown;
     double x, y, scale;
-    place_light();
+    put_light();
     key("space");
     view_advance(&state, 1.3);
     key("space");
@@ -66,7 +66,7 @@ static void moving_lights_are_dragged_too(void **unused) {
 
 static void lights_behind_a_surface_are_not_picked(void **unused) {
     (void)unused;
-    place_light();
+    put_light();
     const float *target = state.now.camera.target;
     const lmp_vec3 center = { target[0], target[1], world.minimum[2] - 50 };
     state.now.lights[0].emitter.position = center;
@@ -82,7 +82,7 @@ static void lights_behind_a_surface_are_not_picked(void **unused) {
 
 static void lights_change_as_the_keys_say(void **unused) {
     (void)unused;
-    place_light();
+    put_light();
     key("Tab");
     assert_int_equal(state.selected, 0);
     const scene_light before = state.now.lights[0], *light = &state.now.lights[0];
@@ -126,7 +126,7 @@ static void lights_change_as_the_keys_say(void **unused) {
 static void lights_take_every_kind(void **unused) {
     (void)unused;
     scene_light_error wrong;
-    place_light();
+    put_light();
     key("Tab");
     const scene_light *light = &state.now.lights[0];
     for (int i = 1; i <= LMP_LIGHT_KINDS; i++) {
@@ -147,7 +147,7 @@ static void lights_take_every_kind(void **unused) {
 /* A spot looks at the surface under the pointer, a sun stands where the pointer is in the sky. */
 static void lights_are_directed_at_the_pointer(void **unused) {
     (void)unused;
-    place_light();
+    put_light();
     key("Tab");
     lmp_light *light = &state.now.lights[0].emitter;
     light->kind = LMP_LIGHT_SPOT;
@@ -168,7 +168,7 @@ static void lights_are_directed_at_the_pointer(void **unused) {
 static void suns_and_skies_are_not_picked(void **unused) {
     (void)unused;
     double x, y, scale;
-    place_light();
+    put_light();
     state.now.lights[0].emitter.kind = LMP_LIGHT_CAP;
     view_project(&state.now.camera, 640, 480, state.now.lights[0].emitter.position, &x, &y, &scale);
     at(x, y);

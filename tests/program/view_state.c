@@ -133,18 +133,18 @@ static void files_become_materials_where_they_are_dropped(void **unused) {
     const view_ray ray = view_ray_through(&state.now.camera, 640, 480, 320, 240);
     const view_hit hit = view_pick_surface(&ray, &world);
     assert_true(hit.mesh >= 0);
-    const char *slot = world.materials[world.meshes[hit.mesh].material].name;
+    const char *name = world.materials[world.meshes[hit.mesh].material].name;
     at(320, 240);
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = "none.binary" });
     assert_int_equal(state.now.material_count, 0);
     assert_non_null(strstr(state.message, "does not exist"));
     view_handle(&state, &(view_event) { .kind = VIEW_DROP, .text = "ggx:0.3" });
-    assert_string_equal(view_material_of(&state.now, slot), "ggx:0.3");
+    assert_string_equal(view_material_of(&state.now, name), "ggx:0.3");
     key("t");
     key("T");
-    assert_string_equal(view_material_of(&state.now, slot), "ggx:0.3");
+    assert_string_equal(view_material_of(&state.now, name), "ggx:0.3");
     key("t"); /* past the dropped one: as the scene has it */
-    assert_null(view_material_of(&state.now, slot));
+    assert_null(view_material_of(&state.now, name));
     assert_int_equal(state.now.material_count, 0);
     at(1, 1);
     state.now.camera.target[1] += 1000; /* the sky */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Light from all around: closed forms, and the library's sums of the same image cut to bands. */
+/* Ambient light: closed forms, and the library's sums of the same image truncated to bands. */
 #include "app/reference/estimate.h"
 #include "tests/oracle/check.h"
 
@@ -52,8 +52,8 @@ static void an_even_light_is_reflected_by_the_albedo(void **state) {
     environment_free(&e);
 }
 
-/* Lobes cut to bands see the image's coefficients alone. */
-static void cut_lobes_agree_with_the_library(void **state) {
+/* Lobes truncated to bands see the image's coefficients alone. */
+static void truncated_lobes_agree_with_the_library(void **state) {
     (void)state;
     environment e = around(0);
     cli_error error;
@@ -109,7 +109,7 @@ static void directions_are_drawn_by_their_density(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_light_is_reflected_by_the_albedo),
-        cmocka_unit_test(cut_lobes_agree_with_the_library),
+        cmocka_unit_test(truncated_lobes_agree_with_the_library),
         cmocka_unit_test(directions_are_drawn_by_their_density),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

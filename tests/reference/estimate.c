@@ -90,7 +90,7 @@ static void a_mirror_like_lobe_shows_the_light(void **state) {
     CHECK_WITHIN(seen.standard_error[0], 0.01);
 }
 
-/* Inside, light comes from all around: E = pi L, and a whole lobe returns its weight. */
+/* Inside, light is ambient: E = pi L, and a whole lobe returns its weight. */
 static void the_inside_of_a_glowing_sphere_is_lit_from_everywhere(void **state) {
     (void)state;
     const reference_material both = { { 0.5, 0.5, 0.5 }, { 0.25, 0.25, 0.25 }, 20 };

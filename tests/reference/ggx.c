@@ -115,11 +115,11 @@ static void the_lights_series_does_what_the_lobes_would(void **state) {
                                              trial / 2 ? LMP_WINDOW_HANNING : LMP_WINDOW_NONE, 0 };
         const double half_angle = trial ? 0.3 : 1e-4;
         const scene_light light = sphere(direction(0.7, 0.4), half_angle);
-        reference_surface cut, free_of_bands;
+        reference_surface truncated, free_of_bands;
         reference_source source[REFERENCE_SOURCES_MAX];
         double expected[3], series[LMP_BANDS_MAX], sum = 0;
-        reference_surface_set(&cut, &limit, &phong, origin, up, view);
-        reference_quadrature(&cut, &light, 1, expected);
+        reference_surface_set(&truncated, &limit, &phong, origin, up, view);
+        reference_quadrature(&truncated, &light, 1, expected);
         reference_surface_set(&free_of_bands, &whole, &phong, origin, up, view);
         reference_light_sources(&light, origin, true, source);
         reference_series_of_source(source, &limit, series);
@@ -147,10 +147,10 @@ static void many_bands_come_near_the_whole(void **state) {
     const reference_band_limit limit = { 60, LMP_WINDOW_NONE, 0 };
     const scene_light light = sphere(direction(0.5, 0.3), 0.4);
     const reference_ggx ggx = ggx_of(0.7, 0.5, 0.4, 0.6);
-    const reference_result cut = estimate(&ggx, &limit, 0.6, &light, 40000);
+    const reference_result truncated = estimate(&ggx, &limit, 0.6, &light, 40000);
     const double truth = exact(0.7, 0.5, 0.4, 0.6, &light, 0.4);
-    CHECK_WITHIN(fabs(cut.mean[0] - truth), 4 * cut.standard_error[0] + 1e-3 * truth);
-    CHECK_WITHIN(cut.standard_error[0], 0.02 * truth);
+    CHECK_WITHIN(fabs(truncated.mean[0] - truth), 4 * truncated.standard_error[0] + 1e-3 * truth);
+    CHECK_WITHIN(truncated.standard_error[0], 0.02 * truth);
 }
 
 static double never(reference_vec point, reference_vec w, void *user) {

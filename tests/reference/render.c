@@ -10,7 +10,7 @@
 enum { WIDTH = 24, HEIGHT = 16 };
 
 /* A square floor at y = 0, 20 wide, and a camera above it. */
-typedef struct stage {
+typedef struct fixture {
     scene_vertex vertices[4];
     uint32_t indices[6];
     scene_mesh mesh;
@@ -20,11 +20,11 @@ typedef struct stage {
     scene_light lights[2];
     scene world;
     reference_settings settings;
-} stage;
+} fixture;
 
-static void build(stage *s) {
+static void build(fixture *s) {
     static const uint32_t counter_clockwise[6] = { 0, 1, 2, 0, 2, 3 };
-    *s = (stage) {
+    *s = (fixture) {
         .mesh = { .index_count = 6 },
         .material = { .base_color = { 0.5f, 0.25f, 1, 1 },
                       .metallic = 0.5f,
@@ -74,19 +74,19 @@ static void build(stage *s) {
     s->texture = (scene_texture) { .width = 2, .height = 2 };
 }
 
-static void draw(const stage *s, image *radiance, image *standard_error) {
+static void draw(const fixture *s, image *radiance, image *standard_error) {
     cli_error error;
     assert_true(reference_render(&s->world, &s->settings, radiance, standard_error, &error));
 }
 
-static void draw_plain(const stage *s, image *radiance) {
+static void draw_plain(const fixture *s, image *radiance) {
     image standard_error;
     draw(s, radiance, &standard_error);
     image_free(&standard_error);
 }
 
 /* The floor point seen through the center of a pixel, from the camera's definition. */
-static reference_vec floor_point(const stage *s, int x, int y) {
+static reference_vec floor_point(const fixture *s, int x, int y) {
     const double top = tan((double)s->settings.camera.fov / 2);
     const reference_vec eye = reference_from_floats(s->settings.camera.eye);
     const reference_vec forward = reference_normalize(reference_scale(-1, eye));
@@ -103,7 +103,7 @@ static reference_vec floor_point(const stage *s, int x, int y) {
 /* Of the floor's mixture of metal and dielectric under a sphere, by appendix B of glTF 2.0: its
  * green.
  */
-static double exact_green(const stage *s, const scene_light *light, reference_vec p,
+static double exact_green(const fixture *s, const scene_light *light, reference_vec p,
                           reference_vec view) {
     const double base = 0.25, metallic = (double)s->material.metallic;
     const double alpha = pow((double)s->material.roughness, 2), angle = acos(view.y);
@@ -123,7 +123,7 @@ static double exact_green(const stage *s, const scene_light *light, reference_ve
 
 static void every_pixel_is_what_the_specification_says(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     image radiance, standard_error;
     int outside = 0;
     build(&s);
@@ -176,7 +176,7 @@ static void the_number_of_threads_changes_no_bit(void **state) {
 }
 
 /* Of the image's middle row, whether the left and the right end are lit. */
-static void lit_ends(const stage *s, bool *left, bool *right) {
+static void lit_ends(const fixture *s, bool *left, bool *right) {
     image radiance;
     draw_plain(s, &radiance);
     const float *row = radiance.rgb + 3 * WIDTH * (HEIGHT / 2);
@@ -187,7 +187,7 @@ static void lit_ends(const stage *s, bool *left, bool *right) {
 
 static void backs_of_single_sided_triangles_are_not_seen(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     bool left, right;
     build(&s);
     s.lights[0].hidden = s.lights[1].hidden = 1;
@@ -202,7 +202,7 @@ static void backs_of_single_sided_triangles_are_not_seen(void **state) {
 
 static void an_alpha_mask_cuts_holes(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     bool left, right;
     build(&s);
     s.lights[0].hidden = s.lights[1].hidden = 1;
@@ -218,7 +218,7 @@ static void an_alpha_mask_cuts_holes(void **state) {
 
 static void a_normal_map_tilts_the_normal(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     image flat, tilted;
     build(&s);
     s.lights[0] = (scene_light) {
@@ -243,7 +243,7 @@ static void a_normal_map_tilts_the_normal(void **state) {
 
 static void shadows_fall_only_when_asked_for(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     bool left, right;
     build(&s);
     s.material.flags = SCENE_DOUBLE_SIDED;
@@ -265,7 +265,7 @@ static void shadows_fall_only_when_asked_for(void **state) {
 
 static void glowing_spheres_are_seen(void **state) {
     (void)state;
-    stage s;
+    fixture s;
     image radiance, standard_error;
     build(&s);
     s.lights[0] = (scene_light) {

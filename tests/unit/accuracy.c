@@ -109,16 +109,16 @@ static double measure_rotation(int bands) {
     const lmp_quat q = check_random_rotation();
     const lmp_vec3 direction = random_anywhere();
     const double four[4] = { (double)q.x, (double)q.y, (double)q.z, (double)q.w };
-    double w[3], turned[3], rotation[9];
+    double w[3], rotated[3], rotation[9];
     wide(direction, w);
     oracle_quaternion_matrix(four, rotation);
     for (int k = 0; k < 3; k++)
-        turned[k] =
+        rotated[k] =
             rotation[3 * k] * w[0] + rotation[3 * k + 1] * w[1] + rotation[3 * k + 2] * w[2];
     oracle_sh_eval(bands, w, expected);
     for (size_t k = 0; k < LMP_SH_COUNT(bands); k++)
         gradient[k] = (float)expected[k];
-    oracle_sh_eval(bands, turned, expected);
+    oracle_sh_eval(bands, rotated, expected);
     lmp_sh_rotation(bands, q, matrices);
     lmp_sh_rotate(bands, matrices, gradient, actual);
     return check_error(LMP_SH_COUNT(bands), expected, actual);
@@ -135,7 +135,7 @@ static lmp_vec3 random_near(lmp_vec3 axis, int bands) {
     return (lmp_vec3) { (float)(v[0] / length), (float)(v[1] / length), (float)(v[2] / length) };
 }
 
-/* A Phong lobe of exponent n² answering a sphere, relative to the largest answer. */
+/* A Phong lobe of exponent n² under a sphere, relative to the largest response. */
 static double measure_response(int bands) {
     double lambda_wide[LMP_BANDS_MAX], zonal[LMP_BANDS_MAX], p[LMP_BANDS_MAX];
     float lambda[LMP_BANDS_MAX];

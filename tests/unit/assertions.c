@@ -61,7 +61,7 @@ static void create_half_a_host(void) {
     X(unit_zonal, lmp_sh_from_zonal(BANDS, a, up, b), lmp_sh_from_zonal(BANDS, a, at, b)) \
     X(zonal_apart, lmp_sh_from_zonal(BANDS, a, up, b), lmp_sh_from_zonal(BANDS, a, up, a)) \
     X(combine, lmp_sh_combine(BANDS, 1, a, 2, b, a), lmp_sh_combine(BANDS, 1, a, 2, b, a + 1)) \
-    X(rotate_in_place, lmp_sh_rotate(BANDS, matrices, a, b), lmp_sh_rotate(BANDS, matrices, a, a)) \
+    X(rotate_onto_itself, lmp_sh_rotate(BANDS, matrices, a, b), lmp_sh_rotate(BANDS, matrices, a, a)) \
     X(rotate_overlap, lmp_sh_rotate(BANDS, matrices, a, a + VALUES), lmp_sh_rotate(BANDS, matrices, a, a + VALUES - 1)) \
     X(rotate_z, lmp_sh_rotate_z(BANDS, 1, a, a), lmp_sh_rotate_z(BANDS, NAN, a, a)) \
     X(quaternion, lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 2 }, matrices), lmp_sh_rotation(BANDS, (lmp_quat) { 0, 0, 0, 0 }, matrices)) \

@@ -44,8 +44,8 @@ static void rough_ggx_keeps_nearly_all_energy_when_smooth(void **state) {
     const lmp_ggx desc = { 0.1f, 0, { 1, 1, 1 }, { 0, 0, 0 } };
     lmp_brdf *brdf = NULL;
     assert_int_equal(lmp_brdf_create_ggx(NULL, &desc, &brdf), LMP_OK);
-    const double share = albedo(brdf, 0.5, 0);
-    assert_true(share > 0.98 && share < 1.0);
+    const double fraction = albedo(brdf, 0.5, 0);
+    assert_true(fraction > 0.98 && fraction < 1.0);
     lmp_brdf_destroy(brdf);
 }
 

@@ -202,11 +202,11 @@ static void cut(tensor *t, size_t first, size_t last) {
 }
 
 /* Moves both directions as the symmetry of a part of a turn allows, to bring a into that part. */
-static void fold(int turn, double middle, double a[3], double b[3]) {
+static void fold(int symmetry, double middle, double a[3], double b[3]) {
     const double side[2] = { cos(middle), sin(middle) };
     const bool opposite = a[0] * side[0] + a[1] * side[1] < 0;
     for (int k = 0; k < 2; k++)
-        if (turn == 2 ? opposite : a[k] * side[k] < 0) {
+        if (symmetry == 2 ? opposite : a[k] * side[k] < 0) {
             a[k] = -a[k];
             b[k] = -b[k];
         }
@@ -216,7 +216,7 @@ static void parts_of_a_turn_are_folded(void **state) {
     (void)state;
     const lmp_ggx desc = { 0.5f, 0.2f, { 0.9f, 0.6f, 0.3f }, { 0.1f, 0.1f, 0.2f } };
     static const struct {
-        int turn;
+        int symmetry;
         size_t first, last;
     } parts[] = { { 2, 16, 32 }, { 2, 0, 16 }, { 2, 8, 24 }, { 4, 16, 24 }, { 4, 8, 16 } };
     lmp_brdf *original = NULL;
@@ -240,7 +240,7 @@ static void parts_of_a_turn_are_folded(void **state) {
             lmp_brdf_eval_double(original, a, b, g);
             error += fabs(f[1] - g[1]);
             error_whole += fabs(h[1] - g[1]);
-            fold(parts[i].turn, middle, a, b);
+            fold(parts[i].symmetry, middle, a, b);
             lmp_brdf_eval_double(whole, a, b, h);
             for (int c = 0; c < 3; c++)
                 CHECK_WITHIN(fabs(f[c] - h[c]), 1e-9 * (1 + h[c]));

@@ -16,8 +16,8 @@ static inline void damage_sign(unsigned char *bytes, size_t size) {
 
 /* Truncated, with a bit that is wrong, of another version: refused, each for its reason. */
 static inline void damage_is_refused(unsigned char *bytes, size_t size, damage_reader read) {
-    for (size_t cut = 0; cut < size; cut += 1 + cut / 16)
-        assert_int_not_equal(read(bytes, cut), LMP_OK);
+    for (size_t length = 0; length < size; length += 1 + length / 16)
+        assert_int_not_equal(read(bytes, length), LMP_OK);
     bytes[size / 2] ^= 1;
     assert_int_equal(read(bytes, size), LMP_ERROR_CHECKSUM);
     bytes[size / 2] ^= 1;

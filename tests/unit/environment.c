@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Light from all around: closed forms, the sum of n² products in double, and lights whose
+/* Ambient light: closed forms, the sum of n² products in double, and lights whose
  * coefficients an environment holds. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/oracle.h"
@@ -33,7 +33,7 @@ static void random_coefficients(int bands, float *sh) {
         sh[i] = (float)check_random_between(-1, 1);
 }
 
-/* Radiance 1 from all around is reflected by what a lobe integrates to, whatever the bands. */
+/* Ambient radiance 1 is reflected by what a lobe integrates to, whatever the bands. */
 static void a_constant_environment_gives_the_albedo(void **state) {
     (void)state;
     static float sh[3 * 128 * 128];
@@ -126,7 +126,7 @@ static void any_environment_matches_the_definition(void **state) {
     CHECK_WITHIN(errors.largest, 2e-5);
 }
 
-/* Lights that are the same from all around, as lights and as coefficients. */
+/* Lights that are the same from every point, as lights and as coefficients. */
 static void an_environment_of_lights_shines_as_they_do(void **state) {
     (void)state;
     lmp_brdf *brdf = NULL;

@@ -115,12 +115,12 @@ static void options_of_a_latlong_image_move_its_directions(void **state) {
     pixels[ROW * WIDTH + COLUMN] = 1;
     lmp_latlong map = { .pixels = pixels, .width = WIDTH, .height = HEIGHT, .channels = 1 };
     const double c = cos((double)azimuth), s = sin((double)azimuth);
-    const double turned[3] = { c * w[0] - s * w[2], w[1], s * w[0] + c * w[2] };
+    const double rotated[3] = { c * w[0] - s * w[2], w[1], s * w[0] + c * w[2] };
     const double mirrored[3] = { w[0], w[1], -w[2] }, z_up[3] = { w[0], -w[2], w[1] };
     const double angle = ring_angle(WIDTH, HEIGHT, ROW);
     map.azimuth = azimuth;
     lmp_sh_project_latlong(5, &map, sh);
-    expect_texel(5, turned, angle, expected);
+    expect_texel(5, rotated, angle, expected);
     CHECK_WITHIN(check_error(25, expected, sh), 1e-6);
     map.azimuth = 0;
     map.mirrored = true;

@@ -34,15 +34,15 @@ static void check_zonal(const lmp_light *light, lmp_vec3 point) {
     lmp_light white = *light;
     white.radiance = (lmp_rgb) { 1, 1, 1 };
     white.ground = (lmp_rgb) { 0, 0, 0 };
-    float sh[3 * COUNT], zonal[BANDS], turned[COUNT];
+    float sh[3 * COUNT], zonal[BANDS], rotated[COUNT];
     double expected[COUNT];
     lmp_vec3 axis;
     lmp_light_project(BANDS, &white, 1, point, sh);
     lmp_light_zonal(BANDS, light, point, zonal, &axis);
-    lmp_sh_from_zonal(BANDS, zonal, axis, turned);
+    lmp_sh_from_zonal(BANDS, zonal, axis, rotated);
     for (int k = 0; k < COUNT; k++)
         expected[k] = (double)sh[k];
-    CHECK_WITHIN(check_error(COUNT, expected, turned), 1e-5);
+    CHECK_WITHIN(check_error(COUNT, expected, rotated), 1e-5);
 }
 
 static void a_sphere_is_the_cap_it_covers(void **state) {
@@ -212,10 +212,10 @@ static void a_hemisphere_light_is_sky_and_ground(void **state) {
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-4);
 
     /* any axis: two caps of a right angle, exactly */
-    lmp_light turned = light;
-    turned.direction = check_random_direction();
+    lmp_light rotated = light;
+    rotated.direction = check_random_direction();
     double up[3], down[3], lower[COUNT];
-    wide(turned.direction, up);
+    wide(rotated.direction, up);
     for (int k = 0; k < 3; k++)
         down[k] = -up[k];
     oracle_cap(BANDS, up, 1, upper);
@@ -223,9 +223,9 @@ static void a_hemisphere_light_is_sky_and_ground(void **state) {
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < COUNT; k++)
             expected[c * COUNT + k] = sky_color[c] * upper[k] + ground_color[c] * lower[k];
-    lmp_light_project(BANDS, &turned, 1, origin, sh);
+    lmp_light_project(BANDS, &rotated, 1, origin, sh);
     CHECK_WITHIN(check_error(3 * COUNT, expected, sh), 1e-6);
-    check_zonal(&turned, origin);
+    check_zonal(&rotated, origin);
 }
 
 static void lights_add_up(void **state) {

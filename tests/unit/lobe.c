@@ -136,9 +136,9 @@ static void answers_lights_as_the_dot_product_of_coefficients_does(void **state)
             lmp_lobe_phong(bands, (float)(trial * trial), lambda);
             lmp_lobe_project(bands, lambda, axis, lobe);
             lmp_light_project(bands, lights, LIGHT_COUNT, point, sh);
-            const lmp_rgb answer =
+            const lmp_rgb response =
                 lmp_lobe_response(bands, lambda, axis, lights, LIGHT_COUNT, point);
-            const float channels[3] = { answer.r, answer.g, answer.b };
+            const float channels[3] = { response.r, response.g, response.b };
             double expected[3];
             for (int c = 0; c < 3; c++)
                 expected[c] = (double)lmp_sh_dot(bands, sh + (size_t)c * LMP_SH_COUNT(bands), lobe);
@@ -151,9 +151,9 @@ static void answers_no_lights_with_nothing(void **state) {
     (void)state;
     float lambda[5];
     lmp_lobe_diffuse(5, lambda);
-    const lmp_rgb answer =
+    const lmp_rgb response =
         lmp_lobe_response(5, lambda, (lmp_vec3) { 0, 0, 1 }, NULL, 0, (lmp_vec3) { 0, 0, 0 });
-    assert_true(answer.r == 0 && answer.g == 0 && answer.b == 0);
+    assert_true(response.r == 0 && response.g == 0 && response.b == 0);
 }
 
 /* The normal irradiance of a sphere above the horizon is pi L sin²a cos: exact, and what the series
@@ -171,10 +171,10 @@ static void diffuse_tends_to_the_irradiance_of_a_sphere(void **state) {
     for (int i = 0; i < 4; i++) {
         float lambda[40];
         lmp_lobe_diffuse(cases[i].bands, lambda);
-        const lmp_rgb answer = lmp_lobe_response(cases[i].bands, lambda, (lmp_vec3) { 0, 0, 1 },
-                                                 &sphere, 1, (lmp_vec3) { 0, 0, 0 });
-        CHECK_WITHIN(fabs((double)answer.r / exact - 1), cases[i].bound);
-        CHECK_WITHIN(fabs((double)answer.b / (3 * exact) - 1), cases[i].bound);
+        const lmp_rgb response = lmp_lobe_response(cases[i].bands, lambda, (lmp_vec3) { 0, 0, 1 },
+                                                   &sphere, 1, (lmp_vec3) { 0, 0, 0 });
+        CHECK_WITHIN(fabs((double)response.r / exact - 1), cases[i].bound);
+        CHECK_WITHIN(fabs((double)response.b / (3 * exact) - 1), cases[i].bound);
     }
 }
 
@@ -196,9 +196,9 @@ static void keeps_its_digits_where_a_sharp_lobe_points_at_a_far_light(void **sta
         double expected = 0;
         for (int l = 0; l < LMP_BANDS_MAX; l++)
             expected += zonal[l] * sqrt((2 * l + 1) / (4 * ORACLE_PI)) * wide[l] * p[l];
-        const lmp_rgb answer =
+        const lmp_rgb response =
             lmp_lobe_response(LMP_BANDS_MAX, lambda, q, &sphere, 1, (lmp_vec3) { 0, 0, 0 });
-        CHECK_WITHIN(fabs((double)answer.r - expected) / 0.25, 3e-6);
+        CHECK_WITHIN(fabs((double)response.r - expected) / 0.25, 3e-6);
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Responses of measured materials against the sums over bands that they stand for. */
+/* Preintegrated BRDFs against the sums over bands that they stand for. */
 #include "tests/unit/preintegrated_brdfs.h"
 
 #include <lampion/cpu.h>
@@ -8,16 +8,16 @@
 /* --- errors ------------------------------------------------------------------------------------
  */
 
-static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_preintegrated_brdf *response,
+static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_preintegrated_brdf *preintegrated,
                       const probe *p, lmp_vec3 direction) {
     const lmp_light light = { .position = direction, .radius = p->radius, .radiance = { 1, 1, 1 } };
     const lmp_surface surface = { .normal = { 0, 0, 1 },
                                   .view = { (float)sin(p->theta), 0, (float)cos(p->theta) } };
     const lmp_material material = { .kind = LMP_MATERIAL_TABLE,
                                     .table = table,
-                                    .preintegrated = response };
+                                    .preintegrated = preintegrated };
     const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED };
-    return lmp_shade(response ? &settings : NULL, &material, &surface, &light, 1);
+    return lmp_shade(preintegrated ? &settings : NULL, &material, &surface, &light, 1);
 }
 
 static float largest_of(lmp_rgb c) {
@@ -36,15 +36,15 @@ static float peak_of_views(const lmp_brdf_table *table, float radius) {
 
 enum { DIRECTIONS = 40 };
 
-static void compare(const lmp_brdf_table *table, const lmp_preintegrated_brdf *response,
+static void compare(const lmp_brdf_table *table, const lmp_preintegrated_brdf *preintegrated,
                     const probe *p, check_errors *errors) {
-    const double detail = (double)lmp_preintegrated_brdf_describe(response).width;
+    const double detail = (double)lmp_preintegrated_brdf_describe(preintegrated).width;
     lmp_rgb expected[DIRECTIONS], read[DIRECTIONS];
     float peak = 0.05f * peak_of_views(table, p->radius);
     for (int i = 0; i < DIRECTIONS; i++) {
         const lmp_vec3 direction = random_direction(p, i, detail);
         expected[i] = shaded(table, NULL, p, direction);
-        read[i] = shaded(table, response, p, direction);
+        read[i] = shaded(table, preintegrated, p, direction);
         peak = fmaxf(peak, largest_of(expected[i]));
     }
     for (int i = 0; i < DIRECTIONS; i++) {
@@ -58,17 +58,17 @@ static void compare(const lmp_brdf_table *table, const lmp_preintegrated_brdf *r
 
 /* Prints and returns them. */
 static check_errors errors_of(const char *what, const lmp_brdf_table *table, int probes) {
-    lmp_preintegrated_brdf *response = created(table, 0);
-    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(response);
+    lmp_preintegrated_brdf *preintegrated = created(table, 0);
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(preintegrated);
     check_errors errors = { 0 };
     for (int i = 0; i < probes; i++) {
         const probe p = random_probe(-4, log10(0.99));
-        compare(table, response, &p, &errors);
+        compare(table, preintegrated, &p, &errors);
     }
     print_message("%s, %d bands, window %d: %.1f MB, %ld values, error max %.3f %%, rms %.4f %%\n",
                   what, info.bands, (int)info.window, (double)info.bytes / 1e6, errors.count,
                   100 * errors.largest, 100 * check_errors_rms(&errors));
-    lmp_preintegrated_brdf_destroy(response);
+    lmp_preintegrated_brdf_destroy(preintegrated);
     return errors;
 }
 
@@ -108,9 +108,9 @@ static void ten_materials_match_their_sums_within_the_error(void **state) {
 
 static void more_bands_and_no_window_match_as_well(void **state) {
     (void)state;
-    lmp_brdf_table *sharp = sgd_table("gold-metallic-paint", 8, LMP_WINDOW_NONE);
-    check_probes("gold-metallic-paint", sharp, 100);
-    lmp_brdf_table_destroy(sharp);
+    lmp_brdf_table *metal = sgd_table("gold-metallic-paint", 8, LMP_WINDOW_NONE);
+    check_probes("gold-metallic-paint", metal, 100);
+    lmp_brdf_table_destroy(metal);
     lmp_brdf_table *fine = sgd_table("green-plastic", 20, LMP_WINDOW_LANCZOS);
     check_probes("green-plastic", fine, 60);
     lmp_brdf_table_destroy(fine);
@@ -154,17 +154,17 @@ static void a_table_of_all_orders_and_few_views_matches_as_well(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-static void responses_hold_inside_spheres_and_at_their_surface(void **state) {
+static void tables_hold_inside_spheres_and_at_their_surface(void **state) {
     (void)state;
     lmp_brdf_table *table = sgd_table("red-fabric", 8, LMP_WINDOW_HANNING);
-    lmp_preintegrated_brdf *response = created(table, 0);
+    lmp_preintegrated_brdf *preintegrated = created(table, 0);
     check_errors errors = { 0 };
     for (int i = 0; i < 60; i++) {
         const probe p = i % 2 ? random_probe(0, 2) : random_probe(-1e-4, 1e-4);
-        compare(table, response, &p, &errors);
+        compare(table, preintegrated, &p, &errors);
     }
     CHECK_WITHIN(errors.largest, 5e-3);
-    lmp_preintegrated_brdf_destroy(response);
+    lmp_preintegrated_brdf_destroy(preintegrated);
     lmp_brdf_table_destroy(table);
 }
 
@@ -186,7 +186,7 @@ enum { SURFACES = 531, MATERIALS = 5, LIGHTS = 43 };
 
 typedef struct crowd {
     lmp_brdf_table *tables[2];
-    lmp_preintegrated_brdf *responses[2];
+    lmp_preintegrated_brdf *preintegrated[2];
     lmp_preintegrated_lobe *lobes;
     lmp_material materials[SURFACES];
     lmp_surface surfaces[SURFACES];
@@ -217,18 +217,18 @@ static void scatter_lights(lmp_light *lights) {
                                   .ground = random_color() };
 }
 
-/* Lobes, two responses and a table without one in no order; some views along the normal, from below
- * and level. */
+/* Lobes, two preintegrated tables and one that is not in no order; some views along the normal,
+ * from below and level. */
 static crowd *crowd_create(void) {
     crowd *c = calloc(1, sizeof *c);
     assert_non_null(c);
     c->tables[0] = sgd_table("green-plastic", 6, LMP_WINDOW_HANNING);
-    const lmp_brdf_table_desc round = {
+    const lmp_brdf_table_desc smooth = {
         .bands = 5, .views = 9, .rings_max = 32, .symmetry = LMP_BRDF_SYMMETRY_NONE
     };
-    c->tables[1] = table_of(sgd_brdf("white-fabric"), &round);
+    c->tables[1] = table_of(sgd_brdf("white-fabric"), &smooth);
     for (int i = 0; i < 2; i++)
-        c->responses[i] = created(c->tables[i], 0.02f);
+        c->preintegrated[i] = created(c->tables[i], 0.02f);
     assert_int_equal(
         lmp_preintegrated_lobe_create(
             NULL, &(lmp_preintegrated_lobe_desc) { .bands = 6, .error = 0.05f }, &c->lobes),
@@ -243,7 +243,7 @@ static crowd *crowd_create(void) {
             .specular = random_color(),
             .exponent = (float)check_random_between(1, 100),
             .table = which == 0 || which == 3 ? NULL : c->tables[which % 2],
-            .preintegrated = which == 0 || which == 4 ? NULL : c->responses[which % 2],
+            .preintegrated = which == 0 || which == 4 ? NULL : c->preintegrated[which % 2],
         };
         const lmp_vec3 n = check_random_direction(), v = check_random_direction();
         c->surfaces[i] =
@@ -257,7 +257,7 @@ static crowd *crowd_create(void) {
 
 static void crowd_free(crowd *c) {
     for (int i = 0; i < 2; i++) {
-        lmp_preintegrated_brdf_destroy(c->responses[i]);
+        lmp_preintegrated_brdf_destroy(c->preintegrated[i]);
         lmp_brdf_table_destroy(c->tables[i]);
     }
     lmp_preintegrated_lobe_destroy(c->lobes);
@@ -299,16 +299,16 @@ static lmp_vec3 into_frame(const lmp_surface *s, lmp_vec3 w) {
 }
 
 /* Straight from lmp_preintegrated_brdf_eval, light by light. */
-static lmp_rgb read_one(const lmp_preintegrated_brdf *response, const lmp_surface *s,
+static lmp_rgb read_one(const lmp_preintegrated_brdf *preintegrated, const lmp_surface *s,
                         const lmp_light *lights) {
     const float cosine = (float)dot3(s->view, s->normal);
-    const lmp_rgb all = lmp_preintegrated_brdf_ambient(response, cosine);
+    const lmp_rgb all = lmp_preintegrated_brdf_ambient(preintegrated, cosine);
     double sum[3] = { 0, 0, 0 };
     for (int i = 0; i < LIGHTS; i++) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], s->position, &cap);
-        const lmp_rgb value = lmp_preintegrated_brdf_eval(response, cosine, into_frame(s, cap.axis),
-                                                          cap.one_minus_cos);
+        const lmp_rgb value = lmp_preintegrated_brdf_eval(
+            preintegrated, cosine, into_frame(s, cap.axis), cap.one_minus_cos);
         sum[0] += (double)(cap.strength.r * value.r + cap.ambient.r * all.r);
         sum[1] += (double)(cap.strength.g * value.g + cap.ambient.g * all.g);
         sum[2] += (double)(cap.strength.b * value.b + cap.ambient.b * all.b);
@@ -372,7 +372,7 @@ int main(void) {
         cmocka_unit_test(more_bands_and_no_window_match_as_well),
         cmocka_unit_test(a_sharp_lobe_that_fades_near_grazing_matches_as_well),
         cmocka_unit_test(a_table_of_all_orders_and_few_views_matches_as_well),
-        cmocka_unit_test(responses_hold_inside_spheres_and_at_their_surface),
+        cmocka_unit_test(tables_hold_inside_spheres_and_at_their_surface),
         cmocka_unit_test(many_surfaces_are_shaded_like_one),
         cmocka_unit_test(every_instruction_set_shades_the_same_bits),
         cmocka_unit_test(a_larger_error_takes_less_memory),

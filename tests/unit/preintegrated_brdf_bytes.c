@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How responses of measured materials are made, and the bytes that they are kept as. */
+/* How preintegrated BRDFs are made, and the bytes that they are kept as. */
 #include "tests/unit/damage.h"
 #include "tests/unit/preintegrated_brdfs.h"
 
@@ -13,11 +13,11 @@ static lmp_brdf_table *small_table(void) {
     return table_of(sgd_brdf("white-fabric"), &desc);
 }
 
-static void *written(const lmp_preintegrated_brdf *response, size_t *size) {
-    *size = lmp_preintegrated_brdf_size(response);
+static void *written(const lmp_preintegrated_brdf *preintegrated, size_t *size) {
+    *size = lmp_preintegrated_brdf_size(preintegrated);
     void *bytes = malloc(*size);
     assert_non_null(bytes);
-    lmp_preintegrated_brdf_write(response, bytes);
+    lmp_preintegrated_brdf_write(preintegrated, bytes);
     return bytes;
 }
 
@@ -45,17 +45,17 @@ static void what_cannot_be_made_is_refused(void **state) {
     lmp_brdf_table *table = small_table();
     const float wrong[] = { 1e-5f, 0.5f, NAN, -1 };
     for (int i = 0; i < 4; i++) {
-        lmp_preintegrated_brdf *response = (lmp_preintegrated_brdf *)1;
+        lmp_preintegrated_brdf *preintegrated = (lmp_preintegrated_brdf *)1;
         assert_int_equal(
             lmp_preintegrated_brdf_create(
-                NULL, &(lmp_preintegrated_brdf_desc) { .error = wrong[i] }, table, &response),
+                NULL, &(lmp_preintegrated_brdf_desc) { .error = wrong[i] }, table, &preintegrated),
             LMP_ERROR_ARGUMENT);
-        assert_null(response);
+        assert_null(preintegrated);
     }
-    lmp_preintegrated_brdf *response;
+    lmp_preintegrated_brdf *preintegrated;
     assert_int_equal(
         lmp_preintegrated_brdf_create(NULL, &(lmp_preintegrated_brdf_desc) { .bytes_max = 1000 },
-                                      table, &response),
+                                      table, &preintegrated),
         LMP_ERROR_MEMORY);
     lmp_brdf_table_destroy(table);
 
@@ -64,7 +64,7 @@ static void what_cannot_be_made_is_refused(void **state) {
     assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
     const lmp_brdf_table_desc desc = { .bands = 3, .views = 4, .azimuths = 4, .rings_max = 32 };
     table = table_of(brdf, &desc);
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, table, &response),
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, NULL, table, &preintegrated),
                      LMP_ERROR_ARGUMENT);
     lmp_brdf_table_destroy(table);
 }
@@ -76,14 +76,15 @@ static void a_refused_allocation_leaks_nothing(void **state) {
     for (int refuse = 0;; refuse += check_count(1 + refuse / 8, 1)) {
         check_hooks hooks = { .refuse = refuse };
         const lmp_host host = check_host(&hooks);
-        lmp_preintegrated_brdf *response;
-        const lmp_result result = lmp_preintegrated_brdf_create(&host, &desc, table, &response);
-        lmp_preintegrated_brdf_destroy(response);
+        lmp_preintegrated_brdf *preintegrated;
+        const lmp_result result =
+            lmp_preintegrated_brdf_create(&host, &desc, table, &preintegrated);
+        lmp_preintegrated_brdf_destroy(preintegrated);
         assert_int_equal(hooks.live, 0);
         if (result == LMP_OK)
             break;
         assert_int_equal(result, LMP_ERROR_MEMORY);
-        assert_null(response);
+        assert_null(preintegrated);
     }
     lmp_brdf_table_destroy(table);
 }
@@ -94,9 +95,9 @@ static void a_refused_allocation_leaks_nothing(void **state) {
 static void bytes_read_back_are_the_same_brdf(void **state) {
     (void)state;
     lmp_brdf_table *table = small_table();
-    lmp_preintegrated_brdf *response = created(table, 0), *copy;
+    lmp_preintegrated_brdf *preintegrated = created(table, 0), *copy;
     size_t size, again_size;
-    void *bytes = written(response, &size);
+    void *bytes = written(preintegrated, &size);
     assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &copy), LMP_OK);
     void *again = written(copy, &again_size);
     assert_int_equal(size, again_size);
@@ -104,13 +105,14 @@ static void bytes_read_back_are_the_same_brdf(void **state) {
     for (int i = 0; i < 200; i++) {
         const probe p = random_probe(-3, 0);
         const lmp_vec3 axis = random_direction(&p, i, 0.1);
-        const lmp_rgb a = lmp_preintegrated_brdf_eval(response, (float)cos(p.theta), axis, 0.1f),
+        const lmp_rgb a = lmp_preintegrated_brdf_eval(preintegrated, (float)cos(p.theta), axis,
+                                                      0.1f),
                       b = lmp_preintegrated_brdf_eval(copy, (float)cos(p.theta), axis, 0.1f);
         assert_memory_equal(&a, &b, sizeof a);
     }
     free(bytes);
     free(again);
-    lmp_preintegrated_brdf_destroy(response);
+    lmp_preintegrated_brdf_destroy(preintegrated);
     lmp_preintegrated_brdf_destroy(copy);
     lmp_brdf_table_destroy(table);
 }
@@ -132,11 +134,11 @@ static lmp_result read_and_use(const unsigned char *bytes, size_t size) {
 static void damaged_bytes_are_refused(void **state) {
     (void)state;
     lmp_brdf_table *table = small_table();
-    lmp_preintegrated_brdf *response = created(table, 0.1f);
+    lmp_preintegrated_brdf *preintegrated = created(table, 0.1f);
     size_t size;
-    unsigned char *bytes = written(response, &size);
-    const size_t texels = 6 * lmp_preintegrated_brdf_describe(response).texel_count;
-    lmp_preintegrated_brdf_destroy(response);
+    unsigned char *bytes = written(preintegrated, &size);
+    const size_t texels = 6 * lmp_preintegrated_brdf_describe(preintegrated).texel_count;
+    lmp_preintegrated_brdf_destroy(preintegrated);
     lmp_brdf_table_destroy(table);
     damage_is_refused(bytes, size, read_and_use);
     damage_stays_in_bounds(bytes, size, 12, size - texels - 4, 2000, read_and_use);

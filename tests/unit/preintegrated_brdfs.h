@@ -25,10 +25,10 @@ static inline lmp_brdf_table *sgd_table(const char *name, int bands, lmp_window 
 }
 
 static inline lmp_preintegrated_brdf *created(const lmp_brdf_table *table, float error) {
-    lmp_preintegrated_brdf *response;
+    lmp_preintegrated_brdf *preintegrated;
     const lmp_preintegrated_brdf_desc desc = { .error = error };
-    assert_int_equal(lmp_preintegrated_brdf_create(NULL, &desc, table, &response), LMP_OK);
-    return response;
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, &desc, table, &preintegrated), LMP_OK);
+    return preintegrated;
 }
 
 /* A view, and a sphere of radiance 1 that looks r / 1 large: where a cap of a given size may lie.

@@ -304,7 +304,7 @@ static void bad_samples_are_refused(void **state) {
     s.samples.weights = (lmp_float_array) { s.weights, sizeof(float) };
     assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
     s.samples.weights.at = NULL;
-    s.samples.directions = lmp_vec3_array_same(s.directions); /* all in one place */
+    s.samples.directions = lmp_vec3_array_same(s.directions); /* all in one direction */
     assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
     s.samples.count = 0;
     assert_int_equal(lmp_probe_fit(NULL, 1, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);

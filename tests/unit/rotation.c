@@ -76,13 +76,13 @@ static void takes_harmonics_to_the_rotated_direction_at_any_bands(void **state) 
             const lmp_quat q = check_random_rotation();
             const lmp_vec3 v = check_random_direction();
             const double w[3] = { (double)v.x, (double)v.y, (double)v.z };
-            double rotation[9], turned[3];
+            double rotation[9], direction[3];
             matrix_of(q, rotation);
             for (int k = 0; k < 3; k++)
-                turned[k] = rotation[3 * k] * w[0] + rotation[3 * k + 1] * w[1] +
-                            rotation[3 * k + 2] * w[2];
+                direction[k] = rotation[3 * k] * w[0] + rotation[3 * k + 1] * w[1] +
+                               rotation[3 * k + 2] * w[2];
             oracle_sh_eval(bands, w, before);
-            oracle_sh_eval(bands, turned, after);
+            oracle_sh_eval(bands, direction, after);
             for (size_t k = 0; k < LMP_SH_COUNT(bands); k++)
                 sh[k] = (float)before[k];
             lmp_sh_rotation(bands, q, matrices);

@@ -108,7 +108,7 @@ static void reconstructs_what_the_coefficients_say(void **state) {
     }
 }
 
-static void turns_zonal_coefficients_to_any_axis(void **state) {
+static void rotates_zonal_coefficients_to_any_axis(void **state) {
     (void)state;
     float zonal[20], sh[400], along[400];
     double cap[20];
@@ -168,7 +168,7 @@ int main(void) {
         cmocka_unit_test(sums_squares_to_the_addition_theorem_at_128_bands),
         cmocka_unit_test(stays_finite_next_to_the_poles),
         cmocka_unit_test(reconstructs_what_the_coefficients_say),
-        cmocka_unit_test(turns_zonal_coefficients_to_any_axis),
+        cmocka_unit_test(rotates_zonal_coefficients_to_any_axis),
         cmocka_unit_test(the_gradient_is_that_of_the_definition),
         cmocka_unit_test(combines_two_functions),
     };

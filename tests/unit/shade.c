@@ -269,7 +269,7 @@ static void windows_dim_the_highlight_and_calm_the_ringing(void **state) {
                              hanning = { .bands = 10, .window = LMP_WINDOW_HANNING },
                              lanczos = { .bands = 10, .window = LMP_WINDOW_LANCZOS };
     const float peak = lmp_shade(&none, &material, &facing, &light, 1).r;
-    /* peaks of a Phong lobe of exponent 60 cut at 10 bands: 5.46, 2.29, 2.90 */
+    /* peaks of a Phong lobe of exponent 60 truncated to 10 bands: 5.46, 2.29, 2.90 */
     CHECK_WITHIN(
         fabs((double)(lmp_shade(&hanning, &material, &facing, &light, 1).r / peak) - 2.29 / 5.46),
         5e-3);

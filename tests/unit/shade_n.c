@@ -26,7 +26,7 @@ static lmp_rgb color(void) {
     return (lmp_rgb) { between(0, 1), between(0, 1), between(0, 1) };
 }
 
-static lmp_vec3 place(float size) {
+static lmp_vec3 point_within(float size) {
     return (lmp_vec3) { between(-(double)size, (double)size), between(-(double)size, (double)size),
                         between(-(double)size, (double)size) };
 }
@@ -34,7 +34,7 @@ static lmp_vec3 place(float size) {
 /* Spheres alone, or lights of all kinds; some spheres hold some of the surfaces. */
 static void scatter(bool all_kinds) {
     for (int i = 0; i < COUNT; i++) {
-        vertices[i].surface = (lmp_surface) { .position = place(1),
+        vertices[i].surface = (lmp_surface) { .position = point_within(1),
                                               .normal = check_random_direction(),
                                               .view = check_random_direction() };
         vertices[i].material = (lmp_material) { .diffuse = color(),
@@ -42,7 +42,7 @@ static void scatter(bool all_kinds) {
                                                 .exponent = powf(10, between(0, 3.5)) };
     }
     for (int i = 0; i < LIGHTS; i++) {
-        lights[i] = (lmp_light) { .position = place(3),
+        lights[i] = (lmp_light) { .position = point_within(3),
                                   .direction = check_random_direction(),
                                   .radius = between(0.001, 0.8),
                                   .angle = between(0.01, 2.5),
@@ -93,7 +93,7 @@ static lmp_rgb by_bands(const vertex *v, const void *settings) {
 }
 
 /* Straight from lmp_preintegrated_lobe_eval, light by light. */
-static lmp_rgb by_response(const vertex *v, const void *response) {
+static lmp_rgb by_lobe_table(const vertex *v, const void *lobe) {
     const lmp_vec3 n = v->surface.normal, e = v->surface.view;
     const float twice = 2 * (n.x * e.x + n.y * e.y + n.z * e.z);
     const lmp_vec3 r = { twice * n.x - e.x, twice * n.y - e.y, twice * n.z - e.z };
@@ -102,10 +102,10 @@ static lmp_rgb by_response(const vertex *v, const void *response) {
         lmp_cap cap;
         lmp_light_cap(&lights[i], v->surface.position, &cap);
         const lmp_vec3 w = cap.axis;
-        const float diffuse = lmp_preintegrated_lobe_eval(response, 1, cap.one_minus_cos,
+        const float diffuse = lmp_preintegrated_lobe_eval(lobe, 1, cap.one_minus_cos,
                                                           n.x * w.x + n.y * w.y + n.z * w.z);
         const float specular = lmp_preintegrated_lobe_eval(
-            response, v->material.exponent, cap.one_minus_cos, r.x * w.x + r.y * w.y + r.z * w.z);
+            lobe, v->material.exponent, cap.one_minus_cos, r.x * w.x + r.y * w.y + r.z * w.z);
         const lmp_rgb d = v->material.diffuse, s = v->material.specular;
         sum[0] += (double)(cap.strength.r * (d.r * diffuse + s.r * specular) +
                            cap.ambient.r * (d.r + s.r));
@@ -123,16 +123,16 @@ static lmp_vec3 across(lmp_vec3 axis, lmp_vec3 v) {
     return (lmp_vec3) { twice * axis.x - v.x, twice * axis.y - v.y, twice * axis.z - v.z };
 }
 
-/* Turns every surface's view so that a light lies within `width` of its mirror direction. */
+/* Rotates every surface's view so that a light lies within `width` of its mirror direction. */
 static void aim(const lmp_light *light, float width) {
     for (int i = 0; i < COUNT; i++) {
         lmp_surface *surface = &vertices[i].surface;
         const lmp_vec3 off = check_random_direction();
         lmp_cap cap;
         lmp_light_cap(light, surface->position, &cap);
-        const float share = between(0, (double)width);
-        const lmp_vec3 w = { cap.axis.x + share * off.x, cap.axis.y + share * off.y,
-                             cap.axis.z + share * off.z };
+        const float part = between(0, (double)width);
+        const lmp_vec3 w = { cap.axis.x + part * off.x, cap.axis.y + part * off.y,
+                             cap.axis.z + part * off.z };
         const float length = sqrtf(w.x * w.x + w.y * w.y + w.z * w.z);
         surface->view =
             across(surface->normal, (lmp_vec3) { w.x / length, w.y / length, w.z / length });
@@ -145,8 +145,8 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
                        double sum[3]) {
     const lmp_surface *s = &v->surface;
     const int n = settings->bands;
-    lmp_material broad = v->material, narrow = v->material;
-    broad.specular = narrow.diffuse = (lmp_rgb) { 0, 0, 0 };
+    lmp_material diffuse_only = v->material, specular_only = v->material;
+    diffuse_only.specular = specular_only.diffuse = (lmp_rgb) { 0, 0, 0 };
     lmp_cap cap;
     lmp_light_cap(light, s->position, &cap);
     lmp_light moved = { .kind = LMP_LIGHT_DIRECTIONAL, .direction = s->normal };
@@ -158,9 +158,9 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
     }
     moved.radiance = (lmp_rgb) { fabsf(cap.strength.r) * scale, fabsf(cap.strength.g) * scale,
                                  fabsf(cap.strength.b) * scale };
-    const lmp_rgb diffuse = lmp_shade(settings, &broad, s, &moved, 1);
+    const lmp_rgb diffuse = lmp_shade(settings, &diffuse_only, s, &moved, 1);
     moved.direction = across(s->normal, s->view);
-    const lmp_rgb specular = lmp_shade(settings, &narrow, s, &moved, 1);
+    const lmp_rgb specular = lmp_shade(settings, &specular_only, s, &moved, 1);
     const lmp_rgb d = v->material.diffuse, e = v->material.specular;
     const double bound = cap.one_minus_cos > 0.95f ? 5e-4 : 3e-6 + 2e-7 * n * n;
     sum[0] += bound * (double)(diffuse.r + specular.r + (d.r + e.r) * cap.ambient.r);
@@ -171,7 +171,7 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
 /* The largest difference from lmp_shade, in parts of what shade.h bounds it by. */
 static double fraction_of_bound(const lmp_shade_settings *settings, const lmp_light *from,
                                 size_t count, const float *rgb, size_t stride) {
-    double share = 0;
+    double fraction = 0;
     for (size_t i = 0; i < COUNT; i++) {
         const vertex *v = &vertices[i];
         const lmp_rgb c = lmp_shade(settings, &v->material, &v->surface, from, count);
@@ -181,11 +181,11 @@ static double fraction_of_bound(const lmp_shade_settings *settings, const lmp_li
         const float expected[3] = { c.r, c.g, c.b };
         for (size_t k = 0; k < 3; k++) {
             const double d = fabs((double)rgb[i * stride + k] - (double)expected[k]);
-            if (!(d <= share * bounds[k]))
-                share = d / bounds[k];
+            if (!(d <= fraction * bounds[k]))
+                fraction = d / bounds[k];
         }
     }
-    return share;
+    return fraction;
 }
 
 static void many_surfaces_are_shaded_as_one_is(void **state) {
@@ -235,25 +235,25 @@ static void point_lights_near_and_far_are_points(void **state) {
     }
 }
 
-static void many_surfaces_are_read_from_a_response_as_one_is(void **state) {
+static void many_surfaces_are_read_from_a_preintegrated_lobe_as_one_is(void **state) {
     (void)state;
     static float rgb[COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
     const int bands[] = { 1, 2, 8, 50 };
     for (size_t b = 0; b < sizeof bands / sizeof bands[0]; b++) {
-        lmp_preintegrated_lobe *response;
+        lmp_preintegrated_lobe *lobe;
         const lmp_preintegrated_lobe_desc desc = { .bands = bands[b] };
         const lmp_shade_settings settings = { .bands = bands[b] };
-        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
+        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
         for (int kinds = 0; kinds < 2; kinds++) {
             scatter(kinds != 0);
-            const lmp_shade_settings readings = by_readings(response);
+            const lmp_shade_settings readings = by_readings(lobe);
             lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
-            CHECK_WITHIN(difference(rgb, 3, by_response, response), kinds ? 5e-4 : 1e-4);
+            CHECK_WITHIN(difference(rgb, 3, by_lobe_table, lobe), kinds ? 5e-4 : 1e-4);
             /* Its own largest value may miss the peak of a light, which the error is a part of. */
             CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 2e-2);
         }
-        lmp_preintegrated_lobe_destroy(response);
+        lmp_preintegrated_lobe_destroy(lobe);
     }
 }
 
@@ -284,21 +284,21 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
     (void)state;
     static float first[2][COUNT * 3], rgb[2][COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
-    lmp_preintegrated_lobe *response;
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &response), LMP_OK);
+    lmp_preintegrated_lobe *lobe;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &lobe), LMP_OK);
     scatter_both_kinds();
     for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
         if (lmp_cpu_mask(flag) != flag)
             continue;
         lmp_shade_n(NULL, &surfaces, COUNT, lights, LIGHTS, 0, rgb[0]);
-        const lmp_shade_settings readings = by_readings(response);
+        const lmp_shade_settings readings = by_readings(lobe);
         lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb[1]);
         if (flag == LMP_CPU_SCALAR)
             memcpy(first, rgb, sizeof rgb);
         assert_memory_equal(first, rgb, sizeof rgb);
     }
     lmp_cpu_mask(LMP_CPU_ALL);
-    lmp_preintegrated_lobe_destroy(response);
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 static void any_count_and_any_stride_writes_only_its_own(void **state) {
@@ -334,9 +334,9 @@ static void not_a_number_stays_with_its_surface(void **state) {
     for (int bands = 1; bands <= 20; bands++) {
         const lmp_preintegrated_lobe_desc desc = { .bands = bands, .error = 0.05f };
         const lmp_shade_settings settings = { .bands = bands };
-        lmp_preintegrated_lobe *response;
-        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &response), LMP_OK);
-        const lmp_shade_settings readings = by_readings(response);
+        lmp_preintegrated_lobe *lobe;
+        assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
+        const lmp_shade_settings readings = by_readings(lobe);
         for (int method = 0; method < 2; method++) {
             scatter(true);
             float *const to[2] = { whole, rgb };
@@ -354,7 +354,7 @@ static void not_a_number_stays_with_its_surface(void **state) {
         scatter(true);
         lights[0].radius = lights[6].position.x = NAN;
         lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
-        lmp_preintegrated_lobe_destroy(response);
+        lmp_preintegrated_lobe_destroy(lobe);
     }
 }
 
@@ -362,7 +362,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(many_surfaces_are_shaded_as_one_is),
         cmocka_unit_test(point_lights_near_and_far_are_points),
-        cmocka_unit_test(many_surfaces_are_read_from_a_response_as_one_is),
+        cmocka_unit_test(many_surfaces_are_read_from_a_preintegrated_lobe_as_one_is),
         cmocka_unit_test(both_kinds_of_lobes_are_shaded_side_by_side),
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),
         cmocka_unit_test(not_a_number_stays_with_its_surface),

@@ -47,7 +47,7 @@ static lmp_preintegrated_lobe *lobe, *read_lobe;
 static lmp_preintegrated_brdf *preintegrated, *read_preintegrated;
 static lmp_probe_constants constants;
 static lmp_probe_convention convention;
-static lmp_parse_error wrong;
+static lmp_parse_error parse_error;
 static double doubles[3] = { 0.6, 0, 0.8 };
 static void *bytes, *merl, *rgl;
 static size_t bytes_size = 1 << 24, merl_size, rgl_size;
@@ -169,9 +169,9 @@ static void shade_all_ways(void) {
     X(lmp_brdf_eval, lmp_brdf_eval(brdf, up, up)) \
     X(lmp_brdf_eval_double, lmp_brdf_eval_double(brdf, doubles, doubles, (double[3]) { 0 })) \
     X(lmp_brdf_write_merl, free(merl), (void)lmp_brdf_write_merl(NULL, brdf, &merl, &merl_size)) \
-    X(lmp_brdf_read_merl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_merl(NULL, merl, merl_size, &wrong, &read_brdf))) \
+    X(lmp_brdf_read_merl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_merl(NULL, merl, merl_size, &parse_error, &read_brdf))) \
     X(lmp_brdf_write_rgl, free(rgl), (void)lmp_brdf_write_rgl(NULL, brdf, &rgl, &rgl_size)) \
-    X(lmp_brdf_read_rgl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_rgl(NULL, rgl, rgl_size, &wrong, &read_brdf))) \
+    X(lmp_brdf_read_rgl, MAKE(lmp_brdf_destroy, read_brdf, lmp_brdf_read_rgl(NULL, rgl, rgl_size, &parse_error, &read_brdf))) \
     X(lmp_brdf_destroy, lmp_brdf_destroy(read_brdf), read_brdf = NULL) \
     X(lmp_brdf_project, lmp_brdf_project(NULL, N, 2, brdf, up, out)) \
     X(lmp_brdf_table_create, MAKE(lmp_brdf_table_destroy, table, lmp_brdf_table_create(NULL, &small_table, brdf, &table))) \
@@ -181,7 +181,7 @@ static void shade_all_ways(void) {
     X(lmp_brdf_table_albedo, lmp_brdf_table_albedo(table, 0, 0, (lmp_rgb *)(void *)rgb, (lmp_rgb *)(void *)rgb + 1)) \
     X(lmp_brdf_table_size, lmp_brdf_table_size(table)) \
     X(lmp_brdf_table_write, lmp_brdf_table_write(table, bytes)) \
-    X(lmp_brdf_table_read, MAKE(lmp_brdf_table_destroy, read_table, lmp_brdf_table_read(NULL, bytes, lmp_brdf_table_size(table), &wrong, &read_table))) \
+    X(lmp_brdf_table_read, MAKE(lmp_brdf_table_destroy, read_table, lmp_brdf_table_read(NULL, bytes, lmp_brdf_table_size(table), &parse_error, &read_table))) \
     X(lmp_brdf_table_destroy, lmp_brdf_table_destroy(read_table), read_table = NULL) \
     X(lmp_preintegrated_lobe_create, MAKE(lmp_preintegrated_lobe_destroy, lobe, lmp_preintegrated_lobe_create(NULL, &(lmp_preintegrated_lobe_desc) { .bands = N, .error = 0.1f }, &lobe))) \
     X(lmp_preintegrated_lobe_describe, lmp_preintegrated_lobe_describe(lobe)) \

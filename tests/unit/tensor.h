@@ -59,7 +59,7 @@ static inline field *find(tensor *t, const char *name) {
     return NULL;
 }
 
-/* An isotropic file without samples, whose warp is the identity and whose model is 1 / 4. */
+/* An isotropic file without samples, whose remapping is the identity and whose model is 1 / 4. */
 static inline tensor flat(void) {
     tensor t = { 0 };
     add(&t, "theta_i", F32, SHAPE(2), 0)->values[1] = 1.5f;

@@ -95,7 +95,7 @@ static void minimum_laplacian_leaves_alone_what_needs_no_window(void **state) {
         assert_true(weights[l] == 1);
 }
 
-static void applies_in_place(void **state) {
+static void applies_onto_its_own_input(void **state) {
     (void)state;
     const float weights[3] = { 1, 0.5f, 0.25f };
     float sh[9] = { 1, 1, 1, 1, 1, 1, 1, 1, 1 };
@@ -111,7 +111,7 @@ int main(void) {
         cmocka_unit_test(falls_to_zero_at_its_size_and_stays_there),
         cmocka_unit_test(minimum_laplacian_keeps_the_asked_fraction),
         cmocka_unit_test(minimum_laplacian_leaves_alone_what_needs_no_window),
-        cmocka_unit_test(applies_in_place),
+        cmocka_unit_test(applies_onto_its_own_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,7 +71,7 @@ static double pole(int l) {
 
 /* --- output ----------------------------------------------------------------------------------- */
 
-static void print_value(int place, double value) {
+static void print_value(int index, double value) {
     const float rounded = (float)value;
     if (!isfinite(rounded)) {
         fprintf(stderr, "generate_tables: a value overflows float32\n");
@@ -81,15 +81,15 @@ static void print_value(int place, double value) {
     snprintf(text, sizeof text, "%.9g", (double)rounded);
     /* the suffix f needs a point or an exponent before it */
     const char *point = strpbrk(text, ".e") ? "" : ".";
-    printf("%s%s%sf,", place % 8 == 0 ? "\n" : "", text, point);
+    printf("%s%s%sf,", index % 8 == 0 ? "\n" : "", text, point);
 }
 
 static void print_triangle(const char *name, double (*entry)(int l, int m)) {
     printf("\nconst float lmp_table_%s[LMP_TABLE_COUNT] = {", name);
-    int place = 0;
+    int index = 0;
     for (int m = 0; m < LMP_BANDS_MAX; m++)
         for (int l = m; l < LMP_BANDS_MAX; l++)
-            print_value(place++, entry(l, m));
+            print_value(index++, entry(l, m));
     printf("\n};\n");
 }
 

@@ -108,10 +108,10 @@ void caps_ggx_sky(const ggx_view *view, double value[2]) {
         const double a2 = view->alpha * view->alpha;
         const double masked = lz * view->masking,
                      shadowed = view->z * sqrt(a2 + (1 - a2) * lz * lz);
-        const double share = lz * (view->z + view->masking) / (masked + shadowed);
+        const double fraction = lz * (view->z + view->masking) / (masked + shadowed);
         const double schlick = pow(1 - vh, 5);
-        value[0] += weight * share * (1 - schlick);
-        value[1] += weight * share * schlick;
+        value[0] += weight * fraction * (1 - schlick);
+        value[1] += weight * fraction * schlick;
     }
 }
 

@@ -107,15 +107,15 @@ static void add_cap(const fit_node *node, const double p[PARAMETERS], int cap, e
         const double sine = fmax(sqrt(1 - cosine * cosine), 1e-9);
         double value[3];
         caps_table_at(&node->tables[cap / (DISTANCES * AZIMUTHS)], acos(cosine), q[1], value);
-        /* the axis turns toward (-z, x) as the height grows */
-        const double turn = value[1] * (z * d[0] - x * d[1]) / sine * node->view.sine *
-                            node->view.alpha / (length * length);
+        /* the axis rotates toward (-z, x) as the height grows */
+        const double rotation = value[1] * (z * d[0] - x * d[1]) / sine * node->view.sine *
+                                node->view.alpha / (length * length);
         sum[0] += q[2] * value[0];
         sum[1] += q[3] * value[0];
         for (int m = 0; m < MATERIALS; m++) {
             const double f0 = m == 0 ? 1 : dielectric_f0, w = f0 * q[2] + (1 - f0) * q[3];
             double *r = row[m] + 4 * k;
-            r[0] = w * turn;
+            r[0] = w * rotation;
             r[1] = w * value[2];
             r[2] = f0 * value[0];
             r[3] = (1 - f0) * value[0];
