@@ -58,7 +58,8 @@ typedef struct table_job {
     float *change; /* [azimuth][view]: at the last doubling; INFINITY before the first */
 } table_job;
 
-/* Writes a view's coefficients in the order of the table; returns the relative change. */
+/* Writes a view's coefficients in the order of the table; returns the relative change. Compared by
+ * hand: gcc 12 for AArch64 fails in the vectors that it makes of fmax. */
 static float store_view(const lmp_brdf_table_info *info, const double *cosine, const double *sine,
                         float *row) {
     const size_t half = LMP_SH_HALF_COUNT(info->bands);
@@ -69,8 +70,9 @@ static float store_view(const lmp_brdf_table_info *info, const double *cosine, c
                 const size_t from = channel * half + brdf_half_index(info->bands, l, abs(m));
                 const double value = m < 0 ? sine[from] : cosine[from];
                 float *to = row + (info->mirrored ? LMP_SH_HALF_INDEX(l, m) : LMP_SH_INDEX(l, m));
-                largest = fmax(largest, fabs(value));
-                change = fmax(change, fabs(value - (double)*to));
+                const double size = fabs(value), moved = fabs(value - (double)*to);
+                largest = size > largest ? size : largest;
+                change = moved > change ? moved : change;
                 *to = (float)value;
             }
     return largest > 0 ? (float)(change / largest) : 0;

@@ -95,8 +95,11 @@ void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_pr
 static bool agrees(int bands, const lmp_probe_convention *convention, const float *ours,
                    const float *theirs, float tolerance) {
     double largest = 0;
-    for (size_t i = 0; i < LMP_SH_COUNT(bands); i++)
-        largest = fmax(largest, fabs((double)theirs[i]));
+    /* Not by fmax: gcc 12 for AArch64 fails in the vectors that it makes of it. */
+    for (size_t i = 0; i < LMP_SH_COUNT(bands); i++) {
+        const double size = fabs((double)theirs[i]);
+        largest = size > largest ? size : largest;
+    }
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++) {
             const size_t i = LMP_SH_INDEX(l, m);

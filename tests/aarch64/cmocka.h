@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: MIT */
+/* cmocka.h - what the tests of the kernels use of cmocka, which Debian has for the machine's own
+ * architecture alone. A failed assertion says where and ends the program. */
+#ifndef LAMPION_AARCH64_CMOCKA_H
+#define LAMPION_AARCH64_CMOCKA_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define print_message                    printf
+#define print_error(...)                 fprintf(stderr, __VA_ARGS__)
+#define _fail(file, line)                (print_error("%s:%d: failed\n", file, line), exit(1))
+#define assert_true(holds)               ((holds) ? (void)0 : (void)_fail(__FILE__, __LINE__))
+#define assert_null(pointer)             assert_true(!(pointer))
+#define assert_non_null(pointer)         assert_true(pointer)
+#define assert_int_equal(a, b)           assert_true((a) == (b))
+#define assert_int_not_equal(a, b)       assert_true((a) != (b))
+#define assert_string_equal(a, b)        assert_true(strcmp(a, b) == 0)
+#define assert_memory_equal(a, b, bytes) assert_true(memcmp(a, b, bytes) == 0)
+
+struct CMUnitTest {
+    const char *name;
+    void (*run)(void **state);
+};
+#define cmocka_unit_test(function)                                                                 \
+    { #function, function }
+
+static inline int run_tests(const struct CMUnitTest *test, size_t count, int (*setup)(void **)) {
+    void *state = NULL;
+    if (setup && setup(&state) != 0)
+        return 1;
+    for (size_t i = 0; i < count; i++)
+        test[i].run(&state);
+    return 0;
+}
+#define cmocka_run_group_tests(tests, setup, teardown)                                             \
+    run_tests(tests, sizeof(tests) / sizeof *(tests), setup)
+
+#endif
