@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The exact sphere of a light, by intersection with the pixel's ray. */
+#include "camera.glsl"
 #include "gbuffer.glsl"
 #include "shared.h"
 
@@ -13,7 +14,9 @@ layout(location = 3) out vec3 out_emission;
 
 void main() {
     vec4 sphere = lights[light].sphere;
-    vec3 ray = normalize(world_position - eye.xyz), center = sphere.xyz - eye.xyz;
+    vec3 way = world_position - eye.xyz;
+    vec3 ray = forward.w == 0.0 ? normalize(way) : forward.xyz;
+    vec3 center = sphere.xyz - eye.xyz - (way - ray * dot(way, ray)) * forward.w;
     /* the ray's nearest point to the center; its distance by a cross product, exact far away */
     float along = dot(ray, center);
     vec3 miss = center - ray * along;
@@ -22,7 +25,7 @@ void main() {
         discard;
     float half_chord = sqrt(half_chord2);
     float hit = along - half_chord > 0.0 ? along - half_chord : along + half_chord;
-    float depth = eye.w / (hit * dot(ray, forward.xyz));
+    float depth = camera_depth(hit * dot(ray, forward.xyz));
     if (hit <= 0.0 || depth > 1.0 || depth <= 0.0)
         discard;
     gl_FragDepth = depth;

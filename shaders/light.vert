@@ -14,4 +14,6 @@ void main() {
     light = gl_InstanceID;
     bool hidden = lights[gl_InstanceID].radiance.w > 0.0;
     gl_Position = hidden ? vec4(0.0, 0.0, 0.0, -1.0) : clip_from_world * vec4(world_position, 1.0);
+    if (forward.w > 0.0)
+        gl_Position.z = 0.5; /* the fragments tell their own depth, however far */
 }

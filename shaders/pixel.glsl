@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* pixel.glsl - a pixel of the G-buffer as a surface and a material of lampion.glsl. */
+#include "camera.glsl"
+
 layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_metallic_texture;
 layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D roughness_kind_texture;
 layout(binding = SHARED_NORMAL) uniform sampler2D normal_texture;
@@ -23,23 +25,21 @@ vec3 pixel_emission(ivec2 at) {
     return texelFetch(emission_texture, at, 0).rgb;
 }
 
-/* From the eye, 1 along its direction. */
-vec3 pixel_ray(ivec2 at) {
-    vec2 screen = (vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0 + jitter.xy;
-    return forward.xyz + right.xyz * screen.x + down.xyz * screen.y;
+camera_ray pixel_ray(ivec2 at) {
+    return camera_ray_through((vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0 + jitter.xy);
 }
 
 vec3 pixel_view(ivec2 at) {
-    return -normalize(pixel_ray(at));
+    return -normalize(pixel_ray(at).along);
 }
 
 pixel pixel_read(ivec2 at) {
-    vec3 ray = pixel_ray(at);
+    camera_ray ray = pixel_ray(at);
     vec4 base_metallic = texelFetch(base_metallic_texture, at, 0);
     pixel p;
-    p.surface.position = eye.xyz + ray * (eye.w / texelFetch(depth_texture, at, 0).r);
+    p.surface.position = ray.from + ray.along * camera_distance(texelFetch(depth_texture, at, 0).r);
     p.surface.normal = gbuffer_decode_normal(texelFetch(normal_texture, at, 0).rg);
-    p.surface.view = -normalize(ray);
+    p.surface.view = -normalize(ray.along);
     p.material = lmp_metallic_roughness(gbuffer_decode_color(base_metallic.rgb), base_metallic.a,
                                         texelFetch(roughness_kind_texture, at, 0).r);
     return p;

@@ -74,11 +74,11 @@ typedef float mat4[16]; /* column-major */
 
 SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     mat4 clip_from_world;
-    vec4 eye;         /* w: distance of the near plane */
-    vec4 forward;     /* unit */
-    vec4 right;       /* to the right edge of the view at distance 1 */
-    vec4 down;        /* to its bottom edge */
-    vec4 background;  /* radiance where nothing is */
+    vec4 eye;        /* w: distance of the near plane; of parallel rays, of the farthest triangle */
+    vec4 forward;    /* unit; w: 1 if the rays are parallel */
+    vec4 right;      /* to the right edge of the view at distance 1, or at any */
+    vec4 down;       /* to its bottom edge */
+    vec4 background; /* radiance where nothing is */
     vec4 size_lights; /* width, height, number of lights */
     vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1 */
     vec4 surroundings; /* of the environment: bands (0: none), azimuth, 1 if it is seen */

@@ -63,7 +63,9 @@ static cJSON *describe(const scene *s) {
         cJSON_AddStringToObject(entry, "name", s->cameras[i].name);
         file_json_add_floats(entry, "eye", s->cameras[i].eye, 3);
         file_json_add_floats(entry, "target", s->cameras[i].target, 3);
-        file_json_add_floats(entry, "fov", &s->cameras[i].fov, 1);
+        const bool parallel = s->cameras[i].height > 0;
+        file_json_add_floats(entry, parallel ? "height" : "fov",
+                             parallel ? &s->cameras[i].height : &s->cameras[i].fov, 1);
         cJSON_AddItemToArray(cameras, entry);
     }
     add_lights(root, s);
@@ -140,7 +142,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_FLAG,
           .target = &load.no_cache,
           .help = "import the file anew" },
-        SCENE_STRICT_OPTION_ROW(load),
+        SCENE_LOAD_OPTION_ROWS(load),
         { 0 },
     };
     int operand_count, status;

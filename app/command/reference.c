@@ -193,7 +193,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "0 means all cores; the result is the same", 0, 1024, NULL, NULL },
         SCENE_LIGHTS_OPTION_ROWS(a.lights),
         ENVIRONMENT_OPTION_ROWS(a.environment),
-        SCENE_STRICT_OPTION_ROW(a.load),
+        SCENE_LOAD_OPTION_ROWS(a.load),
         { "point", 0, CLI_VEC3, a.point, "X,Y,Z",
           "no image: print the radiance that one point reflects, by quadrature", 0, 0, NULL,
           &a.point_given },

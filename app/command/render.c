@@ -386,7 +386,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         SCENE_LIGHTS_OPTION_ROWS(o.lights),
         ENVIRONMENT_OPTION_ROWS(o.environment),
         SCENE_CAMERA_OPTION_ROWS(o.camera),
-        SCENE_STRICT_OPTION_ROW(o.load),
+        SCENE_LOAD_OPTION_ROWS(o.load),
         OVERRIDE_OPTION_ROW(o.materials),
         IMAGE_DISPLAY_OPTION_ROWS(o.exposure, o.exposure_given, o.stops, o.tone),
         { "from", 0, CLI_TEXT, &o.from, "FILE",

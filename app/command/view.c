@@ -43,7 +43,9 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         if (!view_read_shot(a->from, s, error))
             return false;
         o->keep_lights = true;
+        o->load.up = s->up;
     } else {
+        s->up = o->load.up;
         s->tone = a->tone;
         s->exposure = (a->exposure_given ? a->exposure : 1) * image_exposure_of_stops(a->stops);
         o->expose = !a->exposure_given;
@@ -102,7 +104,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         ENVIRONMENT_OPTION_ROWS(o->environment),
         SCENE_CAMERA_OPTION_ROWS(o->camera),
-        SCENE_STRICT_OPTION_ROW(o->load),
+        SCENE_LOAD_OPTION_ROWS(o->load),
         OVERRIDE_OPTION_ROW(a.materials),
         IMAGE_DISPLAY_OPTION_ROWS(a.exposure, a.exposure_given, a.stops, a.tone),
         { "samples", 0, CLI_INT, &o->settings.samples, "N", "samples a pixel, when nothing moves",

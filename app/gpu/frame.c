@@ -39,12 +39,42 @@ void gpu_sample_offset(int index, int count, float offset[2]) {
     }
 }
 
+/* Of the farthest triangle along the view; above 0. */
+static float farthest(const gpu_renderer *r, const shared_frame *block) {
+    float reach = r->near;
+    for (int corner = 0; corner < 8; corner++) {
+        float at[3];
+        for (int i = 0; i < 3; i++)
+            at[i] = (corner >> i & 1 ? r->maximum : r->minimum)[i] - block->eye[i];
+        reach = fmaxf(reach, dot(at, block->forward));
+    }
+    return reach;
+}
+
 /* Rows of the clip matrix: x right, y down (row 0 of an image is its top), depth = near /
- * distance, w = distance. */
+ * distance, w = distance; of parallel rays depth = 1 - distance / (2 farthest), w = 1. */
+static void fill_clip(shared_frame *b, float half_width, float half_height) {
+    const bool parallel = b->forward[3] > 0;
+    float rows[4][4] = { { 0 } };
+    for (int i = 0; i < 3; i++) {
+        rows[2][i] = parallel ? -0.5f / b->eye[3] * b->forward[i] : 0;
+        rows[3][i] = parallel ? 0 : b->forward[i];
+        rows[0][i] = b->right[i] / (half_width * half_width) - b->jitter[0] * rows[3][i];
+        rows[1][i] = b->down[i] / (half_height * half_height) - b->jitter[1] * rows[3][i];
+    }
+    const float constant[4] = { parallel ? -b->jitter[0] : 0, parallel ? -b->jitter[1] : 0,
+                                parallel ? 1 : b->eye[3], parallel ? 1 : 0 };
+    for (int row = 0; row < 4; row++) {
+        rows[row][3] = constant[row] - dot(rows[row], b->eye);
+        for (int column = 0; column < 4; column++)
+            b->clip_from_world[4 * column + row] = rows[row][column];
+    }
+}
+
 bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float offset[2],
                     shared_frame *block, cli_error *error) {
     const scene_camera *camera = &frame->camera;
-    const float half_height = tanf(0.5f * camera->fov);
+    const float half_height = 0.5f * scene_camera_height(camera, 1);
     const float half_width = half_height * (float)frame->width / (float)frame->height;
     memset(block, 0, sizeof *block);
     memcpy(block->eye, camera->eye, sizeof camera->eye);
@@ -55,6 +85,10 @@ bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float o
     if (!scale_to(block->forward, 1) || !scale_to(block->right, half_width) ||
         !scale_to(block->down, half_height))
         return cli_fail(error, "camera", "it looks along its up direction, or at itself");
+    if (camera->height > 0) {
+        block->eye[3] = farthest(r, block);
+        block->forward[3] = 1;
+    }
     memcpy(block->background, frame->background, sizeof frame->background);
     gpu_describe_environment(r, frame, block->surroundings);
     block->size_lights[0] = (float)frame->width;
@@ -63,18 +97,7 @@ bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float o
 
     block->jitter[0] = 2 * offset[0] / (float)frame->width;
     block->jitter[1] = 2 * offset[1] / (float)frame->height;
-
-    float rows[4][4] = { { 0 } };
-    for (int i = 0; i < 3; i++) {
-        rows[3][i] = block->forward[i];
-        rows[0][i] = block->right[i] / (half_width * half_width) - block->jitter[0] * rows[3][i];
-        rows[1][i] = block->down[i] / (half_height * half_height) - block->jitter[1] * rows[3][i];
-    }
-    for (int row = 0; row < 4; row++) {
-        rows[row][3] = row == 2 ? r->near : -dot(rows[row], block->eye);
-        for (int column = 0; column < 4; column++)
-            block->clip_from_world[4 * column + row] = rows[row][column];
-    }
+    fill_clip(block, half_width, half_height);
     return true;
 }
 

@@ -132,7 +132,7 @@ static lmp_rgb decode_nothing(const gpu_gbuffer *g, size_t x, const gpu_row *row
     return (lmp_rgb) { background[0], background[1], background[2] };
 }
 
-/* Positions and views of every pixel; what is no surface is nonsense. */
+/* Positions and views of every pixel, as camera.glsl has them; what is no surface is nonsense. */
 static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
     const shared_frame *b = &g->block;
     const float *restrict depth = g->depth + (size_t)y * (size_t)g->width;
@@ -140,10 +140,14 @@ static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
     float *restrict pz = row->position[2];
     float *restrict vx = row->view[0], *restrict vy = row->view[1], *restrict vz = row->view[2];
     const float v = ((float)y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
-    const float left[3] = { b->forward[0] + b->down[0] * v, b->forward[1] + b->down[1] * v,
-                            b->forward[2] + b->down[2] * v };
-    const float right[3] = { b->right[0], b->right[1], b->right[2] };
-    const float eye[4] = { b->eye[0], b->eye[1], b->eye[2], b->eye[3] };
+    const float parallel = b->forward[3], spread = 1 - parallel, scale = b->eye[3];
+    float from[3], left[3], aside[3], right[3]; /* the row's first ray, and what a column adds */
+    for (int i = 0; i < 3; i++) {
+        from[i] = b->eye[i] + b->down[i] * v * parallel;
+        left[i] = b->forward[i] + b->down[i] * v * spread;
+        aside[i] = b->right[i] * parallel;
+        right[i] = b->right[i] * spread;
+    }
     const float across = 2 / b->size_lights[0], start = 0.5f * across - 1 + b->jitter[0];
     const int width = g->width;
 #pragma omp simd
@@ -151,11 +155,11 @@ static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
         const float u = (float)x * across + start;
         const float rx = left[0] + right[0] * u, ry = left[1] + right[1] * u;
         const float rz = left[2] + right[2] * u;
-        const float distance = eye[3] / depth[x];
+        const float distance = parallel > 0 ? 2 * scale * (1 - depth[x]) : scale / depth[x];
         const float back = -1 / sqrtf(rx * rx + ry * ry + rz * rz);
-        px[x] = eye[0] + rx * distance;
-        py[x] = eye[1] + ry * distance;
-        pz[x] = eye[2] + rz * distance;
+        px[x] = from[0] + aside[0] * u + rx * distance;
+        py[x] = from[1] + aside[1] * u + ry * distance;
+        pz[x] = from[2] + aside[2] * u + rz * distance;
         vx[x] = rx * back;
         vy[x] = ry * back;
         vz[x] = rz * back;

@@ -187,8 +187,9 @@ struct gpu_renderer {
     GLuint backdrop, environment_block;                  /* texture, buffer; or 0 */
     int environment_bands;                               /* that the block was made for */
     lmp_window environment_window;
-    float near;          /* distance of the near plane */
-    gpu_gbuffer gbuffer; /* of host shaders */
+    float near;                   /* distance of the near plane */
+    float minimum[3], maximum[3]; /* of the scene */
+    gpu_gbuffer gbuffer;          /* of host shaders */
 };
 
 /* --- targets.c ----------------------------------------------------------------------------------

@@ -69,6 +69,8 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
     glNamedBufferStorage(r->lights_block, sizeof(shared_lights), NULL, GL_DYNAMIC_STORAGE_BIT);
     r->ggx_block = create_ggx_block();
     glCreateQueries(GL_TIMESTAMP, GPU_TIMESTAMPS, r->timestamps);
+    memcpy(r->minimum, world->minimum, sizeof r->minimum);
+    memcpy(r->maximum, world->maximum, sizeof r->maximum);
     float extent = 0;
     for (int i = 0; i < 3; i++)
         extent = fmaxf(extent, world->maximum[i] - world->minimum[i]);

@@ -13,13 +13,16 @@ typedef struct frame {
     const reference_tracer *tracer;
     const reference_environment *environment; /* or NULL */
     reference_vec eye, forward, right, up;    /* right and up reach to the image's edges */
+    double parallel;                          /* 1: the rays are, 0: they part from the eye */
     image *radiance, *standard_error;
 } frame;
 
 static void set_camera(frame *f) {
     const scene_camera *camera = &f->settings->camera;
-    const double top = tan((double)camera->fov / 2);
+    const double top =
+        camera->height > 0 ? (double)camera->height / 2 : tan((double)camera->fov / 2);
     const double side = top * f->settings->width / f->settings->height;
+    f->parallel = camera->height > 0;
     f->eye = reference_from_floats(camera->eye);
     f->forward =
         reference_normalize(reference_subtract(reference_from_floats(camera->target), f->eye));
@@ -29,22 +32,30 @@ static void set_camera(frame *f) {
     f->up = reference_scale(top, reference_cross(right, f->forward));
 }
 
-static reference_vec pixel_direction(const frame *f, int x, int y) {
+typedef struct pixel_ray {
+    reference_vec from, direction;
+} pixel_ray;
+
+static pixel_ray ray_through(const frame *f, int x, int y) {
     const double across = 2 * (x + 0.5) / f->settings->width - 1;
     const double along = 1 - 2 * (y + 0.5) / f->settings->height;
-    return reference_normalize(
-        reference_add(f->forward, reference_add(reference_scale(across, f->right),
-                                                reference_scale(along, f->up))));
+    const reference_vec aside =
+        reference_add(reference_scale(across, f->right), reference_scale(along, f->up));
+    return (pixel_ray) {
+        reference_add(f->eye, reference_scale(f->parallel, aside)),
+        reference_normalize(reference_add(f->forward, reference_scale(1 - f->parallel, aside))),
+    };
 }
 
 /* The nearest glowing sphere that the camera sees before `distance`, or NULL. */
-static const scene_light *seen_light(const frame *f, reference_vec direction, double distance) {
+static const scene_light *seen_light(const frame *f, const pixel_ray *ray, double distance) {
     const scene_light *nearest = NULL;
     for (size_t i = 0; i < f->scene->light_count; i++) {
         const scene_light *light = &f->scene->lights[i];
-        if (!scene_light_is_drawn(light) || !reference_light_is_hit(light, f->eye, direction))
+        if (!scene_light_is_drawn(light) ||
+            !reference_light_is_hit(light, ray->from, ray->direction))
             continue;
-        const double at = reference_light_distance(light, f->eye, direction);
+        const double at = reference_light_distance(light, ray->from, ray->direction);
         if (at < distance) {
             distance = at;
             nearest = light;
@@ -125,9 +136,9 @@ static void store(image *pixels, size_t pixel, int channel, double value) {
 static void trace_pixel(const frame *f, worker *own, int x, int y) {
     const reference_settings *settings = f->settings;
     const size_t pixel = (size_t)y * (size_t)settings->width + (size_t)x;
-    const reference_vec direction = pixel_direction(f, x, y);
-    const reference_hit hit = reference_tracer_see(f->tracer, f->eye, direction);
-    const scene_light *light = seen_light(f, direction, hit.distance);
+    const pixel_ray ray = ray_through(f, x, y);
+    const reference_hit hit = reference_tracer_see(f->tracer, ray.from, ray.direction);
+    const scene_light *light = seen_light(f, &ray, hit.distance);
     reference_result result = { .samples = 0 };
     double emission[3] = { 0 };
     bool clamped = false;
@@ -136,11 +147,11 @@ static void trace_pixel(const frame *f, worker *own, int x, int y) {
         for (int c = 0; c < 3; c++)
             emission[c] = (double)radiance[c];
     } else if (!isfinite(hit.distance)) {
-        see_backdrop(f, direction, emission);
+        see_backdrop(f, ray.direction, emission);
     } else {
         const reference_stop stop = { settings->samples, settings->error };
         reference_surface surface;
-        describe(f, own, &hit, reference_scale(-1, direction), &surface, emission);
+        describe(f, own, &hit, reference_scale(-1, ray.direction), &surface, emission);
         clamped = surface.band_limited;
         result = reference_estimate(&own->estimator, &surface, &stop,
                                     reference_hash(settings->seed, pixel));

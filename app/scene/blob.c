@@ -170,6 +170,7 @@ static bool views_fit(const blob_header *header) {
         if (!name_fits(cameras[i].name) || !all_finite(cameras[i].eye, 3) ||
             !all_finite(cameras[i].target, 3) || !all_finite(cameras[i].up, 3) ||
             !(cameras[i].fov > 0.0f && cameras[i].fov < 3.1415f) ||
+            !(cameras[i].height >= 0.0f && cameras[i].height < 1e17f) ||
             !(cameras[i].aspect >= 0.0f && cameras[i].aspect < 1e6f))
             return false;
     const scene_light *lights = blob_items(header, BLOB_LIGHTS);

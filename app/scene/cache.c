@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-file_hash cache_key(const char *folder, const char *name, const void *data, size_t size) {
-    file_hash key = { BLOB_VERSION, 0 };
+file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up) {
+    file_hash key = { BLOB_VERSION, (uint64_t)up };
     file_hash_add(&key, folder, strlen(folder));
     file_hash_add(&key, name, strlen(name));
     file_hash_add(&key, data, size);

@@ -42,8 +42,14 @@ bool scene_place_camera(const scene *world, const scene_camera_options *o, const
         memcpy(camera->eye, o->eye, sizeof camera->eye);
     if (o->target_given)
         memcpy(camera->target, o->target, sizeof camera->target);
-    if (o->fov_given)
+    if (o->fov_given && o->height_given)
+        return cli_fail(error, "camera", "--fov and --orthographic exclude each other");
+    if (o->fov_given) {
         camera->fov = o->fov * PI / 180;
+        camera->height = 0;
+    }
+    if (o->height_given)
+        camera->height = o->height;
     if (o->eye_given || o->target_given) {
         memcpy(camera->up, (const float[3]) { 0, 1, 0 }, sizeof camera->up);
         if (memcmp(camera->eye, camera->target, sizeof camera->eye) == 0)

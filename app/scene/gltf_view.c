@@ -38,6 +38,20 @@ static lmp_vec3 axis_of(const double m[16], int column, float sign) {
     return vec((float)(a[0] * scale), (float)(a[1] * scale), (float)(a[2] * scale));
 }
 
+/* An angle, or by parallel rays half of what is seen across and up. */
+static bool set_lens(const cJSON *entry, scene_camera *camera) {
+    const cJSON *parallel = gltf_member(entry, "orthographic");
+    const double across = fabs(gltf_number(parallel, "xmag", 1.0));
+    const double up = fabs(gltf_number(parallel, "ymag", 1.0));
+    const double fov = gltf_number(gltf_member(entry, "perspective"), "yfov", 0.7854);
+    camera->fov = (float)fmin(fov, 3.1);
+    if (!parallel)
+        return fov < M_PI;
+    camera->height = (float)(2.0 * up);
+    camera->aspect = (float)(across / up);
+    return up > 1e-6 && up < 1e12 && camera->aspect > 1e-6f && camera->aspect < 1e6f;
+}
+
 static bool add_camera(const gltf *document, size_t node, const scene_box *box,
                        scene_builder *builder, cli_error *error) {
     const double *m = document->nodes[node].world;
@@ -58,17 +72,8 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     vec_store(eye, camera->eye);
     vec_store(vec_add(eye, vec_scale(forward, reach)), camera->target);
     vec_store(up, camera->up);
-    if (gltf_member(entry, "orthographic"))
-        builder_left_out(builder, "parallel rays", "orthographic camera", 1);
-    const double height = gltf_number(gltf_member(entry, "orthographic"), "ymag", 1.0);
-    const double wide = 2.0 * atan(height / (double)reach);
-    const double fov = strcmp(gltf_text(entry, "type"), "orthographic") == 0
-                           ? wide
-                           : gltf_number(gltf_member(entry, "perspective"), "yfov", 0.7854);
-    if (!(fov > 0.0 && fov < M_PI))
-        return gltf_fail(document, GLTF_CAMERAS, index, "has an impossible field of view", error);
-    camera->fov = (float)fmin(fov, 3.1);
-    return true;
+    return set_lens(entry, camera) ||
+           gltf_fail(document, GLTF_CAMERAS, index, "has an impossible field of view", error);
 }
 
 /* A radius in the extras of the light, or of the node that holds it, makes a point a sphere. */

@@ -8,6 +8,7 @@
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
 #include "app/scene/obj.h"
+#include "app/scene/up.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -32,6 +33,7 @@ struct import_job {
     void *data;
     size_t size;
     import_reader read;
+    int up;
     source_set sources;
 };
 
@@ -129,8 +131,11 @@ static bool import_in_child(void *context, int output, cli_error *error) {
     import_job *job = context;
     job->sources.sandboxed = true;
     scene_builder builder = { 0 };
-    if (!job->read(job, &builder, error) || !check_made(job, &builder, error) ||
-        !emission_add_lights(&builder, job->path, error) || !check_made(job, &builder, error))
+    if (!job->read(job, &builder, error))
+        return false;
+    up_stand(&builder, job->up);
+    if (!check_made(job, &builder, error) || !emission_add_lights(&builder, job->path, error) ||
+        !check_made(job, &builder, error))
         return false;
     if (!add_sources(job, &builder) || builder.out_of_memory || !write_blob(&builder, output))
         return cli_fail(error, job->path, "does not fit into memory");
@@ -211,13 +216,15 @@ static bool lacks_files(const void *block) {
     return false;
 }
 
-bool import_scene(const char *path, bool no_cache, scene *s, cli_error *error) {
+bool import_scene(const char *path, const scene_options *options, scene *s, cli_error *error) {
+    const bool no_cache = options->no_cache;
     import_job job;
     void *block = NULL;
     size_t size = 0;
     bool ok = prepare(path, &job, error), cached = false;
+    job.up = options->up;
     if (ok) {
-        const file_hash key = cache_key(job.folder, job.name, job.data, job.size);
+        const file_hash key = cache_key(job.folder, job.name, job.data, job.size, job.up);
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
         sources_free(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);

@@ -5,6 +5,6 @@
 
 #include "app/scene/scene.h"
 
-bool import_scene(const char *path, bool no_cache, scene *scene, cli_error *error);
+bool import_scene(const char *path, const scene_options *options, scene *scene, cli_error *error);
 
 #endif

@@ -2,6 +2,7 @@
 /* load.c - a scene by its name: built in, or from a file. */
 #include "app/scene/builtin.h"
 #include "app/scene/import.h"
+#include "app/scene/up.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,11 +11,12 @@
 
 #define BUILTIN_PREFIX "builtin:"
 
-static bool load_builtin(const char *name, scene *s, cli_error *error) {
+static bool load_builtin(const char *name, int up, scene *s, cli_error *error) {
     scene_builder builder = { 0 };
     void *block = NULL;
     size_t size = 0;
     bool ok = builtin_make(name + strlen(BUILTIN_PREFIX), &builder, error);
+    up_stand(&builder, up);
     if (ok && !builder_pack(&builder, &block, &size))
         ok = cli_fail(error, name, "does not fit into memory (ask for fewer tiles)");
     builder_free(&builder);
@@ -59,12 +61,13 @@ static bool tell_left_out(const scene *s, bool strict, cli_error *error) {
 }
 
 bool scene_load(const char *name, const scene_options *options, scene *s, cli_error *error) {
+    const scene_options chosen = options ? *options : (scene_options) { 0 };
     memset(s, 0, sizeof *s);
     if (strncmp(name, BUILTIN_PREFIX, strlen(BUILTIN_PREFIX)) == 0)
-        return load_builtin(name, s, error);
-    if (!import_scene(name, options && options->no_cache, s, error))
+        return load_builtin(name, chosen.up, s, error);
+    if (!import_scene(name, &chosen, s, error))
         return hint_builtin(name, error);
-    if (tell_left_out(s, options && options->strict, error))
+    if (tell_left_out(s, chosen.strict, error))
         return true;
     scene_free(s);
     return false;

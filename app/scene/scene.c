@@ -45,11 +45,22 @@ static float framing_distance(const scene *s, lmp_vec3 center, lmp_vec3 from, fl
     return fmaxf(distance, radius);
 }
 
+float scene_camera_height(const scene_camera *camera, float distance) {
+    return camera->height > 0.0f ? camera->height : 2.0f * distance * tanf(0.5f * camera->fov);
+}
+
+/* Narrower images see more above and below. */
+static void widen(scene_camera *camera, float aspect) {
+    if (!(aspect > 0.0f && aspect < camera->aspect))
+        return;
+    camera->height *= camera->aspect / aspect;
+    camera->fov = 2.0f * atanf(tanf(0.5f * camera->fov) * camera->aspect / aspect);
+}
+
 scene_camera scene_default_camera(const scene *s, float aspect) {
     if (s->camera_count > 0) {
         scene_camera first = s->cameras[0];
-        if (aspect > 0.0f && aspect < first.aspect)
-            first.fov = 2.0f * atanf(tanf(0.5f * first.fov) * first.aspect / aspect);
+        widen(&first, aspect);
         return first;
     }
     const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);

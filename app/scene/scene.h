@@ -69,6 +69,7 @@ typedef struct scene_camera {
     char name[SCENE_NAME_SIZE];
     float eye[3], target[3], up[3];
     float fov;    /* vertical field of view, radians */
+    float height; /* of all that it sees by parallel rays (orthographic), without fov; 0: by fov */
     float aspect; /* the image it was framed for, width / height; 0: any */
 } scene_camera;
 
@@ -116,7 +117,11 @@ typedef struct scene {
     const char *origin; /* the name it was loaded by, for messages; the caller's string */
 } scene;
 
+enum { SCENE_UP_Y, SCENE_UP_Z }; /* the file's axis that points up */
+extern const char *const scene_up_names[];
+
 typedef struct scene_options {
+    int up;        /* the scene is rotated so that this is y */
     bool no_cache; /* neither read nor write the cache */
     bool strict;   /* a file of which something is left out is an error */
 } scene_options;
@@ -129,8 +134,14 @@ const char *scene_builtin_name(size_t i);
 bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);
 void scene_free(scene *scene);
 
-/* The row of a command's option table for scene_options.strict. */
-#define SCENE_STRICT_OPTION_ROW(variable)                                                          \
+/* The rows of a command's option table that fill a scene_options variable. */
+#define SCENE_LOAD_OPTION_ROWS(variable)                                                           \
+    { .name = "up",                                                                                \
+      .kind = CLI_CHOICE,                                                                          \
+      .target = &(variable).up,                                                                    \
+      .argument = "AXIS",                                                                          \
+      .help = "of the scene file that points up; the scene is rotated so that y does",             \
+      .choices = scene_up_names },                                                                 \
     {                                                                                              \
         .name = "strict", .kind = CLI_FLAG, .target = &(variable).strict,                          \
         .help = "refuse a scene of which something would be left out"                              \
@@ -205,15 +216,18 @@ typedef struct scene_lights_options {
 /* Gives the scene the lights that the command line asks for. */
 bool scene_apply_lights(scene *scene, const scene_lights_options *options, cli_error *error);
 
+/* The height of what an image shows at a distance along the view. */
+float scene_camera_height(const scene_camera *camera, float distance);
+
 /* The scene's first camera, or one that frames its bounds. In an image narrower than the camera's
- * aspect the field of view is widened, so that nothing is cut off at the sides. */
+ * aspect it sees more, so that nothing is cut off at the sides. */
 scene_camera scene_default_camera(const scene *scene, float aspect);
 
 /* The camera a command line asks for. Zero is the default: scene_default_camera. */
 typedef struct scene_camera_options {
     const char *name; /* a camera of the scene, by name or number from 0 */
-    float eye[3], target[3], fov;
-    bool eye_given, target_given, fov_given;
+    float eye[3], target[3], fov, height;
+    bool eye_given, target_given, fov_given, height_given;
 } scene_camera_options;
 
 /* The rows of a command's option table that fill a scene_camera_options variable. */
@@ -239,10 +253,18 @@ typedef struct scene_camera_options {
           .minimum = -(double)LMP_LENGTH_MAX,                                                      \
           .maximum = (double)LMP_LENGTH_MAX,                                                       \
           .given = &(variable).target_given },                                                     \
+        { .name = "fov",                                                                           \
+          .kind = CLI_FLOAT,                                                                       \
+          .target = &(variable).fov,                                                               \
+          .argument = "DEGREES",                                                                   \
+          .help = "its vertical field of view",                                                    \
+          .minimum = 1,                                                                            \
+          .maximum = 170,                                                                          \
+          .given = &(variable).fov_given },                                                        \
     {                                                                                              \
-        .name = "fov", .kind = CLI_FLOAT, .target = &(variable).fov, .argument = "DEGREES",        \
-        .help = "its vertical field of view", .minimum = 1, .maximum = 170,                        \
-        .given = &(variable).fov_given                                                             \
+        .name = "orthographic", .kind = CLI_FLOAT, .target = &(variable).height,                   \
+        .argument = "HEIGHT", .help = "see by parallel rays so much of the scene, instead",        \
+        .minimum = 1e-6, .maximum = 1e12, .given = &(variable).height_given                        \
     }
 
 /* Finds the camera for an image of `size` pixels, upright and not inside its own target. */

@@ -51,11 +51,15 @@ static void move(scene_camera *camera, lmp_vec3 by) {
 
 void view_pan(scene_camera *camera, float right, float up) {
     const frame f = frame_of(camera);
-    const float height = 2 * f.distance * tanf(0.5f * camera->fov);
+    const float height = scene_camera_height(camera, f.distance);
     move(camera, vec_add(vec_scale(f.right, right * height), vec_scale(f.up, up * height)));
 }
 
 void view_dolly(scene_camera *camera, float factor, float nearest) {
+    if (camera->height > 0) {
+        camera->height = fminf(fmaxf(camera->height * factor, nearest), 0.1f * LMP_LENGTH_MAX);
+        return;
+    }
     const frame f = frame_of(camera);
     const float distance = fminf(fmaxf(f.distance * factor, nearest), 0.1f * LMP_LENGTH_MAX);
     const lmp_vec3 eye = vec_add(f.eye, vec_scale(f.forward, f.distance * (1 - factor)));
@@ -73,6 +77,8 @@ void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspec
     const frame f = frame_of(camera);
     const float half = atanf(tanf(0.5f * camera->fov) * fminf(aspect, 1));
     const float distance = fmaxf(radius, 1e-6f) / sinf(half);
+    if (camera->height > 0)
+        camera->height = 2 * fmaxf(radius, 1e-6f) / fminf(aspect, 1);
     vec_store(center, camera->target);
     vec_store(vec_sub(center, vec_scale(f.forward, distance)), camera->eye);
 }
@@ -82,21 +88,24 @@ void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspec
 
 view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y) {
     const frame f = frame_of(camera);
-    const float tall = tanf(0.5f * camera->fov), wide = tall * (float)width / (float)height;
+    const float tall = 0.5f * scene_camera_height(camera, 1),
+                wide = tall * (float)width / (float)height;
     const float right = wide * (float)(2 * x / width - 1), up = tall * (float)(1 - 2 * y / height);
-    const lmp_vec3 direction =
-        vec_add(f.forward, vec_add(vec_scale(f.right, right), vec_scale(f.up, up)));
-    return (view_ray) { f.eye, vec_normalize(direction, f.forward) };
+    const lmp_vec3 aside = vec_add(vec_scale(f.right, right), vec_scale(f.up, up));
+    if (camera->height > 0)
+        return (view_ray) { vec_add(f.eye, aside), f.forward, 2 * tall / (float)height, 0 };
+    return (view_ray) { f.eye, vec_normalize(vec_add(f.forward, aside), f.forward), 0,
+                        2 * tall / (float)height };
 }
 
 bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
                   double *y, double *scale) {
     const frame f = frame_of(camera);
     const lmp_vec3 way = vec_sub(point, f.eye);
-    const float depth = vec_dot(way, f.forward), tall = tanf(0.5f * camera->fov);
+    const float depth = vec_dot(way, f.forward);
     if (!(depth > 0))
         return false;
-    *scale = 0.5 * height / (double)(tall * depth);
+    *scale = height / (double)scene_camera_height(camera, depth);
     *x = 0.5 * width + (double)vec_dot(way, f.right) * *scale;
     *y = 0.5 * height - (double)vec_dot(way, f.up) * *scale;
     return true;
@@ -105,7 +114,7 @@ bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 po
 /* --- picking ------------------------------------------------------------------------------------
  */
 
-int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float slack,
+int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float pixels,
                     float *distance) {
     int nearest = -1;
     for (size_t i = 0; i < count; i++) {
@@ -114,7 +123,7 @@ int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count
         const lmp_vec3 way = vec_sub(lights[i].emitter.position, ray->from);
         const float along = vec_dot(way, ray->direction);
         const lmp_vec3 miss = vec_sub(way, vec_scale(ray->direction, along));
-        const float reach = lights[i].emitter.radius + slack * along;
+        const float reach = lights[i].emitter.radius + pixels * (ray->pixel + ray->spread * along);
         /* not the light that one is inside of: it would catch every ray */
         if (!(along > 0) || vec_length(way) <= lights[i].emitter.radius ||
             !(vec_dot(miss, miss) <= reach * reach))

@@ -14,7 +14,8 @@ void view_look_round(scene_camera *camera, float right, float up);
 /* Moves eye and target by parts of the image's height at the target. */
 void view_pan(scene_camera *camera, float right, float up);
 
-/* Brings the eye nearer to the target by a factor < 1; below `nearest`, the target moves on. */
+/* Brings the eye nearer to the target by a factor < 1; below `nearest`, the target moves on. Of
+ * parallel rays the height is what changes. */
 void view_dolly(scene_camera *camera, float factor, float nearest);
 
 /* Moves eye and target by lengths. */
@@ -26,6 +27,7 @@ void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspec
 /* The ray through a position in the image: x to the right and y down from the upper left corner. */
 typedef struct view_ray {
     lmp_vec3 from, direction; /* unit */
+    float pixel, spread;      /* a pixel's height at the start, and what a length along it adds */
 } view_ray;
 view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y);
 
@@ -33,9 +35,9 @@ view_ray view_ray_through(const scene_camera *camera, int width, int height, dou
 bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 point, double *x,
                   double *y, double *scale);
 
-/* Nearest light with a position that the ray meets, or -1. Hidden ones count too. slack: what each
- * sphere's radius grows by a length along the ray, so that far ones can be hit. */
-int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float slack,
+/* Nearest light with a position that the ray meets, or -1. Hidden ones count too. pixels: what
+ * each sphere's radius grows by, so that far ones can be hit. */
+int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float pixels,
                     float *distance);
 
 /* Nearest triangle that the ray meets: its mesh, or -1. */

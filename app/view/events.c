@@ -34,14 +34,19 @@ static view_ray pointer_ray(const view_state *s) {
 /* --- the pointer --------------------------------------------------------------------------------
  */
 
+/* Through the middle of the image. */
+static view_ray middle_ray(const view_state *s) {
+    return view_ray_through(&s->now.camera, s->now.width, s->now.height, 0.5 * s->now.width,
+                            0.5 * s->now.height);
+}
+
 static int light_at_pointer(const view_state *s) {
     static view_settings shown;
     const view_ray ray = pointer_ray(s);
-    const float slack = PICK_PIXELS * 2 * tanf(0.5f * s->now.camera.fov) / (float)s->now.height;
     float light_distance = 0;
     view_shown(s, &shown);
     const int light =
-        view_pick_light(&ray, shown.lights, shown.light_count, slack, &light_distance);
+        view_pick_light(&ray, shown.lights, shown.light_count, PICK_PIXELS, &light_distance);
     if (light < 0)
         return -1;
     const view_hit hit = view_pick_surface(&ray, s->world);
@@ -58,7 +63,8 @@ static void grab_light(view_state *s, int index) {
         return;
     s->drag = VIEW_DRAG_LIGHT;
     s->selected = index;
-    s->grab_depth = 0.5f * (float)((double)s->now.height / scale) / tanf(0.5f * s->now.camera.fov);
+    const view_ray middle = middle_ray(s);
+    s->grab_depth = vec_dot(vec_sub(shown.emitter.position, middle.from), middle.direction);
     s->grab_x = s->x - x;
     s->grab_y = s->y - y;
     s->grab = vec_sub(s->now.lights[index].emitter.position, shown.emitter.position);
@@ -69,9 +75,7 @@ static void drag_light(view_state *s) {
     const scene_camera *camera = &s->now.camera;
     const view_ray ray =
         view_ray_through(camera, s->now.width, s->now.height, s->x - s->grab_x, s->y - s->grab_y);
-    const view_ray middle = view_ray_through(camera, s->now.width, s->now.height,
-                                             0.5 * s->now.width, 0.5 * s->now.height);
-    const float along = vec_dot(ray.direction, middle.direction);
+    const float along = vec_dot(ray.direction, middle_ray(s).direction);
     const lmp_vec3 to = vec_add(ray.from, vec_scale(ray.direction, s->grab_depth / along));
     s->now.lights[s->selected].emitter.position = vec_add(to, s->grab);
     s->lights_edited = true;

@@ -9,7 +9,7 @@ bool view_render(const view_settings *settings, const char *device, const char *
     view_compositor *compositor = NULL;
     view_statistics statistics;
     if (!image_check_path(path, error) ||
-        !scene_load(settings->scene, &(scene_options) { 0 }, &world, error))
+        !scene_load(settings->scene, &(scene_options) { .up = settings->up }, &world, error))
         return false;
     const bool ok = gpu_context_create(device, &context, error) &&
                     (compositor = view_compositor_create(&context, &world, error)) &&

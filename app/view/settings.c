@@ -58,6 +58,8 @@ static void add_camera(cJSON *root, const scene_camera *camera) {
     file_json_add_floats(object, "target", camera->target, 3);
     file_json_add_floats(object, "up", camera->up, 3);
     file_json_add_floats(object, "fov", &camera->fov, 1);
+    if (camera->height > 0)
+        file_json_add_floats(object, "height", &camera->height, 1);
 }
 
 static void add_shading(cJSON *array, const view_shading *shading) {
@@ -71,6 +73,8 @@ static void add_shading(cJSON *array, const view_shading *shading) {
 cJSON *view_settings_to_json(const view_settings *s) {
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "scene", s->scene);
+    if (s->up != SCENE_UP_Y)
+        cJSON_AddStringToObject(root, "up", scene_up_names[s->up]);
     cJSON_AddNumberToObject(root, "width", s->width);
     cJSON_AddNumberToObject(root, "height", s->height);
     cJSON_AddNumberToObject(root, "samples", s->samples);
@@ -141,6 +145,12 @@ static bool read_choice(const cJSON *object, const char *name, const char *const
     return false;
 }
 
+/* Absent where the scene is as its file has it. */
+static bool read_up(const cJSON *root, int *up) {
+    *up = SCENE_UP_Y;
+    return !file_json_member(root, "up") || read_choice(root, "up", scene_up_names, up);
+}
+
 /* Absent from the screenshots of before there was a choice. */
 static bool read_tone(const cJSON *root, int *tone) {
     *tone = 0;
@@ -153,7 +163,9 @@ static bool read_camera(const cJSON *root, scene_camera *camera) {
     return read_floats(object, "eye", -far, far, camera->eye) &&
            read_floats(object, "target", -far, far, camera->target) &&
            read_floats(object, "up", -far, far, camera->up) &&
-           read_float(object, "fov", 0.001, 3.1, &camera->fov);
+           read_float(object, "fov", 0.001, 3.1, &camera->fov) &&
+           (!file_json_member(object, "height") ||
+            read_float(object, "height", 1e-6, far, &camera->height));
 }
 
 static bool read_shading(const cJSON *object, view_shading *shading) {
@@ -228,6 +240,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
     int split = 0;
     const char *wrong = !cJSON_IsObject(root)                                          ? "settings"
                         : !read_path(root, "scene", s->scene)                          ? "scene"
+                        : !read_up(root, &s->up)                                       ? "up"
                         : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"

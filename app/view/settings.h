@@ -20,6 +20,7 @@ typedef struct view_shading {
 
 typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
+    int up; /* as in scene_options */
     int width, height;
     int samples;    /* a pixel */
     float exposure; /* a factor on radiance */

@@ -106,6 +106,19 @@ static void both_devices_draw_the_same_image(void **state) {
     }
 }
 
+static void parallel_rays_are_drawn_alike(void **state) {
+    (void)state;
+    fixture f;
+    open_fixture(&f, "builtin:balls");
+    lmp_preintegrated_lobe *lobe = lobe_of(&f.frame);
+    f.frame.lobes = lobe;
+    f.frame.camera.height = 3;
+    f.frame.samples = 2;
+    check_every_method(&f);
+    lmp_preintegrated_lobe_destroy(lobe);
+    close_fixture(&f);
+}
+
 /* Its light on the surfaces and its image past them; lights beside it, and without them. */
 static void an_environment_is_drawn_alike(void **state) {
     (void)state;
@@ -261,6 +274,7 @@ static void a_hundred_bands_are_drawn_alike_by_sums_and_by_tables(void **state) 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_devices_draw_the_same_image),
+        cmocka_unit_test(parallel_rays_are_drawn_alike),
         cmocka_unit_test(an_environment_is_drawn_alike),
         cmocka_unit_test(preintegrated_images_are_those_of_coefficients),
         cmocka_unit_test(tabulated_materials_are_drawn_alike_by_sums_and_by_tables),

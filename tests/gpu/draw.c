@@ -144,6 +144,35 @@ static void positions_and_sides_are_where_the_camera_says(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
+/* 8 pixels a unit, at any distance; a light, too. */
+static void parallel_rays_see_the_same_from_everywhere(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    sheet.lights[0] = (scene_light) {
+        .emitter = { .position = { 0, 3, -50 }, .radius = 0.5f, .radiance = { 1, 2, 3 } }
+    };
+    gpu_renderer *renderer = open_renderer(world);
+    gpu_frame frame = look_at(world, 0, 1);
+    frame.camera.height = 8;
+    frame.light_count = 1;
+    for (int distance = 1; distance <= 1000; distance *= 10) {
+        frame.camera.eye[2] = (float)distance;
+        const gpu_pixel corner = pixel_at(renderer, &frame, 39, 24);
+        assert_int_equal(corner.kind, GPU_KIND_SURFACE);
+        assert_true(fabsf(corner.surface.position.x - 7.5f / 8) <= 1e-5f);
+        assert_true(fabsf(corner.surface.position.y - 7.5f / 8) <= 1e-5f);
+        assert_true(fabsf(corner.surface.position.z) <= 1e-6f * (float)distance);
+        assert_true(corner.surface.view.z == 1);
+        assert_int_equal(pixel_at(renderer, &frame, 40, 32).kind, GPU_KIND_NONE);
+        for (int row = 0; row < SIDE / 4; row++) /* 24 pixels above the middle, 4 of radius */
+            assert_int_equal(pixel_at(renderer, &frame, 32, row).kind,
+                             row >= 4 && row < 12 ? GPU_KIND_LIGHT : GPU_KIND_NONE);
+    }
+    sheet.lights[0].emitter.position.y = 0; /* behind the sheet */
+    assert_int_equal(pixel_at(renderer, &frame, 32, 32).kind, GPU_KIND_SURFACE);
+    gpu_renderer_destroy(renderer);
+}
+
 static void masks_cut_and_normal_maps_bend(void **state) {
     (void)state;
     const scene *world = make_sheets();
@@ -405,6 +434,7 @@ int main(void) {
                                             unknown_devices_are_refused_with_what_was_found) };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(positions_and_sides_are_where_the_camera_says),
+        cmocka_unit_test(parallel_rays_see_the_same_from_everywhere),
         cmocka_unit_test(masks_cut_and_normal_maps_bend),
         cmocka_unit_test(materials_are_those_of_the_library),
         cmocka_unit_test(light_spheres_are_exact_and_hide_what_is_behind),

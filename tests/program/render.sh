@@ -50,6 +50,13 @@ done
 "$PROGRAM" render builtin:balls $small --samples 4 -o "$WORK/smooth.png"
 cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"
 
+# parallel rays; and a scene that is rotated with its camera and lights looks the same
+"$PROGRAM" render builtin:balls $small -o "$WORK/parting.exr"
+"$PROGRAM" render builtin:balls $small --orthographic 3 -o "$WORK/parallel.exr"
+"$PROGRAM" render builtin:balls $small --orthographic 3 --up z -o "$WORK/up.exr"
+"$PROGRAM" compare "$WORK/up.exr" "$WORK/parallel.exr" --fail-above rmse=1e-4 || fail "--up z leaves something as it was"
+cmp -s "$WORK/parallel.exr" "$WORK/parting.exr" && fail "--orthographic changes nothing"
+
 # refusals: status, one line, nothing written
 refused() {
     status=$1

@@ -26,6 +26,8 @@ static void screenshots_keep_every_setting(void **unused) {
     key("h");
     state.now.width = 64;
     state.now.height = 48;
+    state.now.up = SCENE_UP_Z;
+    state.now.camera.height = 0.1f;
     if (!view_write_shot(&state.now, rgb8, path, &error) || !view_read_shot(path, &read, &error))
         fail_msg("%s", error.text);
     unlink(path);

@@ -42,6 +42,29 @@ static void lights_are_dragged_with_the_pointer(void **unused) {
     button(VIEW_RELEASE, VIEW_LEFT, false);
 }
 
+static void lights_are_dragged_by_parallel_rays(void **unused) {
+    (void)unused;
+    double x, y, scale;
+    scene_camera *camera = &state.now.camera;
+    const lmp_vec3 *center = &state.now.lights[0].emitter.position;
+    put_light();
+    camera->height = 8;
+    view_project(camera, 640, 480, *center, &x, &y, &scale);
+    CHECK_NEAR(60, scale, 1e-3);
+    at(x, y + 18); /* 15 pixels of radius, and 4 that one may miss it by */
+    button(VIEW_PRESS, VIEW_LEFT, false);
+    assert_int_equal(state.selected, 0);
+    const scene_light before = state.now.lights[0];
+    at(x, y + 78);
+    CHECK_NEAR(1, light_distance(&before, &state.now.lights[0]), 1e-4);
+    button(VIEW_RELEASE, VIEW_LEFT, false);
+    view_project(camera, 640, 480, *center, &x, &y, &scale);
+    at(x, y + 20);
+    button(VIEW_PRESS, VIEW_LEFT, false);
+    assert_int_equal(state.selected, -1);
+    button(VIEW_RELEASE, VIEW_LEFT, false);
+}
+
 /* A light that moves is dragged from where it is seen. */
 static void moving_lights_are_dragged_too(void **unused) {
     (void)unused;
@@ -183,13 +206,10 @@ static void suns_and_skies_are_not_picked(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(lights_are_dragged_with_the_pointer),
-        TEST(moving_lights_are_dragged_too),
-        TEST(lights_behind_a_surface_are_not_picked),
-        TEST(lights_change_as_the_keys_say),
-        TEST(lights_take_every_kind),
-        TEST(lights_are_directed_at_the_pointer),
-        TEST(suns_and_skies_are_not_picked),
+        TEST(lights_are_dragged_with_the_pointer), TEST(lights_are_dragged_by_parallel_rays),
+        TEST(moving_lights_are_dragged_too),       TEST(lights_behind_a_surface_are_not_picked),
+        TEST(lights_change_as_the_keys_say),       TEST(lights_take_every_kind),
+        TEST(lights_are_directed_at_the_pointer),  TEST(suns_and_skies_are_not_picked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,8 +81,7 @@ static void framing_shows_every_corner(void **unused) {
     }
 }
 
-static void rays_go_where_points_are_projected(void **unused) {
-    (void)unused;
+static void check_ray(void) {
     const view_ray ray = view_ray_through(&state.now.camera, 640, 480, 123, 45);
     const lmp_vec3 p = { ray.from.x + 7 * ray.direction.x, ray.from.y + 7 * ray.direction.y,
                          ray.from.z + 7 * ray.direction.z };
@@ -90,6 +89,30 @@ static void rays_go_where_points_are_projected(void **unused) {
     assert_true(view_project(&state.now.camera, 640, 480, p, &x, &y, &scale));
     CHECK_NEAR(123, x, 1e-2);
     CHECK_NEAR(45, y, 1e-2);
+}
+
+static void rays_go_where_points_are_projected(void **unused) {
+    (void)unused;
+    check_ray();
+    state.now.camera.height = 3;
+    check_ray();
+}
+
+/* Parallel rays: what is far is as large, and zooming changes the height. */
+static void parallel_rays_pan_zoom_and_frame(void **unused) {
+    (void)unused;
+    scene_camera *camera = &state.now.camera;
+    camera->height = 4;
+    const scene_camera before = *camera;
+    at(100, 100);
+    button(VIEW_PRESS, VIEW_MIDDLE, false);
+    at(100, 220); /* a quarter of the image */
+    button(VIEW_RELEASE, VIEW_MIDDLE, false);
+    CHECK_NEAR(1.0, distance(before.eye, camera->eye), 1e-5);
+    view_handle(&state, &(view_event) { .kind = VIEW_SCROLL, .y = 2 });
+    assert_true(camera->height < 4);
+    CHECK_NEAR(1.0, distance(before.eye, camera->eye), 1e-5);
+    framing_shows_every_corner(unused);
 }
 
 /* --- shading, sides, materials ------------------------------------------------------------------
@@ -159,6 +182,7 @@ int main(void) {
         TEST(flying_goes_on_while_keys_are_held),
         TEST(framing_shows_every_corner),
         TEST(rays_go_where_points_are_projected),
+        TEST(parallel_rays_pan_zoom_and_frame),
         TEST(keys_change_the_side_under_the_pointer),
         TEST(files_become_materials_where_they_are_dropped),
     };

@@ -77,7 +77,9 @@ static sight *look(const scene *world, const scene_camera *camera) {
         reference_normalize(reference_subtract(reference_from_floats(camera->target), eye));
     const reference_vec right =
         reference_normalize(reference_cross(forward, reference_from_floats(camera->up)));
-    const double step = 2 * tan((double)camera->fov / 2) / HEIGHT;
+    const bool parallel = camera->height > 0;
+    const double seen = parallel ? (double)camera->height : 2 * tan((double)camera->fov / 2);
+    const double step = seen / HEIGHT;
     assert_non_null(sights);
     assert_true(reference_tracer_create(world, &tracer, &error));
     for (int p = 0; p < WIDTH * HEIGHT; p++) {
@@ -86,8 +88,9 @@ static sight *look(const scene *world, const scene_camera *camera) {
         const reference_vec up = reference_cross(right, forward);
         const reference_vec across =
             reference_add(reference_scale(x, right), reference_scale(y, up));
-        sights[p] =
-            seen_by_ray(world, tracer, eye, reference_normalize(reference_add(forward, across)));
+        sights[p] = parallel ? seen_by_ray(world, tracer, reference_add(eye, across), forward)
+                             : seen_by_ray(world, tracer, eye,
+                                           reference_normalize(reference_add(forward, across)));
     }
     reference_tracer_destroy(tracer);
     return sights;
@@ -105,8 +108,8 @@ static bool differs(const float *drawn, const float *truth, const float *standar
     return false;
 }
 
-/* With `kinds`, a light of each kind instead. */
-static void check_scene(const char *name, int lights, bool kinds,
+/* With `kinds`, a light of each kind instead; with a height, by parallel rays. */
+static void check_scene(const char *name, int lights, bool kinds, float height,
                         const reference_band_limit *limit) {
     scene world;
     cli_error error;
@@ -124,6 +127,7 @@ static void check_scene(const char *name, int lights, bool kinds,
     if (kinds)
         world.light_count = KINDS;
     settings.camera = scene_default_camera(&world, (float)WIDTH / HEIGHT);
+    settings.camera.height = height;
     assert_true(reference_render(&world, &settings, &truth, &standard_error, &error));
     image drawn = draw_by_harmonics(&world, &settings, &pixels);
     sight *sights = look(&world, &settings.camera);
@@ -147,17 +151,23 @@ static void check_scene(const char *name, int lights, bool kinds,
 
 static void truncated_lobes_render_as_the_ground_truth_of_balls(void **state) {
     (void)state;
-    check_scene("builtin:balls", 0, false, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
+    check_scene("builtin:balls", 0, false, 0, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
 }
 
 static void truncated_lobes_render_as_the_ground_truth_of_the_atrium(void **state) {
     (void)state;
-    check_scene("builtin:atrium", 30, false, &(reference_band_limit) { 5, LMP_WINDOW_HANNING, 0 });
+    check_scene("builtin:atrium", 30, false, 0,
+                &(reference_band_limit) { 5, LMP_WINDOW_HANNING, 0 });
 }
 
 static void every_kind_of_light_renders_as_the_ground_truth(void **state) {
     (void)state;
-    check_scene("builtin:balls", 0, true, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
+    check_scene("builtin:balls", 0, true, 0, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
+}
+
+static void parallel_rays_render_as_the_ground_truth(void **state) {
+    (void)state;
+    check_scene("builtin:balls", 0, true, 4, &(reference_band_limit) { 8, LMP_WINDOW_NONE, 0 });
 }
 
 int main(void) {
@@ -165,6 +175,7 @@ int main(void) {
         cmocka_unit_test(truncated_lobes_render_as_the_ground_truth_of_balls),
         cmocka_unit_test(truncated_lobes_render_as_the_ground_truth_of_the_atrium),
         cmocka_unit_test(every_kind_of_light_renders_as_the_ground_truth),
+        cmocka_unit_test(parallel_rays_render_as_the_ground_truth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
