@@ -58,6 +58,13 @@ void lmp_release(const lmp_host *host, void *memory) {
     host->release(memory, host->user);
 }
 
+void lmp_release_object(void *object) {
+    if (!object)
+        return;
+    const lmp_host host = *(const lmp_host *)object;
+    lmp_release(&host, object);
+}
+
 /* --- long work -------------------------------------------------------------------------------- */
 
 lmp_result lmp_host_report(const lmp_host *host, double done) {

@@ -12,6 +12,9 @@ lmp_host lmp_host_resolve(const lmp_host *host);
 void *lmp_allocate(const lmp_host *host, size_t size);
 void lmp_release(const lmp_host *host, void *memory);
 
+/* Releases an object whose first member is the resolved host that made it; accepts NULL. */
+void lmp_release_object(void *object);
+
 /* Between two pieces of work on the calling thread: tells the host how much is done, and returns
  * LMP_OK or LMP_ERROR_CANCELLED. */
 lmp_result lmp_host_report(const lmp_host *host, double done);

@@ -22,10 +22,7 @@ lmp_result lmp_brdf_new(const lmp_host *host, lmp_brdf_kind kind, size_t extra, 
 }
 
 void lmp_brdf_destroy(lmp_brdf *brdf) {
-    if (!brdf)
-        return;
-    const lmp_host host = brdf->host;
-    lmp_release(&host, brdf);
+    lmp_release_object(brdf);
 }
 
 lmp_brdf_info lmp_brdf_describe(const lmp_brdf *brdf) {

@@ -32,10 +32,7 @@ lmp_result lmp_brdf_table_new(const lmp_host *host, const lmp_brdf_table_info *i
 }
 
 void lmp_brdf_table_destroy(lmp_brdf_table *table) {
-    if (!table)
-        return;
-    const lmp_host host = table->host;
-    lmp_release(&host, table);
+    lmp_release_object(table);
 }
 
 lmp_brdf_table_info lmp_brdf_table_describe(const lmp_brdf_table *table) {

@@ -13,7 +13,7 @@
 /* Errors are relative to a view's largest value, but at least this part of all views'. */
 #define LMP_PREINTEGRATED_BRDF_FLOOR 0.05
 
-/* One allocation: this, then what info points to. */
+/* One allocation: this, then what info points to. The host stays first (lmp_release_object). */
 struct lmp_preintegrated_brdf {
     lmp_host host;
     lmp_preintegrated_brdf_info info;
@@ -23,9 +23,10 @@ struct lmp_preintegrated_brdf {
     int16_t *texels;
 };
 
-/* One like `plan`, whose info gives view_count, cap_count and texel_count: remaps copied, the rest
- * not yet set. */
-lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host, const lmp_preintegrated_brdf *plan,
+/* One of `info`, which gives view_count, cap_count and texel_count; what it points to is not yet
+ * set. */
+lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host,
+                                           const lmp_preintegrated_brdf_info *info,
                                            lmp_preintegrated_brdf **brdf);
 
 #endif

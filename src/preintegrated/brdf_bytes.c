@@ -3,7 +3,6 @@
  */
 #include "src/base/bytes.h"
 
-#include "src/base/host.h"
 #include "src/preintegrated/brdf.h"
 
 #define HEADER      68u
@@ -160,19 +159,13 @@ lmp_result lmp_preintegrated_brdf_read(const lmp_host *host, const void *data, s
     const lmp_result framed = lmp_bytes_check_frame(data, size, &format);
     if (framed != LMP_OK)
         return framed;
-    const lmp_host resolved = lmp_host_resolve(host);
-    lmp_preintegrated_brdf *plan = lmp_allocate(&resolved, sizeof *plan);
-    if (!plan)
-        return LMP_ERROR_MEMORY;
-    memset(plan, 0, sizeof *plan);
-    lmp_result result = read_header(data, size, &plan->info)
-                            ? lmp_preintegrated_brdf_allocate(host, plan, brdf)
-                            : LMP_ERROR_FORMAT;
-    lmp_release(&resolved, plan);
-    if (result == LMP_OK && !read_body((const unsigned char *)data + HEADER, *brdf)) {
-        lmp_preintegrated_brdf_destroy(*brdf);
-        *brdf = NULL;
-        result = LMP_ERROR_FORMAT;
-    }
-    return result;
+    lmp_preintegrated_brdf_info info = { 0 };
+    if (!read_header(data, size, &info))
+        return LMP_ERROR_FORMAT;
+    const lmp_result result = lmp_preintegrated_brdf_allocate(host, &info, brdf);
+    if (result != LMP_OK || read_body((const unsigned char *)data + HEADER, *brdf))
+        return result;
+    lmp_preintegrated_brdf_destroy(*brdf);
+    *brdf = NULL;
+    return LMP_ERROR_FORMAT;
 }

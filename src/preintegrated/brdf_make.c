@@ -10,10 +10,10 @@
 /* --- the object ---------------------------------------------------------------------------------
  */
 
-lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host, const lmp_preintegrated_brdf *plan,
+lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host,
+                                           const lmp_preintegrated_brdf_info *info,
                                            lmp_preintegrated_brdf **brdf) {
     const lmp_host resolved = lmp_host_resolve(host);
-    const lmp_preintegrated_brdf_info *info = &plan->info;
     *brdf = NULL;
     if (info->texel_count > BRDF_TEXELS_MAX)
         return LMP_ERROR_MEMORY;
@@ -26,7 +26,7 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host, const lmp_prein
     *brdf = made;
     if (!made)
         return LMP_ERROR_MEMORY;
-    memcpy(made, plan, sizeof *made);
+    made->info = *info;
     made->host = resolved;
     made->slices = (lmp_preintegrated_brdf_slice *)(made + 1);
     made->ambient = (lmp_rgb *)(made->slices + slices);
@@ -42,10 +42,7 @@ lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host, const lmp_prein
 }
 
 void lmp_preintegrated_brdf_destroy(lmp_preintegrated_brdf *brdf) {
-    if (!brdf)
-        return;
-    const lmp_host host = brdf->host;
-    lmp_release(&host, brdf);
+    lmp_release_object(brdf);
 }
 
 lmp_preintegrated_brdf_info lmp_preintegrated_brdf_describe(const lmp_preintegrated_brdf *brdf) {
@@ -88,23 +85,23 @@ static void fill_remap(const int *nodes, int count, float *remap) {
 }
 
 /* All columns' slices, by view, into one object. */
-static lmp_result assemble(const lmp_host *host, const making *job, lmp_preintegrated_brdf *plan,
-                           lmp_preintegrated_brdf **brdf) {
+static lmp_result assemble(const lmp_host *host, const making *job,
+                           lmp_preintegrated_brdf_info info, lmp_preintegrated_brdf **brdf) {
     const size_t caps = (size_t)job->cap_count;
     for (size_t i = 0; i < caps; i++)
-        plan->info.texel_count += job->columns[i].texel_count;
-    plan->info.view_count = (uint32_t)job->view_count;
-    plan->info.cap_count = (uint32_t)job->cap_count;
-    plan->info.view_steps = (uint32_t)job->series->steps;
-    plan->info.cap_steps = BRDF_CAP_STEPS;
+        info.texel_count += job->columns[i].texel_count;
+    info.view_count = (uint32_t)job->view_count;
+    info.cap_count = (uint32_t)job->cap_count;
+    info.view_steps = (uint32_t)job->series->steps;
+    info.cap_steps = BRDF_CAP_STEPS;
+    const lmp_result result = lmp_preintegrated_brdf_allocate(host, &info, brdf);
+    if (result != LMP_OK)
+        return result;
     int view_steps[BRDF_STEPS_MAX + 1];
     for (int i = 0; i < job->view_count; i++)
         view_steps[i] = job->series->step[job->view_nodes[i]];
-    fill_remap(view_steps, job->view_count, plan->view_remap);
-    fill_remap(job->caps, job->cap_count, plan->cap_remap);
-    const lmp_result result = lmp_preintegrated_brdf_allocate(host, plan, brdf);
-    if (result != LMP_OK)
-        return result;
+    fill_remap(view_steps, job->view_count, (*brdf)->view_remap);
+    fill_remap(job->caps, job->cap_count, (*brdf)->cap_remap);
     uint32_t first = 0;
     for (size_t v = 0; v < (size_t)job->view_count; v++) {
         (*brdf)->ambient[v] = job->series->ambient[job->view_nodes[v]];
@@ -121,18 +118,19 @@ static lmp_result assemble(const lmp_host *host, const making *job, lmp_preinteg
     return LMP_OK;
 }
 
-static lmp_result make_slices(const lmp_host *host, making *job, lmp_preintegrated_brdf *plan,
+static lmp_result make_slices(const lmp_host *host, making *job,
+                              const lmp_preintegrated_brdf_info *info,
                               lmp_preintegrated_brdf **brdf) {
     lmp_result result = lmp_host_run(&job->series->host, BRDF_NODES_DONE, 1, (size_t)job->cap_count,
                                      slices_task, job);
     if (result == LMP_OK)
-        result = assemble(host, job, plan, brdf);
+        result = assemble(host, job, *info, brdf);
     for (int i = 0; i < job->cap_count; i++)
         lmp_preintegrated_brdf_column_free(job->series, &job->columns[i]);
     return result;
 }
 
-static lmp_result make(const lmp_host *host, making *job, lmp_preintegrated_brdf *plan,
+static lmp_result make(const lmp_host *host, making *job, const lmp_preintegrated_brdf_info *info,
                        lmp_preintegrated_brdf **brdf) {
     lmp_result result =
         lmp_preintegrated_brdf_caps(job->series, job->desc->error, job->caps, &job->cap_count);
@@ -144,7 +142,7 @@ static lmp_result make(const lmp_host *host, making *job, lmp_preintegrated_brdf
                                               0, &job->views);
     if (result != LMP_OK)
         return result;
-    result = make_slices(host, job, plan, brdf);
+    result = make_slices(host, job, info, brdf);
     lmp_preintegrated_brdf_views_free(&job->views);
     return result;
 }
@@ -160,26 +158,24 @@ static bool resolve_desc(const lmp_brdf_table *table, lmp_preintegrated_brdf_des
 /* All that follows the series. */
 static lmp_result make_from_series(const lmp_host *host, const lmp_brdf_table_info *table,
                                    const lmp_preintegrated_brdf_desc *desc, brdf_series *series,
-                                   making *job, lmp_preintegrated_brdf *plan,
-                                   lmp_preintegrated_brdf **brdf) {
+                                   making *job, lmp_preintegrated_brdf **brdf) {
     const lmp_result result = lmp_preintegrated_brdf_choose_rows(series, desc->error);
     if (result != LMP_OK)
         return result;
     memset(job, 0, sizeof *job);
-    memset(plan, 0, sizeof *plan);
     job->desc = desc;
     job->series = series;
-    plan->info = (lmp_preintegrated_brdf_info) { .bands = table->bands,
-                                                 .window = table->window,
-                                                 .window_size = table->window_size,
-                                                 .error = desc->error,
-                                                 .mirrored = table->mirrored,
-                                                 .width = series->width,
-                                                 .radius = series->radius,
-                                                 .reach = series->reach,
-                                                 .slope = series->slope,
-                                                 .lobe_angle = series->lobe_angle };
-    return make(host, job, plan, brdf);
+    const lmp_preintegrated_brdf_info info = { .bands = table->bands,
+                                               .window = table->window,
+                                               .window_size = table->window_size,
+                                               .error = desc->error,
+                                               .mirrored = table->mirrored,
+                                               .width = series->width,
+                                               .radius = series->radius,
+                                               .reach = series->reach,
+                                               .slope = series->slope,
+                                               .lobe_angle = series->lobe_angle };
+    return make(host, job, &info, brdf);
 }
 
 lmp_result lmp_preintegrated_brdf_create(const lmp_host *host,
@@ -195,16 +191,14 @@ lmp_result lmp_preintegrated_brdf_create(const lmp_host *host,
     const lmp_host resolved = lmp_host_resolve(host);
     brdf_series *series = lmp_allocate(&resolved, sizeof *series);
     making *job = lmp_allocate(&resolved, sizeof *job);
-    lmp_preintegrated_brdf *plan = lmp_allocate(&resolved, sizeof *plan);
-    lmp_result result = series && job && plan
+    lmp_result result = series && job
                             ? lmp_preintegrated_brdf_series(&resolved, own.error, table, series)
                             : LMP_ERROR_MEMORY;
     if (result == LMP_OK) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
-        result = make_from_series(host, &info, &own, series, job, plan, brdf);
+        result = make_from_series(host, &info, &own, series, job, brdf);
         lmp_preintegrated_brdf_series_free(series);
     }
-    lmp_release(&resolved, plan);
     lmp_release(&resolved, job);
     lmp_release(&resolved, series);
     return result;

@@ -74,10 +74,7 @@ lmp_result lmp_preintegrated_lobe_create(const lmp_host *host,
 }
 
 void lmp_preintegrated_lobe_destroy(lmp_preintegrated_lobe *lobe) {
-    if (!lobe)
-        return;
-    const lmp_host host = lobe->host;
-    lmp_release(&host, lobe);
+    lmp_release_object(lobe);
 }
 
 lmp_preintegrated_lobe_info lmp_preintegrated_lobe_describe(const lmp_preintegrated_lobe *lobe) {

@@ -8,7 +8,7 @@
 
 #define LOBE_CELLS_MAX 1024
 
-/* One allocation: this, then the coefficients. */
+/* One allocation: this, then the coefficients. The host stays first (lmp_release_object). */
 struct lmp_preintegrated_lobe {
     lmp_host host;
     lmp_preintegrated_lobe_info info;

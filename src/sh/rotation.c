@@ -133,34 +133,30 @@ void lmp_sh_rotation_double(int bands, const double rotation[4], double *matrice
     rotation_of(bands, rotation, &(matrices_of) { .doubles = matrices });
 }
 
+/* One loop in two types: a block of each band times that band's coefficients. */
+#define ROTATE(number)                                                                             \
+    for (int l = 0; l < bands; l++) {                                                              \
+        const number *in = sh + LMP_SH_COUNT(l);                                                   \
+        for (int m = 0; m <= 2 * l; m++) {                                                         \
+            number sum = 0;                                                                        \
+            for (int k = 0; k <= 2 * l; k++)                                                       \
+                sum += *matrices++ * in[k];                                                        \
+            *rotated++ = sum;                                                                      \
+        }                                                                                          \
+    }
+
 void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rotated) {
     assert(lmp_is_bands(bands));
     assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
     assert(lmp_are_apart(matrices, LMP_SH_ROTATION_COUNT(bands), rotated, LMP_SH_COUNT(bands)));
-    for (int l = 0; l < bands; l++) {
-        const float *in = sh + LMP_SH_COUNT(l);
-        for (int m = 0; m <= 2 * l; m++) {
-            float sum = 0;
-            for (int k = 0; k <= 2 * l; k++)
-                sum += *matrices++ * in[k];
-            *rotated++ = sum;
-        }
-    }
+    ROTATE(float)
 }
 
 void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh, double *rotated) {
     const size_t size = LMP_SH_COUNT(bands) * sizeof *sh;
     assert(lmp_is_bands(bands) && lmp_are_bytes_apart(sh, size, rotated, size));
     (void)size;
-    for (int l = 0; l < bands; l++) {
-        const double *in = sh + LMP_SH_COUNT(l);
-        for (int m = 0; m <= 2 * l; m++) {
-            double sum = 0;
-            for (int k = 0; k <= 2 * l; k++)
-                sum += *matrices++ * in[k];
-            *rotated++ = sum;
-        }
-    }
+    ROTATE(double)
 }
 
 /* The unit quaternion of a matrix, from its largest component so that nothing cancels. */
