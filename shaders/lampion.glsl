@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion.glsl - sphere lights through spherical harmonics, in one file to include as it is.
  *
- * GLSL 4.50, GLSL for Vulkan, and GLSL ES 3.10 (there, say `precision highp float;` first).
+ * GLSL 4.50, GLSL for Vulkan, and GLSL ES from 3.00 on (there, say `precision highp float;` first).
  * The same mathematics as the C library, to rounding; its headers hold the derivations.
  *
  * Define before including
@@ -80,7 +80,6 @@
 
 #define LMP_PI       3.14159265358979
 #define LMP_SH_COUNT (LMP_BANDS * LMP_BANDS)
-/* coefficients with m >= 0, all that a function symmetric to y has */
 
 /* A point to shade; view points to the viewer. */
 struct lmp_surface {

@@ -103,7 +103,7 @@ for version in "450 core" "300 es"; do
     } >"$WORK/probe.frag"
     glslangValidator "$WORK/probe.frag" >"$WORK/log" 2>&1 || fail "probe.glsl: $(cat "$WORK/log")"
 done
-for version in "450 core" "310 es"; do
+for version in "450 core" "300 es" "310 es"; do
     window "$version" >"$WORK/window.frag"
     glslangValidator "$WORK/window.frag" >"$WORK/log" 2>&1 || fail "lanterns.frag: $(cat "$WORK/log")"
 done

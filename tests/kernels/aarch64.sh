@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The kernels of NEON, built by a cross compiler and run by an emulator of the processor: the bits and
+# The kernels of NEON, built by a cross compiler and run by an emulator of the CPU: the bits and
 # checksums of every other instruction set.
 set -eu
 for tool in aarch64-linux-gnu-gcc qemu-aarch64; do
