@@ -36,7 +36,7 @@ const char *const *bench_methods(void) {
 
 const char *const *bench_devices(void) {
     static const char *names[DEVICES + 1] = { "all" };
-    cli_row_names(&device_table[DEVICE_GPU].name, sizeof *device_table, DEVICES - DEVICE_GPU,
+    cli_row_names(&device_table[DEVICE_FIRST].name, sizeof *device_table, DEVICES - DEVICE_FIRST,
                   names + 1);
     return names;
 }
@@ -49,12 +49,12 @@ static bool is_chosen(const bench_options *o, const bench_case *c, int bands) {
            (o->method == 0 || o->method == (int)c->method + 1) &&
            (o->device == 0 || o->device == (int)c->device) &&
            (method->tabulated || o->materials.count == 0) &&
-           (c->device != DEVICE_CPU || method->batched || o->method != 0);
+           (!device_table[c->device].on_host || method->batched || o->method != 0);
 }
 
 /* On each device the paper's own methods first, which the others are told against. */
 static void plan_cases(bench_plan *plan, const bench_options *o) {
-    for (int device = DEVICE_GPU; device < DEVICES; device++)
+    for (int device = DEVICE_FIRST; device < DEVICES; device++)
         for (int i = 0; i < METHODS_TIMED; i++) {
             const int method = (METHODS + i) % METHODS_TIMED;
             const bench_case one = { (method_kind)method, (device_kind)device };
@@ -130,7 +130,7 @@ static bool find_materials(bench_scene *s, int bands, cli_error *error) {
 /* A shader that sums a material by its bands takes fewer. */
 static int bands_max(const bench_scene *s, const bench_case *c) {
     const int most = method_table[c->method].bands_max[c->device];
-    for (int i = 0; i < s->materials.count && c->device == DEVICE_GPU; i++)
+    for (int i = 0; i < s->materials.count && !device_table[c->device].on_host; i++)
         if (!s->materials.preintegrated[i] && most > METHOD_GPU_BANDS_MAX)
             return METHOD_GPU_BANDS_MAX;
     return most;
@@ -147,7 +147,7 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
         .window = LMP_WINDOW_HANNING,
         .lights = s->world.lights,
         .light_count = (size_t)c->lights,
-        .host = c->by->device == DEVICE_CPU ? shade_frame : NULL,
+        .host = shade_on(c->by->device),
     };
     if (method_table[c->by->method].reads & METHOD_READS_PREINTEGRATED) {
         if (!find_lobes(s, c->bands, error))

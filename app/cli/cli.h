@@ -72,6 +72,10 @@ typedef struct cli_command {
 bool cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
                int *operand_count, char ***operands, int *status);
 
+/* cli_parse for a command that has no options of its own. */
+bool cli_parse_operands(const cli_command *command, int argc, char **argv, int *operand_count,
+                        char ***operands, int *status);
+
 /* The row of --cpu-mask. Every command takes it, and cli_parse obeys it (lmp_cpu_mask); a command
  * whose table has the row gets the number instead. */
 cli_option cli_cpu_mask(int *mask);

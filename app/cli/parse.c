@@ -128,3 +128,9 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
         lmp_cpu_mask((unsigned)mask);
     return true;
 }
+
+bool cli_parse_operands(const cli_command *command, int argc, char **argv, int *operand_count,
+                        char ***operands, int *status) {
+    static const cli_option none[] = { { .name = NULL } };
+    return cli_parse(command, none, argc, argv, operand_count, operands, status);
+}

@@ -15,10 +15,28 @@ static const double pi = 3.14159265358979323846;
 /* --- info ---------------------------------------------------------------------------------------
  */
 
-static const char *const kind_names[] = { "Lambert",      "Phong",
-                                          "GGX",          "SGD (fit of a MERL material)",
-                                          "MERL .binary", "RGL .bsdf tensor file" };
-static_assert(sizeof kind_names / sizeof *kind_names == LMP_BRDF_KINDS, "a name for each kind");
+static void print_cells(const lmp_brdf_info *info) {
+    printf("cells      %d theta_h x %d theta_d x %d phi_d\n", info->shape[0], info->shape[1],
+           info->shape[2]);
+}
+
+static void print_nodes(const lmp_brdf_info *info) {
+    printf("nodes      %d phi_i x %d theta_i, %s\n", info->shape[0], info->shape[1],
+           info->spectral ? "spectral" : "RGB");
+}
+
+static const struct {
+    const char *name;
+    void (*print_samples)(const lmp_brdf_info *info); /* NULL: it is a formula */
+} kinds[] = {
+    [LMP_BRDF_LAMBERT] = { "Lambert", NULL },
+    [LMP_BRDF_PHONG] = { "Phong", NULL },
+    [LMP_BRDF_GGX] = { "GGX", NULL },
+    [LMP_BRDF_SGD] = { "SGD (fit of a MERL material)", NULL },
+    [LMP_BRDF_MERL] = { "MERL .binary", print_cells },
+    [LMP_BRDF_RGL] = { "RGL .bsdf tensor file", print_nodes },
+};
+static_assert(sizeof kinds / sizeof *kinds == LMP_BRDF_KINDS, "a row for each kind");
 
 static void print_table_info(const lmp_brdf_table *table) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
@@ -43,12 +61,8 @@ static void print_table_info(const lmp_brdf_table *table) {
 
 static void print_brdf_info(const material *m) {
     const lmp_brdf_info info = lmp_brdf_describe(m->brdf);
-    if (info.kind == LMP_BRDF_MERL)
-        printf("cells      %d theta_h x %d theta_d x %d phi_d\n", info.shape[0], info.shape[1],
-               info.shape[2]);
-    if (info.kind == LMP_BRDF_RGL)
-        printf("nodes      %d phi_i x %d theta_i, %s\n", info.shape[0], info.shape[1],
-               info.spectral ? "spectral" : "RGB");
+    if (kinds[info.kind].print_samples)
+        kinds[info.kind].print_samples(&info);
     printf("isotropy   %s\n", info.anisotropic ? "anisotropic"
                               : info.mirrored  ? "isotropic, mirror-symmetric"
                                                : "isotropic");
@@ -58,7 +72,7 @@ static void print_brdf_info(const material *m) {
 static bool print_info(const brdf_options *o, const material *m, cli_error *error) {
     printf("material   %s\n", m->name);
     printf("format     %s\n",
-           m->table ? "Lampion table (.lmpt)" : kind_names[lmp_brdf_describe(m->brdf).kind]);
+           m->table ? "Lampion table (.lmpt)" : kinds[lmp_brdf_describe(m->brdf).kind].name);
     if (m->file_size)
         printf("size       %zu bytes\n", m->file_size);
     lmp_brdf_table *table = NULL;

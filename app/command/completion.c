@@ -154,10 +154,9 @@ static const struct {
 };
 
 static int run(const cli_command *command, int argc, char **argv) {
-    const cli_option options[] = { { .name = NULL } };
     int count, status;
     char **operands;
-    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+    if (!cli_parse_operands(command, argc, argv, &count, &operands, &status))
         return status;
     if (count != 1)
         return cli_usage(command, "needs one shell: %s", command->operands);

@@ -2,8 +2,6 @@
 /* man.c - lampion man: the manual pages. */
 #include "app/command/command.h"
 
-#include <stddef.h>
-
 static const char *const environment[][2] = {
     { "XDG_CACHE_HOME", "The folder of the cache, lampion, lies in it, else in ~/.cache." },
     { "LAMPION_CACHE_MIB", "As much may the cache hold; what was unused for longest goes first." },
@@ -15,10 +13,9 @@ static const char *const environment[][2] = {
 };
 
 static int run(const cli_command *command, int argc, char **argv) {
-    const cli_option options[] = { { .name = NULL } };
     int count, status;
     char **operands;
-    if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
+    if (!cli_parse_operands(command, argc, argv, &count, &operands, &status))
         return status;
     if (count > 1)
         return cli_usage(command, "shows one page, not %d", count);

@@ -194,9 +194,11 @@ static bool add_timings(job *j, cJSON *stats, cli_error *error) {
             cJSON_AddNumberToObject(passes, names[p], medians[p]);
         shade[m] = medians[SHADE];
     }
-    if (shade[METHOD_COEFFICIENTS] > 0 && shade[METHOD_ZONAL] > 0)
-        cJSON_AddNumberToObject(stats, "zonal_speedup",
-                                shade[METHOD_COEFFICIENTS] / shade[METHOD_ZONAL]);
+    for (int m = 0; m < METHODS; m++) {
+        const method_row *row = &method_table[m];
+        if (row->speedup && shade[m] > 0 && shade[row->compared] > 0)
+            cJSON_AddNumberToObject(stats, row->speedup, shade[row->compared] / shade[m]);
+    }
     return true;
 }
 
@@ -238,21 +240,20 @@ static bool print_stats(job *j, cli_error *error) {
 static bool settle_shading(job *j, cli_error *error) {
     const render_options *o = j->options;
     const method_kind method = (method_kind)o->method;
-    const bool chosen = o->device_kind != DEVICE_AUTO || !o->compare;
-    j->shading =
-        chosen ? method_device(method, (device_kind)o->device_kind, j->context.software, o->bands)
-               : DEVICE_GPU;
-    if (o->materials.count > 0 && environment_shines(&j->around)) {
-        if (o->device_kind == DEVICE_GPU)
-            return cli_fail(error, NULL,
-                            "tabulated materials reflect an environment on the CPU alone (--device "
-                            "cpu, or --environment none)");
-        j->shading = DEVICE_CPU;
-    }
+    const unsigned needs = o->materials.count > 0 && environment_shines(&j->around)
+                               ? DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT
+                               : 0;
+    /* Methods are compared where all of them run. */
+    j->shading = method_device(method, (device_kind)o->device_kind, needs,
+                               j->context.software && !o->compare, o->bands);
+    if (needs & ~device_table[j->shading].offers)
+        return cli_fail(error, NULL,
+                        "tabulated materials reflect an environment on the CPU alone (--device "
+                        "cpu, or --environment none)");
     if (o->bands > method_table[method].bands_max[j->shading])
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
                         o->bands, method_table[method].name);
-    j->frame.host = j->shading == DEVICE_CPU ? shade_frame : NULL;
+    j->frame.host = shade_on(j->shading);
     if (!(method_table[method].reads & METHOD_READS_PREINTEGRATED) && !o->compare)
         return true;
     const bool ok = bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error);

@@ -3,9 +3,15 @@
 #include "app/cli/cli.h"
 
 const device_row device_table[DEVICES] = {
-    [DEVICE_AUTO] = { "auto", "is the CPU where OpenGL is software", "automatic" },
-    [DEVICE_GPU] = { "gpu", "a compute pass", "GPU" },
-    [DEVICE_CPU] = { "cpu", "the library's kernels on all cores", "CPU" },
+    [DEVICE_AUTO] = { .name = "auto",
+                      .help = "is the CPU where OpenGL is software",
+                      .text = "automatic" },
+    [DEVICE_GPU] = { .name = "gpu", .help = "a compute pass", .text = "GPU" },
+    [DEVICE_CPU] = { .name = "cpu",
+                     .help = "the library's kernels on all cores",
+                     .text = "CPU",
+                     .on_host = true,
+                     .offers = DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT },
 };
 
 const char *const *device_names(void) {

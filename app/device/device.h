@@ -3,12 +3,26 @@
 #ifndef LAMPION_DEVICE_H
 #define LAMPION_DEVICE_H
 
-typedef enum device_kind { DEVICE_AUTO, DEVICE_GPU, DEVICE_CPU, DEVICES } device_kind;
+#include <stdbool.h>
+
+/* The devices themselves are those from DEVICE_FIRST on. */
+typedef enum device_kind {
+    DEVICE_AUTO,
+    DEVICE_FIRST,
+    DEVICE_GPU = DEVICE_FIRST,
+    DEVICE_CPU,
+    DEVICES
+} device_kind;
+
+/* What a frame may need besides its method. */
+enum { DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT = 1 };
 
 typedef struct device_row {
     const char *name; /* in options and output */
     const char *help; /* what --device says of it */
     const char *text; /* in sentences */
+    bool on_host;     /* the library shades, no shader */
+    unsigned offers;  /* DEVICE_LIGHTS_… */
 } device_row;
 
 extern const device_row device_table[DEVICES];

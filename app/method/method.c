@@ -20,7 +20,9 @@ const method_row method_table[METHODS_TIMED] = {
                        .tabulated = true,
                        .shader = "shade.comp",
                        .function = "lmp_shade_zonal",
-                       .defines = "" },
+                       .defines = "",
+                       .speedup = "zonal_speedup",
+                       .compared = METHOD_COEFFICIENTS },
     [METHOD_COEFFICIENTS] = { .name = "coefficients",
                               .help = "is the paper's",
                               .method = LMP_SHADE_COEFFICIENTS,
@@ -81,11 +83,14 @@ const char *method_help(void) {
     return text;
 }
 
-device_kind method_device(method_kind method, device_kind wanted, bool software, int bands) {
+device_kind method_device(method_kind method, device_kind wanted, unsigned needs, bool software,
+                          int bands) {
     const method_row *row = &method_table[method];
     if (wanted != DEVICE_AUTO)
         return wanted;
-    if (bands > row->bands_max[DEVICE_GPU])
-        return bands <= row->bands_max[DEVICE_CPU] ? DEVICE_CPU : DEVICE_GPU;
-    return software && row->batched ? DEVICE_CPU : DEVICE_GPU;
+    if (bands > row->bands_max[DEVICE_CPU])
+        return DEVICE_GPU;
+    const bool too_much =
+        bands > row->bands_max[DEVICE_GPU] || (needs & ~device_table[DEVICE_GPU].offers);
+    return too_much || (software && row->batched) ? DEVICE_CPU : DEVICE_GPU;
 }

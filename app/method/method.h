@@ -45,6 +45,8 @@ typedef struct method_row {
     bool fragment;        /* the shader is a full screen's fragment shader, not a compute shader */
     const char *function; /* that the shader calls for a pixel */
     const char *defines;  /* put before the shader */
+    const char *speedup;  /* NULL, or the statistic that tells its speed against this method's: */
+    method_kind compared;
 } method_row;
 
 extern const method_row method_table[METHODS_TIMED];
@@ -56,8 +58,10 @@ extern const method_row method_table[METHODS_TIMED];
 const char *const *method_names(void);
 const char *method_help(void);
 
-/* Where a frame is shaded. DEVICE_AUTO: on the GPU, but where OpenGL is software on the CPU if it
- * has batch kernels, and where the bands are too many for a shader. */
-device_kind method_device(method_kind method, device_kind wanted, bool software, int bands);
+/* Where a frame is shaded that needs DEVICE_LIGHTS_…. DEVICE_AUTO: on the GPU, but where OpenGL is
+ * software on the CPU if it has batch kernels, and where the bands are too many for a shader or a
+ * shader offers too little. */
+device_kind method_device(method_kind method, device_kind wanted, unsigned needs, bool software,
+                          int bands);
 
 #endif

@@ -15,6 +15,29 @@
 #define COLOR(name, optional)                                                                      \
     { #name, SCENE_LIGHT_COLOR, offsetof(lmp_light, name), optional, NULL }
 
+static const char *wrong_spot(const lmp_light *light) {
+    return light->inner <= light->outer ? NULL : ".inner is above the outer angle";
+}
+
+static void widen_point(lmp_light *light, float radius, float angle) {
+    (void)angle;
+    if (!(radius > 0.0f))
+        return;
+    light->kind = LMP_LIGHT_SPHERE;
+    light->radius = radius;
+    light->radiance = rgb_scale(light->intensity, lmp_sphere_radiance_from_intensity(1.0f, radius));
+}
+
+static void widen_sun(lmp_light *light, float radius, float angle) {
+    const float sine = sinf(angle);
+    (void)radius;
+    if (!(sine > 0.0f))
+        return;
+    light->kind = LMP_LIGHT_CAP;
+    light->angle = angle;
+    light->radiance = rgb_scale(light->irradiance, 1.0f / (PI * sine * sine));
+}
+
 const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
     [LMP_LIGHT_SPHERE] = { "sphere",
                            { POSITION,
@@ -25,11 +48,14 @@ const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
                                lmp_sphere_radiance_from_power },
                              { "intensity", SCENE_LIGHT_COLOR, offsetof(lmp_light, radiance), false,
                                lmp_sphere_radiance_from_intensity } } },
-    [LMP_LIGHT_POINT] = { "point", { POSITION, COLOR(intensity, false) } },
+    [LMP_LIGHT_POINT] = { "point", { POSITION, COLOR(intensity, false) }, .widen = widen_point },
     [LMP_LIGHT_SPOT] = { "spot",
                          { POSITION, DIRECTION, ANGLE(inner, true), ANGLE(outer, false),
-                           COLOR(intensity, false) } },
-    [LMP_LIGHT_DIRECTIONAL] = { "directional", { DIRECTION, COLOR(irradiance, false) } },
+                           COLOR(intensity, false) },
+                         .wrong = wrong_spot },
+    [LMP_LIGHT_DIRECTIONAL] = { "directional",
+                                { DIRECTION, COLOR(irradiance, false) },
+                                .widen = widen_sun },
     [LMP_LIGHT_CAP] = { "cap", { DIRECTION, ANGLE(angle, false), COLOR(radiance, false) } },
     [LMP_LIGHT_HEMISPHERE] = { "hemisphere",
                                { DIRECTION, COLOR(radiance, false), COLOR(ground, true) } },
@@ -106,12 +132,11 @@ bool scene_light_check(const scene_light *light, scene_light_error *error) {
         snprintf(error->text, sizeof error->text, " is of no known kind");
         return false;
     }
-    for (const scene_light_member *m = scene_light_kinds[emitter->kind].members; m->name; m++)
+    const scene_light_kind *kind = &scene_light_kinds[emitter->kind];
+    for (const scene_light_member *m = kind->members; m->name; m++)
         if (!scene_light_check_member(emitter, m, error))
             return false;
-    if (emitter->kind == LMP_LIGHT_SPOT && !(emitter->inner <= emitter->outer)) {
-        snprintf(error->text, sizeof error->text, ".inner is above the outer angle");
-        return false;
-    }
-    return true;
+    const char *wrong = kind->wrong ? kind->wrong(emitter) : NULL;
+    snprintf(error->text, sizeof error->text, "%s", wrong ? wrong : "");
+    return !wrong;
 }

@@ -36,6 +36,11 @@ typedef struct scene_light_member {
 typedef struct scene_light_kind {
     const char *name;
     scene_light_member members[SCENE_LIGHT_MEMBERS_MAX + 1]; /* ended by one without a name */
+    /* NULL, or what is wrong with members together that are each in its range; NULL: nothing. */
+    const char *(*wrong)(const lmp_light *light);
+    /* NULL, or makes it as large as a point's radius or a sun's half angle says, of the same
+     * intensity or irradiance; 0 leaves it. */
+    void (*widen)(lmp_light *light, float radius, float angle);
 } scene_light_kind;
 
 extern const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS]; /* by lmp_light_kind */

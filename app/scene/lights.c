@@ -71,19 +71,12 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
 
 /* Points become spheres and parallel rays suns, of the same intensity and irradiance. */
 static void widen_lights(scene *s, const scene_lights_options *options) {
-    const float angle = options->sun_angle * PI / 180.0f, sine = sinf(angle);
+    const float angle = options->sun_angle * PI / 180.0f;
     for (size_t i = 0; i < s->light_count; i++) {
         lmp_light *light = &s->lights[i].emitter;
-        if (light->kind == LMP_LIGHT_POINT && options->point_radius > 0.0f) {
-            const float scale = lmp_sphere_radiance_from_intensity(1.0f, options->point_radius);
-            light->kind = LMP_LIGHT_SPHERE;
-            light->radius = options->point_radius;
-            light->radiance = rgb_scale(light->intensity, scale);
-        } else if (light->kind == LMP_LIGHT_DIRECTIONAL && sine > 0.0f) {
-            light->kind = LMP_LIGHT_CAP;
-            light->angle = angle;
-            light->radiance = rgb_scale(light->irradiance, 1.0f / (PI * sine * sine));
-        }
+        const scene_light_kind *kind = &scene_light_kinds[light->kind];
+        if (kind->widen)
+            kind->widen(light, options->point_radius, angle);
     }
 }
 

@@ -108,3 +108,7 @@ bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba
     free(lights);
     return ok || cli_fail(error, NULL, "out of memory");
 }
+
+gpu_host_shader shade_on(device_kind device) {
+    return device_table[device].on_host ? shade_frame : NULL;
+}

@@ -3,9 +3,13 @@
 #ifndef LAMPION_SHADE_FRAME_H
 #define LAMPION_SHADE_FRAME_H
 
+#include "app/device/device.h"
 #include "app/gpu/gpu.h"
 
-/* gpu_frame.host: shades by the frame's method, bands, window, lights and lobes. */
+/* gpu_frame.host of a frame that is shaded there: shade_frame, or NULL for a shader. */
+gpu_host_shader shade_on(device_kind device);
+
+/* Shades by the frame's method, bands, window, lights and lobes. */
 bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba, cli_error *error);
 
 #endif

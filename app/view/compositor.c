@@ -236,10 +236,11 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
 static bool fill_frame(view_compositor *s, const view_settings *settings,
                        const view_shading *shading, int divisor, gpu_frame *frame,
                        device_kind *device, cli_error *error) {
+    const unsigned needs = settings->material_count > 0 && environment_shines(&s->around)
+                               ? DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT
+                               : 0;
     *device =
-        settings->material_count > 0 && environment_shines(&s->around)
-            ? DEVICE_CPU /* tables reflect the environment there alone */
-            : method_device(shading->method, DEVICE_AUTO, s->context.software, shading->bands);
+        method_device(shading->method, DEVICE_AUTO, needs, s->context.software, shading->bands);
     *frame = (gpu_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
@@ -251,7 +252,7 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
         .light_count = settings->light_count,
         .samples = divisor > 1 ? 1 : settings->samples,
         .samples_exposure = settings->exposure,
-        .host = *device == DEVICE_CPU ? shade_frame : NULL,
+        .host = shade_on(*device),
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
     if (is_preintegrated(shading))

@@ -42,7 +42,7 @@ may_include() {
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
     app/gpu) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
-    app/shade) echo app/cli app/scene app/environment app/gpu app/shade LIBRARY ;;
+    app/shade) echo app/device app/cli app/scene app/environment app/gpu app/shade LIBRARY ;;
     app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/override app/view LIBRARY ;;
     app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
