@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* animation.h - how lights move: closed forms in time, so that a frame is the same however one
- * comes to it (docs/scenes.md). */
+ * comes to it (docs/lights.md). */
 #ifndef LAMPION_ANIMATION_H
 #define LAMPION_ANIMATION_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* path.h - how one light moves, and such paths from JSON (docs/scenes.md). */
+/* path.h - how one light moves, and such paths from JSON (docs/lights.md). */
 #ifndef LAMPION_ANIMATION_PATH_H
 #define LAMPION_ANIMATION_PATH_H
 

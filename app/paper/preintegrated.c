@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* What preintegrated lobes cost in memory and in error (docs/shading.md). */
+/* What preintegrated lobes cost in memory and in error (docs/preintegration-notes.md). */
 #include "app/paper/paper.h"
 #include "app/timing/timing.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* light.h - a light of a scene: what kinds there are, what each of them has, and all that as JSON
- * (docs/scenes.md). One table of kinds decides what is read, written, checked and moved. */
+ * (docs/lights.md). One table of kinds decides what is read, written, checked and moved. */
 #ifndef LAMPION_SCENE_LIGHT_H
 #define LAMPION_SCENE_LIGHT_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* lights_file.c - lights from JSON (docs/scenes.md). */
+/* lights_file.c - lights from JSON (docs/lights.md). */
 #include "app/file/file.h"
 #include "app/scene/scene.h"
 

@@ -153,7 +153,7 @@ void scene_left_out_text(const scene_left_out *item, char *text, size_t size);
 /* And with them their motions. */
 void scene_clear_lights(scene *scene);
 
-/* Adds the lights of a JSON file (docs/scenes.md); none of them on failure. */
+/* Adds the lights of a JSON file (docs/lights.md); none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);
 
 /* Adds `count` seeded random lights inside the bounds, sized to the scene: the same on any machine.

@@ -57,7 +57,7 @@ LMP_API void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array 
  * with c = (1 - v·h)^5; glTF's core has F90 = 1. Its diffuse part, (1 - F) base/pi, is in all
  * directions the fraction 1 - diffuse_f0 F0 - diffuse_f90 F90 of base/pi.
  *
- * Lobes reach a little below the horizon: docs/materials.md has the errors. */
+ * Lobes reach a little below the horizon: docs/ggx.md has the errors. */
 #define LMP_GGX_LOBES 3
 
 typedef struct lmp_ggx_lobe {

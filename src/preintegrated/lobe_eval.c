@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* eval.c - one reading of a lobe; the kernels and the shader do the same (docs/shading.md). */
+/* One reading of a lobe; the kernels and the shader do the same (docs/preintegration.md). */
 #include "src/preintegrated/lobe_eval.h"
 
 #include "src/preintegrated/spline.h"

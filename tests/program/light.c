@@ -88,7 +88,7 @@ static void values_out_of_range_are_named(void **state) {
             }
 }
 
-/* docs/scenes.md has a row `kind` | `member` … for each of them, in this order. */
+/* docs/lights.md has a row `kind` | `member` … for each of them, in this order. */
 static void the_document_names_every_kind_and_member(void **state) {
     (void)state;
     char *text, row[256];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The lobes of lmp_lobe_ggx against glTF 2.0's appendix B, both integrated over caps in double
  * precision here: nothing of the library but the lobes themselves. LAMPION_LONG=1 sweeps all
- * plates and prints the tables of docs/materials.md. */
+ * plates and prints the tables of docs/ggx.md. */
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
 #include "tests/oracle/oracle.h"

@@ -79,7 +79,7 @@ static void check_probes(const char *what, const lmp_brdf_table *table, int prob
 }
 
 /* LAMPION_MATERIAL_BANDS: other bands than 10, of tables with the rings that they ask for; prints
- * alone, for docs/shading.md. */
+ * alone, for docs/preintegration-notes.md. */
 static void ten_materials_match_their_sums_within_the_error(void **state) {
     (void)state;
     const char *const more = getenv("LAMPION_MATERIAL_BANDS");
