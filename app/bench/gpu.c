@@ -265,7 +265,6 @@ int bench_gpu(const cli_command *command, const bench_options *o) {
     if (o->json && ok)
         printf("\n  ]\n}\n");
     if (plan.rows_left_out)
-        fprintf(stderr, "lampion: %d rows left out for want of time (--time)\n",
-                plan.rows_left_out);
+        cli_note(NULL, "%d rows left out for want of time (--time)", plan.rows_left_out);
     return ok ? CLI_OK : cli_report(&error);
 }

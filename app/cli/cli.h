@@ -23,6 +23,9 @@ bool cli_fail(cli_error *error, const char *subject, const char *format, ...)
 /* Prints "lampion: text" to stderr and returns CLI_FAILURE. */
 int cli_report(const cli_error *error);
 
+/* Prints "lampion: subject: message" to stderr: what one should know, though it stops nothing. */
+void cli_note(const char *subject, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 typedef enum cli_kind {
     CLI_FLAG,   /* bool */
     CLI_INT,    /* int, minimum … maximum */
@@ -63,6 +66,7 @@ typedef struct cli_command {
     const char *summary;  /* one line */
     const char *examples; /* lines for --help, e.g. "lampion info builtin:atrium" */
     int (*run)(const struct cli_command *command, int argc, char **argv);
+    bool kernels; /* it runs the library's batch functions: it takes --cpu-mask besides its table */
 } cli_command;
 
 /* Parses argv by the table, operands and options in any order. Returns true to go on: then
@@ -76,13 +80,16 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
 bool cli_parse_operands(const cli_command *command, int argc, char **argv, int *operand_count,
                         char ***operands, int *status);
 
-/* The row of --cpu-mask. Every command takes it, and cli_parse obeys it (lmp_cpu_mask); a command
- * whose table has the row gets the number instead. */
+/* The row of --cpu-mask, which cli_parse obeys (lmp_cpu_mask) for a command that runs kernels; one
+ * whose table has the row gets the number. */
 cli_option cli_cpu_mask(int *mask);
 
 /* Prints "lampion COMMAND: message" and where to find help; returns CLI_USAGE. */
 int cli_usage(const cli_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* The same of a command that has nowhere to write: "-o ARGUMENT is needed". */
+int cli_usage_output(const cli_command *command, const char *argument);
 
 /* Prints the manual page of the program: its commands (NULL-terminated) and the variables of the
  * environment it heeds, pairs of name and meaning ended by NULL. */

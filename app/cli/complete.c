@@ -127,7 +127,7 @@ static void print_bash_values(const cli_option *rows, int count) {
 
 void option_bash(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
-    const int count = option_rows(options, rows);
+    const int count = option_rows(command, options, rows);
     candidates first, rest;
     printf("    %s)\n        options='", command->name);
     for (int i = 0; i < count; i++)
@@ -162,7 +162,7 @@ static void print_zsh_candidates(const char *name, const candidates *p) {
 
 void option_zsh(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
-    const int count = option_rows(options, rows);
+    const int count = option_rows(command, options, rows);
     candidates first, rest;
     printf("    %s) _arguments -s : \\\n", command->name);
     for (int i = 0; i < count; i++) {
@@ -206,7 +206,7 @@ static void print_fish_candidates(const candidates *p) {
 
 void option_fish(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
-    const int count = option_rows(options, rows);
+    const int count = option_rows(command, options, rows);
     candidates first, rest;
     for (int i = 0; i < count; i++) {
         printf("complete -c lampion -n '__lampion_is %s' -l %s", command->name, rows[i].name);

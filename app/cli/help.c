@@ -118,7 +118,7 @@ void option_help(const cli_command *command, const cli_option *options) {
            command->name, command->summary, command->name, command->operands[0] ? " " : "",
            command->operands);
     cli_option rows[OPTIONS_MAX];
-    const int count = option_rows(options, rows);
+    const int count = option_rows(command, options, rows);
     for (int i = 0; i < count; i++)
         print_option(&rows[i]);
     printf("\nExamples:\n");

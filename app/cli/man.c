@@ -64,7 +64,7 @@ static void print_status(void) {
 
 void option_man(const cli_command *command, const cli_option *options) {
     cli_option rows[OPTIONS_MAX];
-    const int count = option_rows(options, rows);
+    const int count = option_rows(command, options, rows);
     print_title(command->name, command->summary);
     printf(".SH SYNOPSIS\n\\fBlampion %s\\fR [\\fIOPTION\\fR...]", command->name);
     if (command->operands[0]) {

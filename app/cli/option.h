@@ -11,9 +11,9 @@ bool option_store(const cli_option *option, const char *text, cli_error *error);
 #define OPTIONS_MAX      64
 #define OPTION_TEXT_SIZE 1024
 
-/* All rows that a command takes, into an array of OPTIONS_MAX: those of its table, and what every
- * command has. Returns their count. */
-int option_rows(const cli_option *options, cli_option *rows);
+/* All rows that a command takes, into an array of OPTIONS_MAX: those of its table, and what others
+ * have too. Returns their count. */
+int option_rows(const cli_command *command, const cli_option *options, cli_option *rows);
 
 /* Writes what an option does, what it accepts and its default: targets still hold defaults. */
 void option_describe(const cli_option *option, char *text, size_t size);

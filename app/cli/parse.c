@@ -53,7 +53,7 @@ static const cli_option *find_option(const cli_option *options, char *word, char
 static int unknown_option(const cli_command *command, const cli_option *options, const char *word) {
     const char *names[OPTIONS_MAX + 1] = { NULL };
     cli_option rows[OPTIONS_MAX];
-    const int count = option_rows(options, rows);
+    const int count = option_rows(command, options, rows);
     for (int i = 0; i < count; i++)
         names[i] = rows[i].name;
     const int length = (int)strcspn(word, "=");
@@ -110,6 +110,8 @@ bool cli_parse(const cli_command *command, const cli_option *options, int argc, 
     int mask = LMP_CPU_ALL;
     cli_option common[] = { cli_cpu_mask(&mask), { .name = NULL } };
     common[0].given = &masked;
+    if (!command->kernels)
+        common[0].name = NULL;
     while (rest.next < rest.end) {
         char *const word = *rest.next++;
         if (options_end || word[0] != '-' || word[1] == '\0') {

@@ -92,6 +92,16 @@ int cli_report(const cli_error *error) {
     return CLI_FAILURE;
 }
 
+void cli_note(const char *subject, const char *format, ...) {
+    cli_error note;
+    va_list arguments;
+    va_start(arguments, format);
+    write_text(&note, subject, format, arguments);
+    va_end(arguments);
+    cli_progress_end();
+    fprintf(stderr, "lampion: %s\n", note.text);
+}
+
 int cli_usage_operand(const cli_command *command, const char *word) {
     char words[128];
     const char *names[16] = { NULL };
@@ -102,6 +112,10 @@ int cli_usage_operand(const cli_command *command, const char *word) {
         names[i] = strsep(&rest, "|");
     cli_fail_word(&error, NULL, word, names);
     return cli_usage(command, "%s", error.text);
+}
+
+int cli_usage_output(const cli_command *command, const char *argument) {
+    return cli_usage(command, "-o %s is needed", argument);
 }
 
 int cli_usage(const cli_command *command, const char *format, ...) {

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* rows.c - what every command takes besides its own table. */
+/* rows.c - what commands take besides their own tables. */
 #include "app/cli/option.h"
 
 #include <lampion/cpu.h>
-
-#include <string.h>
 
 cli_option cli_cpu_mask(int *mask) {
     return (cli_option) {
@@ -18,17 +16,13 @@ cli_option cli_cpu_mask(int *mask) {
     };
 }
 
-int option_rows(const cli_option *options, cli_option *rows) {
+int option_rows(const cli_command *command, const cli_option *options, cli_option *rows) {
     static int every = LMP_CPU_ALL;
-    const cli_option cpu_mask = cli_cpu_mask(&every);
     int count = 0;
-    bool own = false;
-    for (; options[count].name && count < OPTIONS_MAX - 2; count++) {
+    for (; options[count].name && count < OPTIONS_MAX - 2; count++)
         rows[count] = options[count];
-        own = own || strcmp(options[count].name, cpu_mask.name) == 0;
-    }
-    if (!own)
-        rows[count++] = cpu_mask;
+    if (command->kernels)
+        rows[count++] = cli_cpu_mask(&every);
     rows[count++] = (cli_option) { .name = "help", .letter = 'h', .help = "this text" };
     return count;
 }

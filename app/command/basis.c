@@ -133,7 +133,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
     if (!output)
-        return cli_usage(command, "needs --output FILE");
+        return cli_usage_output(command, "FILE");
     image pixels = { 0 };
     cli_error error;
     const bool ok =

@@ -245,11 +245,34 @@ static bool study_bands(const char *name, cli_error *error) {
 static const struct {
     const char *name;
     bool (*run)(const brdf_options *, const material *, cli_error *);
-    bool writes;
+    const char *writes; /* one of the endings' kinds, or NULL */
 } actions[] = {
-    { "info", print_info, false }, { "eval", evaluate, false },  { "bake", bake_table, true },
-    { "plot", brdf_plot, true },   { "convert", convert, true },
+    { "info", print_info, NULL },      { "eval", evaluate, NULL },
+    { "bake", bake_table, "a table" }, { "plot", brdf_plot, "an image" },
+    { "convert", convert, "a BRDF" },
 };
+
+static const struct {
+    const char *ending, *kind;
+} endings[] = {
+    { ".lmpt", "a table" },  { ".png", "an image" }, { ".exr", "an image" },
+    { ".binary", "a BRDF" }, { ".bsdf", "a BRDF" },
+};
+
+/* A name that belongs to a file of another kind is a mistake, better told before the work than
+ * after it. */
+static bool check_ending(const char *action, const char *path, const char *kind, cli_error *error) {
+    const char *const ending = strrchr(path, '.');
+    const char *right = NULL;
+    bool other = false;
+    for (size_t i = 0; ending && i < sizeof endings / sizeof *endings; i++) {
+        const bool same = strcmp(endings[i].kind, kind) == 0;
+        if (same && !right)
+            right = endings[i].ending;
+        other = other || (!same && strcmp(endings[i].ending, ending) == 0);
+    }
+    return !other || cli_fail(error, path, "%s writes %s (name it %s)", action, kind, right);
+}
 
 static int run_action(const cli_command *command, const brdf_options *o, int count,
                       char **operands) {
@@ -276,7 +299,9 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
         if (count != 2)
             return cli_usage(command, "%s needs one MATERIAL, %d given", operands[0], count - 1);
         if (actions[i].writes && !o->output)
-            return cli_usage(command, "%s needs -o FILE", operands[0]);
+            return cli_usage_output(command, "FILE");
+        if (actions[i].writes && !check_ending(operands[0], o->output, actions[i].writes, &error))
+            return cli_report(&error);
         material m;
         bool ok = material_open(operands[1], &m, &error);
         if (ok) {
@@ -331,7 +356,8 @@ const cli_command command_brdf = {
     .summary = "show, evaluate, tabulate and convert measured materials",
     .examples =
         "lampion brdf info sgd:gold-metallic-paint\n"
-        "lampion brdf eval gold.binary\n"
+        "echo 0,0,1,0.6,0,0.8 | lampion brdf eval gold.binary   # wi_x,wi_y,wi_z,wo_x,wo_y,wo_z: "
+        "r,g,b\n"
         "lampion brdf bake gold.binary -o gold.lmpt --bands 10 --views 64 --window hanning\n"
         "lampion brdf plot ggx:0.3 -o ggx.png\n"
         "lampion brdf convert sgd:red-fabric -o red-fabric.binary\n"

@@ -46,7 +46,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
     if (!settings.directory)
-        return cli_usage(command, "-o DIR is missing");
+        return cli_usage_output(command, "DIR");
     for (int i = 0; i < settings.steps.count; i++)
         if (!paper_has_step(settings.steps.items[i], &error))
             return cli_usage(command, "%s", error.text);
@@ -64,4 +64,5 @@ const cli_command command_paper = {
     .examples = "lampion paper -o out\n"
                 "lampion paper -o out --full --sponza Sponza.gltf\n",
     .run = run,
+    .kernels = true,
 };

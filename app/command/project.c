@@ -256,4 +256,5 @@ const cli_command command_project = {
                 "lampion project --light 0,3,0 --radius 0.5 --format json\n"
                 "lampion project --batch lights.csv --bands 8 > coefficients.csv",
     .run = run,
+    .kernels = true,
 };

@@ -153,7 +153,7 @@ static int execute(const cli_command *command, reference_arguments *a, int count
     if (count != 1)
         return cli_usage(command, "expected one scene");
     if (!a->output)
-        return cli_usage(command, "-o FILE is missing");
+        return cli_usage_output(command, "FILE");
     return image_check_path(a->output, &error) && render(a, operands[0], &error)
                ? CLI_OK
                : cli_report(&error);

@@ -315,7 +315,7 @@ static int check_options(const cli_command *command, const render_options *o, in
     if (operand_count != 1 && !(o->from && operand_count == 0))
         return cli_usage(command, "one SCENE is needed, %d given", operand_count);
     if (!o->output)
-        return cli_usage(command, "-o FILE is needed");
+        return cli_usage_output(command, "FILE");
     if (o->shard_given && !o->frames_given)
         return cli_usage(command, "--shard splits --frames, which is not there");
     if (image_format_of(o->output) == IMAGE_UNKNOWN)
@@ -445,4 +445,5 @@ const cli_command command_render = {
         "lampion render builtin:balls --bands 100 --method preintegrated -o balls.png\n"
         "lampion render builtin:atrium --stats --compare-methods -o atrium.png\n",
     .run = run,
+    .kernels = true,
 };

@@ -147,4 +147,5 @@ const cli_command command_view = {
                 "lampion view --from lampion-0001.png\n"
                 "lampion view builtin:balls --script demo.txt --record frames\n",
     .run = run,
+    .kernels = true,
 };

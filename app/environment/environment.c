@@ -67,10 +67,9 @@ const char *environment_choose(const environment_options *options, const scene *
         return options->name;
     if (world->light_count > 0 || world->lights_chosen)
         return "none";
-    fprintf(stderr,
-            "lampion: %s: no lights in it, lit by the built-in studio (--environment, "
-            "--lights and --random-lights choose others)\n",
-            world->origin);
+    cli_note(world->origin,
+             "no lights in it, lit by the built-in studio (--environment, --lights and "
+             "--random-lights choose others)");
     return "studio";
 }
 

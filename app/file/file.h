@@ -24,6 +24,9 @@ bool file_read_descriptor(int fd, const char *path, size_t limit, void **data, s
  * the parser, which then reads what it says and no less. */
 const char *file_json_wrong(const char *text, size_t size);
 
+/* What is usually the cause of that: a text for a person, static storage. */
+const char *file_json_cause(const char *text, size_t size, const char *wrong);
+
 /* One JSON value and nothing after it. The file is named in the error. Free with cJSON_Delete; NULL
  * on failure. */
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error);

@@ -39,10 +39,13 @@ char *file_json_text(struct cJSON *root, bool lines, const char *subject, cli_er
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error) {
     const char *wrong = file_json_wrong(text, size);
     if (wrong) {
-        int line = 1;
-        for (const char *at = text; at < wrong; at++)
+        int line = 1, column = 1;
+        for (const char *at = text; at < wrong; at++) {
             line += *at == '\n';
-        cli_fail(error, path, "is no valid JSON: line %d", line);
+            column = *at == '\n' ? 1 : column + 1;
+        }
+        cli_fail(error, path, "is no valid JSON: line %d, column %d: %s", line, column,
+                 file_json_cause(text, size, wrong));
         return NULL;
     }
     cJSON *root = cJSON_ParseWithLength(text, size);

@@ -140,3 +140,33 @@ const char *file_json_wrong(const char *text, size_t size) {
     scanner s = { text, text + size, 0 };
     return scan_value(&s) && s.at == s.end ? NULL : s.at;
 }
+
+/* The byte before `at` that is no white space, or 0. */
+static char before(const char *text, const char *at) {
+    while (at > text && strchr(" \t\r\n", at[-1]))
+        at--;
+    return at > text ? at[-1] : '\0';
+}
+
+const char *file_json_cause(const char *text, size_t size, const char *wrong) {
+    if (wrong == text + size)
+        return "it ends too early";
+    if (wrong > text && !file_json_wrong(text, (size_t)(wrong - text)))
+        return "something stands after its end";
+    const char c = *wrong, last = before(text, wrong);
+    if (wrong == text && c == '\xEF')
+        return "a byte-order mark stands before it";
+    if ((c == '}' || c == ']') && last == ',')
+        return "a comma stands before the bracket that closes";
+    if (c == '\'')
+        return "names and texts stand in double quotes";
+    if (c == '/' || c == '#')
+        return "JSON has no comments";
+    if (c == '+' || c == '.' || c == 'N' || c == 'I')
+        return "a number begins with a digit or - (and there is no NaN or Infinity)";
+    if (c >= '0' && c <= '9' && wrong > text && wrong[-1] == '0')
+        return "a number does not begin with 0";
+    if (last == ',' || last == '{' || last == '[' || last == ':' || !last)
+        return "neither a value nor a name in double quotes begins here";
+    return "a comma, colon or bracket is missing here";
+}

@@ -137,8 +137,7 @@ static void write_preintegrated(const void *brdf, void *bytes) {
 
 /* Says why a material is summed by its bands; returns true, for that is no failure. */
 static bool note_without(const material *m, const char *why) {
-    fprintf(stderr, "lampion: %s: %s: shaded by its bands (as by --method coefficients)\n", m->name,
-            why);
+    cli_note(m->name, "%s: shaded by its bands (as by --method coefficients)", why);
     return true;
 }
 

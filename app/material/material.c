@@ -53,9 +53,12 @@ static bool take_color(const char **text, lmp_rgb *color) {
     return true;
 }
 
-static bool finish(const char *name, const char *rest, lmp_result result, cli_error *error) {
+static bool finish(const char *name, const char *rest, lmp_result result, const char *ranges,
+                   cli_error *error) {
     if (*rest)
         return cli_fail(error, name, "too much after its last number");
+    if (result == LMP_ERROR_ARGUMENT)
+        return cli_fail(error, name, "a number is out of range (%s)", ranges);
     if (result != LMP_OK)
         return cli_fail(error, name, "%s", lmp_result_text(result));
     return true;
@@ -65,7 +68,8 @@ static bool open_lambert(const char *name, const char *text, material *m, cli_er
     lmp_rgb albedo;
     if (!*text || !take_color(&text, &albedo))
         return cli_fail(error, name, "is not lambert:COLOR (one number or R,G,B)");
-    return finish(name, text, lmp_brdf_create_lambert(NULL, albedo, &m->brdf), error);
+    return finish(name, text, lmp_brdf_create_lambert(NULL, albedo, &m->brdf), "COLOR at least 0",
+                  error);
 }
 
 static bool open_phong(const char *name, const char *text, material *m, cli_error *error) {
@@ -73,7 +77,8 @@ static bool open_phong(const char *name, const char *text, material *m, cli_erro
     float exponent;
     if (take_numbers(&text, ',', 1, &exponent) != 1 || !take_color(&text, &reflectance))
         return cli_fail(error, name, "is not phong:EXPONENT[:COLOR]");
-    return finish(name, text, lmp_brdf_create_phong(NULL, reflectance, exponent, &m->brdf), error);
+    return finish(name, text, lmp_brdf_create_phong(NULL, reflectance, exponent, &m->brdf),
+                  "EXPONENT and COLOR at least 0", error);
 }
 
 static bool open_ggx(const char *name, const char *text, material *m, cli_error *error) {
@@ -84,11 +89,20 @@ static bool open_ggx(const char *name, const char *text, material *m, cli_error 
         return cli_fail(error, name, "is not ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]");
     ggx.alpha_x = alpha[0];
     ggx.alpha_y = alpha[1];
-    return finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf), error);
+    return finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf),
+                  "ALPHA 0.001 to 1, F0 0 to 1, DIFFUSE at least 0", error);
 }
 
 /* --- SGD ----------------------------------------------------------------------------------------
  */
+
+/* The SGD material of that name, or of one near it; NULL: none. */
+static const char *nearest_sgd(const char *text) {
+    const char *names[128] = { NULL };
+    for (size_t i = 0; i < 127 && lmp_sgd_name(i); i++)
+        names[i] = lmp_sgd_name(i);
+    return cli_nearest(text, names);
+}
 
 static bool find_sgd(const char *name, const char *text, lmp_sgd *sgd, cli_error *error) {
     const char *colon = strrchr(text, ':');
@@ -102,10 +116,7 @@ static bool find_sgd(const char *name, const char *text, lmp_sgd *sgd, cli_error
     }
     if (lmp_sgd_find(text, sgd) == LMP_OK)
         return true;
-    const char *names[128] = { NULL };
-    for (size_t i = 0; i < 127 && lmp_sgd_name(i); i++)
-        names[i] = lmp_sgd_name(i);
-    const char *nearest = cli_nearest(text, names);
+    const char *nearest = nearest_sgd(text);
     return nearest ? cli_fail(error, name, "no such SGD material (is it sgd:%s?)", nearest)
                    : cli_fail(error, name, "no such SGD material (lampion brdf list names them)");
 }
@@ -115,7 +126,8 @@ static bool open_sgd(const char *name, const char *text, material *m, cli_error 
     if (!find_sgd(name, text, &sgd, error))
         return false;
     file_hash_add(&m->hash, &sgd, sizeof sgd);
-    return finish(name, "", lmp_brdf_create_sgd(NULL, &sgd, &m->brdf), error);
+    return finish(name, "", lmp_brdf_create_sgd(NULL, &sgd, &m->brdf), "the fit's parameters",
+                  error);
 }
 
 /* --- by name ------------------------------------------------------------------------------------
@@ -139,12 +151,18 @@ static bool open_file(const char *path, material *m, cli_error *error) {
     return ok;
 }
 
-/* A name such as gxx:0.3 is no file: says so. Returns false. */
+/* A name such as gxx:0.3 or nickel is no file: says what it may be. Returns false. */
 static bool hint_kind(const char *name, cli_error *error) {
     const char *names[KINDS + 1];
     char word[16];
     const size_t length = strcspn(name, ":");
-    if (name[length] != ':' || length >= sizeof word || access(name, F_OK) == 0)
+    if (access(name, F_OK) == 0)
+        return false;
+    if (name[length] != ':') {
+        const char *const sgd = nearest_sgd(name);
+        return sgd && cli_fail(error, name, "does not exist (is it sgd:%s?)", sgd);
+    }
+    if (length >= sizeof word)
         return false;
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     cli_row_names(&kinds[0].name, sizeof *kinds, KINDS, names);

@@ -56,7 +56,7 @@ static bool tell_left_out(const scene *s, bool strict, cli_error *error) {
         return true;
     if (strict)
         return cli_fail(error, s->origin, "left out: %s (not allowed by --strict)", line);
-    fprintf(stderr, "lampion: %s: left out: %s\n", s->origin, line);
+    cli_note(s->origin, "left out: %s", line);
     return true;
 }
 

@@ -19,8 +19,12 @@ static const struct {
     const char *json, *expected;
 } mistakes[] = {
     { "", "lights.json" },
-    { "{\"lights\":[" GOOD, "is no valid JSON" },
-    { "{\n\"lights\":\n[NaN]}", "is no valid JSON: line 3" },
+    { "{\"lights\":[" GOOD, "it ends too early" },
+    { "{\n\"lights\":\n[NaN]}", "is no valid JSON: line 3, column 2: a number begins with" },
+    { "{'lights':[]}", "line 1, column 2: names and texts stand in double quotes" },
+    { "{lights:[]}", "neither a value nor a name in double quotes begins here" },
+    { "{\"lights\":[] // none\n}", "JSON has no comments" },
+    { "{\"lights\" []}", "line 1, column 11: a comma, colon or bracket is missing here" },
     { "{\"lights\":[" GOOD "]} more", "is no valid JSON" },
     { "[]", "has no array" },
     { "{\"lights\":{}}", "has no array" },

@@ -44,7 +44,9 @@ refuse() {
 }
 refuse 1 'sgd:gold-metallic-paint?' info sgd:gold-metalic-paint
 refuse 1 'ggx:ALPHA' info ggx:rough
-refuse 1 'argument out of range' info ggx:7
+refuse 1 'out of range (ALPHA 0.001 to 1' info ggx:7
+refuse 1 'out of range (EXPONENT and COLOR at least 0)' info phong:-1
+refuse 1 'nickel: does not exist (is it sgd:nickel?)' info nickel
 refuse 1 'missing.binary' info "$WORK/missing.binary"
 head -c 1000 "$WORK/l.binary" >"$WORK/short.binary"
 refuse 1 'short.binary: MERL dimensions 90 x 90 x 180 need 34992012 bytes, the file has 1000' \
@@ -55,8 +57,10 @@ refuse 1 'the directory ends' info "$WORK/short.bsdf"
 refuse 1 'checksum' info "$WORK/damaged.lmpt"
 refuse 1 'table' eval "$WORK/a.lmpt"
 refuse 1 'name it .binary or .bsdf' convert lambert:1 -o "$WORK/x.txt"
+refuse 1 'x.png: bake writes a table (name it .lmpt)' bake missing.binary -o "$WORK/x.png"
+refuse 1 'x.lmpt: plot writes an image (name it .png)' plot missing.binary -o "$WORK/x.lmpt"
 [ ! -e "$WORK/x.txt" ] || fail "an output was left behind"
-refuse 2 'needs -o FILE' bake lambert:1
+refuse 2 '-o FILE is needed' bake lambert:1
 refuse 2 'needs one MATERIAL' info
 refuse 2 'bands needs a MATERIAL' bands
 refuse 2 'list takes no MATERIAL' list x

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 static const char *const methods[] = { "zonal", "coefficients", NULL };
-static const cli_command command = { "draw", "SCENE", "draws", "lampion draw", NULL };
+static const cli_command command = { "draw", "SCENE", "draws", "lampion draw", NULL, true };
 
 /* Everything a table can hold. */
 typedef struct values {

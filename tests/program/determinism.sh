@@ -13,15 +13,16 @@ awk 'BEGIN {
 outputs() {
     folder=$WORK/$1
     shift
+    batches=${mask:+--cpu-mask $mask} # of the commands that run the batch functions
     mkdir "$folder"
     export XDG_CACHE_HOME="$folder/cache"
     set -- "$@" --bands 6
-    "$PROGRAM" render builtin:ball --device cpu --method zonal --size 96x54 -o "$folder/zonal.exr" "$@"
-    "$PROGRAM" render builtin:atrium --device cpu --size 96x54 --samples 2 -o "$folder/image.png" "$@"
+    "$PROGRAM" render builtin:ball --device cpu --method zonal --size 96x54 -o "$folder/zonal.exr" $batches "$@"
+    "$PROGRAM" render builtin:atrium --device cpu --size 96x54 --samples 2 -o "$folder/image.png" $batches "$@"
     "$PROGRAM" reference builtin:ball --size 48x27 --spp 4 --threads "${OMP_NUM_THREADS:-0}" \
         -o "$folder/reference.exr" "$@"
     "$PROGRAM" brdf bake sgd:white-fabric --views 8 -o "$folder/table.lmpt" "$@"
-    "$PROGRAM" project --batch "$WORK/lights.csv" "$@" >"$folder/project.csv"
+    "$PROGRAM" project --batch "$WORK/lights.csv" $batches "$@" >"$folder/project.csv"
     rm -r "$folder/cache"
 }
 
@@ -40,8 +41,9 @@ for threads in 1 2 7; do
 done
 unset OMP_NUM_THREADS LP_NUM_THREADS
 for mask in 1 2 4 8; do
-    same "mask-$mask" --cpu-mask $mask
+    same "mask-$mask"
 done
+unset mask
 
 # the locales are made here, for few systems have them
 export LOCPATH="$WORK/locale"

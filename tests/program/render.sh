@@ -57,6 +57,18 @@ cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"
 "$PROGRAM" compare "$WORK/up.exr" "$WORK/parallel.exr" --fail-above rmse=1e-4 || fail "--up z leaves something as it was"
 cmp -s "$WORK/parallel.exr" "$WORK/parting.exr" && fail "--orthographic changes nothing"
 
+# what has no effect is said, and stops nothing
+noted() {
+    text=$1
+    shift
+    "$PROGRAM" render builtin:ball $small -o "$WORK/noted.png" "$@" 2>"$WORK/err" || fail "render $*: $(cat "$WORK/err")"
+    [ "$(cat "$WORK/err")" = "lampion: $text" ] || fail "render $*: $(cat "$WORK/err")"
+}
+noted '--seed: changes nothing without --random-lights' --seed 3
+noted '--keep-lights: changes nothing without --lights or --random-lights' --keep-lights
+echo '{ "lights": [] }' >"$WORK/none.json"
+noted "$WORK/none.json: has no lights" --lights "$WORK/none.json"
+
 # refusals: status, one line, nothing written
 refused() {
     status=$1
