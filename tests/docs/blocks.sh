@@ -13,7 +13,7 @@
 # an option counts, and the program's stand-in below adds its own; of the materials of `brdf bands`
 # it keeps the first. Nothing else is changed.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 document=docs/$1.md
 [ -f "$document" ] || document=$1.md
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The site builds without a warning, needs no network, and has no dead link, anchor or image.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 # On Debian older pandoc releases cannot read by Lua; the packages of ./dev bring one that can.
 command -v pandoc >/dev/null || {

@@ -2,7 +2,7 @@
 # lampion.glsl, preintegrated_lookup.h, preintegrated_lobe.glsl and preintegrated_brdf.glsl are valid GLSL 4.50, GLSL for Vulkan and GLSL ES 3.10
 # (glslang's judgement), in a compute shader that calls all of it and in the example's fragment shader.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 command -v glslangValidator >/dev/null || {
     echo "skipped: glslangValidator is not installed (package glslang-tools)"
     exit 0

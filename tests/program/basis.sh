@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion basis: the figure has its colors where they belong, at any size, or no file at all.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 "$PROGRAM" basis --bands 2 --size 360x220 -o "$WORK/basis.png" >"$WORK/out" 2>&1 ||
     fail "$(cat "$WORK/out")"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion brdf: values through every format, tables, images, and what it refuses.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 export XDG_CACHE_HOME="$WORK/cache"
 
 # the same values from a material and from files of it

@@ -2,7 +2,7 @@
 # The same bytes from run to run, from any number of threads, by every instruction set, and under
 # locales that write numbers (German) and letters (Turkish) another way.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 awk 'BEGIN {
     print "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion doctor, and the cache it tells of: where it lies, how it is held to its limit, cleared.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 cd "$WORK" # a driver takes a relative XDG_CACHE_HOME for what it says
 export ASAN_OPTIONS=detect_leaks=0 # GL drivers leak at exit
 

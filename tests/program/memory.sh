@@ -3,7 +3,7 @@
 # ends well and prints what it always prints, or fails with one line; it neither crashes nor leaves a part
 # of a file. LAMPION_LONG=1 refuses every request, otherwise a dozen spread over each run.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 if nm -D "$PROGRAM" | grep -q '__[at]san_init'; then
     echo "skipped: sanitizers have an allocator of their own"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion paper: quick steps succeed, a step that fails is told in the page and stops nothing.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 "$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated >"$WORK/out" ||
     fail "the quick steps fail"

@@ -2,7 +2,7 @@
 # lampion project against the reference vectors, one form of output against the other, and what it
 # refuses.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 header=light_x,light_y,light_z,radius,recv_x,recv_y,recv_z
 vectors=${LAMPION_DATA:-../shared}/vectors/sphere_light.csv

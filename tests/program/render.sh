@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion render as a user runs it: images, sequences, statistics, and what it refuses.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 export LAMPION_GL_DEBUG=fatal
 # llvmpipe's LLVM leaks 112 bytes and is unloaded before the check, so no suppression can name it
 export ASAN_OPTIONS=detect_leaks=0

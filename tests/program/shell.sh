@@ -2,7 +2,7 @@
 # What the program prints for others to read: manual pages that groff takes without a word, and
 # completion that completes.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 # absent TOOL: says so, once
 absent() {

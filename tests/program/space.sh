@@ -3,7 +3,7 @@
 # command does what it always does, or fails with one line; it does not crash, nor leave a part of a file.
 # LAMPION_LONG=1 tries every 32 MiB.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 if nm -D "$PROGRAM" | grep -q '__[at]san_init'; then
     echo "skipped: sanitizers take terabytes of it"

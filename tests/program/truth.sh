@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion reference and lampion compare: what they write, print and refuse.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 # refuses STATUS TEXT COMMAND…: ends so, saying TEXT, and leaves no image behind.
 refuses() {

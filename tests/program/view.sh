@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # lampion view in a window, by real input: a session checked step by step, by its state and images.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 for tool in xvfb-run xdotool; do
     command -v $tool >/dev/null || {
         echo "skipped: $tool is not installed (packages xvfb, xauth, xdotool)"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # A long session of the viewer: nothing is lost under the address sanitizer, memory is steady without.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 command -v xvfb-run >/dev/null || {
     echo "skipped: xvfb-run is not installed (packages xvfb, xauth)"
     exit 0

@@ -2,7 +2,7 @@
 # Files appear whole or not at all: on a full disk, in a folder that vanishes, under a limit of size, when
 # the program is interrupted or killed at any time; and nothing is left beside them.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 temporaries() {
     find "$WORK" -name '.lampion-*' | wc -l

@@ -2,7 +2,7 @@
 # The examples, built as installed and run: each prints what stands in examples/NAME.txt, and the
 # window draws its lanterns. rotate_splats needs a file: tests/program/splats.c runs it.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 usr=$WORK/../libraries/usr
 examples=$usr/share/doc/lampion/examples

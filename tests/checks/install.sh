@@ -2,7 +2,7 @@
 # Installs the library, static and shared, moves it elsewhere, and builds the README's program
 # against it as users would: find_package, pkg-config, add_subdirectory.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 code_blocks README.md c >"$WORK/first_light.c"
 grep -q 'int main' "$WORK/first_light.c" || fail "README.md has no C program"

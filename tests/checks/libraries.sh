@@ -2,7 +2,7 @@
 # Static and shared library from one compilation, in build/package as ./dev package makes them, and
 # installed in usr without the program, for the tests that look at them from outside.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 export SOURCE_DATE_EPOCH=0
 {

@@ -2,7 +2,7 @@
 # The Debian packages: what is in them, that they install, serve and leave nothing behind, and that
 # the same source gives the same bytes.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 if ! command -v dpkg-shlibdeps >/dev/null; then
     echo "skipped: not a Debian system with dpkg-dev"
@@ -70,7 +70,7 @@ for file in bash-completion/completions/lampion zsh/vendor-completions/_lampion 
     [ -s "$root/usr/share/$file" ] || fail "no $file"
 done
 
-# the library, as installed (house.install does more)
+# the library, as installed (checks.install does more)
 export PKG_CONFIG_PATH="$lib/pkgconfig"
 gcc examples/first_light.c $(pkg-config --cflags --libs lampion) -o "$WORK/shared" || fail "pkg-config"
 objdump -p "$WORK/shared" | grep -q "NEEDED *liblampion.so.$soversion" || fail "not linked to the shared library"

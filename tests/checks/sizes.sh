@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What is written by hand stays small enough to be read at once: 450 lines a file, 60 a function, 1700 words a page.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 file_lines=450
 function_lines=60

@@ -2,7 +2,7 @@
 # Each public header stands alone, as C11 and as C++17, under both compilers, and bears inclusion
 # twice; its macros and initializers, too, give C++ no warnings.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 compile() {
     for header in include/lampion/*.h; do

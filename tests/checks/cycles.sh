@@ -3,7 +3,7 @@
 # A header and the source of its name are one file. A table may name functions that call back to those who
 # read it: what counts is code that calls, not data that names.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 # includes ROOT: a line "FILE FILE" for each include between files of src/, include/, app/ and shaders/.
 includes() (

@@ -2,7 +2,7 @@
 # What the library shows and needs: exports lmp_ names alone, has no state but the kernel table,
 # and needs nothing but the mathematics, memory and string functions of C.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 kernel_table=lmp_kernel_table # the one global
 

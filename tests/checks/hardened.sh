@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The program as it is built: what Debian hardens its packages with is in it.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 readelf -lWd "$PROGRAM" >"$WORK/layout"
 readelf -hW "$PROGRAM" >"$WORK/header"

@@ -2,7 +2,7 @@
 # Who may include whom: reads every #include of src/, include/ and app/ against the order of layers,
 # and shows that a violation would be found.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 standard='assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal
 stdalign stdarg stdatomic stdbool stddef stdint stdlib stdnoreturn string tgmath'

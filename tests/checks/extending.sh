@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # docs/extending.md names files that exist, and values that those files have.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 # missing FILE: the paths between backquotes in FILE that are not there. NAME, TOPIC and ROOM stand for
 # the reader's own.

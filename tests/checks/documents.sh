@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What the documents promise exists: commands, options, files that are linked to.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 documents="README.md CONTRIBUTING.md CHANGELOG.md $(find docs -name '*.md')"
 

@@ -2,7 +2,7 @@
 # One word for a thing: what stands on the left is called what stands on the right, in identifiers, options,
 # help, comments and documents. Only words that mean nothing else here, or what stands around those that do.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 words() {
     cat <<'END'
@@ -13,6 +13,7 @@ processors=CPU, core
 the processor=CPU, core
 ladders?=stages
 rungs?=stage
+house=checks
 contestants?=benchmark case
 made anew=reproduced, drawn again
 one_minus=one_minus_cos

@@ -2,7 +2,7 @@
 # Public headers are contracts: 40 to 55 of 100 lines that are not blank are comment. A line counts
 # as comment where one stands before any code.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 # percent FILE: of its lines that are not blank, those of comment.
 percent() {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # The program explains itself, and treats its output streams as a good Unix program does.
 set -eu
-. tests/house/common.sh
+. tests/checks/common.sh
 
 version=$(sed -n 's/^#define LMP_VERSION_[A-Z]* //p' include/lampion/base.h | paste -sd .)
 [ "$("$PROGRAM" --version)" = "lampion $version" ] || fail "--version is not $version"
