@@ -58,7 +58,7 @@ vec3 environment_shade(lmp_surface surface, lmp_metallic_roughness material) {
     return max(sum, vec3(0.0));
 }
 
-/* What is seen where nothing is, looking along w: environment_seen of the program. */
+/* The background seen along w: environment_seen of the program. */
 vec3 environment_seen(vec3 w) {
     if (surroundings.z == 0.0)
         return background.rgb;

@@ -78,7 +78,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 forward;    /* unit; w: 1 if the rays are parallel */
     vec4 right;      /* to the right edge of the view at distance 1, or at any */
     vec4 down;       /* to its bottom edge */
-    vec4 background; /* radiance where nothing is */
+    vec4 background; /* radiance of the background */
     vec4 size_lights; /* width, height, number of lights */
     vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1 */
     vec4 surroundings; /* of the environment: bands (0: none), azimuth, 1 if it is seen */

@@ -219,7 +219,7 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_reference = {
     .name = "reference",
     .operands = "SCENE",
-    .summary = "render the ground truth by Monte Carlo, without harmonics",
+    .summary = "render a Monte Carlo reference, without harmonics",
     .examples = "lampion reference builtin:atrium -o truth.exr --random-lights 30 --spp 256\n"
                 "lampion reference builtin:balls -o truth.png --error 0.01 --spp 4096 --shadows\n"
                 "lampion reference --point 0,0,0 --normal 0,1,0 --light 0,2,0,0.5,10,10,10\n",

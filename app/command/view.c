@@ -113,8 +113,9 @@ static int run(const cli_command *command, int argc, char **argv) {
           "play how lights move: " ANIMATION_NAMES "; without it they wait for the space bar", 0, 0,
           NULL, NULL },
         { "from", 0, CLI_TEXT, &a.from, "FILE",
-          "begin with all settings of a screenshot; only --material and what follows are heeded", 0,
-          0, NULL, NULL },
+          "begin with all settings of a screenshot; of the options, --material and those after it "
+          "count",
+          0, 0, NULL, NULL },
         { "record", 0, CLI_TEXT, &o->record, "DIR", "write every frame there, numbered", 0, 0, NULL,
           NULL },
         { "script", 0, CLI_TEXT, &o->script, "FILE", "timed events to play (docs/viewer.md)", 0, 0,

@@ -55,7 +55,7 @@ typedef struct gpu_frame {
     lmp_window window;
     const scene_light *lights;
     size_t light_count;                  /* <= SCENE_LIGHTS_MAX */
-    float background[3];                 /* where nothing is, and no backdrop */
+    float background[3];                 /* its radiance, where there is no backdrop */
     bool hide_backdrop;                  /* of the environment, which shines all the same */
     int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
     const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
