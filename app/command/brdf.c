@@ -332,7 +332,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "window", 0, CLI_CHOICE, &window, "WINDOW", "damps the ringing of few bands", 0, 0,
           method_window_names(), NULL },
         { "window-size", 0, CLI_FLOAT, &o.table.window_size, "BANDS",
-          "where the window falls to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
+          "where its weights fall to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
         { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };

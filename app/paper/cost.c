@@ -94,8 +94,8 @@ static bool plot_exponents(paper *p, cli_error *error) {
     setting settings[5];
     for (int i = 0; i < 5; i++)
         settings[i] = (setting) { exponents[i], 0.3, LMP_WINDOW_NONE };
-    return plot_by(p, "cost-exponent", "Error by exponent, r/d = 0.3, no window", settings, names,
-                   5, error);
+    return plot_by(p, "cost-exponent", "Error by exponent, r/d = 0.3, no windowing filter",
+                   settings, names, 5, error);
 }
 
 static bool plot_sizes(paper *p, cli_error *error) {
@@ -104,8 +104,8 @@ static bool plot_sizes(paper *p, cli_error *error) {
     setting settings[4];
     for (int i = 0; i < 4; i++)
         settings[i] = (setting) { 50, ratios[i], LMP_WINDOW_NONE };
-    return plot_by(p, "cost-size", "Error by size of the light, e = 50, no window", settings, names,
-                   4, error);
+    return plot_by(p, "cost-size", "Error by size of the light, e = 50, no windowing filter",
+                   settings, names, 4, error);
 }
 
 static bool plot_windows(paper *p, cli_error *error) {
@@ -113,8 +113,8 @@ static bool plot_windows(paper *p, cli_error *error) {
     setting settings[3];
     for (int i = 0; i < 3; i++)
         settings[i] = (setting) { 50, 0.3, (lmp_window)i };
-    return plot_by(p, "cost-window", "Error by window, e = 50, r/d = 0.3", settings, names, 3,
-                   error);
+    return plot_by(p, "cost-window", "Error by windowing filter, e = 50, r/d = 0.3", settings,
+                   names, 3, error);
 }
 
 /* The light comes nearer: cap and coefficients know its distance by r/d alone. */
@@ -137,16 +137,17 @@ static bool plot_distance(paper *p, cli_error *error) {
         }
     for (int i = 0; i < 6; i++)
         series[i] = (plot_series) { names[i], ratios, y[i], RATIOS };
-    return page_plot_write(&p->page,
-                           &(page_plot) { .file = "cost-distance",
-                                          .title = "Error by r/d, from far to near, no window",
-                                          .x_label = "r/d",
-                                          .y_label = "largest error / peak",
-                                          .log_x = true,
-                                          .log_y = true,
-                                          .series = series,
-                                          .series_count = 6 },
-                           error);
+    return page_plot_write(
+        &p->page,
+        &(page_plot) { .file = "cost-distance",
+                       .title = "Error by r/d, from far to near, no windowing filter",
+                       .x_label = "r/d",
+                       .y_label = "largest error / peak",
+                       .log_x = true,
+                       .log_y = true,
+                       .series = series,
+                       .series_count = 6 },
+        error);
 }
 
 /* The response itself as the light moves away from the lobe's axis. */
@@ -216,13 +217,13 @@ bool paper_step_cost(paper *p, cli_error *error) {
         !plot_exponents(p, error) || !plot_sizes(p, error) || !plot_distance(p, error) ||
         !plot_windows(p, error) || !tabulate(p, error))
         return false;
-    page_text(
-        &p->page,
-        "<b>Where the method is poor.</b> A lobe of exponent e needs about 3 √e bands: below "
-        "that its highlight is too dim and too wide, and it rings, below zero at a distance "
-        "from the highlight (column “lowest”). A window trades the ringing for more blur: the "
-        "peak falls further and the error grows. Large lights are easier than small ones, "
-        "for they blur the lobe themselves. Nothing here knows visibility: light passes "
-        "through walls.");
+    page_text(&p->page,
+              "<b>Where the method is poor.</b> A lobe of exponent e needs about 3 √e bands: below "
+              "that its highlight is too dim and too wide, and it rings, below zero at a distance "
+              "from the highlight (column “lowest”). A windowing filter trades the ringing for "
+              "more blur: the "
+              "peak falls further and the error grows. Large lights are easier than small ones, "
+              "for they blur the lobe themselves. Nothing here knows visibility: light passes "
+              "through walls.");
     return true;
 }

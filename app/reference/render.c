@@ -113,7 +113,7 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     const reference_material_source *source =
         f->settings->materials ? &f->settings->materials[hit->material] : NULL;
     if (source && (source->brdf || source->coefficients)) {
-        reference_tabulated_aim(&own->tabulated, source, normal, hit->tangent, view);
+        reference_tabulated_orient(&own->tabulated, source, normal, hit->tangent, view);
         reference_surface_measure(surface, &own->tabulated, normal, view);
     }
 }

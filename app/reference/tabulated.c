@@ -92,9 +92,9 @@ static reference_vec flatten(reference_vec v, reference_vec normal) {
                                          : reference_around(normal, 0, 1, 0);
 }
 
-void reference_tabulated_aim(reference_tabulated *tabulated,
-                             const reference_material_source *source, reference_vec normal,
-                             reference_vec tangent, reference_vec view) {
+void reference_tabulated_orient(reference_tabulated *tabulated,
+                                const reference_material_source *source, reference_vec normal,
+                                reference_vec tangent, reference_vec view) {
     const reference_vec x = flatten(tangent, normal), y = reference_cross(normal, x);
     const double phi = atan2(reference_dot(view, y), reference_dot(view, x));
     tabulated->source = source;

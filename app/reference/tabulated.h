@@ -16,7 +16,7 @@ typedef struct reference_material_source {
     lmp_brdf_table_info table;
 } reference_material_source;
 
-/* One a thread, aimed again for each point. */
+/* One a thread, oriented again for each point. */
 typedef struct reference_tabulated {
     const reference_material_source *source;
     double *coefficients; /* of the table's view */
@@ -32,9 +32,9 @@ void reference_tabulated_free(reference_tabulated *tabulated);
 /* A source with a BRDF or a table. The vectors must be unit; the tangent is the material's x axis
  * once it is square to the normal.
  */
-void reference_tabulated_aim(reference_tabulated *tabulated,
-                             const reference_material_source *source, reference_vec normal,
-                             reference_vec tangent, reference_vec view);
+void reference_tabulated_orient(reference_tabulated *tabulated,
+                                const reference_material_source *source, reference_vec normal,
+                                reference_vec tangent, reference_vec view);
 
 /* f_r cos(theta) of light from w, or the value of its series, which may be negative. */
 void reference_tabulated_at(const reference_tabulated *tabulated, reference_vec w, double rgb[3]);

@@ -83,8 +83,8 @@ typedef enum lmp_window {
 /* "none", "hanning" …; NULL from LMP_WINDOWS on. */
 LMP_API const char *lmp_sh_window_name(lmp_window window);
 
-/* Weights of a window. size is the band whose weight falls to 0, as those past it; 0 means bands,
- * as in the paper (§4.2). LMP_WINDOW_NONE gives 1 to every band, whatever the size. */
+/* Weights of a windowing filter. size is the band whose weight falls to 0, as those past it; 0
+ * means bands, as in the paper (§4.2). LMP_WINDOW_NONE gives 1 to every band, whatever the size. */
 LMP_API void lmp_sh_window(int bands, lmp_window window, float size, float *weights);
 
 /* Weights that minimize the squared Laplacian of the function sh (Sloan 2008): the window

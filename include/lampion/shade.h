@@ -47,7 +47,7 @@ typedef struct lmp_material {
         float metallic; /* 0 … 1; clamped */
     };
     float roughness; /* 0 … 1; clamped */
-    /* A tabulated BRDF, with the bands and the window of the table. */
+    /* A tabulated BRDF, with the bands and the windowing filter of the table. */
     const lmp_brdf_table *table;
     /* The same integrated beforehand: what LMP_SHADE_PREINTEGRATED reads in the table's place. */
     const lmp_preintegrated_brdf *preintegrated;
@@ -63,7 +63,7 @@ typedef enum lmp_shade_method {
 } lmp_shade_method;
 #define LMP_SHADE_METHODS (LMP_SHADE_PREINTEGRATED + 1) /* of the last one */
 
-/* How to shade; zero-initialized: by zonal sums of 10 bands, no window. */
+/* How to shade; zero-initialized: by zonal sums of 10 bands, no windowing filter. */
 typedef struct lmp_shade_settings {
     lmp_shade_method method;
     int bands; /* 1 … LMP_BANDS_MAX, 0 means LMP_SHADE_BANDS_DEFAULT */

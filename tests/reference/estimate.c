@@ -311,7 +311,7 @@ static reference_result estimate_tabulated(const reference_material_source *sour
     reference_tabulated tabulated;
     reference_surface surface = surface_of(&whole, &white, view);
     assert_true(reference_tabulated_create(&tabulated, source, 1));
-    reference_tabulated_aim(&tabulated, source, up, (reference_vec) { 1, 0, 0 }, view);
+    reference_tabulated_orient(&tabulated, source, up, (reference_vec) { 1, 0, 0 }, view);
     reference_surface_measure(&surface, &tabulated, up, view);
     const reference_result result = estimate(&surface, lights, count, 20000, 11);
     reference_tabulated_free(&tabulated);

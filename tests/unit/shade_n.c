@@ -124,7 +124,7 @@ static lmp_vec3 across(lmp_vec3 axis, lmp_vec3 v) {
 }
 
 /* Rotates every surface's view so that a light lies within `width` of its mirror direction. */
-static void aim(const lmp_light *light, float width) {
+static void face_highlight(const lmp_light *light, float width) {
     for (int i = 0; i < COUNT; i++) {
         lmp_surface *surface = &vertices[i].surface;
         const lmp_vec3 off = check_random_direction();
@@ -202,7 +202,7 @@ static void many_surfaces_are_shaded_as_one_is(void **state) {
             CHECK_WITHIN(fraction_of_bound(&settings, lights, LIGHTS, rgb, 4), 1);
             for (int i = 0; i < 6; i++) {
                 lights[i].radius *= i % 2 ? 0.01f : 1;
-                aim(&lights[i], 4.0f / (float)bands[b]);
+                face_highlight(&lights[i], 4.0f / (float)bands[b]);
                 lmp_shade_n(&settings, &surfaces, COUNT, &lights[i], 1, 4 * sizeof *rgb, rgb);
                 CHECK_WITHIN(fraction_of_bound(&settings, &lights[i], 1, rgb, 4), 1);
             }
@@ -229,7 +229,7 @@ static void point_lights_near_and_far_are_points(void **state) {
                                   .position = { d * w.x, d * w.y, d * w.z },
                                   .intensity = { d * d, d * d, d * d } };
         const lmp_shade_settings settings = { .bands = bands[k % 4] };
-        aim(&light, 4.0f / (float)bands[k % 4]);
+        face_highlight(&light, 4.0f / (float)bands[k % 4]);
         lmp_shade_n(&settings, &surfaces, COUNT, &light, 1, 0, rgb);
         CHECK_WITHIN(fraction_of_bound(&settings, &light, 1, rgb, 3), 1);
     }
