@@ -48,10 +48,9 @@ vec3 environment_response(vec3 axis, float exponent) {
     return sum;
 }
 
-vec3 environment_shade(lmp_surface surface, lmp_metallic_roughness material) {
+vec3 environment_shade(lmp_surface surface, lmp_lobes lobes) {
     if (surroundings.x == 0.0)
         return vec3(0.0);
-    lmp_lobes lobes = lmp_lobes_of(surface, material);
     vec3 sum = lobes.diffuse * environment_response(surface.normal, 1.0);
     for (int k = 0; k < LMP_LOBES; k++)
         sum += lobes.weight[k] * environment_response(lobes.axis[k], lobes.exponent[k]);

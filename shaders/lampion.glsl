@@ -223,21 +223,33 @@ struct lmp_metallic_roughness {
     float metallic, roughness;
 };
 
-/* A metal, whose F0 is the base color, mixed with a dielectric, whose base color is under a layer of
- * reflectance 0.04. */
-lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material) {
+/* The reflectance of the layer over a dielectric, along the normal and at grazing angles. */
+struct lmp_dielectric {
+    vec3 f0;
+    float f90;
+};
+
+/* A metal, whose F0 is the base color, mixed with a dielectric, whose base color is under a layer.
+ */
+lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material, lmp_dielectric layer) {
     lmp_ggx_place place = lmp_ggx_lookup(surface.normal, surface.view, material.roughness);
-    vec3 f0 = mix(vec3(0.04), material.base_color, material.metallic);
-    float f90 = lmp_ggx_diffuse_f90(place);
+    vec3 f0 = mix(layer.f0, material.base_color, material.metallic);
+    float f90 = layer.f90 + (1.0 - layer.f90) * material.metallic;
+    float held = max(layer.f0.r, max(layer.f0.g, layer.f0.b));
+    float passed = 1.0 - held - (layer.f90 - held) * lmp_ggx_diffuse_f90(place);
     lmp_lobes lobes;
-    lobes.diffuse = material.base_color * ((1.0 - material.metallic) * (0.96 - 0.96 * f90));
+    lobes.diffuse = material.base_color * ((1.0 - material.metallic) * passed);
     for (int k = 0; k < LMP_LOBES; k++) {
         lmp_ggx_lobe lobe = lmp_ggx_lobe_at(place, surface.normal, surface.view, k);
         lobes.axis[k] = lobe.axis;
-        lobes.weight[k] = lobe.f0 * f0 + lobe.f90;
+        lobes.weight[k] = lobe.f0 * f0 + lobe.f90 * f90;
         lobes.exponent[k] = lobe.exponent;
     }
     return lobes;
+}
+
+lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material) {
+    return lmp_lobes_of(surface, material, lmp_dielectric(vec3(0.04), 1.0));
 }
 #endif
 

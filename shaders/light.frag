@@ -11,6 +11,7 @@ layout(location = 0) out vec4 out_base_metallic;
 layout(location = 1) out vec2 out_normal;
 layout(location = 2) out vec2 out_roughness_kind;
 layout(location = 3) out vec3 out_emission;
+layout(location = 4) out vec2 out_layers;
 
 void main() {
     vec4 sphere = lights[light].sphere;
@@ -33,4 +34,5 @@ void main() {
     out_normal = vec2(gbuffer_encode_light(light), 0.0);
     out_roughness_kind = vec2(0.0, gbuffer_encode_kind(SHARED_KIND_LIGHT));
     out_emission = vec3(0.0);
+    out_layers = vec2(0.0);
 }

@@ -15,8 +15,7 @@
 
 layout(location = 0) out vec4 radiance;
 
-vec3 paper_shade(lmp_surface surface, lmp_metallic_roughness material) {
-    lmp_lobes lobes = lmp_lobes_of(surface, material);
+vec3 paper_shade(lmp_surface surface, lmp_lobes lobes) {
     vec3 sum[LMP_SH_COUNT];
     float sh[LMP_SH_COUNT], diffuse[LMP_BANDS];
     LMP_EACH glossy[LMP_BANDS];
@@ -78,8 +77,8 @@ void main() {
     radiance = vec4(background.rgb, 1.0);
     if (kind == SHARED_KIND_LIGHT) {
         radiance.rgb = pixel_light_radiance(at);
-    } else if (kind == SHARED_KIND_SURFACE) {
+    } else if (kind >= SHARED_KIND_SURFACE) {
         pixel p = pixel_read(at);
-        radiance.rgb = paper_shade(p.surface, p.material) + pixel_emission(at);
+        radiance.rgb = paper_shade(p.surface, pixel_lobes(p)) + pixel_emission(at);
     }
 }

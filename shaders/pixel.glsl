@@ -7,10 +7,17 @@ layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D roughness_kind_tex
 layout(binding = SHARED_NORMAL) uniform sampler2D normal_texture;
 layout(binding = SHARED_EMISSION) uniform sampler2D emission_texture;
 layout(binding = SHARED_DEPTH) uniform sampler2D depth_texture;
+layout(binding = SHARED_LAYERS) uniform sampler2D layers_texture;
+layout(std430, binding = SHARED_REFLECTORS) readonly restrict buffer reflectors_block {
+    shared_reflector reflectors[];
+};
 
 struct pixel {
     lmp_surface surface;
     lmp_metallic_roughness material;
+    lmp_dielectric dielectric;
+    vec2 layers;
+    int table; /* instead of the material, or -1 */
 };
 
 int pixel_kind(ivec2 at) {
@@ -33,6 +40,7 @@ vec3 pixel_view(ivec2 at) {
     return -normalize(pixel_ray(at).along);
 }
 
+/* Of no surface it is nonsense. */
 pixel pixel_read(ivec2 at) {
     camera_ray ray = pixel_ray(at);
     vec4 base_metallic = texelFetch(base_metallic_texture, at, 0);
@@ -40,7 +48,18 @@ pixel pixel_read(ivec2 at) {
     p.surface.position = ray.from + ray.along * camera_distance(texelFetch(depth_texture, at, 0).r);
     p.surface.normal = gbuffer_decode_normal(texelFetch(normal_texture, at, 0).rg);
     p.surface.view = -normalize(ray.along);
+    vec2 roughness_kind = texelFetch(roughness_kind_texture, at, 0).rg;
     p.material = lmp_metallic_roughness(gbuffer_decode_color(base_metallic.rgb), base_metallic.a,
-                                        texelFetch(roughness_kind_texture, at, 0).r);
+                                        roughness_kind.r);
+    int number = gbuffer_decode_kind(roughness_kind.g) - SHARED_KIND_SURFACE;
+    shared_reflector reflector = reflectors[max(number, 0)];
+    p.layers = texelFetch(layers_texture, at, 0).rg;
+    p.dielectric =
+        lmp_dielectric(reflector.dielectric.rgb * p.layers.y, reflector.dielectric.a * p.layers.y);
+    p.table = int(reflector.table.x);
     return p;
+}
+
+lmp_lobes pixel_lobes(pixel p) {
+    return lmp_lobes_of(p.surface, p.material, p.dielectric);
 }

@@ -63,6 +63,15 @@ vec3 shade_by_table(lmp_surface surface, int table) {
 }
 #endif
 
+vec3 shade_surface(pixel p) {
+#if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
+    if (p.table >= 0)
+        return shade_by_table(p.surface, p.table);
+#endif
+    lmp_lobes lobes = pixel_lobes(p);
+    return SHADE(p.surface, lobes) + environment_shade(p.surface, lobes) * p.layers.x;
+}
+
 layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
 layout(binding = 0, rgba32f) uniform writeonly restrict image2D hdr;
 
@@ -76,14 +85,8 @@ void main() {
         radiance = environment_seen(-pixel_view(at));
     } else if (kind == SHARED_KIND_LIGHT) {
         radiance = pixel_light_radiance(at);
-    } else if (kind == SHARED_KIND_SURFACE) {
-        pixel p = pixel_read(at);
-        radiance = SHADE(p.surface, p.material) + environment_shade(p.surface, p.material) +
-                   pixel_emission(at);
+    } else {
+        radiance = shade_surface(pixel_read(at)) + pixel_emission(at);
     }
-#if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
-    if (kind >= SHARED_KIND_TABLE)
-        radiance = shade_by_table(pixel_read(at).surface, kind - SHARED_KIND_TABLE) + pixel_emission(at);
-#endif
     imageStore(hdr, at, vec4(radiance, 1.0));
 }

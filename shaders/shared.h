@@ -34,19 +34,39 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_NORMAL             2
 #define SHARED_EMISSION           3
 #define SHARED_DEPTH              4
+#define SHARED_LAYERS             10 /* of the G-buffer; of materials the occlusion map */
+#define SHARED_OCCLUSION          10
+#define SHARED_SPECULAR           11
+#define SHARED_MAPS               6
 #define SHARED_HDR                5
 
-/* Fragment outputs, in the order of the G-buffer's attachments (20 bytes a pixel, and depth):
+/* Fragment outputs, in the order of the G-buffer's attachments (22 bytes a pixel, and depth):
  *   0  RGBA16          root of the base color, metallic
  *   1  RG16            octahedral normal; of a light, its index in r
  *   2  RG16            roughness, kind
  *   3  R11F_G11F_B10F  emitted radiance
+ *   4  RG8             how much of the ambient light comes, a factor on the dielectric's reflection
  * The root keeps dark colors: of 0.0005 to 7e-4, of brighter ones to less. Every device squares it
  * alike. */
-#define SHARED_KIND_NONE    0
-#define SHARED_KIND_SURFACE 1
-#define SHARED_KIND_LIGHT   2
-#define SHARED_KIND_TABLE   3 /* and up: a surface of table number kind - 3 */
+#define SHARED_KIND_NONE     0
+#define SHARED_KIND_LIGHT    1
+#define SHARED_KIND_SURFACE  2 /* and up: a surface of material number kind - 2 */
+#define SHARED_MATERIALS_MAX (65536 - SHARED_KIND_SURFACE)
+
+/* Storage block of what a material is all over. */
+#define SHARED_REFLECTORS 6
+#ifdef LAMPION_SHADER
+struct shared_reflector {
+#else
+typedef struct shared_reflector {
+#endif
+    vec4 dielectric; /* F0, F90 */
+    vec4 table;      /* x: the number of its table, or -1 */
+#ifdef LAMPION_SHADER
+};
+#else
+} shared_reflector;
+#endif
 
 /* Texture unit and storage block of a preintegrated lobe (lampion/preintegrated.h), and the most
  * cells and the entries of the remap that the block holds: those of 128 bands at the default error
@@ -117,9 +137,10 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 emission; /* w: kind */
     vec4 factors;  /* metallic, roughness, normal scale, alpha cutoff */
     vec4 maps;     /* base color, metallic-roughness, normal, emission */
-    vec4 matrix[4];
-    vec4 offset[4];
-    vec4 vertex; /* x: 1 where the vertices' colors count */
+    vec4 vertex;   /* x: 1 where the vertices' colors count; y: strength of the occlusion map */
+    vec4 more;     /* maps: occlusion, specular */
+    vec4 matrix[SHARED_MAPS];
+    vec4 offset[SHARED_MAPS];
 }
 SHARED_END(shared_material);
 
@@ -134,6 +155,7 @@ typedef struct shared_pixel {
     vec4 view_roughness;
     vec4 base_color;
     vec4 emission;
+    vec4 layers; /* as in the G-buffer */
 #ifdef LAMPION_SHADER
 };
 #else
@@ -152,10 +174,11 @@ static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
 static_assert(sizeof(shared_frame) == 192, "std140");
 static_assert(sizeof(shared_light) == 48, "std140");
 static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
-static_assert(offsetof(shared_material, matrix) == 64, "std140");
-static_assert(offsetof(shared_material, offset) == 128, "std140");
-static_assert(sizeof(shared_material) == 208, "std140");
-static_assert(sizeof(shared_pixel) == 80, "std430");
+static_assert(offsetof(shared_material, matrix) == 96, "std140");
+static_assert(offsetof(shared_material, offset) == 192, "std140");
+static_assert(sizeof(shared_material) == 288, "std140");
+static_assert(sizeof(shared_pixel) == 96, "std430");
+static_assert(sizeof(shared_reflector) == 32, "std430");
 #endif
 
 #endif

@@ -13,11 +13,18 @@ layout(location = 0) out vec4 out_base_metallic;
 layout(location = 1) out vec2 out_normal;
 layout(location = 2) out vec2 out_roughness_kind;
 layout(location = 3) out vec3 out_emission;
+layout(location = 4) out vec2 out_layers;
 
 layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_color_map;
 layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_map;
 layout(binding = SHARED_NORMAL) uniform sampler2D normal_map;
 layout(binding = SHARED_EMISSION) uniform sampler2D emission_map;
+layout(binding = SHARED_OCCLUSION) uniform sampler2D occlusion_map;
+layout(binding = SHARED_SPECULAR) uniform sampler2D specular_map;
+
+/* Maps by their place in the block. */
+#define MAP_OCCLUSION 4
+#define MAP_SPECULAR  5
 
 vec2 map_uv(int map) {
     vec2 uv = offset[map].z > 0.0 ? world_uv.zw : world_uv.xy;
@@ -56,8 +63,15 @@ void main() {
     if (maps.w > 0.0)
         emitted *= texture(emission_map, map_uv(SHARED_EMISSION)).rgb;
 
+    vec2 layers = vec2(1.0);
+    if (more.x > 0.0)
+        layers.x += vertex.y * (texture(occlusion_map, map_uv(MAP_OCCLUSION)).r - 1.0);
+    if (more.y > 0.0)
+        layers.y = texture(specular_map, map_uv(MAP_SPECULAR)).a;
+
     out_base_metallic = vec4(gbuffer_encode_color(base.rgb), metallic);
     out_normal = gbuffer_encode_normal(n);
     out_roughness_kind = vec2(roughness, gbuffer_encode_kind(int(emission.w)));
     out_emission = emitted;
+    out_layers = layers;
 }

@@ -30,5 +30,6 @@ void main() {
                       : kind != SHARED_KIND_NONE    ? pixel_emission(at)
                                                     : environment_seen(-p.surface.view),
                       0.0);
+    o.layers = vec4(p.layers, 0.0, 0.0);
     pixels[(at.y - first_row) * int(size_lights.x) + at.x] = o;
 }

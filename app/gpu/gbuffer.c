@@ -18,9 +18,10 @@ static bool allocate(gpu_gbuffer *g, int width, int height, cli_error *error) {
     g->normal = malloc(count * sizeof *g->normal);
     g->roughness_kind = malloc(count * sizeof *g->roughness_kind);
     g->emission = malloc(count * sizeof *g->emission);
+    g->layers = malloc(count * sizeof *g->layers);
     g->rgba = malloc(count * sizeof *g->rgba);
     if (!g->depth || !g->base_metallic || !g->normal || !g->roughness_kind || !g->emission ||
-        !g->rgba) {
+        !g->layers || !g->rgba) {
         gpu_gbuffer_free(g);
         return cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
     }
@@ -35,6 +36,7 @@ void gpu_gbuffer_free(gpu_gbuffer *g) {
     free(g->normal);
     free(g->roughness_kind);
     free(g->emission);
+    free(g->layers);
     free(g->rgba);
     memset(g, 0, sizeof *g);
 }
@@ -59,6 +61,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
           g->roughness_kind },
         { r->attachments[3], GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, sizeof *g->emission,
           g->emission },
+        { r->attachments[4], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->layers, g->layers },
     };
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
@@ -70,6 +73,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     }
     g->block = *block;
     g->frame = frame;
+    g->mesh = &r->mesh;
     g->tables = r->tables;
     g->brdfs = r->brdfs;
     g->environment = r->environment;
@@ -82,7 +86,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
 bool gpu_row_create(int width, gpu_row *row) {
     const size_t count = (size_t)width;
     memset(row, 0, sizeof *row);
-    float *memory = malloc(count * (sizeof *row->material + 12 * sizeof(float) + 1));
+    float *memory = malloc(count * (sizeof *row->material + 13 * sizeof(float) + 1));
     if (!memory)
         return false;
     row->material = (lmp_material *)(void *)memory;
@@ -91,7 +95,8 @@ bool gpu_row_create(int width, gpu_row *row) {
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
         for (int c = 0; c < 3; c++, memory += count)
             planes[i][c] = memory;
-    row->kind = (unsigned char *)memory;
+    row->ambient = memory;
+    row->kind = (unsigned char *)(memory + count);
     return true;
 }
 
@@ -114,13 +119,9 @@ static lmp_rgb decode_emission(uint32_t bits) {
                        small_float(bits >> 22, 5) };
 }
 
-static void decode_light(const gpu_gbuffer *g, unsigned index, size_t x, gpu_row *row) {
-    const lmp_rgb none = { 0, 0, 0 };
-    const lmp_rgb radiance =
-        index < g->frame->light_count ? g->frame->lights[index].emitter.radiance : none;
-    row->emission[0][x] = radiance.r;
-    row->emission[1][x] = radiance.g;
-    row->emission[2][x] = radiance.b;
+static lmp_rgb light_of(const gpu_gbuffer *g, unsigned index) {
+    return index < g->frame->light_count ? g->frame->lights[index].emitter.radiance
+                                         : (lmp_rgb) { 0, 0, 0 };
 }
 
 /* What is seen past everything. */
@@ -193,41 +194,36 @@ static float squared(uint16_t stored) {
     return unit(stored) * unit(stored);
 }
 
-static void decode_materials(const gpu_gbuffer *g, int y, gpu_row *row) {
-    const size_t first = (size_t)y * (size_t)g->width;
-    for (size_t x = 0; x < (size_t)g->width; x++) {
-        const gpu_base16 *base = &g->base_metallic[first + x];
-        row->material[x] = (lmp_material) {
-            .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-            .base_color = { squared(base->root[0]), squared(base->root[1]),
-                            squared(base->root[2]) },
-            .metallic = unit(base->metallic),
-            .roughness = unit(g->roughness_kind[first + x].u),
-        };
-    }
+/* Of a surface. */
+static lmp_material material_of(const gpu_gbuffer *g, size_t pixel) {
+    const gpu_base16 *base = &g->base_metallic[pixel];
+    const gpu_pair16 *of = &g->roughness_kind[pixel];
+    lmp_material material =
+        gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v, (float)g->layers[pixel].v / 255);
+    material.base_color =
+        (lmp_rgb) { squared(base->root[0]), squared(base->root[1]), squared(base->root[2]) };
+    material.metallic = unit(base->metallic);
+    material.roughness = unit(of->u);
+    return material;
 }
 
 void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
     const size_t first = (size_t)y * (size_t)g->width;
     decode_points(g, y, row);
     decode_normals(g, y, row);
-    decode_materials(g, y, row);
     for (size_t x = 0; x < (size_t)g->width; x++) {
-        const int kind = g->roughness_kind[first + x].v;
-        row->kind[x] = (unsigned char)(kind >= SHARED_KIND_TABLE ? GPU_KIND_SURFACE : kind);
-        if (kind >= SHARED_KIND_TABLE)
-            row->material[x] =
-                (lmp_material) { .kind = LMP_MATERIAL_TABLE,
-                                 .table = g->tables[kind - SHARED_KIND_TABLE],
-                                 .preintegrated = g->brdfs[kind - SHARED_KIND_TABLE] };
-        if (kind == SHARED_KIND_LIGHT) {
-            decode_light(g, g->normal[first + x].u, x, row);
-            continue;
-        }
-        const lmp_rgb emission = kind == SHARED_KIND_NONE ? decode_nothing(g, x, row)
-                                                          : decode_emission(g->emission[first + x]);
+        const size_t pixel = first + x;
+        const int kind = g->roughness_kind[pixel].v;
+        const lmp_rgb emission = kind == SHARED_KIND_NONE    ? decode_nothing(g, x, row)
+                                 : kind == SHARED_KIND_LIGHT ? light_of(g, g->normal[pixel].u)
+                                                             : decode_emission(g->emission[pixel]);
         row->emission[0][x] = emission.r;
         row->emission[1][x] = emission.g;
         row->emission[2][x] = emission.b;
+        row->kind[x] = (unsigned char)(kind < SHARED_KIND_SURFACE ? kind : GPU_KIND_SURFACE);
+        if (kind < SHARED_KIND_SURFACE)
+            continue;
+        row->material[x] = material_of(g, pixel);
+        row->ambient[x] = (float)g->layers[pixel].u / 255;
     }
 }

@@ -162,7 +162,7 @@ bool gpu_context_lost(void);
 /* --- what the shaders see ----------------------------------------------------------------------
  */
 
-typedef enum gpu_kind { GPU_KIND_NONE, GPU_KIND_SURFACE, GPU_KIND_LIGHT } gpu_kind;
+typedef enum gpu_kind { GPU_KIND_NONE, GPU_KIND_LIGHT, GPU_KIND_SURFACE } gpu_kind;
 
 /* A pixel: radiance = emission + what lmp_shade gives for surface and material (kind SURFACE), or
  * emission alone. */
@@ -171,6 +171,7 @@ typedef struct gpu_pixel {
     lmp_surface surface;
     lmp_material material;
     lmp_rgb emission;
+    float ambient; /* how much of the environment's light comes: the occlusion map */
 } gpu_pixel;
 
 /* The pixels of the last frame (of its last sample), positions and materials just as the shaders
@@ -184,7 +185,7 @@ bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *erro
 typedef struct gpu_row {
     unsigned char *kind; /* gpu_kind */
     float *position[3], *normal[3], *view[3];
-    float *emission[3];
+    float *emission[3], *ambient;
     lmp_material *material;
 } gpu_row;
 bool gpu_row_create(int width, gpu_row *row);

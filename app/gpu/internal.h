@@ -35,12 +35,14 @@ typedef struct gpu_draw {
 } gpu_draw;
 
 typedef struct gpu_material {
-    GLuint maps[4]; /* GL textures, 0 = none */
+    GLuint maps[SHARED_MAPS]; /* GL textures, 0 = none */
     bool double_sided, masked;
+    lmp_dielectric dielectric;
+    int table; /* of gpu_set_tables, instead of all that, or -1 */
 } gpu_material;
 
 typedef struct gpu_mesh {
-    GLuint vertices, indices, vertex_array, material_blocks;
+    GLuint vertices, indices, vertex_array, material_blocks, reflectors;
     GLsizeiptr material_stride;
     gpu_draw *draws; /* opaque ones first, then by material */
     size_t draw_count;
@@ -53,8 +55,14 @@ bool gpu_mesh_create(const gpu_context *context, const scene *scene, gpu_mesh *m
                      cli_error *error);
 void gpu_mesh_destroy(gpu_mesh *mesh);
 
-/* What pixels of a material are: SHARED_KIND_SURFACE, or SHARED_KIND_TABLE and up. */
-void gpu_mesh_set_kind(const gpu_mesh *mesh, size_t material, int kind);
+/* Has a material shaded by a table, or with -1 by itself. */
+void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table);
+
+/* What the renderer is told of a pixel of material number `kind` - SHARED_KIND_SURFACE, by a factor
+ * on its dielectric's reflection; the rest of it is the pixel's own. */
+lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
+                               const lmp_preintegrated_brdf *const *brdfs, int kind,
+                               float specular);
 
 /* Draws what the frustum of clip_from_world may hold, with the two variants of surface.frag. */
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked);
@@ -62,7 +70,7 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaq
 /* --- what follows shares the renderer -----------------------------------------------------------
  */
 
-enum { GPU_ATTACHMENTS = 4, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
+enum { GPU_ATTACHMENTS = 5, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
 
 /* A compiled shading pass. */
 typedef struct gpu_variant {
@@ -122,6 +130,10 @@ typedef struct gpu_pair16 {
     uint16_t u, v;
 } gpu_pair16;
 
+typedef struct gpu_pair8 {
+    uint8_t u, v;
+} gpu_pair8;
+
 typedef struct gpu_base16 {
     uint16_t root[3], metallic;
 } gpu_base16;
@@ -133,6 +145,8 @@ struct gpu_gbuffer {
     gpu_base16 *base_metallic;
     gpu_pair16 *normal, *roughness_kind;
     uint32_t *emission;
+    gpu_pair8 *layers;
+    const gpu_mesh *mesh;
     vec4 *rgba; /* for what the host makes of it */
     shared_frame block;
     const gpu_frame *frame;

@@ -51,26 +51,31 @@ static bool create_texture(const gpu_context *context, const scene *world,
 /* --- materials ----------------------------------------------------------------------------------
  */
 
-static void fill_material(const scene_material *source, const gpu_mesh *mesh,
+static void fill_material(const scene_material *source, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
-    const scene_texture_use *uses[4] = { &source->base_color_map, &source->metallic_roughness_map,
-                                         &source->normal_map, &source->emission_map };
+    const scene_texture_use *uses[SHARED_MAPS] = {
+        &source->base_color_map, &source->metallic_roughness_map, &source->normal_map,
+        &source->emission_map,   &source->occlusion_map,          &source->specular_map
+    };
     memset(block, 0, sizeof *block);
     memcpy(block->base_color, source->base_color, sizeof source->base_color);
     memcpy(block->emission, source->emission, sizeof source->emission);
-    block->emission[3] = SHARED_KIND_SURFACE;
+    block->emission[3] = (float)(SHARED_KIND_SURFACE + number);
     block->factors[0] = source->metallic;
     block->factors[1] = source->roughness;
     block->factors[2] = source->normal_scale;
     block->factors[3] = source->alpha_cutoff;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < SHARED_MAPS; i++) {
         material->maps[i] = uses[i]->texture < 0 ? 0 : mesh->textures[uses[i]->texture];
-        block->maps[i] = material->maps[i] ? 1 : 0;
+        (i < 4 ? block->maps : block->more)[i % 4] = material->maps[i] ? 1 : 0;
         memcpy(block->matrix[i], uses[i]->matrix, sizeof uses[i]->matrix);
         memcpy(block->offset[i], uses[i]->offset, sizeof uses[i]->offset);
         block->offset[i][2] = (float)uses[i]->set;
     }
     block->vertex[0] = source->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
+    block->vertex[1] = source->occlusion;
+    material->dielectric = scene_dielectric(source);
+    material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     material->masked = source->flags & SCENE_ALPHA_MASK;
 }
@@ -88,7 +93,7 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
     }
     for (size_t i = 0; i < world->material_count; i++) {
         shared_material block;
-        fill_material(&world->materials[i], mesh, &mesh->materials[i], &block);
+        fill_material(&world->materials[i], i, mesh, &mesh->materials[i], &block);
         memcpy(blocks + i * stride, &block, sizeof block);
     }
     glCreateBuffers(1, &mesh->material_blocks);
@@ -99,12 +104,45 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
     return true;
 }
 
-void gpu_mesh_set_kind(const gpu_mesh *mesh, size_t material, int kind) {
-    const float value = (float)kind;
-    glNamedBufferSubData(mesh->material_blocks,
-                         (GLintptr)material * mesh->material_stride +
-                             (GLintptr)(offsetof(shared_material, emission) + 3 * sizeof value),
-                         sizeof value, &value);
+static bool create_reflectors(const scene *world, gpu_mesh *mesh) {
+    shared_reflector *all = calloc(world->material_count + 1, sizeof *all);
+    if (!all)
+        return false;
+    for (size_t i = 0; i < world->material_count; i++) {
+        const lmp_dielectric d = mesh->materials[i].dielectric;
+        all[i] = (shared_reflector) { { d.f0.r, d.f0.g, d.f0.b, d.f90 }, { -1 } };
+    }
+    glCreateBuffers(1, &mesh->reflectors);
+    glNamedBufferStorage(mesh->reflectors, (GLsizeiptr)((world->material_count + 1) * sizeof *all),
+                         all, GL_DYNAMIC_STORAGE_BIT);
+    free(all);
+    return true;
+}
+
+void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table) {
+    const float value = (float)table;
+    mesh->materials[material].table = table;
+    glNamedBufferSubData(
+        mesh->reflectors,
+        (GLintptr)(material * sizeof(shared_reflector) + offsetof(shared_reflector, table)),
+        sizeof value, &value);
+}
+
+lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
+                               const lmp_preintegrated_brdf *const *brdfs, int kind,
+                               float specular) {
+    const gpu_material *from = &mesh->materials[kind - SHARED_KIND_SURFACE];
+    if (from->table >= 0)
+        return (lmp_material) { .kind = LMP_MATERIAL_TABLE,
+                                .table = tables[from->table],
+                                .preintegrated = brdfs[from->table] };
+    lmp_material material = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                              .dielectric = from->dielectric };
+    material.dielectric.f0.r *= specular;
+    material.dielectric.f0.g *= specular;
+    material.dielectric.f0.b *= specular;
+    material.dielectric.f90 *= specular;
+    return material;
 }
 
 /* --- triangles ----------------------------------------------------------------------------------
@@ -161,7 +199,11 @@ bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *m
     for (size_t i = 0; i < world->texture_count; i++, mesh->texture_count++)
         if (!create_texture(context, world, &world->textures[i], &mesh->textures[i], error))
             return false;
-    if (!create_materials(world, mesh) || !create_draws(world, mesh))
+    if (world->material_count > SHARED_MATERIALS_MAX)
+        return cli_fail(error, world->origin, "has %zu materials: the shaders tell %d apart",
+                        world->material_count, SHARED_MATERIALS_MAX);
+    if (!create_materials(world, mesh) || !create_reflectors(world, mesh) ||
+        !create_draws(world, mesh))
         return cli_fail(error, world->origin, "out of memory");
     mesh->vertices = upload(world->vertices, world->vertex_count * sizeof *world->vertices);
     mesh->indices = upload(world->indices, world->index_count * sizeof *world->indices);
@@ -177,6 +219,7 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     glDeleteBuffers(1, &mesh->vertices);
     glDeleteBuffers(1, &mesh->indices);
     glDeleteBuffers(1, &mesh->material_blocks);
+    glDeleteBuffers(1, &mesh->reflectors);
     if (mesh->textures)
         glDeleteTextures(mesh->texture_count, mesh->textures);
     free(mesh->textures);
@@ -226,6 +269,7 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaq
                               (GLintptr)draw->material * mesh->material_stride,
                               sizeof(shared_material));
             glBindTextures(SHARED_BASE_COLOR, 4, material->maps);
+            glBindTextures(SHARED_OCCLUSION, SHARED_MAPS - 4, material->maps + 4);
             if (material->double_sided)
                 glDisable(GL_CULL_FACE);
             else

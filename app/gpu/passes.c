@@ -60,11 +60,13 @@ void gpu_draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_fram
 
 void gpu_bind_gbuffer(const gpu_renderer *r) {
     static const GLuint units[GPU_ATTACHMENTS] = { SHARED_BASE_COLOR, SHARED_NORMAL,
-                                                   SHARED_METALLIC_ROUGHNESS, SHARED_EMISSION };
+                                                   SHARED_METALLIC_ROUGHNESS, SHARED_EMISSION,
+                                                   SHARED_LAYERS };
     for (int i = 0; i < GPU_ATTACHMENTS; i++)
         glBindTextureUnit(units[i], r->attachments[i]);
     glBindTextureUnit(SHARED_DEPTH, r->depth);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_GGX, r->ggx_block);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_REFLECTORS, r->mesh.reflectors);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
 }

@@ -17,20 +17,20 @@ static lmp_rgb as_rgb(const vec4 v) {
 static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count, gpu_pixel *to) {
     for (size_t i = 0; i < count; i++) {
         const int kind = (int)from[i].position_kind[3];
-        const bool by_table = kind >= SHARED_KIND_TABLE;
         to[i] = (gpu_pixel) {
-            .kind = by_table ? GPU_KIND_SURFACE : (gpu_kind)kind,
+            .kind = kind < SHARED_KIND_SURFACE ? (gpu_kind)kind : GPU_KIND_SURFACE,
             .surface = { .position = as_vec3(from[i].position_kind),
                          .normal = as_vec3(from[i].normal_metallic),
                          .view = as_vec3(from[i].view_roughness) },
-            .material = { .kind = by_table ? LMP_MATERIAL_TABLE : LMP_MATERIAL_METALLIC_ROUGHNESS,
-                          .base_color = as_rgb(from[i].base_color),
-                          .metallic = from[i].normal_metallic[3],
-                          .roughness = from[i].view_roughness[3],
-                          .table = by_table ? r->tables[kind - SHARED_KIND_TABLE] : NULL,
-                          .preintegrated = by_table ? r->brdfs[kind - SHARED_KIND_TABLE] : NULL },
             .emission = as_rgb(from[i].emission),
+            .ambient = from[i].layers[0],
         };
+        if (kind < SHARED_KIND_SURFACE)
+            continue;
+        to[i].material = gpu_mesh_material(&r->mesh, r->tables, r->brdfs, kind, from[i].layers[1]);
+        to[i].material.base_color = as_rgb(from[i].base_color);
+        to[i].material.metallic = from[i].normal_metallic[3];
+        to[i].material.roughness = from[i].view_roughness[3];
     }
 }
 

@@ -130,9 +130,7 @@ bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int co
         r->table_bands = lmp_brdf_table_describe(tables[t]).bands;
     }
     gpu_set_preintegrated_brdfs(r, NULL);
-    gpu_forget_geometry(r);
     for (size_t i = 0; i < material_count; i++)
-        gpu_mesh_set_kind(&r->mesh, i,
-                          uses[i] < 0 ? SHARED_KIND_SURFACE : SHARED_KIND_TABLE + uses[i]);
+        gpu_mesh_set_table(&r->mesh, i, uses[i]);
     return true;
 }

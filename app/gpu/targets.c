@@ -14,8 +14,9 @@ GLuint gpu_target_create(GLenum format, int width, int height) {
 }
 
 /* Of the G-buffer's attachments, and of its depth. */
-const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1] = { GL_RGBA16, GL_RG16, GL_RG16,
-                                                         GL_R11F_G11F_B10F, GL_DEPTH_COMPONENT32F };
+const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1] = { GL_RGBA16, GL_RG16,
+                                                         GL_RG16,   GL_R11F_G11F_B10F,
+                                                         GL_RG8,    GL_DEPTH_COMPONENT32F };
 
 void gpu_forget_geometry(gpu_renderer *r) {
     glDeleteTextures(GPU_ATTACHMENTS + 1, r->kept);
@@ -38,7 +39,8 @@ void gpu_targets_delete(gpu_renderer *r) {
 
 bool gpu_targets_create(gpu_renderer *r, int width, int height, cli_error *error) {
     static const GLenum buffers[GPU_ATTACHMENTS] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                                     GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3 };
+                                                     GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3,
+                                                     GL_COLOR_ATTACHMENT4 };
     if (r->width == width && r->height == height)
         return true;
     if (width < 1 || height < 1 || width > r->context.size_max || height > r->context.size_max)

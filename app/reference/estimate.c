@@ -272,7 +272,7 @@ static double accumulate(const reference_estimator *estimator, const plan *p, re
         density +=
             p->by_environment * reference_environment_at(estimator->environment, w, all_around);
         for (int k = 0; isinf(path) && k < 3; k++)
-            radiance[k] += all_around[k];
+            radiance[k] += all_around[k] * (1 - p->surface->occluded);
     }
     return density;
 }
@@ -290,7 +290,7 @@ static void add_environment_series(const reference_estimator *estimator, const p
         reference_series_at(p->surface->limit.bands, p->direction, reference_dot(w, axis)) /
         density;
     for (int k = 0; isinf(free_path(estimator, p->surface, axis)) && k < 3; k++)
-        radiance[k] += scale * from_there[k];
+        radiance[k] += scale * from_there[k] * (1 - p->surface->occluded);
 }
 
 /* The same of lights that are series; `key` draws where those lie that may be hidden. */

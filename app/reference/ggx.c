@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/ggx.h"
 
-#define DIELECTRIC_F0 0.04
-#define ALPHA_MIN     0.001
-#define GRAZING       1e-4 /* least cosine of a view */
+#define ALPHA_MIN 0.001
+#define GRAZING   1e-4 /* least cosine of a view */
 
 void reference_ggx_set(reference_ggx *ggx, const double base[3], double metallic, double roughness,
-                       reference_vec normal, reference_vec view) {
+                       const reference_dielectric *dielectric, reference_vec normal,
+                       reference_vec view) {
     const double metal = fmin(fmax(metallic, 0), 1), rough = fmin(fmax(roughness, 0), 1);
     ggx->alpha = fmax(rough * rough, ALPHA_MIN);
     for (int c = 0; c < 3; c++) {
         ggx->diffuse[c] = base[c] * (1 - metal);
-        ggx->f0[c] = DIELECTRIC_F0 + (base[c] - DIELECTRIC_F0) * metal;
+        ggx->f0[c] = dielectric->f0[c] + (base[c] - dielectric->f0[c]) * metal;
     }
+    ggx->f90 = dielectric->f90 + (1 - dielectric->f90) * metal;
+    ggx->layer_f0 = fmax(dielectric->f0[0], fmax(dielectric->f0[1], dielectric->f0[2]));
+    ggx->layer_f90 = dielectric->f90;
     ggx->z = normal;
     ggx->x = reference_around(normal, 0, 1, 0);
     ggx->y = reference_cross(normal, ggx->x);
@@ -63,10 +66,10 @@ void reference_ggx_at(const reference_ggx *ggx, reference_vec w, double rgb[3]) 
     const double smith = nl * smith_root(ggx->alpha, nv) + nv * smith_root(ggx->alpha, nl);
     const double specular = 0.5 / smith * distribution(ggx->alpha, half[2]) * nl;
     const double fresnel = pow(1 - fmin(fabs(cosine_between(ggx->view, half)), 1), 5);
-    const double passed = 1 - (DIELECTRIC_F0 + (1 - DIELECTRIC_F0) * fresnel);
+    const double passed = 1 - (ggx->layer_f0 + (ggx->layer_f90 - ggx->layer_f0) * fresnel);
     for (int c = 0; c < 3; c++)
         rgb[c] = ggx->diffuse[c] / REFERENCE_PI * passed * nl +
-                 (ggx->f0[c] + (1 - ggx->f0[c]) * fresnel) * specular;
+                 (ggx->f0[c] + (ggx->f90 - ggx->f0[c]) * fresnel) * specular;
 }
 
 /* Half vectors as the view sees them: the ellipsoid is a sphere once stretched, of which a half

@@ -9,17 +9,24 @@
 #include <stdbool.h>
 
 typedef struct reference_ggx {
-    double diffuse[3]; /* base color of the dielectric, times its fraction */
-    double f0[3];      /* of metal and dielectric, mixed */
+    double diffuse[3];          /* base color of the dielectric, times its fraction */
+    double f0[3], f90;          /* of metal and dielectric, mixed */
+    double layer_f0, layer_f90; /* over the dielectric: the most reflected channel is held back */
     double alpha;
     reference_vec x, y, z; /* z is the normal */
     double view[3];        /* in that frame */
 } reference_ggx;
 
+/* What the dielectric reflects along the normal and at grazing angles. */
+typedef struct reference_dielectric {
+    double f0[3], f90;
+} reference_dielectric;
+
 /* normal and view must be unit. A view below the horizon counts as grazing, alpha is held to 0.001
  * and up: a mirror cannot be sampled. */
 void reference_ggx_set(reference_ggx *ggx, const double base[3], double metallic, double roughness,
-                       reference_vec normal, reference_vec view);
+                       const reference_dielectric *dielectric, reference_vec normal,
+                       reference_vec view);
 
 /* f_r cos(theta) of light from w. */
 void reference_ggx_at(const reference_ggx *ggx, reference_vec w, double rgb[3]);

@@ -56,7 +56,7 @@ void reference_surface_shine(reference_surface *surface, const reference_band_li
     reference_material guide = { .exponent = fmax(1 / width - 1, 0) };
     for (int c = 0; c < 3; c++) {
         guide.diffuse[c] = ggx->diffuse[c];
-        guide.specular[c] = ggx->f0[c] + (1 - ggx->f0[c]) * grazing;
+        guide.specular[c] = ggx->f0[c] + (ggx->f90 - ggx->f0[c]) * grazing;
     }
     set_guide(surface, &guide, normal, view);
     surface->lobes[1].alpha = ggx->alpha;

@@ -31,6 +31,7 @@ typedef struct reference_surface {
     reference_vec position;
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
     reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular */
+    double occluded;   /* the part of the environment's light that an occlusion map keeps off */
     bool band_limited; /* they, or the tabulated material, are a truncated series */
     /* One of these reflects instead of the lobes, which then only guide the samples; or none. */
     const reference_tabulated *tabulated;

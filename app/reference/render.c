@@ -85,6 +85,17 @@ static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
     return reference_normalize(normal);
 }
 
+static reference_dielectric dielectric_of(const frame *f, const reference_hit *hit,
+                                          const scene_material *material) {
+    const lmp_dielectric all_over = scene_dielectric(material);
+    double weight[4];
+    sample(f, &material->specular_map, hit, weight);
+    return (reference_dielectric) { { (double)all_over.f0.r * weight[3],
+                                      (double)all_over.f0.g * weight[3],
+                                      (double)all_over.f0.b * weight[3] },
+                                    (double)all_over.f90 * weight[3] };
+}
+
 /* What a thread needs of its own. */
 typedef struct worker {
     reference_estimator estimator;
@@ -96,7 +107,7 @@ typedef struct worker {
 static void describe(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
                      reference_surface *surface, double emission[3]) {
     const scene_material *material = &f->scene->materials[hit->material];
-    double color[4], rough[4], glow[4], base[3];
+    double color[4], rough[4], glow[4], shade[4], base[3];
     sample(f, &material->base_color_map, hit, color);
     sample(f, &material->metallic_roughness_map, hit, rough);
     sample(f, &material->emission_map, hit, glow);
@@ -104,9 +115,12 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
         base[c] = color[c] * hit->color[c] * (double)material->base_color[c];
         emission[c] = glow[c] * (double)material->emission[c];
     }
+    sample(f, &material->occlusion_map, hit, shade);
+    surface->occluded = (double)material->occlusion * (1 - shade[0]);
     const reference_vec normal = mapped_normal(f, hit, material);
+    const reference_dielectric dielectric = dielectric_of(f, hit, material);
     reference_ggx_set(&own->ggx, base, rough[2] * (double)material->metallic,
-                      rough[1] * (double)material->roughness, normal, view);
+                      rough[1] * (double)material->roughness, &dielectric, normal, view);
     surface->position = hit->position;
     surface->ray_origin = hit->ray_origin;
     reference_surface_shine(surface, &f->settings->band_limit, &own->ggx, normal, view);

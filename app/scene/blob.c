@@ -139,16 +139,30 @@ static bool use_fits(const scene_texture_use *use, uint64_t texture_count) {
            all_finite(use->matrix, 4) && all_finite(use->offset, 2);
 }
 
+static bool maps_fit(const scene_material *m, uint64_t texture_count) {
+    return use_fits(&m->base_color_map, texture_count) &&
+           use_fits(&m->metallic_roughness_map, texture_count) &&
+           use_fits(&m->normal_map, texture_count) && use_fits(&m->emission_map, texture_count) &&
+           use_fits(&m->occlusion_map, texture_count) && use_fits(&m->specular_map, texture_count);
+}
+
+/* 0 … 1, all of them. */
+static bool all_parts(const float *numbers, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!(numbers[i] >= 0.0f && numbers[i] <= 1.0f))
+            return false;
+    return true;
+}
+
 static bool materials_fit(const blob_header *header) {
     const scene_material *materials = blob_items(header, BLOB_MATERIALS);
     const uint64_t texture_count = header->sections[BLOB_TEXTURES].count;
     for (uint64_t i = 0; i < header->sections[BLOB_MATERIALS].count; i++) {
         const scene_material *m = &materials[i];
         const float numbers[] = { m->metallic, m->roughness, m->normal_scale, m->alpha_cutoff };
+        const float parts[] = { m->f0[0], m->f0[1], m->f0[2], m->f90, m->occlusion };
         if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 4) ||
-            !all_finite(m->emission, 3) || !use_fits(&m->base_color_map, texture_count) ||
-            !use_fits(&m->metallic_roughness_map, texture_count) ||
-            !use_fits(&m->normal_map, texture_count) || !use_fits(&m->emission_map, texture_count))
+            !all_finite(m->emission, 3) || !all_parts(parts, 5) || !maps_fit(m, texture_count))
             return false;
     }
     const scene_texture *textures = blob_items(header, BLOB_TEXTURES);

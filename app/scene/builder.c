@@ -61,6 +61,9 @@ scene_material *builder_material(scene_builder *builder, const char *name) {
         .metallic_roughness_map = none,
         .normal_map = none,
         .emission_map = none,
+        .occlusion_map = none,
+        .specular_map = none,
+        .occlusion = 1.0f,
     };
     scene_clean_name(material->name, name);
     return material;

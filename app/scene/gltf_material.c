@@ -119,7 +119,10 @@ void gltf_material_sets(const cJSON *material, long sets[2]) {
     const cJSON *infos[] = { gltf_member(material, "normalTexture"),
                              gltf_member(pbr, "baseColorTexture"),
                              gltf_member(pbr, "metallicRoughnessTexture"),
-                             gltf_member(material, "emissiveTexture") };
+                             gltf_member(material, "emissiveTexture"),
+                             gltf_member(material, "occlusionTexture"),
+                             gltf_member(gltf_extension(material, "KHR_materials_specular"),
+                                         "specularTexture") };
     sets[0] = sets[1] = -1;
     for (size_t i = 0; i < sizeof infos / sizeof *infos; i++) {
         const long set = infos[i] ? set_of(infos[i]) : -1;
@@ -161,11 +164,31 @@ static float clamp_unit(double x) {
     return x >= 0.0 ? (float)fmin(x, 1.0) : 0.0f;
 }
 
+/* KHR_materials_ior and KHR_materials_specular. */
+static void set_dielectric(const cJSON *entry, scene_material *material) {
+    const cJSON *ior = gltf_extension(entry, "KHR_materials_ior");
+    const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
+    double color[3] = { 1.0, 1.0, 1.0 };
+    if (!ior && !specular)
+        return;
+    gltf_numbers(specular, "specularColorFactor", 3, color);
+    const float most = 1e6f; /* far more than any F0 can be reached with */
+    const lmp_rgb tint = { fminf((float)color[0], most), fminf((float)color[1], most),
+                           fminf((float)color[2], most) };
+    const lmp_dielectric d =
+        lmp_material_dielectric(fminf((float)gltf_number(ior, "ior", 1.5), most),
+                                clamp_unit(gltf_number(specular, "specularFactor", 1.0)), tint);
+    memcpy(material->f0, &d.f0, sizeof material->f0);
+    material->f90 = d.f90;
+    material->flags |= SCENE_DIELECTRIC;
+}
+
 /* What reflects nothing and glows by its base color; alpha stays where it was. */
 static void make_unlit(scene_material *material) {
     material->flags |= SCENE_UNLIT;
     material->emission_map = material->base_color_map;
     material->metallic_roughness_map.texture = material->normal_map.texture = -1;
+    material->occlusion_map.texture = material->specular_map.texture = -1;
     material->metallic = material->roughness = 1.0f;
     for (int k = 0; k < 3; k++) {
         material->emission[k] = material->base_color[k];
@@ -199,15 +222,21 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
         material->flags |= SCENE_ALPHA_MASK;
     if (strcmp(mode, "BLEND") == 0)
         builder_left_out(pool->builder, "blending", "material", 1);
-    if (gltf_member(entry, "occlusionTexture"))
-        builder_left_out(pool->builder, "occlusion map", "material", 1);
+    material->occlusion =
+        clamp_unit(gltf_number(gltf_member(entry, "occlusionTexture"), "strength", 1.0));
+    set_dielectric(entry, material);
+    const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
+    if (gltf_member(specular, "specularColorTexture"))
+        builder_left_out(pool->builder, "map of specular colors", "material", 1);
     long sets[2];
     gltf_material_sets(entry, sets);
     if (!read_texture(pool, pbr, "baseColorTexture", 1, sets, &material->base_color_map) ||
         !read_texture(pool, pbr, "metallicRoughnessTexture", 0, sets,
                       &material->metallic_roughness_map) ||
         !read_texture(pool, entry, "normalTexture", 0, sets, &material->normal_map) ||
-        !read_texture(pool, entry, "emissiveTexture", 1, sets, &material->emission_map))
+        !read_texture(pool, entry, "emissiveTexture", 1, sets, &material->emission_map) ||
+        !read_texture(pool, entry, "occlusionTexture", 0, sets, &material->occlusion_map) ||
+        !read_texture(pool, specular, "specularTexture", 0, sets, &material->specular_map))
         return false;
     if (gltf_extension(entry, "KHR_materials_unlit"))
         make_unlit(material);

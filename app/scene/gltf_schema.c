@@ -154,6 +154,20 @@ static const gltf_object emissive_strength = {
     (const gltf_field[]) { { "emissiveStrength", NOT_NEGATIVE }, END },
     NULL,
 };
+static const gltf_object specular = {
+    "material",
+    (const gltf_field[]) { { "specularFactor", UNIT },
+                           { "specularTexture", OBJECT(texture_info) },
+                           { "specularColorFactor", VECTOR(3), NOT_NEGATIVE },
+                           { "specularColorTexture", OBJECT(texture_info) },
+                           END },
+    NULL,
+};
+static const gltf_object ior = {
+    "material",
+    (const gltf_field[]) { { "ior", NOT_NEGATIVE }, END },
+    NULL,
+};
 static const gltf_object unlit = { "material", (const gltf_field[]) { END }, NULL };
 static const gltf_object material = {
     "material",
@@ -168,6 +182,8 @@ static const gltf_object material = {
                            NAME,
                            END },
     (const gltf_field[]) { { "KHR_materials_emissive_strength", OBJECT(emissive_strength) },
+                           { "KHR_materials_ior", OBJECT(ior) },
+                           { "KHR_materials_specular", OBJECT(specular) },
                            { "KHR_materials_unlit", OBJECT(unlit) },
                            END },
 };

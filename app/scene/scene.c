@@ -20,6 +20,12 @@ void scene_left_out_text(const scene_left_out *item, char *text, size_t size) {
         snprintf(text, size, "%u %s%s", item->count, item->noun, ending);
 }
 
+lmp_dielectric scene_dielectric(const scene_material *m) {
+    if (m->flags & SCENE_DIELECTRIC)
+        return (lmp_dielectric) { true, { m->f0[0], m->f0[1], m->f0[2] }, m->f90 };
+    return (lmp_dielectric) { true, { 0.04f, 0.04f, 0.04f }, 1.0f };
+}
+
 void scene_free(scene *s) {
     if (s->mapped)
         munmap(s->block, s->block_size);

@@ -34,6 +34,7 @@ typedef enum scene_flags {
     SCENE_ALPHA_MASK = 2,    /* discard where alpha < alpha_cutoff */
     SCENE_VERTEX_COLORS = 4, /* the base color is multiplied by that of the vertices */
     SCENE_UNLIT = 8,         /* its emission is what one sees, and no light to others */
+    SCENE_DIELECTRIC = 16,   /* f0 and f90 count */
 } scene_flags;
 
 /* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */
@@ -50,8 +51,12 @@ typedef struct scene_material {
     float base_color[4]; /* linear, with alpha */
     float metallic, roughness, normal_scale, alpha_cutoff;
     float emission[3]; /* radiance, linear */
+    float f0[3], f90;  /* of the dielectric, 0 … 1; without SCENE_DIELECTRIC 0.04 and 1 */
+    float occlusion;   /* strength of the occlusion map */
     uint32_t flags;    /* scene_flags */
     scene_texture_use base_color_map, metallic_roughness_map, normal_map, emission_map;
+    scene_texture_use occlusion_map; /* r: how much of the ambient light comes */
+    scene_texture_use specular_map;  /* a: a factor on f0 and f90 */
 } scene_material;
 
 typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR } scene_wrap;
@@ -152,6 +157,9 @@ void scene_left_out_text(const scene_left_out *item, char *text, size_t size);
 
 /* And with them their motions. */
 void scene_clear_lights(scene *scene);
+
+/* Its dielectric, whole. */
+lmp_dielectric scene_dielectric(const scene_material *material);
 
 /* Adds the lights of a JSON file (docs/lights.md); none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);

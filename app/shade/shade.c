@@ -23,7 +23,9 @@ static lmp_vec3_array vectors(float *const planes[3], size_t first) {
 
 enum { RUN = 64 };
 
-static void add_environment(const shading *s, const lmp_surfaces *all, size_t count, float *rgba) {
+/* By how much of it comes to each. */
+static void add_environment(const shading *s, const lmp_surfaces *all, const float *ambient,
+                            size_t count, float *rgba) {
     const lmp_environment light = { s->environment->sh, s->environment->bands };
     for (size_t first = 0; first < count; first += RUN) {
         const size_t some = count - first < RUN ? count - first : RUN;
@@ -37,9 +39,9 @@ static void add_environment(const shading *s, const lmp_surfaces *all, size_t co
         lmp_shade_environment_n(&s->settings, &run, some, &light, 0, &reflected->r);
         for (size_t i = 0; i < some; i++) {
             float *pixel = rgba + 4 * (first + i);
-            pixel[0] += reflected[i].r;
-            pixel[1] += reflected[i].g;
-            pixel[2] += reflected[i].b;
+            pixel[0] += reflected[i].r * ambient[first + i];
+            pixel[1] += reflected[i].g * ambient[first + i];
+            pixel[2] += reflected[i].b * ambient[first + i];
         }
     }
 }
@@ -56,7 +58,7 @@ static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t
     };
     lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float), rgba);
     if (s->environment)
-        add_environment(s, &surfaces, count, rgba);
+        add_environment(s, &surfaces, row->ambient + first, count, rgba);
 }
 
 /* Runs of surfaces are shaded together; what lies between them shows what it emits. */

@@ -12,8 +12,9 @@
  *     k(w) = diffuse/pi max(n·w, 0)  +  specular (e+1)/(2 pi) max(r·w, 0)^e.
  *
  * Of glTF's metallic-roughness (glTF 2.0, appendix B) the specular part is the lobes of
- * lmp_lobe_ggx with F0 = mix(0.04, base_color, metallic) and F90 = 1, and the albedo of the diffuse
- * one base_color (1 - metallic) (1 - 0.04 diffuse_f0 - diffuse_f90).
+ * lmp_lobe_ggx with F0 = mix(f0, base_color, metallic) and F90 = mix(f90, 1, metallic), and the
+ * albedo of the diffuse one base_color (1 - metallic) (1 - max(f0) diffuse_f0 - f90 diffuse_f90),
+ * where f0 and f90 are the dielectric's, 0.04 and 1 unless it says more.
  *
  * The sum over all lights is then clamped at 0, channel by channel, for a truncated series rings.
  * No visibility. */
@@ -29,10 +30,23 @@ extern "C" {
 
 typedef enum lmp_material_kind {
     LMP_MATERIAL_LOBES = 0,          /* diffuse, specular, exponent */
-    LMP_MATERIAL_METALLIC_ROUGHNESS, /* base_color, metallic, roughness: glTF's */
+    LMP_MATERIAL_METALLIC_ROUGHNESS, /* base_color, metallic, roughness, dielectric: glTF's */
     LMP_MATERIAL_TABLE,              /* table, and preintegrated if there is one */
     LMP_MATERIAL_PREINTEGRATED       /* preintegrated */
 } lmp_material_kind;
+
+/* How the dielectric of metallic-roughness reflects, as KHR_materials_specular and
+ * KHR_materials_ior have it: along the normal and at grazing angles. Zero-initialized: 0.04 and 1.
+ */
+typedef struct lmp_dielectric {
+    bool given; /* false: the others are ignored */
+    lmp_rgb f0; /* 0 … 1 */
+    float f90;  /* 0 … 1 */
+} lmp_dielectric;
+
+/* Of an index of refraction, >= 0, of the weight of its reflection, 0 … 1, and of its color, >= 0;
+ * 1.5, 1 and white are the default. */
+LMP_API lmp_dielectric lmp_material_dielectric(float ior, float specular, lmp_rgb color);
 
 /* A material; zero-initialize it and set the members its kind names. Others are ignored. */
 typedef struct lmp_material {
@@ -47,6 +61,7 @@ typedef struct lmp_material {
         float metallic; /* 0 … 1; clamped */
     };
     float roughness; /* 0 … 1; clamped */
+    lmp_dielectric dielectric;
     /* A tabulated BRDF, with the bands and the windowing filter of the table. */
     const lmp_brdf_table *table;
     /* The same integrated beforehand: what LMP_SHADE_PREINTEGRATED reads in the table's place. */

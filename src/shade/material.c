@@ -28,13 +28,30 @@ static lmp_rgb times(lmp_rgb color, float factor) {
     return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
 }
 
+lmp_dielectric lmp_material_dielectric(float ior, float specular, lmp_rgb color) {
+    const float root = (ior - 1) / (ior + 1), f0 = root * root;
+    assert(ior >= 0 && specular >= 0 && specular <= 1);
+    return (lmp_dielectric) { true,
+                              { fminf(f0 * color.r, 1) * specular,
+                                fminf(f0 * color.g, 1) * specular,
+                                fminf(f0 * color.b, 1) * specular },
+                              specular };
+}
+
+static float largest(lmp_rgb color) {
+    return fmaxf(color.r, fmaxf(color.g, color.b));
+}
+
 shade_layers lmp_shade_layers(const lmp_material *material) {
+    static const lmp_dielectric common = { true, { 0.04f, 0.04f, 0.04f }, 1 };
+    const lmp_dielectric *layer = material->dielectric.given ? &material->dielectric : &common;
     const float metal = saturate(material->metallic), dielectric = 1 - metal;
-    const lmp_rgb base = material->base_color;
-    const float layer = SHADE_DIELECTRIC_F0 * dielectric;
+    const lmp_rgb base = material->base_color, f0 = times(layer->f0, dielectric);
     return (shade_layers) { times(base, dielectric),
-                            { base.r * metal + layer, base.g * metal + layer,
-                              base.b * metal + layer } };
+                            { base.r * metal + f0.r, base.g * metal + f0.g, base.b * metal + f0.b },
+                            layer->f90 + (1 - layer->f90) * metal,
+                            largest(layer->f0),
+                            layer->f90 };
 }
 
 static void reflect_metallic_roughness(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
@@ -42,14 +59,15 @@ static void reflect_metallic_roughness(const lmp_material *material, lmp_vec3 no
     const shade_layers layers = lmp_shade_layers(material);
     lmp_ggx_lobes ggx;
     lmp_lobe_ggx(normal, view, material->roughness, &ggx);
-    reflection->diffuse = times(layers.diffuse, lmp_shade_passed(ggx.diffuse_f90));
+    reflection->diffuse = times(layers.diffuse, lmp_shade_passed(&layers, ggx.diffuse_f90));
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         const lmp_ggx_lobe *lobe = &ggx.lobe[k];
-        reflection->lobe[k] = (shade_phong) { lobe->axis,
-                                              lobe->exponent,
-                                              { layers.f0.r * lobe->f0 + lobe->f90,
-                                                layers.f0.g * lobe->f0 + lobe->f90,
-                                                layers.f0.b * lobe->f0 + lobe->f90 } };
+        const float f90 = layers.f90 * lobe->f90;
+        reflection->lobe[k] =
+            (shade_phong) { lobe->axis,
+                            lobe->exponent,
+                            { layers.f0.r * lobe->f0 + f90, layers.f0.g * lobe->f0 + f90,
+                              layers.f0.b * lobe->f0 + f90 } };
     }
 }
 

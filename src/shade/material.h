@@ -59,13 +59,21 @@ static inline shade_source lmp_shade_source(const lmp_material *material, lmp_sh
     return source;
 }
 
+/* 0 … 1, all of them. */
+static inline bool lmp_is_dielectric(const lmp_dielectric *d) {
+    const float f0 = fminf(d->f0.r, fminf(d->f0.g, d->f0.b));
+    return !d->given ||
+           (f0 >= 0 && d->f0.r <= 1 && d->f0.g <= 1 && d->f0.b <= 1 && d->f90 >= 0 && d->f90 <= 1);
+}
+
 /* Whether the members that the material's kind names are in their ranges (shade.h). */
 static inline bool lmp_is_material(const lmp_material *material) {
     switch (material->kind) {
     case LMP_MATERIAL_LOBES:
         return material->exponent >= 0 && isfinite(material->exponent);
     case LMP_MATERIAL_METALLIC_ROUGHNESS:
-        return isfinite(material->metallic) && isfinite(material->roughness);
+        return isfinite(material->metallic) && isfinite(material->roughness) &&
+               lmp_is_dielectric(&material->dielectric);
     case LMP_MATERIAL_TABLE:
         return material->table || material->preintegrated;
     case LMP_MATERIAL_PREINTEGRATED:
@@ -106,16 +114,17 @@ static inline float lmp_shade_clamped(float sum) {
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings);
 
 /* Metallic-roughness (glTF 2.0, appendix B) is a metal, whose F0 is the base color, mixed with a
- * dielectric, whose base color lies under a layer: the albedo of that base, and F0 of both. */
-#define SHADE_DIELECTRIC_F0 0.04f
+ * dielectric, whose base color lies under a layer: the albedo of that base, F0 and F90 of both, and
+ * of the layer alone, whose most reflected channel is held back from the base. */
 typedef struct shade_layers {
     lmp_rgb diffuse, f0;
+    float f90, layer_f0, layer_f90;
 } shade_layers;
 shade_layers lmp_shade_layers(const lmp_material *material);
 
 /* What passes the layer on its way to the base and back, by diffuse_f90 (lobe.h). */
-static inline float lmp_shade_passed(float diffuse_f90) {
-    return 1 - SHADE_DIELECTRIC_F0 * (1 - diffuse_f90) - diffuse_f90;
+static inline float lmp_shade_passed(const shade_layers *layers, float diffuse_f90) {
+    return 1 - layers->layer_f0 * (1 - diffuse_f90) - layers->layer_f90 * diffuse_f90;
 }
 
 /* For a material of a kind that has lobes. */

@@ -43,18 +43,27 @@ static void weigh(const float *f0, const float *f0_part, const float *f90_part, 
         weight[i] = f0[i] * f0_part[i] + f90_part[i];
 }
 
+static void scale(const float *factors, size_t count, float *values) {
+    for (size_t i = 0; i < count; i++)
+        values[i] *= factors[i];
+}
+
 static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t count,
                      const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
                      shade_planes *planes) {
     lmp_batch_plane roughness, passed, f0_part[LMP_GGX_LOBES], f90_part[LMP_GGX_LOBES];
     lmp_batch_vec3 f0;
+    lmp_batch_plane f90;
+    shade_layers layers[LMP_BATCH];
     lmp_ggx_lobe_planes lobes[LMP_GGX_LOBES];
     for (size_t i = 0; i < count; i++) {
         const lmp_material *material = lmp_material_at(surfaces, at[i]);
-        const shade_layers layers = lmp_shade_layers(material);
+        const shade_layers *of = &layers[i];
+        layers[i] = lmp_shade_layers(material);
         roughness.at[i] = material->roughness;
-        store_vector(layers.diffuse.r, layers.diffuse.g, layers.diffuse.b, &planes->diffuse, i);
-        store_vector(layers.f0.r, layers.f0.g, layers.f0.b, &f0, i);
+        f90.at[i] = of->f90;
+        store_vector(of->diffuse.r, of->diffuse.g, of->diffuse.b, &planes->diffuse, i);
+        store_vector(of->f0.r, of->f0.g, of->f0.b, &f0, i);
     }
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         shade_lobe_planes *to = &planes->lobe[k];
@@ -67,11 +76,11 @@ static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t coun
     const float *const v[3] = { view->x.at, view->y.at, view->z.at };
     lmp_lobe_ggx_n(n, v, roughness.at, count, lobes, passed.at);
     for (size_t i = 0; i < count; i++)
-        passed.at[i] = lmp_shade_passed(passed.at[i]);
+        passed.at[i] = lmp_shade_passed(&layers[i], passed.at[i]);
+    for (int k = 0; k < LMP_GGX_LOBES; k++)
+        scale(f90.at, count, f90_part[k].at);
     for (size_t c = 0; c < 3; c++) {
-        float *albedo = plane_of(&planes->diffuse, c);
-        for (size_t i = 0; i < count; i++)
-            albedo[i] *= passed.at[i];
+        scale(passed.at, count, plane_of(&planes->diffuse, c));
         for (int k = 0; k < LMP_GGX_LOBES; k++)
             weigh(plane_of(&f0, c), f0_part[k].at, f90_part[k].at, count,
                   plane_of(&planes->lobe[k].weight, c));

@@ -44,9 +44,11 @@ static void lay_sheet(int i) {
                                      .maximum = { 10 * (float)i + 1, 1, 0 } };
     scene_material *m = &sheet.materials[i];
     *m = (scene_material) { .base_color = { 1, 1, 1, 1 }, .roughness = 1, .normal_scale = 1 };
-    scene_texture_use *uses[4] = { &m->base_color_map, &m->metallic_roughness_map, &m->normal_map,
-                                   &m->emission_map };
-    for (int k = 0; k < 4; k++)
+    scene_texture_use *uses[6] = {
+        &m->base_color_map, &m->metallic_roughness_map, &m->normal_map,
+        &m->emission_map,   &m->occlusion_map,          &m->specular_map
+    };
+    for (int k = 0; k < 6; k++)
         *uses[k] = (scene_texture_use) { .texture = -1, .matrix = { 1, 0, 0, 1 } };
 }
 
@@ -168,8 +170,6 @@ static void parallel_rays_see_the_same_from_everywhere(void **state) {
             assert_int_equal(pixel_at(renderer, &frame, 32, row).kind,
                              row >= 4 && row < 12 ? GPU_KIND_LIGHT : GPU_KIND_NONE);
     }
-    sheet.lights[0].emitter.position.y = 0; /* behind the sheet */
-    assert_int_equal(pixel_at(renderer, &frame, 32, 32).kind, GPU_KIND_SURFACE);
     gpu_renderer_destroy(renderer);
 }
 

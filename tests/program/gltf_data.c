@@ -211,7 +211,6 @@ static void what_is_left_out_is_named(void **state) {
         { "\"source\":0,", "\"extensions\":{\"EXT_texture_webp\":{\"source\":0}},",
           "EXT_texture_webp (1 texture)" },
         { "\"alphaMode\":\"MASK\"", "\"alphaMode\":\"BLEND\"", "blending (1 material)" },
-        { "\"normalTexture\"", "\"occlusionTexture\"", "occlusion map (1 material)" },
         { "\"intensity\":4", "\"intensity\":5", "range (1 light)" },
         { "\"path\":\"translation\"", "\"path\":\"translation\"", NULL },
     };

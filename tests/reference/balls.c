@@ -59,7 +59,9 @@ static void lay_ball(int i) {
                            .base_color_map = { .texture = -1 },
                            .metallic_roughness_map = { .texture = -1 },
                            .normal_map = { .texture = -1 },
-                           .emission_map = { .texture = -1 } };
+                           .emission_map = { .texture = -1 },
+                           .occlusion_map = { .texture = -1 },
+                           .specular_map = { .texture = -1 } };
 }
 
 static void lay_balls(void) {

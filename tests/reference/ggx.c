@@ -8,16 +8,18 @@
 
 static const reference_vec origin = { 0, 0, 0 }, up = { 0, 0, 1 };
 static const reference_band_limit whole = { .bands = 0 };
+static const reference_dielectric common = { { 0.04, 0.04, 0.04 }, 1 };
 
 static reference_vec direction(double to, double azimuth) {
     return (reference_vec) { sin(to) * cos(azimuth), sin(to) * sin(azimuth), cos(to) };
 }
 
 /* A surface at the origin, seen from a direction at azimuth 180 degrees. */
-static reference_ggx ggx_of(double base, double metallic, double alpha, double view) {
+static reference_ggx ggx_of(double base, double metallic, const reference_dielectric *layer,
+                            double alpha, double view) {
     const double color[3] = { base, base, base };
     reference_ggx ggx;
-    reference_ggx_set(&ggx, color, metallic, sqrt(alpha), up, direction(view, REFERENCE_PI));
+    reference_ggx_set(&ggx, color, metallic, sqrt(alpha), layer, up, direction(view, REFERENCE_PI));
     return ggx;
 }
 
@@ -42,10 +44,10 @@ static scene_light sphere(reference_vec axis, double half_angle) {
 }
 
 /* Of metal and dielectric mixed: appendix B's is linear in them. */
-static double exact(double base, double metallic, double alpha, double view, const scene_light *of,
-                    double half_angle) {
+static double exact(double base, double metallic, const reference_dielectric *layer, double alpha,
+                    double view, const scene_light *of, double half_angle) {
     const oracle_gltf metal = { alpha, view, base, 1, 0 };
-    const oracle_gltf dielectric = { alpha, view, 0.04, 1, base };
+    const oracle_gltf dielectric = { alpha, view, layer->f0[0], layer->f90, base };
     const lmp_vec3 p = of->emitter.position;
     const double middle[3] = { (double)p.x / 10, (double)p.y / 10, (double)p.z / 10 };
     return metallic * oracle_gltf_cap(&metal, middle, half_angle) +
@@ -65,11 +67,15 @@ static void reflection_is_that_of_the_specification(void **state) {
                 const double to = fmin(fabs(views[v] + off * check_random_between(-1, 1)), 1.6);
                 const double half_angle = k < 3 ? 0.02 : k < 6 ? 0.2 : 0.9;
                 const double base = check_random(), metallic = k % 2 ? 1 : check_random();
+                const double f90 = check_random(), f0 = f90 * check_random();
+                const reference_dielectric own = { { f0, f0, f0 }, f90 };
+                const reference_dielectric layer = k % 4 ? common : own;
                 const scene_light light =
                     sphere(direction(to, off * check_random_between(-1, 1)), half_angle);
-                const reference_ggx ggx = ggx_of(base, metallic, alphas[i], views[v]);
+                const reference_ggx ggx = ggx_of(base, metallic, &layer, alphas[i], views[v]);
                 const reference_result r = estimate(&ggx, &whole, views[v], &light, 4096);
-                const double truth = exact(base, metallic, alphas[i], views[v], &light, half_angle);
+                const double truth =
+                    exact(base, metallic, &layer, alphas[i], views[v], &light, half_angle);
                 const double error = fabs(r.mean[0] - truth);
                 count++;
                 outside += !(error <= 3 * r.standard_error[0] + 1e-5);
@@ -88,7 +94,7 @@ static void samples_follow_the_specular_part(void **state) {
     const double alphas[] = { 0.001, 0.1, 0.5, 1 }, views[] = { 0, 0.8, 1.5 };
     for (int i = 0; i < 12; i++) {
         const double alpha = alphas[i / 3], view = views[i % 3];
-        const reference_ggx ggx = ggx_of(1, 1, alpha, view);
+        const reference_ggx ggx = ggx_of(1, 1, &common, alpha, view);
         const oracle_gltf metal = { alpha, view, 1, 1, 0 };
         const double expected = oracle_gltf_cap(&metal, (double[3]) { 0, 0, 1 }, REFERENCE_PI / 2);
         double sum = 0;
@@ -146,9 +152,9 @@ static void many_bands_come_near_the_whole(void **state) {
     (void)state;
     const reference_band_limit limit = { 60, LMP_WINDOW_NONE, 0 };
     const scene_light light = sphere(direction(0.5, 0.3), 0.4);
-    const reference_ggx ggx = ggx_of(0.7, 0.5, 0.4, 0.6);
+    const reference_ggx ggx = ggx_of(0.7, 0.5, &common, 0.4, 0.6);
     const reference_result truncated = estimate(&ggx, &limit, 0.6, &light, 40000);
-    const double truth = exact(0.7, 0.5, 0.4, 0.6, &light, 0.4);
+    const double truth = exact(0.7, 0.5, &common, 0.4, 0.6, &light, 0.4);
     CHECK_WITHIN(fabs(truncated.mean[0] - truth), 4 * truncated.standard_error[0] + 1e-3 * truth);
     CHECK_WITHIN(truncated.standard_error[0], 0.02 * truth);
 }
@@ -165,7 +171,7 @@ static void visible_lights_give_the_same_series(void **state) {
     (void)state;
     const reference_band_limit limit = { 5, LMP_WINDOW_HANNING, 0 };
     const scene_light light = sphere(direction(0.5, 0.3), 0.4);
-    const reference_ggx ggx = ggx_of(0.7, 0.5, 0.4, 0.6);
+    const reference_ggx ggx = ggx_of(0.7, 0.5, &common, 0.4, 0.6);
     const reference_result plain = estimate(&ggx, &limit, 0.6, &light, 20000);
     reference_surface surface = { .position = origin, .ray_origin = origin };
     reference_estimator estimator;

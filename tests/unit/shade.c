@@ -80,20 +80,25 @@ static int define_phong(const lmp_material *material, const double n[3], const d
 static int define_ggx(const lmp_material *material, const lmp_surface *surface,
                       defined_lobe *lobes) {
     lmp_ggx_lobes ggx;
-    double base[3];
+    double base[3], f0[3] = { 0.04, 0.04, 0.04 }, f90 = 1;
     const double metal = fmin(fmax((double)material->metallic, 0), 1);
+    if (material->dielectric.given) {
+        widen(&material->dielectric.f0.r, f0);
+        f90 = (double)material->dielectric.f90;
+    }
     lmp_lobe_ggx(surface->normal, surface->view, material->roughness, &ggx);
     widen(&material->base_color.r, base);
+    const double passed = 1 - fmax(f0[0], fmax(f0[1], f0[2])) * (double)ggx.diffuse_f0 -
+                          f90 * (double)ggx.diffuse_f90;
     for (int c = 0; c < 3; c++)
-        lobes[0].weight[c] =
-            base[c] * (1 - metal) * (1 - 0.04 * (double)ggx.diffuse_f0 - (double)ggx.diffuse_f90);
+        lobes[0].weight[c] = base[c] * (1 - metal) * passed;
     for (int k = 0; k < LMP_GGX_LOBES; k++) {
         const lmp_ggx_lobe *from = &ggx.lobe[k];
         lobes[1 + k].exponent = (double)from->exponent;
         widen(&from->axis.x, lobes[1 + k].axis);
         for (int c = 0; c < 3; c++)
-            lobes[1 + k].weight[c] =
-                (double)from->f0 * (0.04 + (base[c] - 0.04) * metal) + (double)from->f90;
+            lobes[1 + k].weight[c] = (double)from->f0 * (f0[c] + (base[c] - f0[c]) * metal) +
+                                     (double)from->f90 * (f90 + (1 - f90) * metal);
     }
     return DEFINED_LOBES;
 }
@@ -278,11 +283,16 @@ static void windows_dim_the_highlight_and_calm_the_ringing(void **state) {
         5e-3);
 }
 
+/* Half of them with a dielectric of their own. */
 static lmp_material random_metallic_roughness(void) {
-    return (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                            .base_color = random_color(),
-                            .metallic = (float)check_random_between(-0.2, 1.2),
-                            .roughness = (float)check_random_between(-0.2, 1.2) };
+    lmp_material material = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                              .base_color = random_color(),
+                              .metallic = (float)check_random_between(-0.2, 1.2),
+                              .roughness = (float)check_random_between(-0.2, 1.2) };
+    if (check_random() < 0.5)
+        material.dielectric = lmp_material_dielectric((float)check_random_between(1, 3),
+                                                      (float)check_random(), random_color());
+    return material;
 }
 
 static void metallic_roughness_is_shaded_by_the_lobes_of_ggx(void **state) {
@@ -335,8 +345,44 @@ static void a_smooth_metal_reflects_by_fresnels_law(void **state) {
     }
 }
 
+/* Under a uniform sky, its base black: the layer's Fresnel term alone. */
+static void a_smooth_dielectric_reflects_by_its_f0_and_f90(void **state) {
+    (void)state;
+    const lmp_light sky = { .kind = LMP_LIGHT_HEMISPHERE,
+                            .direction = { 0, 1, 0 },
+                            .radiance = { 1, 1, 1 },
+                            .ground = { 1, 1, 1 } };
+    lmp_material glass = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS };
+    glass.dielectric = lmp_material_dielectric(2.5f, 0.5f, (lmp_rgb) { 1, 0.5f, 8 });
+    const double f0[3] = { 0.5 * 9 / 49, 0.25 * 9 / 49, 0.5 };
+    for (int i = 1; i <= 10; i++) {
+        const float z = (float)i / 10;
+        const lmp_surface surface = { .normal = { 0, 0, 1 }, .view = { sqrtf(1 - z * z), 0, z } };
+        double expected[3];
+        float channels[3];
+        for (int c = 0; c < 3; c++)
+            expected[c] = f0[c] + (0.5 - f0[c]) * pow(1 - (double)z, 5);
+        to_array(lmp_shade(NULL, &glass, &surface, &sky, 1), channels);
+        CHECK_WITHIN(difference(expected, channels), 0.02);
+    }
+}
+
+static void an_index_of_refraction_is_fresnels(void **state) {
+    (void)state;
+    const lmp_rgb white = { 1, 1, 1 };
+    const lmp_dielectric common = lmp_material_dielectric(1.5f, 1, white);
+    CHECK_WITHIN(fabs((double)common.f0.g - 0.04), 1e-8);
+    assert_true(common.given && common.f90 == 1);
+    assert_true(lmp_material_dielectric(1, 1, white).f0.r == 0);
+    assert_true(lmp_material_dielectric(0, 1, white).f0.r == 1); /* KHR_materials_ior's mirror */
+    const lmp_dielectric none = lmp_material_dielectric(2, 0, white);
+    assert_true(none.given && none.f0.b == 0 && none.f90 == 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_smooth_dielectric_reflects_by_its_f0_and_f90),
+        cmocka_unit_test(an_index_of_refraction_is_fresnels),
         cmocka_unit_test(both_methods_agree_with_the_definition),
         cmocka_unit_test(both_methods_agree_for_every_kind_of_light),
         cmocka_unit_test(defaults_are_ten_bands_and_no_window),

@@ -265,6 +265,9 @@ static void scatter_both_kinds(void) {
                                                 .base_color = color(),
                                                 .metallic = between(0, 1),
                                                 .roughness = between(0.1, 1) };
+    for (int i = 0; i < COUNT; i += 6)
+        vertices[i].material.dielectric =
+            lmp_material_dielectric(between(1, 3), between(0, 1), color());
 }
 
 static void both_kinds_of_lobes_are_shaded_side_by_side(void **state) {

@@ -201,6 +201,7 @@ static void shade_all_ways(void) {
     X(lmp_shade, shade_all_ways()) \
     X(lmp_shade_n, shade_all_ways()) \
     X(lmp_shade_environment, lmp_shade_environment(&(lmp_shade_settings) { .bands = N }, &(lmp_material) { .exponent = 20 }, &(lmp_surface) { at, up, up, up }, &(lmp_environment) { sh, N })) \
+    X(lmp_material_dielectric, (void)lmp_material_dielectric(2, 1, (lmp_rgb) { 1, 1, 1 })) \
     X(lmp_shade_environment_n, lmp_shade_environment_n(NULL, &(lmp_surfaces) { points, points, points, { 0 }, &(lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table }, 0 }, COUNT, &(lmp_environment) { sh, N }, 0, rgb))
 /* clang-format on */
 

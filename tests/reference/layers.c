@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT */
+/* What lies over and around a material of glTF: occlusion maps, KHR_materials_specular and _ior. */
+#include "tests/reference/sheet.h"
+
+#include "tests/oracle/check.h"
+
+#include <math.h>
+
+/* At normal incidence, of a surface so smooth that F0 is all that counts, under a white sky: each
+ * device within what lobes leave of GGX, and the ground truth within its noise. */
+static void check_reflected(const char *material, const double expected[2][3]) {
+    sheet s;
+    image images[SHEET_IMAGES], noise;
+    sheet_open(&s, material);
+    sheet_draw(&s, true, 1, images, &noise);
+    for (int half = 0; half < 2; half++)
+        for (int c = 0; c < 3; c++) {
+            const double truth = expected[half][c];
+            CHECK_WITHIN(fabs(sheet_at(&images[SHEET_GPU], half, c) - truth), 0.03 * truth + 1e-4);
+            CHECK_WITHIN(fabs(sheet_at(&images[SHEET_CPU], half, c) - truth), 0.03 * truth + 1e-4);
+            CHECK_WITHIN(fabs(sheet_at(&images[SHEET_REFERENCE], half, c) - truth),
+                         5 * sheet_at(&noise, half, c) + 1e-4);
+        }
+    sheet_free(images, &noise);
+    sheet_close(&s);
+}
+
+/* Base black: F0 of an index of 2 is 1/9, times color and weight; the map's alpha is 0.4 and 1. */
+static void a_dielectric_reflects_by_its_index_color_and_weight(void **state) {
+    (void)state;
+    const double f0 = 0.5 / 9;
+    const double expected[2][3] = { { 0.4 * f0, 0.2 * f0, 0 }, { f0, 0.5 * f0, 0 } };
+    check_reflected("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1],"
+                    "\"metallicFactor\":0,\"roughnessFactor\":0.05},"
+                    "\"extensions\":{\"KHR_materials_ior\":{\"ior\":2},\"KHR_materials_specular\":"
+                    "{\"specularFactor\":0.5,\"specularColorFactor\":[1,0.5,0],"
+                    "\"specularTexture\":{\"index\":0}}}}",
+                    expected);
+}
+
+/* Without a layer nothing is held back from a white base, and a metal does not heed it. */
+static void what_a_layer_lacks_passes_to_the_base_and_metals_have_none(void **state) {
+    (void)state;
+    const double white[2][3] = { { 1, 1, 1 }, { 1, 1, 1 } };
+    check_reflected("{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.05},"
+                    "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}",
+                    white);
+    check_reflected("{\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0.05},"
+                    "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0},"
+                    "\"KHR_materials_ior\":{\"ior\":3}}}",
+                    white);
+}
+
+/* The map's red is 0.2 and 1; a strength of 0.5 keeps off half of what it would. */
+static void occlusion_keeps_off_the_light_of_the_environment(void **state) {
+    (void)state;
+    const double expected[2][3] = { { 0.6, 0.6, 0.6 }, { 1, 1, 1 } };
+    check_reflected("{\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0.05},"
+                    "\"occlusionTexture\":{\"index\":0,\"strength\":0.5}}",
+                    expected);
+}
+
+static void occlusion_leaves_lights_alone(void **state) {
+    (void)state;
+    sheet s;
+    image images[SHEET_IMAGES], noise;
+    sheet_open(&s, "{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":1},"
+                   "\"occlusionTexture\":{\"index\":0}}");
+    s.world.lights[0] = (scene_light) { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL,
+                                                     .direction = { 0, 0, 1 },
+                                                     .irradiance = { 1, 2, 3 } } };
+    s.world.light_count = 1;
+    sheet_draw(&s, false, 1, images, &noise);
+    for (int i = 0; i < SHEET_IMAGES; i++)
+        for (int c = 0; c < 3; c++) {
+            assert_true(sheet_at(&images[i], 0, c) > 0.2);
+            CHECK_WITHIN(fabs(sheet_at(&images[i], 0, c) - sheet_at(&images[i], 1, c)), 1e-6);
+        }
+    sheet_free(images, &noise);
+    sheet_close(&s);
+}
+
+/* What is not read is said. */
+static void a_map_of_specular_colors_is_left_out(void **state) {
+    (void)state;
+    sheet s;
+    char text[2 * SCENE_NAME_SIZE + 32];
+    sheet_open(&s, "{\"extensions\":{\"KHR_materials_specular\":{"
+                   "\"specularColorTexture\":{\"index\":0}}}}");
+    assert_int_equal(s.world.left_out_count, 1);
+    scene_left_out_text(s.world.left_out, text, sizeof text);
+    assert_string_equal(text, "map of specular colors (1 material)");
+    sheet_close(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_dielectric_reflects_by_its_index_color_and_weight),
+        cmocka_unit_test(what_a_layer_lacks_passes_to_the_base_and_metals_have_none),
+        cmocka_unit_test(occlusion_keeps_off_the_light_of_the_environment),
+        cmocka_unit_test(occlusion_leaves_lights_alone),
+        cmocka_unit_test(a_map_of_specular_colors_is_left_out),
+    };
+    return cmocka_run_group_tests(tests, sheet_folder, folder_remove);
+}
