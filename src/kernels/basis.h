@@ -106,7 +106,7 @@ LMP_INLINE void basis_columns(int bands, const vf axis[3], const vf *radial, flo
     }
 }
 
-/* A column of BASIS_BLOCKS full blocks side by side. The places of the next band move along, for
+/* A column of BASIS_BLOCKS full blocks side by side. The addresses of the next band move along, for
  * integer instructions pass the same decoders as the vectors'. */
 typedef struct basis_wide {
     vf (*axis)[3], (*radial)[LMP_BANDS_MAX];
@@ -127,7 +127,7 @@ LMP_INLINE void basis_put_wide(basis_wide *w, int l, int m, const vf q[BASIS_BLO
     w->step += 2 * w->stride;
 }
 
-/* Two bands a turn, for registers that change places cost moves. */
+/* Two bands an iteration, for registers that are exchanged cost moves. */
 LMP_INLINE void basis_column_wide(int bands, int m, basis_wide *w) {
     const float *a = lmp_table_a, *b = lmp_table_b;
     vf even[BASIS_BLOCKS], odd[BASIS_BLOCKS];

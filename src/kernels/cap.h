@@ -3,7 +3,7 @@
  *
  * One quotient and two roots serve everything: with e = sqrt(d² - r²), alpha = e/d and
  * X = 1/(d (d + e)),  1/d = (d + e) X,  t = 1 - alpha = r² X,  s2 = sin²a = (r/d)². Inside the
- * sphere d and r change places (light.h). */
+ * sphere d and r are exchanged (light.h). */
 #ifndef LAMPION_KERNELS_CAP_H
 #define LAMPION_KERNELS_CAP_H
 

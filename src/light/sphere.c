@@ -92,10 +92,10 @@ static void store_gradient(const band_slopes *slopes, int bands, int l, int m, f
     const lmp_vec3 w = slopes->axis;
     const float t = slopes->tangential[l];
     const float along = slopes->radial[l] * y + t * (g.x * w.x + g.y * w.y + g.z * w.z);
-    float *place = gradient + LMP_SH_INDEX(l, m);
-    place[0] = along * w.x - t * g.x;
-    place[LMP_SH_COUNT(bands)] = along * w.y - t * g.y;
-    place[2 * LMP_SH_COUNT(bands)] = along * w.z - t * g.z;
+    float *entry = gradient + LMP_SH_INDEX(l, m);
+    entry[0] = along * w.x - t * g.x;
+    entry[LMP_SH_COUNT(bands)] = along * w.y - t * g.y;
+    entry[2 * LMP_SH_COUNT(bands)] = along * w.z - t * g.z;
 }
 
 void lmp_sphere_project_gradient(int bands, lmp_vec3 center, float radius, lmp_vec3 point,
