@@ -3,44 +3,45 @@
  *
  * The sums lie in memory by columns m, a tile of them at a time: no function of the library may
  * need more than 64 KB of stack, and a tile that stays in the first cache costs least. Lights go
- * some at a time, so that a sum is loaded and stored once for all of them; each is still added on
- * its own, in order. */
+ * two at a time, so that a sum is loaded and stored once for both and neither waits for its own
+ * recurrences; each is still added on its own, in order. Where a tile leaves the first lights is
+ * kept for the next one; the others begin anew. */
 #ifndef LAMPION_KERNELS_ACCUMULATE_H
 #define LAMPION_KERNELS_ACCUMULATE_H
 
 #include "src/kernels/basis.h"
 #include "src/kernels/cap.h"
 
-/* 45 KiB of sums, but no more than help: of 15 bands and more. */
-#define ACCUMULATE_SUMS (LMP_LANES > 4 ? 11520 / LMP_LANES : 2880)
+/* Registers of a call's stack, 58 KiB: lights kept, bands of the lights of a pass, sums. */
+#define ACCUMULATE_STACK (LMP_LANES > 4 ? 14848 / LMP_LANES : 3712)
 
-/* Bands of lights that wait, 8 KiB; then values on their way out. */
+/* Lights a pass, and lights kept. */
+#define ACCUMULATE_LIGHTS 2
+#define ACCUMULATE_KEPT   32
+
+/* Registers of the bands of a pass at least, 8 KiB: values on their way out wait there, too. */
 #define ACCUMULATE_WAITING (LMP_LANES > 4 ? 2048 / LMP_LANES : 512)
 
-/* Lights a pass, where their bands fit. */
-#define ACCUMULATE_LIGHTS (LMP_LANES == 16 ? 4 : 2)
-
-/* Columns first … end-1 of bands low … high-1: whole columns, which begin at their own band m, a
- * part of one, or whole bands. */
+/* Columns first … end-1 of bands low … high-1: whole columns, which begin at their own band m, or
+ * a part of one. Gradients of few bands have whole bands instead. */
 typedef struct accumulate_tile {
     int first, end, low, high;
 } accumulate_tile;
 
 /* The tile after this one, of at most `most` pairs (l, m); its first is `bands` when all are done.
- */
+ * Parts of a column are alike, for each of them runs its recurrences from the start. */
 static inline accumulate_tile accumulate_next(int bands, accumulate_tile tile, int most) {
-    if (tile.high < bands) {
-        tile.low = tile.high;
-        tile.high = tile.low + most < bands ? tile.low + most : bands;
-        return tile;
+    const int begun = tile.high < bands, first = begun ? tile.first : tile.end;
+    const int column = bands - first;
+    if (column > most) {
+        const int parts = (column + most - 1) / most, low = begun ? tile.high : first;
+        const int high = low + (column + parts - 1) / parts;
+        return (accumulate_tile) { first, first + 1, low, high < bands ? high : bands };
     }
-    const int first = tile.end;
-    int end = first + 1, high = bands;
-    if (bands - first > most)
-        high = first + most;
-    for (int left = most - (bands - first); end < bands && left >= bands - end; end++)
+    int end = first;
+    for (int left = most; end < bands && left >= bands - end; end++)
         left -= bands - end;
-    return (accumulate_tile) { first, end, first, high };
+    return (accumulate_tile) { first, end, first, bands };
 }
 
 static inline accumulate_tile accumulate_first(int bands, int most) {
@@ -78,6 +79,79 @@ LMP_INLINE cap_lanes lights_cap(const lmp_kernel_lights *lights, size_t i, const
                     vf_set(lights_at(lights->radius.at, lights->radius.stride, i)), gradient);
 }
 
+/* Where a light stands: at column m R_m, as cap_radial has it (R_1 where m is 0), C_m and S_m. */
+typedef struct accumulate_light {
+    vf x, y, z, t;
+    vf radial, difference;
+    vf c, s;
+} accumulate_light;
+
+/* The lights of a call, and how its stack is divided. */
+typedef struct accumulate_work {
+    int bands, most; /* pairs of a tile */
+    const lmp_kernel_lights *lights;
+    size_t kept_count;
+    accumulate_light *kept;
+    vf *waiting, *sums;
+} accumulate_work;
+
+LMP_INLINE void accumulate_radial_step(int l, accumulate_light *light) {
+    light->difference =
+        lmp_table_cap_d[l] * light->difference - lmp_table_cap_t[l] * light->t * light->radial;
+    light->radial = light->radial + light->difference;
+}
+
+LMP_INLINE void accumulate_rotate(int m, accumulate_light *light) {
+    basis_rotate(m, light->x, light->y, &light->c, &light->s);
+}
+
+/* At column 0; returns the factor of band 0. Inside, R_l changes sign with even l but 0:
+ * so do the coefficients of a light of negative radiance on the other side. */
+LMP_INLINE vf accumulate_begin(const lmp_kernel_lights *lights, size_t i, const vf point[3],
+                               accumulate_light *light) {
+    const vf pi = vf_set(LMP_KERNEL_PI);
+    cap_lanes cap = lights_cap(lights, i, point, 0);
+    cap_axis(&cap);
+    *light = (accumulate_light) { cap.x,       cap.y,     cap.z,     cap.t,
+                                  pi * cap.s2, vf_set(0), vf_set(1), vf_set(0) };
+    if (__builtin_expect(cap.inside, 0)) {
+        light->x = light->x * cap.even;
+        light->y = light->y * cap.even;
+        light->z = light->z * cap.even;
+        light->radial = light->radial * cap.even;
+    }
+    return (pi + pi) * cap.t_full;
+}
+
+/* From column 0 to column m. */
+LMP_INLINE void accumulate_advance(int m, int at_once, accumulate_light *light) {
+    LMP_ROLLED for (int i = 1; i <= m; i++) LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        accumulate_rotate(i, &light[k]);
+        if (i > 1)
+            accumulate_radial_step(i, &light[k]);
+    }
+}
+
+/* R_l of a tile's bands, light k's at waiting[at_once * (l - low) + k]; but that of band 0 is there
+ * from the start. Where columns end, the lights go on to the column after the tile. */
+LMP_INLINE void accumulate_radial(int bands, accumulate_tile tile, int at_once,
+                                  accumulate_light *light, vf *waiting) {
+    accumulate_light now[ACCUMULATE_LIGHTS];
+    LMP_UNROLL for (int k = 0; k < at_once; k++) now[k] = light[k];
+    LMP_ROLLED for (int l = tile.first > 1 ? tile.first : 1; l < tile.high; l++) {
+        LMP_UNROLL for (int k = 0; k < at_once; k++) {
+            if (l > 1 && l > tile.first)
+                accumulate_radial_step(l, &now[k]);
+            if (l >= tile.low)
+                waiting[at_once * (l - tile.low) + k] = now[k].radial;
+            if (l == tile.end && tile.high == bands) {
+                light[k].radial = now[k].radial;
+                light[k].difference = now[k].difference;
+            }
+        }
+    }
+}
+
 /* A light's radiance at +m, then at -m: times the cosine and the sine of m times its azimuth. */
 LMP_INLINE void accumulate_colors(lmp_rgb rgb, vf c, vf s, vf color[6]) {
     color[0] = rgb.r * c;
@@ -88,64 +162,83 @@ LMP_INLINE void accumulate_colors(lmp_rgb rgb, vf c, vf s, vf color[6]) {
     color[5] = rgb.b * s;
 }
 
-/* Adds `at_once` lights to the sums of a tile: of a pair (l, m) six, red, green, blue of +m, then
- * of -m; pairs follow one another by m, then l. Monic recurrences leave the norm N_lm to the end,
- * and are for LMP_TABLE_MONIC_BANDS (tables.h). */
-LMP_INLINE void accumulate_lights(accumulate_tile tile, int monic, int at_once,
-                                  const lmp_kernel_lights *lights, size_t light, const vf point[3],
-                                  vf *sums) {
-    vf waiting[ACCUMULATE_WAITING], axis[ACCUMULATE_LIGHTS][3];
-    const vf *radial[ACCUMULATE_LIGHTS];
-    vf c[ACCUMULATE_LIGHTS], s[ACCUMULATE_LIGHTS], q0[ACCUMULATE_LIGHTS], q1[ACCUMULATE_LIGHTS];
+typedef struct accumulate_column {
+    vf z[ACCUMULATE_LIGHTS], q0[ACCUMULATE_LIGHTS], q1[ACCUMULATE_LIGHTS];
+} accumulate_column;
+
+/* To the pair of index i. Monic recurrences leave the norm N_lm to the end, and are for
+ * LMP_TABLE_MONIC_BANDS (tables.h). */
+LMP_INLINE void accumulate_step(size_t i, int monic, int at_once, accumulate_column *column) {
+    LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        const vf z = column->z[k], q0 = column->q0[k], q1 = column->q1[k];
+        column->q0[k] = q1;
+        column->q1[k] = monic ? z * q1 - lmp_table_monic[i] * q0
+                              : lmp_table_a[i] * z * q1 + lmp_table_b[i] * q0;
+    }
+}
+
+/* Adds a column of a tile to its sums: of a pair (l, m) six, red, green, blue of +m, then of -m. */
+LMP_INLINE vf *accumulate_column_add(accumulate_tile tile, int m, int monic, int at_once,
+                                     accumulate_column *column, vf (*color)[6], const vf *waiting,
+                                     vf *sums) {
+    size_t i = lmp_table_index(m, m);
+    int l = m;
+    LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        column->q0[k] = vf_set(0);
+        column->q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);
+    }
+    LMP_ROLLED for (; l < tile.low; l++) accumulate_step(++i, monic, at_once, column);
+    for (const vf *radial = waiting + at_once * (l - tile.low);; radial += at_once) {
+        vf value[ACCUMULATE_LIGHTS];
+        LMP_UNROLL for (int k = 0; k < at_once; k++) value[k] = column->q1[k] * radial[k];
+        LMP_UNROLL for (int j = 0; j < 6; j++) {
+            if (m == 0 && j == 3)
+                break;
+            vf sum = sums[j];
+            LMP_UNROLL for (int k = 0; k < at_once; k++) sum = sum + color[k][j] * value[k];
+            sums[j] = sum;
+        }
+        sums += 6;
+        if (++l == tile.high)
+            return sums;
+        accumulate_step(++i, monic, at_once, column);
+    }
+}
+
+/* Adds `at_once` lights to the sums of a tile; pairs follow one another by m, then l. */
+LMP_INLINE void accumulate_lights(const accumulate_work *work, accumulate_tile tile, int monic,
+                                  int at_once, size_t first, const vf point[3]) {
+    accumulate_light *kept = first < work->kept_count ? work->kept + first : NULL;
+    accumulate_light light[ACCUMULATE_LIGHTS];
+    accumulate_column column;
     lmp_rgb rgb[ACCUMULATE_LIGHTS];
-    LMP_ROLLED for (int k = 0; k < at_once; k++) {
-        cap_lanes cap = lights_cap(lights, light + (size_t)k, point, 0);
-        cap_axis(&cap);
-        cap_radial(tile.high, &cap, vf_set(LMP_KERNEL_PI), waiting + k * tile.high);
-        radial[k] = waiting + k * tile.high;
-        axis[k][0] = cap.x;
-        axis[k][1] = cap.y;
-        axis[k][2] = cap.z;
-        rgb[k] = lights_radiance(lights, light + (size_t)k);
-        c[k] = vf_set(1);
-        s[k] = vf_set(0);
-        for (int m = 1; m < tile.first; m++)
-            basis_rotate(m, axis[k][0], axis[k][1], &c[k], &s[k]);
+    vf *sums = work->sums, color[ACCUMULATE_LIGHTS][6];
+    if (kept && (tile.first > 0 || tile.low > 0)) {
+        LMP_UNROLL for (int k = 0; k < at_once; k++) light[k] = kept[k];
+    } else {
+        LMP_UNROLL for (int k = 0; k < at_once; k++) work->waiting[k] =
+            accumulate_begin(work->lights, first + (size_t)k, point, &light[k]);
+        accumulate_advance(tile.first, at_once, light);
+    }
+    accumulate_radial(work->bands, tile, at_once, light, work->waiting);
+    LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        rgb[k] = lights_radiance(work->lights, first + (size_t)k);
+        column.z[k] = light[k].z;
     }
     for (int m = tile.first; m < tile.end; m++) {
-        vf color[ACCUMULATE_LIGHTS][6];
         LMP_UNROLL for (int k = 0; k < at_once; k++) {
-            if (m > 0)
-                basis_rotate(m, axis[k][0], axis[k][1], &c[k], &s[k]);
-            accumulate_colors(rgb[k], c[k], s[k], color[k]);
-            q0[k] = vf_set(0);
-            q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);
+            if (m > tile.first)
+                accumulate_rotate(m, &light[k]);
+            accumulate_colors(rgb[k], light[k].c, light[k].s, color[k]);
         }
-        const size_t base = lmp_table_index(m, m);
-        LMP_ROLLED for (int l = m; l < tile.high; l++) {
-            if (l >= tile.low) {
-                vf value[ACCUMULATE_LIGHTS];
-                LMP_UNROLL for (int k = 0; k < at_once; k++) value[k] = q1[k] * radial[k][l];
-                LMP_UNROLL for (int i = 0; i < 6; i++) {
-                    if (m == 0 && i == 3)
-                        break;
-                    vf sum = sums[i];
-                    LMP_UNROLL for (int k = 0; k < at_once; k++) sum = sum + color[k][i] * value[k];
-                    sums[i] = sum;
-                }
-                sums += 6;
-            }
-            const size_t next = base + (size_t)(l + 1 - m);
-            if (l + 1 == tile.high)
-                break;
-            LMP_UNROLL for (int k = 0; k < at_once; k++) {
-                const vf z = axis[k][2];
-                const vf q2 = monic ? z * q1[k] - lmp_table_monic[next] * q0[k]
-                                    : lmp_table_a[next] * z * q1[k] + lmp_table_b[next] * q0[k];
-                q0[k] = q1[k];
-                q1[k] = q2;
-            }
-        }
+        sums = accumulate_column_add(tile, m, monic, at_once, &column, color, work->waiting, sums);
+    }
+    if (!kept)
+        return;
+    LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        if (tile.high == work->bands)
+            accumulate_rotate(tile.end, &light[k]);
+        kept[k] = light[k];
     }
 }
 
@@ -196,14 +289,14 @@ LMP_INLINE void accumulate_whole(accumulate_tile tile, int low, int high, int mo
                live);
 }
 
-/* Writes a tile. */
+/* Writes a tile; ACCUMULATE_WAITING registers are lent to it. */
 LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accumulate_sets of,
-                               const vf *sums, const lmp_kernel_out *out, size_t element,
-                               size_t live) {
+                               const vf *sums, vf *waiting, const lmp_kernel_out *out,
+                               size_t element, size_t live) {
     const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
     const size_t stride = out->planar ? out->stride : 1;
     float *to = out->at + element * (out->planar ? 1 : out->stride);
-    float LMP_ALIGNED block[ACCUMULATE_WAITING * LMP_LANES];
+    float *block = (float *)(void *)waiting;
     for (int p = 0; p < of.sets; p++) {
         const vf *set = sums + of.skip + p;
         const size_t place = (size_t)(p * bands * bands);
@@ -226,62 +319,55 @@ LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accum
     }
 }
 
-/* Not inlined, like all that has arrays of its own: what waits in one gives its stack to the next.
- */
-static LMP_NOINLINE void accumulate_tile_put(int bands, accumulate_tile tile, int monic,
-                                             const vf *sums, const lmp_kernel_out *out,
-                                             size_t element, size_t live) {
-    if (monic)
-        accumulate_put(bands, tile, 1, (accumulate_sets) { 3, 0, 3 }, sums, out, element, live);
-    else
-        accumulate_put(bands, tile, 0, (accumulate_sets) { 3, 0, 3 }, sums, out, element, live);
+/* Lights are kept where there are tiles for them. What waits gets a quarter of the rest at most:
+ * a tile has no more bands than pairs, of six sums, and two lights wait. */
+static inline void accumulate_divide(accumulate_work *work, vf *stack) {
+    const int bands = work->bands;
+    int left = ACCUMULATE_STACK;
+    if (3 * bands * (bands + 1) > left - ACCUMULATE_WAITING) {
+        const size_t count = work->lights->count;
+        work->kept = (accumulate_light *)(void *)stack;
+        work->kept_count = count < ACCUMULATE_KEPT ? count : ACCUMULATE_KEPT;
+        left -= (int)(work->kept_count * (sizeof *work->kept / sizeof *stack));
+    }
+    int waiting = 2 * bands < left / 4 ? 2 * bands : left / 4;
+    if (waiting < ACCUMULATE_WAITING)
+        waiting = ACCUMULATE_WAITING;
+    work->waiting = stack + ACCUMULATE_STACK - left;
+    work->sums = work->waiting + waiting;
+    work->most = (left - waiting) / 6;
 }
 
-LMP_INLINE void accumulate_all_lights(int bands, accumulate_tile tile, int monic,
-                                      const lmp_kernel_lights *lights, const vf point[3],
-                                      vf *sums) {
-    size_t light = 0;
-    if (bands <= ACCUMULATE_WAITING / ACCUMULATE_LIGHTS)
-        for (; light + ACCUMULATE_LIGHTS <= lights->count; light += ACCUMULATE_LIGHTS)
-            accumulate_lights(tile, monic, ACCUMULATE_LIGHTS, lights, light, point, sums);
-    else if (bands <= ACCUMULATE_WAITING / 2)
-        for (; light + 2 <= lights->count; light += 2)
-            accumulate_lights(tile, monic, 2, lights, light, point, sums);
-    for (; light < lights->count; light++)
-        accumulate_lights(tile, monic, 1, lights, light, point, sums);
-}
-
-static LMP_NOINLINE void accumulate_monic(int bands, accumulate_tile tile,
-                                          const lmp_kernel_lights *lights, const vf point[3],
-                                          vf *sums) {
-    accumulate_all_lights(bands, tile, 1, lights, point, sums);
-}
-
-static LMP_NOINLINE void accumulate_long(int bands, accumulate_tile tile,
-                                         const lmp_kernel_lights *lights, const vf point[3],
-                                         vf *sums) {
-    accumulate_all_lights(bands, tile, 0, lights, point, sums);
+LMP_INLINE void accumulate_points(int bands, int monic, const lmp_kernel_lights *lights,
+                                  const lmp_kernel_vec3 *points, size_t count,
+                                  const lmp_kernel_out *out) {
+    vf stack[ACCUMULATE_STACK];
+    accumulate_work work = { .bands = bands, .lights = lights };
+    accumulate_divide(&work, stack);
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
+                              vf_load(points->z + e) };
+        for (accumulate_tile tile = accumulate_first(bands, work.most); tile.first < bands;
+             tile = accumulate_next(bands, tile, work.most)) {
+            size_t i = 0;
+            memset(work.sums, 0, 6 * accumulate_pairs(tile) * sizeof *work.sums);
+            for (; i + ACCUMULATE_LIGHTS <= lights->count; i += ACCUMULATE_LIGHTS)
+                accumulate_lights(&work, tile, monic, ACCUMULATE_LIGHTS, i, point);
+            for (; i < lights->count; i++)
+                accumulate_lights(&work, tile, monic, 1, i, point);
+            accumulate_put(bands, tile, monic, (accumulate_sets) { 3, 0, 3 }, work.sums,
+                           work.waiting, out, e, layout_live(count, e));
+        }
+    }
 }
 
 static void kernel_accumulate(int bands, const lmp_kernel_lights *lights,
                               const lmp_kernel_vec3 *points, size_t count,
                               const lmp_kernel_out *out) {
-    enum { MOST = ACCUMULATE_SUMS / 6 };
-    const int monic = bands <= LMP_TABLE_MONIC_BANDS;
-    vf sums[ACCUMULATE_SUMS];
-    for (size_t e = 0; e < count; e += LMP_LANES) {
-        const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
-                              vf_load(points->z + e) };
-        for (accumulate_tile tile = accumulate_first(bands, MOST); tile.first < bands;
-             tile = accumulate_next(bands, tile, MOST)) {
-            memset(sums, 0, 6 * accumulate_pairs(tile) * sizeof *sums);
-            if (monic)
-                accumulate_monic(bands, tile, lights, point, sums);
-            else
-                accumulate_long(bands, tile, lights, point, sums);
-            accumulate_tile_put(bands, tile, monic, sums, out, e, layout_live(count, e));
-        }
-    }
+    if (bands <= LMP_TABLE_MONIC_BANDS)
+        accumulate_points(bands, 1, lights, points, count, out);
+    else
+        accumulate_points(bands, 0, lights, points, count, out);
 }
 
 #endif

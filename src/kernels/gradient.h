@@ -204,8 +204,10 @@ static LMP_NOINLINE void gradient_tile(accumulate_tile tile, const lmp_kernel_li
 static LMP_NOINLINE void gradient_put(int bands, accumulate_tile tile, const vf *sums,
                                       const lmp_kernel_out *out, const lmp_kernel_out *gradient,
                                       size_t element, size_t live) {
-    accumulate_put(bands, tile, 0, (accumulate_sets) { 12, 0, 3 }, sums, out, element, live);
-    accumulate_put(bands, tile, 0, (accumulate_sets) { 12, 3, 9 }, sums, gradient, element, live);
+    const accumulate_sets values = { 12, 0, 3 }, slopes = { 12, 3, 9 };
+    vf waiting[ACCUMULATE_WAITING];
+    accumulate_put(bands, tile, 0, values, sums, waiting, out, element, live);
+    accumulate_put(bands, tile, 0, slopes, sums, waiting, gradient, element, live);
 }
 
 static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
