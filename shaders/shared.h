@@ -100,7 +100,8 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 down;       /* to its bottom edge */
     vec4 background; /* radiance of the background */
     vec4 size_lights; /* width, height, number of lights */
-    vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1 */
+    vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1; z, w:
+                    its index, of how many */
     vec4 surroundings; /* of the environment: bands (0: none), azimuth, 1 if it is seen */
 }
 SHARED_END(shared_frame);
@@ -137,7 +138,8 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 emission; /* w: kind */
     vec4 factors;  /* metallic, roughness, normal scale, alpha cutoff */
     vec4 maps;     /* base color, metallic-roughness, normal, emission */
-    vec4 vertex;   /* x: 1 where the vertices' colors count; y: strength of the occlusion map */
+    vec4 vertex;   /* x: 1 where the vertices' colors count; y: strength of the occlusion map; z: 1
+                      where alpha blends */
     vec4 more;     /* maps: occlusion, specular */
     vec4 matrix[SHARED_MAPS];
     vec4 offset[SHARED_MAPS];

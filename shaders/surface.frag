@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials into the G-buffer. SURFACE_MASKED: discard by alpha (a variant, for discarding costs
- * the early depth test). */
+ * the early depth test): by the cutoff, or of what blends as many samples as let pass what is
+ * behind. */
 #include "gbuffer.glsl"
 #include "shared.h"
 
@@ -31,12 +32,49 @@ vec2 map_uv(int map) {
     return vec2(dot(matrix[map].xy, uv), dot(matrix[map].zw, uv)) + offset[map].xy;
 }
 
+#ifdef SURFACE_MASKED
+layout(location = 4) flat in int provoking;
+
+uint scrambled(uint h) {
+    h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
+    return h ^ h >> 22u;
+}
+
+/* Of all numbers below `count` another one for each i, by a permutation of its own for each p
+ * (Kensler 2013). */
+uint permuted(uint i, uint count, uint p) {
+    uint mask = count - 1u;
+    for (uint shift = 1u; shift < 32u; shift *= 2u)
+        mask |= mask >> shift;
+    do {
+        i = (i ^ p) * 0xe170893du;
+        i = (i ^ p >> 16u ^ (i & mask) >> 4u ^ p >> 8u) * 0x0929eb3fu;
+        i = (i ^ p >> 23u ^ (i & mask) >> 1u) * (1u | p >> 27u) * 0x6935fa69u;
+        i = (i ^ (i & mask) >> 11u) * 0x74dcb303u;
+        i = (i ^ (i & mask) >> 2u) * 0x9e501cc3u;
+        i = (i ^ (i & mask) >> 2u) * 0xc860a3dfu;
+        i &= mask;
+        i ^= i >> 5u;
+    } while (i >= count);
+    return (i + p) % count;
+}
+
+/* Of a pixel and triangle the samples' thresholds are spread evenly over 0 … 1, and those of
+ * different triangles have nothing to do with each other. */
+float blend_threshold() {
+    uint p = scrambled(uint(gl_FragCoord.x) * 1664525u + uint(gl_FragCoord.y) * 1013904223u +
+                       uint(provoking) * 747796405u + uint(gl_PrimitiveID) * 2891336453u);
+    float within = float(scrambled(p + 1u) >> 8u) / 16777216.0;
+    return (float(permuted(uint(jitter.z), uint(jitter.w), p)) + within) / jitter.w;
+}
+#endif
+
 void main() {
     vec4 base = base_color * world_color;
     if (maps.x > 0.0)
         base *= texture(base_color_map, map_uv(SHARED_BASE_COLOR));
 #ifdef SURFACE_MASKED
-    if (base.a < factors.w)
+    if (vertex.z > 0.0 ? base.a <= blend_threshold() : base.a < factors.w)
         discard;
 #endif
 

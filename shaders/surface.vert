@@ -11,9 +11,15 @@ layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec4 world_uv;
 layout(location = 2) out vec4 world_tangent;
 layout(location = 3) out vec4 world_color;
+#ifdef SURFACE_MASKED
+layout(location = 4) flat out int provoking;
+#endif
 
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
+#ifdef SURFACE_MASKED
+    provoking = gl_VertexID;
+#endif
     world_normal = normal;
     world_uv = uv;
     world_tangent = tangent;

@@ -19,6 +19,7 @@ static void add_materials(cJSON *root, const scene *s) {
         cJSON_AddNumberToObject(entry, "roughness", (double)material->roughness);
         file_json_add_floats(entry, "emission", material->emission, 3);
         cJSON_AddBoolToObject(entry, "double_sided", (material->flags & SCENE_DOUBLE_SIDED) != 0);
+        cJSON_AddBoolToObject(entry, "alpha_blend", (material->flags & SCENE_ALPHA_BLEND) != 0);
         cJSON_AddBoolToObject(entry, "alpha_mask", (material->flags & SCENE_ALPHA_MASK) != 0);
         cJSON_AddItemToArray(list, entry);
     }

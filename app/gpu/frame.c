@@ -31,7 +31,7 @@ static bool scale_to(float v[3], float length) {
 
 /* Sample `index` of `count` in its pixel, -0.5 … 0.5, by the two-dimensional golden ratio (Roberts
  * 2018). */
-void gpu_sample_offset(int index, int count, float offset[2]) {
+static void sample_offset(int index, int count, float offset[2]) {
     static const double steps[2] = { 0.7548776662466927, 0.5698402909980532 };
     for (int i = 0; i < 2; i++) {
         const double at = count > 1 ? 0.5 + steps[i] * index : 0.5;
@@ -71,8 +71,10 @@ static void fill_clip(shared_frame *b, float half_width, float half_height) {
     }
 }
 
-bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float offset[2],
-                    shared_frame *block, cli_error *error) {
+bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, int index, shared_frame *block,
+                    cli_error *error) {
+    float offset[2];
+    sample_offset(index, frame->samples, offset);
     const scene_camera *camera = &frame->camera;
     const float half_height = 0.5f * scene_camera_height(camera, 1);
     const float half_width = half_height * (float)frame->width / (float)frame->height;
@@ -97,6 +99,8 @@ bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, const float o
 
     block->jitter[0] = 2 * offset[0] / (float)frame->width;
     block->jitter[1] = 2 * offset[1] / (float)frame->height;
+    block->jitter[2] = (float)index;
+    block->jitter[3] = (float)(frame->samples > 1 ? frame->samples : 1);
     fill_clip(block, half_width, half_height);
     return true;
 }

@@ -223,10 +223,8 @@ void gpu_forget_geometry(gpu_renderer *renderer);
 /* --- frame.c ------------------------------------------------------------------------------------
  */
 
-/* Sample `index` of `count` in its pixel, -0.5 … 0.5. */
-void gpu_sample_offset(int index, int count, float offset[2]);
-
-bool gpu_fill_frame(const gpu_renderer *renderer, const gpu_frame *frame, const float offset[2],
+/* For one sample. */
+bool gpu_fill_frame(const gpu_renderer *renderer, const gpu_frame *frame, int index,
                     shared_frame *block, cli_error *error);
 void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
 

@@ -77,7 +77,8 @@ static void fill_material(const scene_material *source, size_t number, const gpu
     material->dielectric = scene_dielectric(source);
     material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
-    material->masked = source->flags & SCENE_ALPHA_MASK;
+    block->vertex[2] = source->flags & SCENE_ALPHA_BLEND ? 1.0f : 0.0f;
+    material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
 }
 
 static bool create_materials(const scene *world, gpu_mesh *mesh) {

@@ -131,9 +131,7 @@ static bool shade_host(gpu_renderer *r, const gpu_frame *frame, const shared_fra
 static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GLuint program,
                           gpu_times *times, cli_error *error) {
     shared_frame block;
-    float offset[2];
-    gpu_sample_offset(index, frame->samples, offset);
-    if (!gpu_fill_frame(r, frame, offset, &block, error))
+    if (!gpu_fill_frame(r, frame, index, &block, error))
         return false;
     glNamedBufferSubData(r->frame_block, 0, sizeof block, &block);
     if (times)

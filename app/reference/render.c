@@ -147,34 +147,75 @@ static void store(image *pixels, size_t pixel, int channel, double value) {
     pixels->rgb[3 * pixel + (size_t)channel] = (float)value;
 }
 
-static void trace_pixel(const frame *f, worker *own, int x, int y) {
-    const reference_settings *settings = f->settings;
-    const size_t pixel = (size_t)y * (size_t)settings->width + (size_t)x;
-    const pixel_ray ray = ray_through(f, x, y);
-    const reference_hit hit = reference_tracer_see(f->tracer, ray.from, ray.direction);
-    const scene_light *light = seen_light(f, &ray, hit.distance);
-    reference_result result = { .samples = 0 };
-    double emission[3] = { 0 };
-    bool clamped = false;
+/* What is seen along a ray, and how much of it hides what is behind. */
+typedef struct sight {
+    double mean[3], standard_error[3], opacity;
+    reference_vec behind; /* where the ray goes on */
+} sight;
+
+static double opacity_of(const frame *f, const reference_hit *hit) {
+    const scene_material *material = &f->scene->materials[hit->material];
+    double texel[4];
+    if (!(material->flags & SCENE_ALPHA_BLEND))
+        return 1;
+    sample(f, &material->base_color_map, hit, texel);
+    return texel[3] * hit->color[3] * (double)material->base_color[3];
+}
+
+static void see_surface(const frame *f, worker *own, const reference_hit *hit,
+                        reference_vec direction, uint64_t key, sight *seen) {
+    const reference_stop stop = { f->settings->samples, f->settings->error };
+    reference_surface surface;
+    double emission[3];
+    describe(f, own, hit, reference_scale(-1, direction), &surface, emission);
+    const reference_result result = reference_estimate(&own->estimator, &surface, &stop, key);
+    for (int c = 0; c < 3; c++) {
+        /* Renderers clamp the sum of a ringing series at 0. */
+        const double mean = surface.band_limited && result.mean[c] < 0 ? 0 : result.mean[c];
+        seen->mean[c] = mean + emission[c];
+        seen->standard_error[c] = result.standard_error[c];
+    }
+    seen->opacity = opacity_of(f, hit);
+    seen->behind = reference_subtract(reference_scale(2, hit->position), hit->ray_origin);
+}
+
+static sight see(const frame *f, worker *own, const pixel_ray *ray, uint64_t key) {
+    const reference_hit hit = reference_tracer_see(f->tracer, ray->from, ray->direction);
+    const scene_light *light = seen_light(f, ray, hit.distance);
+    sight seen = { .opacity = 1 };
     if (light) {
         const float *radiance = &light->emitter.radiance.r;
         for (int c = 0; c < 3; c++)
-            emission[c] = (double)radiance[c];
-    } else if (!isfinite(hit.distance)) {
-        see_backdrop(f, ray.direction, emission);
+            seen.mean[c] = (double)radiance[c];
+    } else if (isfinite(hit.distance)) {
+        see_surface(f, own, &hit, ray->direction, key, &seen);
     } else {
-        const reference_stop stop = { settings->samples, settings->error };
-        reference_surface surface;
-        describe(f, own, &hit, reference_scale(-1, ray.direction), &surface, emission);
-        clamped = surface.band_limited;
-        result = reference_estimate(&own->estimator, &surface, &stop,
-                                    reference_hash(settings->seed, pixel));
+        see_backdrop(f, ray->direction, seen.mean);
+    }
+    return seen;
+}
+
+/* Front to back, as long as something shows through. */
+#define SIGHTS_MAX 64
+static void trace_pixel(const frame *f, worker *own, int x, int y) {
+    const size_t pixel = (size_t)y * (size_t)f->settings->width + (size_t)x;
+    pixel_ray ray = ray_through(f, x, y);
+    uint64_t key = reference_hash(f->settings->seed, pixel);
+    double mean[3] = { 0 }, variance[3] = { 0 }, through = 1;
+    for (int i = 0; i < SIGHTS_MAX && through > 1e-4; i++) {
+        const sight seen = see(f, own, &ray, key);
+        for (int c = 0; c < 3; c++) {
+            const double error = through * seen.opacity * seen.standard_error[c];
+            mean[c] += through * seen.opacity * seen.mean[c];
+            variance[c] += error * error;
+        }
+        through *= 1 - seen.opacity;
+        ray.from = seen.behind;
+        key = reference_hash(key, pixel);
     }
     for (int c = 0; c < 3; c++) {
-        /* Renderers clamp the sum of a ringing series at 0. */
-        const double mean = clamped && result.mean[c] < 0 ? 0 : result.mean[c];
-        store(f->radiance, pixel, c, mean + emission[c]);
-        store(f->standard_error, pixel, c, result.standard_error[c]);
+        store(f->radiance, pixel, c, mean[c]);
+        store(f->standard_error, pixel, c, sqrt(variance[c]));
     }
 }
 

@@ -216,12 +216,11 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
     material->normal_scale = (float)gltf_number(gltf_member(entry, "normalTexture"), "scale", 1.0);
     if (cJSON_IsTrue(gltf_member(entry, "doubleSided")))
         material->flags |= SCENE_DOUBLE_SIDED;
-    /* Blending needs an order of surfaces, which a deferred renderer has not: it is cut instead. */
     const char *mode = gltf_text(entry, "alphaMode");
-    if (strcmp(mode, "MASK") == 0 || strcmp(mode, "BLEND") == 0)
+    if (strcmp(mode, "MASK") == 0)
         material->flags |= SCENE_ALPHA_MASK;
     if (strcmp(mode, "BLEND") == 0)
-        builder_left_out(pool->builder, "blending", "material", 1);
+        material->flags |= SCENE_ALPHA_BLEND;
     material->occlusion =
         clamp_unit(gltf_number(gltf_member(entry, "occlusionTexture"), "strength", 1.0));
     set_dielectric(entry, material);

@@ -28,5 +28,5 @@ void phong_apply(const phong *from, scene_material *to) {
     if (specular > 0.0f && from->exponent > 0.0f)
         to->roughness = fminf(1.0f, sqrtf(sqrtf(2.0f / (from->exponent + 2.0f))));
     if (to->base_color[3] < 1.0f)
-        to->flags |= SCENE_ALPHA_MASK;
+        to->flags |= SCENE_ALPHA_BLEND;
 }

@@ -12,7 +12,7 @@ typedef struct phong {
 
 /* The diffuse color is the base color; the exponent n becomes the roughness whose half
  * vectors have it, n = 2/α² - 2 with α = roughness²; without a specular color it is matte. One much
- * brighter than the diffuse color means metal of that color. Opacity below 1 cuts by alpha. */
+ * brighter than the diffuse color means metal of that color. Opacity below 1 blends. */
 void phong_apply(const phong *from, scene_material *to);
 
 #endif

@@ -35,6 +35,7 @@ typedef enum scene_flags {
     SCENE_VERTEX_COLORS = 4, /* the base color is multiplied by that of the vertices */
     SCENE_UNLIT = 8,         /* its emission is what one sees, and no light to others */
     SCENE_DIELECTRIC = 16,   /* f0 and f90 count */
+    SCENE_ALPHA_BLEND = 32,  /* by alpha, it hides what is behind it */
 } scene_flags;
 
 /* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */

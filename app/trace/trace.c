@@ -56,11 +56,17 @@ double trace_lift(const scene *world) {
 /* --- what lets rays pass ------------------------------------------------------------------------
  */
 
-static bool cut_out(const trace_mesh *mesh, const trace_triangle *t) {
+/* Light passes what blends where a mask would let it. */
+static bool may_be_cut(const scene_material *material, trace_kind kind) {
+    return material->flags & SCENE_ALPHA_MASK ||
+           (material->flags & SCENE_ALPHA_BLEND && kind == TRACE_LIGHT);
+}
+
+static bool cut_out(const trace_mesh *mesh, const trace_triangle *t, trace_kind kind) {
     const scene_material *material = mesh->material;
     const uint32_t set = material->base_color_map.set;
     double uv[2] = { 0, 0 }, rgba[4], alpha = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
-    if (!(material->flags & SCENE_ALPHA_MASK))
+    if (!may_be_cut(material, kind))
         return false;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
@@ -104,7 +110,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
         set_corners(mesh->scene, mesh->mesh, number_at(a->hit, ROW_TRIANGLE, a->N, i),
                     value_at(a->hit, ROW_U, a->N, i), value_at(a->hit, ROW_V, a->N, i), t.corners,
                     t.weights);
-        if ((one_sided && shows_back(a, i)) || cut_out(mesh, &t))
+        if ((one_sided && shows_back(a, i)) || cut_out(mesh, &t, context->kind))
             a->valid[i] = 0;
     }
 }
@@ -125,7 +131,7 @@ static bool add_mesh(trace_bvh *bvh, const scene *world, size_t number) {
                                3 * sizeof *world->indices, mesh->mesh->index_count / 3);
     rtcSetGeometryUserData(geometry, mesh);
     rtcSetGeometryIntersectFilterFunction(geometry, filter);
-    if (mesh->material->flags & SCENE_ALPHA_MASK)
+    if (may_be_cut(mesh->material, TRACE_LIGHT))
         rtcSetGeometryOccludedFilterFunction(geometry, filter);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(bvh->rays, geometry, (unsigned)number);

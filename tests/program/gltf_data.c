@@ -210,7 +210,6 @@ static void what_is_left_out_is_named(void **state) {
         { "\"mode\":4", "\"mode\":1", "points and lines (1 primitive)" },
         { "\"source\":0,", "\"extensions\":{\"EXT_texture_webp\":{\"source\":0}},",
           "EXT_texture_webp (1 texture)" },
-        { "\"alphaMode\":\"MASK\"", "\"alphaMode\":\"BLEND\"", "blending (1 material)" },
         { "\"intensity\":4", "\"intensity\":5", "range (1 light)" },
         { "\"path\":\"translation\"", "\"path\":\"translation\"", NULL },
     };

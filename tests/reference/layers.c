@@ -80,6 +80,34 @@ static void occlusion_leaves_lights_alone(void **state) {
     sheet_close(&s);
 }
 
+/* Of a column in the middle of a half. */
+static double blue_of(const image *drawn, int half) {
+    double sum = 0;
+    for (int y = 0; y < SHEET_SIDE; y++)
+        sum += (double)drawn->rgb[3 * (y * SHEET_SIDE + (half ? SHEET_SIDE - 2 : 1)) + 2];
+    return sum / SHEET_SIDE;
+}
+
+/* Two squares behind each other, blue of 1: 0.4 of the first, 0.4 of 0.6 of the second. */
+static void what_blends_shows_what_is_behind(void **state) {
+    (void)state;
+    sheet s;
+    image images[SHEET_IMAGES], noise;
+    const double expected[2] = { 0.4 + 0.6 * 0.4, 1 };
+    sheet_open(&s, "{\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0.05,"
+                   "\"baseColorTexture\":{\"index\":0}},\"alphaMode\":\"BLEND\"}");
+    assert_int_equal(s.world.left_out_count, 0);
+    sheet_draw(&s, true, 256, images, &noise);
+    for (int half = 0; half < 2; half++) {
+        const double bound = 5 * sheet_at(&noise, half, 2) + 1e-4;
+        CHECK_WITHIN(fabs(blue_of(&images[SHEET_GPU], half) - expected[half]), 0.03);
+        CHECK_WITHIN(fabs(blue_of(&images[SHEET_CPU], half) - expected[half]), 0.03);
+        CHECK_WITHIN(fabs(sheet_at(&images[SHEET_REFERENCE], half, 2) - expected[half]), bound);
+    }
+    sheet_free(images, &noise);
+    sheet_close(&s);
+}
+
 /* What is not read is said. */
 static void a_map_of_specular_colors_is_left_out(void **state) {
     (void)state;
@@ -99,6 +127,7 @@ int main(void) {
         cmocka_unit_test(what_a_layer_lacks_passes_to_the_base_and_metals_have_none),
         cmocka_unit_test(occlusion_keeps_off_the_light_of_the_environment),
         cmocka_unit_test(occlusion_leaves_lights_alone),
+        cmocka_unit_test(what_blends_shows_what_is_behind),
         cmocka_unit_test(a_map_of_specular_colors_is_left_out),
     };
     return cmocka_run_group_tests(tests, sheet_folder, folder_remove);

@@ -17,12 +17,14 @@
 enum { SHEET_SIDE = 8, SHEET_SAMPLES = 4096 };
 enum { SHEET_GPU, SHEET_CPU, SHEET_REFERENCE, SHEET_IMAGES };
 
-/* From -1 to 1 in x and y, at z = 0, seen from +z. Texture 0 has two texels, the halves of the
- * square: red, green, blue and alpha of 0.2, 0.4, 1 and 0.4 on the left, white on the right. */
+/* From -1 to 1 in x and y, at z = 0, seen from +z, and once more behind it at z = -1. Texture 0 has
+ * two texels, the halves of the square: red, green, blue and alpha of 0.2, 0.4, 1 and 0.4 on the
+ * left, white on the right. */
 static const char sheet_gltf[] =
-    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
     "\"extensionsUsed\":[\"KHR_materials_specular\",\"KHR_materials_ior\"],"
-    "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0,0,5]}],"
+    "\"nodes\":[{\"mesh\":0},{\"camera\":0,\"translation\":[0,0,5]},"
+    "{\"mesh\":0,\"translation\":[0,0,-1]}],"
     "\"cameras\":[{\"type\":\"orthographic\","
     "\"orthographic\":{\"xmag\":1,\"ymag\":1,\"znear\":0.1,\"zfar\":9}}],"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
