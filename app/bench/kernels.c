@@ -7,6 +7,15 @@
 static void run_basis(const bench_batch *b) {
     lmp_sh_eval_n(b->bands, b->axes, b->count, b->layout, b->stride, b->out);
 }
+static void run_basis_gradient(const bench_batch *b) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    const size_t stride = b->layout == LMP_SH_PLANAR ? b->stride : 0;
+    float *slopes = b->out + n * (stride ? stride / sizeof(float) : b->count);
+    lmp_sh_eval_gradient_n(b->bands, b->axes, b->count, b->layout, stride, b->out, stride, slopes);
+}
+static void run_irradiance(const bench_batch *b) {
+    lmp_probe_irradiance_n(b->bands, b->vectors, b->axes, b->count, (lmp_rgb *)(void *)b->out);
+}
 static void run_dot(const bench_batch *b) {
     lmp_sh_dot_n(b->bands, b->vectors, b->vectors, b->count, b->layout, b->stride, b->out);
 }
@@ -41,6 +50,11 @@ static void run_shade_zonal(const bench_batch *b) {
     const lmp_shade_settings settings = { .bands = b->bands };
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
 }
+static void run_shade_environment(const bench_batch *b) {
+    const lmp_shade_settings settings = { .bands = b->bands };
+    const lmp_environment environment = { b->vectors, b->bands };
+    lmp_shade_environment_n(&settings, &b->surfaces, b->count, &environment, 0, b->out);
+}
 static void run_shade_preintegrated(const bench_batch *b) {
     const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = b->lobe };
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
@@ -51,6 +65,9 @@ static void run_shade_preintegrated(const bench_batch *b) {
 
 static size_t values_basis(int n) {
     return LMP_SH_COUNT(n);
+}
+static size_t values_basis_gradient(int n) {
+    return 4 * LMP_SH_COUNT(n);
 }
 static size_t values_zonal(int n) {
     return (size_t)n;
@@ -79,6 +96,20 @@ static double steps(int n) {
 static double slots_basis(int n) {
     /* A column: 2 for its first step, 4 for the next; times C_m and S_m; C_m and S_m: 6. */
     return 2 * (n - 1) + 4 * (steps(n) - (n - 1)) + 2 * steps(n) + 6 * later(n);
+}
+static double slots_basis_gradient(int n) {
+    /* q_l^m; of (l, m) two slopes and three products; of a value 11, and those of m = 0 once. */
+    return 4 * steps(n) + 6 * later(n) + 5 * entries(n) + 12.0 * n * n;
+}
+/* A column's step, lambda_l, three channels of its cosine and its sine; of a diffuse lobe every
+ * other band has no lambda_l. */
+static double slots_irradiance(int n) {
+    return 4 * steps(n) + 6 * later(n) + (1 + 12) * entries(n) / 2 + 12.0 * n;
+}
+/* Three lobes of GGX besides, whose factors are all taken. */
+static double slots_shade_environment(int n) {
+    const double phong = 4 * steps(n) + 6 * later(n) + (1 + 12) * entries(n) + 12.0 * n + 10.0 * n;
+    return slots_irradiance(n) + 3 * phong;
 }
 static double slots_dot(int n) {
     return 2.0 * n * n + 15;
@@ -150,6 +181,10 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       false },
     { "basis", values_basis, slots_basis, run_basis, bench_paper_basis, 1, false, BENCH_TABLE_NONE,
       false },
+    { "basis-gradient", values_basis_gradient, slots_basis_gradient, run_basis_gradient,
+      bench_paper_basis_gradient, 1, false, BENCH_TABLE_NONE, false },
+    { "irradiance", values_lobe, slots_irradiance, run_irradiance, bench_paper_irradiance, 1, true,
+      BENCH_TABLE_NONE, false },
     { "rotate", values_basis, slots_rotate, run_rotate, bench_paper_rotate, 1, false,
       BENCH_TABLE_NONE, false },
     { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, 1, false, BENCH_TABLE_NONE, false },
@@ -161,6 +196,8 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       BENCH_LIGHTS, true, BENCH_TABLE_BRDF, false },
     { "shade-ggx", values_lobe, slots_shade_ggx, run_shade_zonal, bench_paper_shade, BENCH_LIGHTS,
       true, BENCH_TABLE_NONE, true },
+    { "shade-environment", values_lobe, slots_shade_environment, run_shade_environment,
+      bench_paper_shade_environment, 1, true, BENCH_TABLE_NONE, true },
     { "shade-ggx-preintegrated", values_lobe, slots_shade_ggx_lobe, run_shade_preintegrated,
       bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES, true },
 };

@@ -41,13 +41,15 @@ typedef struct bench_kernel {
     bool ggx; /* it shades glTF's metallic-roughness */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 13 };
+enum { BENCH_KERNELS = 16 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- paper.c: elements of the same work by the paper's formulas, one by one ----------------------
  */
 
 void bench_paper_basis(const bench_batch *b, size_t element);
+void bench_paper_basis_gradient(const bench_batch *b, size_t element);
+void bench_paper_irradiance(const bench_batch *b, size_t element);
 void bench_paper_dot(const bench_batch *b, size_t element);
 void bench_paper_rotate(const bench_batch *b, size_t element);
 void bench_paper_zonal(const bench_batch *b, size_t element);
@@ -56,5 +58,6 @@ void bench_paper_accumulate(const bench_batch *b, size_t element);
 void bench_paper_gradient(const bench_batch *b, size_t element);
 void bench_paper_lobe(const bench_batch *b, size_t element);
 void bench_paper_shade(const bench_batch *b, size_t element);
+void bench_paper_shade_environment(const bench_batch *b, size_t element);
 
 #endif

@@ -25,6 +25,37 @@ static void paper_light(const bench_batch *b, size_t sphere, lmp_vec3 at, float 
 void bench_paper_basis(const bench_batch *b, size_t i) {
     lmp_sh_eval(b->bands, vector_at(&b->axes, i), coefficient_sink);
 }
+/* The paper has none: one-sided differences. */
+void bench_paper_basis_gradient(const bench_batch *b, size_t i) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    const float h = 0.001f;
+    const lmp_vec3 w = vector_at(&b->axes, i);
+    lmp_sh_eval(b->bands, w, coefficient_sink);
+    for (size_t axis = 0; axis < 3; axis++) {
+        float *slope = coefficient_sink + (1 + axis) * n;
+        lmp_vec3 at = w;
+        (&at.x)[axis] += h;
+        const float length = sqrtf(at.x * at.x + at.y * at.y + at.z * at.z);
+        lmp_sh_eval(b->bands, (lmp_vec3) { at.x / length, at.y / length, at.z / length }, slope);
+        for (size_t v = 0; v < n; v++)
+            slope[v] = (slope[v] - coefficient_sink[v]) / h;
+    }
+}
+/* Eq. 4: the lobe's coefficients, and three dot products with the light's. */
+static void paper_respond(const bench_batch *b, lmp_vec3 axis, float rgb[3]) {
+    static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    lmp_lobe_project(b->bands, b->lambda, axis, lobe);
+    for (size_t c = 0; c < 3; c++)
+        rgb[c] = lmp_sh_dot(b->bands, b->vectors + c * LMP_SH_COUNT(b->bands), lobe);
+}
+void bench_paper_irradiance(const bench_batch *b, size_t i) {
+    paper_respond(b, vector_at(&b->axes, i), coefficient_sink);
+}
+/* The lobes of GGX are as many; where they point costs the same. */
+void bench_paper_shade_environment(const bench_batch *b, size_t i) {
+    for (size_t k = 0; k <= LMP_GGX_LOBES; k++)
+        paper_respond(b, vector_at(&b->axes, i), coefficient_sink + 3 * k);
+}
 void bench_paper_dot(const bench_batch *b, size_t i) {
     const float *vector = b->vectors + i * LMP_SH_COUNT(b->bands);
     coefficient_sink[0] = lmp_sh_dot(b->bands, vector, vector);

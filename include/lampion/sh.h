@@ -170,6 +170,12 @@ typedef enum lmp_sh_layout { LMP_SH_INTERLEAVED = 0, LMP_SH_PLANAR } lmp_sh_layo
 LMP_API void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
                            size_t stride, float *sh);
 
+/* lmp_sh_eval_gradient of many directions: gradient receives 3 * LMP_SH_COUNT(bands) values an
+ * element, d/dx, then d/dy, then d/dz, laid out as sh with a stride of its own. */
+LMP_API void lmp_sh_eval_gradient_n(int bands, lmp_vec3_array directions, size_t count,
+                                    lmp_sh_layout layout, size_t stride, float *sh,
+                                    size_t gradient_stride, float *gradient);
+
 /* lmp_sh_dot of many pairs, both laid out alike; dots receives `count` values. */
 LMP_API void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t count,
                           lmp_sh_layout layout, size_t stride, float *dots);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* build.h - one build of the kernels: the file that includes it sets LMP_LANES and LMP_KERNELS, and
  * CMake its instruction set. */
+#include "src/kernels/eval_gradient.h"
 #include "src/kernels/gradient.h"
 #include "src/kernels/lobe.h"
 #include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
+#include "src/kernels/reconstruct.h"
 #include "src/kernels/shade_zonal.h"
 #include "src/kernels/vectors.h"
 
@@ -24,8 +26,10 @@ const lmp_kernels LMP_KERNELS = {
 #endif
     .lanes = LMP_LANES,
     .eval = kernel_eval,
+    .eval_gradient = kernel_eval_gradient,
     .dot = kernel_dot,
     .rotate = kernel_rotate,
+    .reconstruct = kernel_reconstruct,
     .zonal = kernel_zonal,
     .project = kernel_project,
     .accumulate = kernel_accumulate,

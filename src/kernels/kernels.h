@@ -115,12 +115,20 @@ typedef struct lmp_kernels {
     /* bands^2 values: Y_lm. */
     void (*eval)(int bands, const lmp_kernel_vec3 *directions, size_t count,
                  const lmp_kernel_out *out);
+    /* The same, and 3 bands^2 values: their derivatives along the sphere by x, then y, then z. */
+    void (*eval_gradient)(int bands, const lmp_kernel_vec3 *directions, size_t count,
+                          const lmp_kernel_out *out, const lmp_kernel_out *gradient);
     /* One value: the dot product of two elements of `values` values. */
     void (*dot)(size_t values, const lmp_kernel_in *a, const lmp_kernel_in *b, size_t count,
                 float *dots);
     /* bands^2 values, by the matrices of lmp_sh_rotation. */
     void (*rotate)(int bands, const float *matrices, const lmp_kernel_in *in, size_t count,
                    const lmp_kernel_out *out);
+    /* 3 values: the functions of three planes of coefficients in these directions, band l times
+     * factors[l] and, with exponents, times that of a Phong lobe of integral 1. */
+    void (*reconstruct)(int bands, const float *factors, const float *exponents,
+                        const float *const planes[3], const lmp_kernel_vec3 *directions,
+                        size_t count, const lmp_kernel_out *out);
     /* `bands` values: Z_l (paper Eq. 12). */
     void (*zonal)(int bands, const float *radius, const float *distance, size_t count,
                   const lmp_kernel_out *out);

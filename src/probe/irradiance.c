@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/precondition.h"
-#include "src/sh/column.h"
+#include "src/kernels/batch.h"
 
 #include <lampion/probe.h>
 
 void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, size_t count,
                             lmp_rgb *rgb) {
     assert(lmp_is_bands(bands) && lmp_are_unit(normals, count));
-    const size_t plane = LMP_SH_COUNT(bands);
+    const float *const planes[3] = { sh, sh + LMP_SH_COUNT(bands), sh + 2 * LMP_SH_COUNT(bands) };
+    const lmp_kernels *kernels = lmp_kernels_get();
+    lmp_batch_vec3 normal_planes;
     float lambda[LMP_BANDS_MAX];
     lmp_lobe_diffuse(bands, lambda);
-    for (size_t i = 0; i < count; i++) {
-        const lmp_vec3 n = lmp_vec3_element(&normals, i);
-        rgb[i] = (lmp_rgb) { lmp_sh_filtered(bands, sh, lambda, n),
-                             lmp_sh_filtered(bands, sh + plane, lambda, n),
-                             lmp_sh_filtered(bands, sh + 2 * plane, lambda, n) };
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        const size_t n = lmp_batch_count(count, first);
+        const lmp_kernel_vec3 at = lmp_batch_vectors(&normals, first, n, &normal_planes);
+        const lmp_kernel_out out = lmp_batch_out(&rgb->r, 3, count, 0, 0, first);
+        kernels->reconstruct(bands, lambda, NULL, planes, &at, n, &out);
     }
 }
 

@@ -30,9 +30,6 @@ static inline void lmp_sh_column(int bands, int m, float z, float *q) {
 /* lmp_sh_eval of a direction that need not be quite unit. */
 void lmp_sh_values(int bands, lmp_vec3 direction, float *sh);
 
-/* Σ_l factors[l] Σ_m sh_lm Y_lm(direction); factors NULL means 1. */
-float lmp_sh_filtered(int bands, const float *sh, const float *factors, lmp_vec3 direction);
-
 /* factors[l] Y_lm(axis) of bands low … high-1. */
 void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, float *sh);
 

@@ -50,27 +50,21 @@ float lmp_sh_dot(int bands, const float *a, const float *b) {
     return sum;
 }
 
-float lmp_sh_filtered(int bands, const float *sh, const float *factors, lmp_vec3 direction) {
-    assert(lmp_is_bands(bands));
+float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction) {
+    assert(lmp_is_bands(bands) && lmp_is_unit(direction));
     float q[LMP_BANDS_MAX], sum = 0;
     lmp_azimuth a = { 1, 0 };
     for (int m = 0; m < bands; m++) {
         lmp_sh_column(bands, m, direction.z, q);
         float cosine = 0, sine = 0;
         for (int l = m; l < bands; l++) {
-            const float weight = factors ? q[l] * factors[l] : q[l];
-            cosine += weight * sh[LMP_SH_INDEX(l, m)];
-            sine += weight * sh[LMP_SH_INDEX(l, -m)];
+            cosine += q[l] * sh[LMP_SH_INDEX(l, m)];
+            sine += q[l] * sh[LMP_SH_INDEX(l, -m)];
         }
         sum += cosine * a.c + sine * a.s;
         a = lmp_azimuth_next(a, direction);
     }
     return sum;
-}
-
-float lmp_sh_reconstruct(int bands, const float *sh, lmp_vec3 direction) {
-    assert(lmp_is_unit(direction));
-    return lmp_sh_filtered(bands, sh, NULL, direction);
 }
 
 void lmp_sh_from_zonal(int bands, const float *zonal, lmp_vec3 axis, float *sh) {

@@ -1,107 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* environment.c - what surfaces reflect of ambient light from far away: a lobe of factors lambda_l
- * around an axis q accumulates Σ_l lambda_l Σ_m L_lm Y_lm(q).
- *
- * Surfaces go through in runs, which the loops over them make vectors of; each is summed in the
- * same order by itself, so that no run changes a bit. */
-#include "src/base/element.h"
-#include "src/sh/column.h"
-#include "src/shade/material.h"
+ * around an axis q accumulates Σ_l lambda_l Σ_m L_lm Y_lm(q). */
+#include "src/shade/planes.h"
 
-#include <string.h>
+static const float pi = 3.14159265f;
 
-enum { RUN = 8 };
-
-/* A lobe of each surface of a run. */
-typedef struct lobe_run {
-    float x[RUN], y[RUN], z[RUN];
-    float weight[3][RUN];
-    float lambda[LMP_BANDS_MAX][RUN];
-} lobe_run;
-
-/* What was found along one column ±m: Σ_l of the coefficients' products, before C_m and S_m. */
-typedef struct column_sums {
-    float cosine[3][RUN], sine[3][RUN];
-} column_sums;
-
-/* Adds band l of a column, value[i] = lambda_l q_l^m. */
-static void add_band(const lmp_environment *e, int l, int m, const float value[RUN],
-                     column_sums *sums) {
-    for (int c = 0; c < 3; c++) {
-        const float *plane = e->sh + (size_t)c * LMP_SH_COUNT(e->bands);
-        const float plus = plane[LMP_SH_INDEX(l, m)], minus = plane[LMP_SH_INDEX(l, -m)];
-        for (int i = 0; i < RUN; i++)
-            sums->cosine[c][i] += plus * value[i];
-        for (int i = 0; m > 0 && i < RUN; i++)
-            sums->sine[c][i] += minus * value[i];
-    }
-}
-
-static void sum_column(const lmp_environment *e, int bands, int m, const lobe_run *run,
-                       column_sums *sums) {
-    const float *a = lmp_table_a + lmp_table_index(m, m);
-    const float *b = lmp_table_b + lmp_table_index(m, m);
-    float q[RUN], before[RUN] = { 0 }, value[RUN];
-    memset(sums, 0, sizeof *sums);
-    for (int i = 0; i < RUN; i++)
-        q[i] = lmp_table_diagonal[m];
-    for (int l = m; l < bands; l++) {
-        for (int i = 0; l > m && i < RUN; i++) {
-            const float next = a[l - m] * run->z[i] * q[i] + b[l - m] * before[i];
-            before[i] = q[i];
-            q[i] = next;
-        }
-        for (int i = 0; i < RUN; i++)
-            value[i] = q[i] * run->lambda[l][i];
-        add_band(e, l, m, value, sums);
-    }
-}
-
-/* Adds the responses of the lobes, times their weights, to rgb. */
-static void add_lobes(const lmp_environment *e, int bands, const lobe_run *run, float rgb[3][RUN]) {
-    float c[RUN], s[RUN] = { 0 }, response[3][RUN] = { { 0 } };
-    for (int i = 0; i < RUN; i++)
-        c[i] = 1;
-    for (int m = 0; m < bands; m++) {
-        column_sums sums;
-        sum_column(e, bands, m, run, &sums);
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < RUN; i++)
-                response[k][i] += sums.cosine[k][i] * c[i] + sums.sine[k][i] * s[i];
-        for (int i = 0; i < RUN; i++) {
-            const float rotated = run->x[i] * c[i] - run->y[i] * s[i];
-            s[i] = run->x[i] * s[i] + run->y[i] * c[i];
-            c[i] = rotated;
-        }
-    }
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < RUN; i++)
-            rgb[k][i] += run->weight[k][i] * response[k][i];
-}
-
-/* --- surfaces --------------------------------------------------------------------------------- */
-
-static lmp_surface surface_at(const lmp_surfaces *surfaces, size_t i) {
-    lmp_surface surface = { .normal = lmp_vec3_element(&surfaces->normal, i),
-                            .view = lmp_vec3_element(&surfaces->view, i) };
-    if (surfaces->tangent.x)
-        surface.tangent = lmp_vec3_element(&surfaces->tangent, i);
-    return surface;
-}
-
-/* Lobe k of surface i in the run; of weight 0 where the material has fewer. */
-static void take_lobe(const shade_lobes *lobes, int k, int bands, size_t i, lobe_run *run) {
-    const shade_lobe *lobe = &lobes->lobe[k];
-    const bool there = k < lobes->count;
-    run->x[i] = there ? lobe->axis.x : 0;
-    run->y[i] = there ? lobe->axis.y : 0;
-    run->z[i] = there ? lobe->axis.z : 0;
-    run->weight[0][i] = there ? lobe->weight.r : 0;
-    run->weight[1][i] = there ? lobe->weight.g : 0;
-    run->weight[2][i] = there ? lobe->weight.b : 0;
-    for (int l = 0; l < bands; l++)
-        run->lambda[l][i] = there ? lobe->lambda[l] : 0;
-}
+/* What is the same for all surfaces: the bands, and factors of the diffuse lobe of integral 1 and
+ * of Phong's, windowed. */
+typedef struct environment_method {
+    const lmp_shade_settings *settings;
+    int bands;
+    float diffuse[LMP_BANDS_MAX], window[LMP_BANDS_MAX];
+    const float *planes[3];
+} environment_method;
 
 static lmp_shade_settings settings_of(const lmp_shade_settings *settings) {
     lmp_shade_settings resolved = lmp_shade_resolve(settings);
@@ -114,48 +25,115 @@ static lmp_shade_settings settings_of(const lmp_shade_settings *settings) {
     return resolved;
 }
 
-/* Surfaces `first` on, at most RUN of them. */
-static void shade_run(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                      size_t first, size_t count, const lmp_environment *e, float rgb[3][RUN]) {
-    const int bands = settings->bands < e->bands ? settings->bands : e->bands;
-    lobe_run run[SHADE_LOBES_MAX];
-    int lobe_count = 0;
-    memset(run, 0, sizeof run);
-    for (size_t i = 0; i < count; i++) {
-        const lmp_material *material = lmp_material_at(surfaces, first + i);
-        const lmp_surface surface = surface_at(surfaces, first + i);
-        rgb[0][i] = rgb[1][i] = rgb[2][i] = 0;
-        if (material->kind == LMP_MATERIAL_TABLE) {
-            const lmp_rgb color = lmp_shade_table_environment(material->table, &surface, e);
-            rgb[0][i] = color.r, rgb[1][i] = color.g, rgb[2][i] = color.b;
-        } else if (material->kind != LMP_MATERIAL_PREINTEGRATED) {
-            shade_lobes lobes;
-            lmp_shade_lobes(settings, material, &surface, &lobes);
-            for (int k = 0; k < SHADE_LOBES_MAX; k++)
-                take_lobe(&lobes, k, bands, i, &run[k]);
-            lobe_count = lobes.count > lobe_count ? lobes.count : lobe_count;
-        }
+static environment_method method_of(const lmp_shade_settings *resolved, const lmp_environment *e) {
+    environment_method method = { .settings = resolved,
+                                  .bands =
+                                      resolved->bands < e->bands ? resolved->bands : e->bands };
+    lmp_sh_window(resolved->bands, resolved->window, resolved->window_size, method.window);
+    lmp_lobe_diffuse(resolved->bands, method.diffuse);
+    for (int l = 0; l < resolved->bands; l++)
+        method.diffuse[l] *= method.window[l] / pi;
+    for (size_t c = 0; c < 3; c++)
+        method.planes[c] = e->sh + c * LMP_SH_COUNT(e->bands);
+    return method;
+}
+
+/* --- surfaces that have lobes ------------------------------------------------------------------
+ */
+
+/* Some of a chunk's surfaces, which have the same number of Phong lobes. */
+typedef struct environment_chunk {
+    size_t count, at[LMP_BATCH]; /* among the caller's */
+    lmp_batch_vec3 normal, view;
+    shade_planes lobes;
+} environment_chunk;
+
+static void take_vectors(const lmp_vec3_array *array, const environment_chunk *chunk,
+                         lmp_batch_vec3 *planes) {
+    for (size_t i = 0; i < chunk->count || i % LMP_KERNEL_LANES_MAX; i++) {
+        const lmp_vec3 v =
+            i < chunk->count ? lmp_vec3_element(array, chunk->at[i]) : (lmp_vec3) { 0, 0, 0 };
+        planes->x.at[i] = v.x;
+        planes->y.at[i] = v.y;
+        planes->z.at[i] = v.z;
     }
-    for (int k = 0; k < lobe_count; k++)
-        add_lobes(e, bands, &run[k], rgb);
+}
+
+static void accumulate(const environment_method *method, const float *factors,
+                       const float *exponents, const lmp_batch_vec3 *axes, size_t count,
+                       lmp_batch_plane accumulated[3]) {
+    const lmp_kernel_vec3 directions = { axes->x.at, axes->y.at, axes->z.at };
+    const lmp_kernel_out out = { accumulated[0].at, LMP_BATCH, 1 };
+    lmp_kernels_get()->reconstruct(method->bands, factors, exponents, method->planes, &directions,
+                                   count, &out);
+}
+
+static void shade_lobes_of_chunk(const environment_method *method, const lmp_surfaces *surfaces,
+                                 int lobe_count, environment_chunk *chunk, size_t stride,
+                                 float *rgb) {
+    static const float no_light[3] = { 0, 0, 0 };
+    shade_planes *lobes = &chunk->lobes;
+    const size_t count = chunk->count;
+    take_vectors(&surfaces->normal, chunk, &chunk->normal);
+    take_vectors(&surfaces->view, chunk, &chunk->view);
+    lmp_shade_load(surfaces, chunk->at, count, lobe_count, &chunk->normal, &chunk->view, lobes);
+    accumulate(method, method->diffuse, NULL, &chunk->normal, count, lobes->accumulated);
+    for (int k = 0; k < lobe_count; k++) {
+        shade_lobe_planes *lobe = &lobes->lobe[k];
+        accumulate(method, method->window, lobe->exponent.at, &lobe->axis, count,
+                   lobe->accumulated);
+    }
+    lmp_shade_sum_planes(count, lobe_count, no_light, lobes);
+    for (size_t i = 0; i < count; i++) {
+        const lmp_rgb color = { lmp_shade_clamped(lobes->accumulated[0].at[i]),
+                                lmp_shade_clamped(lobes->accumulated[1].at[i]),
+                                lmp_shade_clamped(lobes->accumulated[2].at[i]) };
+        memcpy((char *)rgb + chunk->at[i] * stride, &color, sizeof color);
+    }
+}
+
+/* --- surfaces ----------------------------------------------------------------------------------
+ */
+
+/* A surface of a table, or of what reflects nothing of an environment. */
+static void shade_one(const lmp_surfaces *surfaces, size_t i, const lmp_environment *e,
+                      const lmp_brdf_table *table, size_t stride, float *rgb) {
+    lmp_rgb color = { 0, 0, 0 };
+    if (table) {
+        lmp_surface surface = { .normal = lmp_vec3_element(&surfaces->normal, i),
+                                .view = lmp_vec3_element(&surfaces->view, i) };
+        if (surfaces->tangent.x)
+            surface.tangent = lmp_vec3_element(&surfaces->tangent, i);
+        color = lmp_shade_table_environment(table, &surface, e);
+        color = (lmp_rgb) { lmp_shade_clamped(color.r), lmp_shade_clamped(color.g),
+                            lmp_shade_clamped(color.b) };
+    }
+    memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
 void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
                              size_t count, const lmp_environment *environment, size_t rgb_stride,
                              float *rgb) {
     const lmp_shade_settings resolved = settings_of(settings);
+    const environment_method method = method_of(&resolved, environment);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
+    environment_chunk chunk;
     assert(lmp_are_unit(surfaces->normal, count) && lmp_are_unit(surfaces->view, count));
     assert(lmp_is_bands(environment->bands));
-    for (size_t first = 0; first < count; first += RUN) {
-        const size_t some = count - first < RUN ? count - first : RUN;
-        float color[3][RUN] = { { 0 } };
-        shade_run(&resolved, surfaces, first, some, environment, color);
-        for (size_t i = 0; i < some; i++) {
-            const lmp_rgb clamped = { lmp_shade_clamped(color[0][i]),
-                                      lmp_shade_clamped(color[1][i]),
-                                      lmp_shade_clamped(color[2][i]) };
-            memcpy((char *)rgb + (first + i) * stride, &clamped, sizeof clamped);
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        const size_t end = first + lmp_batch_count(count, first);
+        for (int lobes = 0; lobes <= LMP_GGX_LOBES; lobes++) {
+            chunk.count = 0;
+            for (size_t i = first; i < end; i++) {
+                const lmp_material *material = lmp_material_at(surfaces, i);
+                const shade_source source = lmp_shade_source(material, LMP_SHADE_ZONAL);
+                if (source.phong_count == lobes && lobes > 0)
+                    chunk.at[chunk.count++] = i;
+                else if (source.phong_count == lobes)
+                    shade_one(surfaces, i, environment, source.table, stride, rgb);
+            }
+            if (chunk.count > 0)
+                shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);
         }
     }
 }

@@ -15,7 +15,7 @@ may_include() {
     sh) echo base kernels sh ;;
     light) echo base kernels sh light ;;
     lobe | brdf) echo base kernels sh light "$1" ;;
-    probe) echo base sh light lobe probe ;;
+    probe) echo base kernels sh light lobe probe ;;
     preintegrated) echo base kernels sh light lobe brdf preintegrated lookup ;;
     shade) echo base kernels sh light lobe brdf preintegrated shade ;;
     field) echo base kernels sh light lobe brdf preintegrated shade field ;;

@@ -160,6 +160,32 @@ static void basis_zonal_rotation_and_dot_are_the_scalar_ones(void **test) {
     }
 }
 
+/* In chunks, whatever the strides; and what lies between the elements stays. */
+static void slopes_of_the_basis_are_those_of_one_direction(void **test) {
+    (void)test;
+    const size_t row = VALUES + 3, slope_row = 3 * VALUES + 5, plane = COUNT + 8;
+    for (size_t i = 0; i < sizeof out / sizeof *out; i++)
+        out[i] = other[i] = -77;
+    lmp_sh_eval_gradient_n(BANDS, lmp_vec3_array_of(axes), COUNT, LMP_SH_INTERLEAVED,
+                           row * sizeof(float), out, slope_row * sizeof(float), other);
+    for (size_t i = 0; i < COUNT; i++) {
+        float sh[VALUES], gradient[3 * VALUES];
+        lmp_sh_eval_gradient(BANDS, axes[i], sh, gradient);
+        check_same(sh, out + i * row, VALUES);
+        check_same(gradient, other + i * slope_row, 3 * VALUES);
+        for (size_t gap = VALUES; gap < row; gap++)
+            assert_true(out[i * row + gap] == -77);
+        for (size_t gap = 3 * VALUES; gap < slope_row; gap++)
+            assert_true(other[i * slope_row + gap] == -77);
+    }
+    float *slopes = other + (COUNT - 20) * slope_row; /* compared below */
+    lmp_sh_eval_gradient_n(BANDS, lmp_vec3_array_of(axes), COUNT, LMP_SH_PLANAR, 0, out,
+                           plane * sizeof(float), out + VALUES * COUNT);
+    for (size_t i = COUNT - 20; i < COUNT; i++, slopes += slope_row)
+        for (size_t v = 0; v < 3 * VALUES; v++)
+            assert_memory_equal(&out[VALUES * COUNT + v * plane + i], &slopes[v], sizeof(float));
+}
+
 static void the_mask_chooses_the_kernels(void **test) {
     (void)test;
     const unsigned all = lmp_cpu_flags();
@@ -182,6 +208,7 @@ int main(void) {
         cmocka_unit_test(gradients_are_those_of_one_light),
         cmocka_unit_test(lobes_respond_as_one_by_one),
         cmocka_unit_test(basis_zonal_rotation_and_dot_are_the_scalar_ones),
+        cmocka_unit_test(slopes_of_the_basis_are_those_of_one_direction),
         cmocka_unit_test(the_mask_chooses_the_kernels),
     };
     return cmocka_run_group_tests(tests, fill, NULL);

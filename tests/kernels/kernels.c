@@ -194,6 +194,17 @@ static void wrong_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *ax
     honest.lobe(bands, lambda, axes, lights, points, count, out);
     spoil(out);
 }
+static void wrong_eval_gradient(int bands, const lmp_kernel_vec3 *directions, size_t count,
+                                const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
+    honest.eval_gradient(bands, directions, count, out, gradient);
+    spoil(out);
+}
+static void wrong_reconstruct(int bands, const float *factors, const float *exponents,
+                              const float *const planes[3], const lmp_kernel_vec3 *directions,
+                              size_t count, const lmp_kernel_out *out) {
+    honest.reconstruct(bands, factors, exponents, planes, directions, count, out);
+    spoil(out);
+}
 static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
                          const lmp_kernel_out *out) {
     honest.project(bands, pairs, count, out);
@@ -241,6 +252,8 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .accumulate = wrong_accumulate,
                                    .gradient = wrong_gradient,
                                    .lobe = wrong_lobe,
+                                   .eval_gradient = wrong_eval_gradient,
+                                   .reconstruct = wrong_reconstruct,
                                    .shade_zonal = wrong_shade_zonal,
                                    .shade_preintegrated_lobe = wrong_shade_preintegrated_lobe,
                                    .shade_preintegrated_brdf = wrong_shade_preintegrated_brdf };

@@ -8,6 +8,7 @@
 static double bound_of(kind which, int bands, double alpha2) {
     switch (which) {
     case EVAL:
+    case EVAL_GRADIENT:
         return 1e-6 * bands;
     case PROJECT:
         return 3e-6 + 1e-6 * bands + surface_bound(alpha2);
@@ -201,6 +202,78 @@ static void rotation_and_dot_match_double_precision(void **test) {
     free(in);
 }
 
+static void gradients_of_the_basis_match_double_precision(void **test) {
+    (void)test;
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(drawn_seed());
+    double *expected = malloc(4 * 128 * 128 * sizeof *expected);
+    assert_non_null(expected);
+    for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 54) {
+        const size_t n = LMP_SH_COUNT(bands);
+        float *slopes = results(&best, EVAL_GRADIENT, bands, in, COUNT, 0);
+        for (int i = 0; i<COUNT; i += bands> 20 ? 4 : 1) {
+            double axis[3];
+            widen(VECTOR(in->axis), i, axis);
+            lmp_sh_eval_gradient_double(bands, axis, expected, expected + n);
+            check_element(i, bands, EVAL_GRADIENT, 4 * n, expected, slopes + (size_t)i * 4 * n, 1);
+        }
+        free(slopes);
+    }
+    free(expected);
+    free(in);
+}
+
+/* Σ_l factor_l lambda_l Σ_m f_lm Y_lm of three functions, and Σ of the magnitudes. */
+static void expect_function(kind which, int bands, const inputs *in, int i, const double *basis,
+                            double sums[3], double sizes[3]) {
+    float factors[LMP_BANDS_MAX];
+    double lambda[LMP_BANDS_MAX];
+    make_lambda(bands, factors);
+    if (which == RECONSTRUCT_PHONG)
+        oracle_lobe_phong(bands, (double)in->exponent[i], lambda);
+    else
+        for (int l = 0; l < bands; l++)
+            lambda[l] = l > 1 && l % 2 ? 0 : 1;
+    for (size_t c = 0; c < 3; c++) {
+        sums[c] = sizes[c] = 0;
+        for (int l = 0; l < bands; l++)
+            for (size_t v = (size_t)(l * l); v < LMP_SH_COUNT(l + 1); v++) {
+                const double f = (double)factors[l] * lambda[l] * basis[v];
+                sums[c] += f * (double)coefficient(c, v);
+                sizes[c] += fabs(f * (double)coefficient(c, v));
+            }
+    }
+}
+
+static void functions_of_coefficients_match_double_precision(void **test) {
+    (void)test;
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(drawn_seed());
+    double *basis = malloc(128 * 128 * sizeof *basis), worst = 0;
+    assert_non_null(basis);
+    for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 54)
+        for (kind which = RECONSTRUCT; which <= RECONSTRUCT_PHONG; which++) {
+            float *actual = results(&best, which, bands, in, COUNT, 0);
+            for (int i = 0; i<COUNT; i += bands> 20 ? 4 : 1) {
+                double axis[3], sums[3], sizes[3];
+                widen(VECTOR(in->axis), i, axis);
+                oracle_sh_eval(bands, axis, basis);
+                expect_function(which, bands, in, i, basis, sums, sizes);
+                for (int c = 0; c < 3; c++) {
+                    const double error = fabs((double)actual[3 * i + c] - sums[c]);
+                    worst = fmax(worst, error / sizes[c]);
+                    CHECK_WITHIN(error, 3e-6 * sizes[c]);
+                }
+            }
+            free(actual);
+        }
+    printf("functions: error max %.2g of the sum of magnitudes\n", worst);
+    free(basis);
+    free(in);
+}
+
 static void shading_matches_double_precision(void **test) {
     (void)test;
     static void (*const expect[])(const shading *, int,
@@ -245,6 +318,8 @@ int main(void) {
         cmocka_unit_test(basis_zonal_and_project_match_double_precision),
         cmocka_unit_test(sums_gradients_and_lobes_match_double_precision),
         cmocka_unit_test(rotation_and_dot_match_double_precision),
+        cmocka_unit_test(gradients_of_the_basis_match_double_precision),
+        cmocka_unit_test(functions_of_coefficients_match_double_precision),
         cmocka_unit_test(shading_matches_double_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

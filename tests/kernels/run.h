@@ -20,6 +20,9 @@ typedef enum kind {
     ACCUMULATE,
     GRADIENT,
     LOBE,
+    EVAL_GRADIENT,
+    RECONSTRUCT,
+    RECONSTRUCT_PHONG,
     SHADE_ZONAL,
     SHADE_PREINTEGRATED_LOBE,
     SHADE_PREINTEGRATED_BRDF,
@@ -35,6 +38,9 @@ static const char *const kind_names[] = { "eval",
                                           "accumulate",
                                           "gradient",
                                           "lobe",
+                                          "eval_gradient",
+                                          "reconstruct",
+                                          "reconstruct of Phong lobes",
                                           "shade_zonal",
                                           "shade_preintegrated_lobe",
                                           "shade_preintegrated_brdf",
@@ -59,7 +65,11 @@ static size_t values_of(kind which, int bands) {
         return 3 * n;
     case GRADIENT:
         return 12 * n;
+    case EVAL_GRADIENT:
+        return 4 * n;
     case LOBE:
+    case RECONSTRUCT:
+    case RECONSTRUCT_PHONG:
     case SHADE_PREINTEGRATED_BRDF:
         return 3;
     case SHADE_ZONAL:
@@ -120,6 +130,21 @@ static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t coun
         free(matrices);
     }
     free(a);
+}
+
+/* Every other factor is 0, as of a diffuse lobe, unless they are Phong's. */
+static void run_reconstruct(const lmp_kernels *k, kind which, int bands, const inputs *in,
+                            size_t count, const lmp_kernel_out *out) {
+    const size_t values = LMP_SH_COUNT(bands);
+    const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
+    float *sh = make_vectors(values, 3, 0, values, 0), lambda[LMP_BANDS_MAX];
+    const float *const planes[3] = { sh, sh + values, sh + 2 * values };
+    make_lambda(bands, lambda);
+    for (int l = 3; which == RECONSTRUCT && l < bands; l += 2)
+        lambda[l] = 0;
+    k->reconstruct(bands, lambda, which == RECONSTRUCT ? NULL : in->exponent, planes, &axis, count,
+                   out);
+    free(sh);
 }
 
 /* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
@@ -197,7 +222,7 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
                                        LIGHTS };
     /* Gradients follow the values: further on in a row, or in the planes after them. */
     lmp_kernel_out gradient = *out;
-    gradient.at += 3 * LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
+    gradient.at += (which == GRADIENT ? 3 : 1) * LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
     float lambda[LMP_BANDS_MAX];
     make_lambda(bands, lambda);
     switch (which) {
@@ -222,6 +247,13 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
+        break;
+    case EVAL_GRADIENT:
+        k->eval_gradient(bands, &axis, count, out, &gradient);
+        break;
+    case RECONSTRUCT:
+    case RECONSTRUCT_PHONG:
+        run_reconstruct(k, which, bands, in, count, out);
         break;
     case SHADE_ZONAL:
     case SHADE_PREINTEGRATED_LOBE:

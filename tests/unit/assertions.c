@@ -71,6 +71,7 @@ static void create_half_a_host(void) {
     X(keep, lmp_sh_window_laplacian(BANDS, 1, a, b), lmp_sh_window_laplacian(BANDS, 0, a, b)) \
     X(multiply, lmp_sh_multiply(product, a, b, c), lmp_sh_multiply(product, a, b, a)) \
     X(eval_n, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_INTERLEAVED, 0, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&long_up), 2, LMP_SH_INTERLEAVED, 0, a)) \
+    X(eval_gradient_n, lmp_sh_eval_gradient_n(BANDS, lmp_vec3_array_same(&up), 1, LMP_SH_PLANAR, 0, a, 0, b), lmp_sh_eval_gradient_n(BANDS, lmp_vec3_array_same(&up), 1, LMP_SH_PLANAR, 0, a, 2, b)) \
     X(stride_short, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_PLANAR, 8, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_PLANAR, 4, a)) \
     X(stride_odd, lmp_sh_dot_n(BANDS, a, b, 1, LMP_SH_INTERLEAVED, 64, c), lmp_sh_dot_n(BANDS, a, b, 1, LMP_SH_INTERLEAVED, 65, c)) \
     X(rotate_n, lmp_sh_rotate_n(BANDS, matrices, a, 2, LMP_SH_INTERLEAVED, 0, b), lmp_sh_rotate_n(BANDS, matrices, a, 2, LMP_SH_INTERLEAVED, 0, a + VALUES)) \

@@ -123,6 +123,7 @@ static void shade_all_ways(void) {
     X(lmp_sh_multiply, lmp_sh_multiply(product, sh, sh, out)) \
     X(lmp_sh_product_destroy, lmp_sh_product_destroy(product), product = NULL) \
     X(lmp_sh_eval_n, LAYOUTS(lmp_sh_eval_n(N, points, COUNT, layout, 0, out))) \
+    X(lmp_sh_eval_gradient_n, LAYOUTS(lmp_sh_eval_gradient_n(N, points, COUNT, layout, 0, out, 0, slopes))) \
     X(lmp_sh_dot_n, LAYOUTS(lmp_sh_dot_n(N, sh, sh, COUNT, layout, 0, rgb))) \
     X(lmp_sh_rotate_n, LAYOUTS(lmp_sh_rotate_n(N, matrices, sh, COUNT, layout, 0, out))) \
     X(lmp_light_cap, lmp_light_cap(lights, at, &cap)) \

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT */
+/* reconstruct.h - functions given by their coefficients, in many directions: lanes are directions,
+ * coefficients are broadcast. What a lobe receives of such a function is the same sum, each band
+ * times the lobe's factor lambda_l. */
+#ifndef LAMPION_KERNELS_RECONSTRUCT_H
+#define LAMPION_KERNELS_RECONSTRUCT_H
+
+#include "src/kernels/basis.h"
+
+/* Blocks that run side by side: the recurrences of one wait for themselves. */
+#define RECONSTRUCT_BLOCKS (LMP_LANES == 16 ? 2 : 1)
+
+/* A factor counts as 0 below this: of it nothing is left beside band 0, whose factor is about 1,
+ * and sharp lobes alone take many bands. */
+#define RECONSTRUCT_FACTOR_MIN 7.450580597e-9f
+
+typedef struct reconstruct_block {
+    vf axis[3], c, s, rgb[3];
+    const vf *factor; /* of Phong lobes, windowed; or NULL */
+} reconstruct_block;
+
+/* lambda_l = lambda_(l-2) (e - l + 2) / (e + l + 1), of the lobe that integrates to 1. Returns how
+ * many bands some lane needs. */
+LMP_INLINE int reconstruct_phong(int bands, const float *factors, vf exponent, vf *factor) {
+    const vf least = vf_set(RECONSTRUCT_FACTOR_MIN), zero = vf_set(0), one = vf_set(1);
+    vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
+    int needed = 1;
+    factor[0] = before * factors[0];
+    LMP_ROLLED for (int l = 1; l < bands; l++) {
+        const vf value = lambda * factors[l], size = vf_max(value, zero - value);
+        factor[l] = vf_select_less(size, least, zero, value);
+        if (vf_any_less(zero, vf_select_less(size, least, zero, one)))
+            needed = l + 1;
+        const vf next = before * ((exponent - (float)(l - 1)) / (exponent + (float)(l + 2)));
+        before = lambda;
+        lambda = next;
+    }
+    return needed;
+}
+
+/* Column m: what the coefficients (l, m) and (l, -m) add up to along it, times C_m and S_m. */
+LMP_INLINE void reconstruct_column(int bands, int m, int phong, int blocks, const float *factors,
+                                   const float *const planes[3], reconstruct_block *block) {
+    vf q0[RECONSTRUCT_BLOCKS], q1[RECONSTRUCT_BLOCKS];
+    vf cosine[RECONSTRUCT_BLOCKS][3], sine[RECONSTRUCT_BLOCKS][3];
+    LMP_UNROLL for (int k = 0; k < blocks; k++) {
+        q0[k] = vf_set(0);
+        q1[k] = vf_set(lmp_table_diagonal[m]);
+        LMP_UNROLL for (int i = 0; i < 3; i++) cosine[k][i] = sine[k][i] = vf_set(0);
+    }
+    LMP_UNROLL for (int l = m; l < bands; l++) {
+        const size_t middle = (size_t)(l * l + l);
+        LMP_UNROLL for (int k = 0; k < blocks; k++) {
+            if (l > m) {
+                const vf q2 =
+                    basis_step(lmp_table_a, lmp_table_b, l, m, block[k].axis[2], q1[k], q0[k]);
+                q0[k] = q1[k];
+                q1[k] = q2;
+            }
+            if (!phong && factors[l] == 0)
+                continue; /* as every other one of a diffuse lobe */
+            const vf value = phong ? q1[k] * block[k].factor[l] : q1[k] * factors[l];
+            LMP_UNROLL for (int i = 0; i < 3; i++) {
+                cosine[k][i] = cosine[k][i] + planes[i][middle + (size_t)m] * value;
+                if (m > 0)
+                    sine[k][i] = sine[k][i] + planes[i][middle - (size_t)m] * value;
+            }
+        }
+    }
+    LMP_UNROLL for (int k = 0; k < blocks; k++) LMP_UNROLL for (int i = 0; i < 3; i++) block[k]
+        .rgb[i] = block[k].rgb[i] +
+                  (m > 0 ? cosine[k][i] * block[k].c + sine[k][i] * block[k].s : cosine[k][i]);
+}
+
+/* factor: room for those of the blocks, or NULL where the lobes are not Phong's. */
+LMP_INLINE void reconstruct_blocks(int bands, int constant, int blocks, vf (*factor)[LMP_BANDS_MAX],
+                                   const float *factors, const float *exponents,
+                                   const float *const planes[3], const lmp_kernel_vec3 *axes,
+                                   size_t element, size_t count, const lmp_kernel_out *out) {
+    reconstruct_block block[RECONSTRUCT_BLOCKS];
+    int needed = factor && !constant ? 1 : bands;
+    LMP_UNROLL for (int k = 0; k < blocks; k++) {
+        const size_t e = element + (size_t)k * LMP_LANES;
+        block[k].axis[0] = vf_load(axes->x + e);
+        block[k].axis[1] = vf_load(axes->y + e);
+        block[k].axis[2] = vf_load(axes->z + e);
+        block[k].c = vf_set(1);
+        block[k].s = vf_set(0);
+        LMP_UNROLL for (int i = 0; i < 3; i++) block[k].rgb[i] = vf_set(0);
+        if (factor) {
+            const int some = reconstruct_phong(bands, factors, vf_load(exponents + e), factor[k]);
+            needed = some > needed ? some : needed;
+            block[k].factor = factor[k];
+        }
+    }
+    LMP_UNROLL for (int m = 0; m < needed; m++) {
+        LMP_UNROLL for (int k = 0; m > 0 && k < blocks; k++)
+            basis_rotate(m, block[k].axis[0], block[k].axis[1], &block[k].c, &block[k].s);
+        reconstruct_column(needed, m, factor != NULL, blocks, factors, planes, block);
+    }
+    LMP_ROLLED for (int k = 0; k < blocks; k++) {
+        const size_t e = element + (size_t)k * LMP_LANES;
+        layout_put((const float *)block[k].rgb, 0, 3, out, e, layout_live(count, e));
+    }
+}
+
+LMP_INLINE void reconstruct_bands(int bands, int constant, vf (*factor)[LMP_BANDS_MAX],
+                                  const float *factors, const float *exponents,
+                                  const float *const planes[3], const lmp_kernel_vec3 *axes,
+                                  size_t count, const lmp_kernel_out *out) {
+    const size_t side = RECONSTRUCT_BLOCKS * LMP_LANES;
+    size_t e = 0;
+    for (; e + side <= count; e += side)
+        reconstruct_blocks(bands, constant, RECONSTRUCT_BLOCKS, factor, factors, exponents, planes,
+                           axes, e, count, out);
+    LMP_ROLLED for (; e < count; e += LMP_LANES) reconstruct_blocks(
+        bands, constant, 1, factor, factors, exponents, planes, axes, e, count, out);
+}
+
+static LMP_NOINLINE void reconstruct_lobes(int bands, const float *factors, const float *exponents,
+                                           const float *const planes[3],
+                                           const lmp_kernel_vec3 *axes, size_t count,
+                                           const lmp_kernel_out *out) {
+    vf factor[RECONSTRUCT_BLOCKS][LMP_BANDS_MAX];
+    BASIS_SPECIALISE(bands, reconstruct_bands, factor, factors, exponents, planes, axes, count, out)
+}
+
+static LMP_NOINLINE void reconstruct_same(int bands, const float *factors,
+                                          const float *const planes[3], const lmp_kernel_vec3 *axes,
+                                          size_t count, const lmp_kernel_out *out) {
+    BASIS_SPECIALISE(bands, reconstruct_bands, NULL, factors, NULL, planes, axes, count, out)
+}
+
+static void kernel_reconstruct(int bands, const float *factors, const float *exponents,
+                               const float *const planes[3], const lmp_kernel_vec3 *axes,
+                               size_t count, const lmp_kernel_out *out) {
+    if (exponents)
+        reconstruct_lobes(bands, factors, exponents, planes, axes, count, out);
+    else
+        reconstruct_same(bands, factors, planes, axes, count, out);
+}
+
+#endif
