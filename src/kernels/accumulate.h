@@ -261,31 +261,31 @@ LMP_INLINE void accumulate_band(accumulate_tile tile, int l, int monic, int plan
     }
 }
 
-/* Band l of a set as rows, from `place` on: its values from -last to -first and from first to last,
+/* Band l of a set as rows, from `index` on: its values from -last to -first and from first to last,
  * or all between. */
 LMP_INLINE void accumulate_runs(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
-                                float *block, size_t place, const lmp_kernel_out *out,
+                                float *block, size_t index, const lmp_kernel_out *out,
                                 size_t element, size_t live) {
     const int last = l < tile.end ? l : tile.end - 1, middle = l * l + l;
     const int wide = tile.first == 0 ? 2 * last + 1 : last - tile.first + 1;
     float *minus = block + last * LMP_LANES;
     float *plus = tile.first == 0 ? minus : block + (wide - tile.first) * LMP_LANES;
     accumulate_band(tile, l, monic, planes, sums, plus, minus, LMP_LANES);
-    layout_put(block, place + (size_t)(middle - last), (size_t)wide, out, element, live);
+    layout_put(block, index + (size_t)(middle - last), (size_t)wide, out, element, live);
     if (tile.first > 0)
-        layout_put(block + wide * LMP_LANES, place + (size_t)(middle + tile.first), (size_t)wide,
+        layout_put(block + wide * LMP_LANES, index + (size_t)(middle + tile.first), (size_t)wide,
                    out, element, live);
 }
 
 /* Bands low … high-1 of a set, which are whole, as rows. */
 LMP_INLINE void accumulate_whole(accumulate_tile tile, int low, int high, int monic, int planes,
-                                 const vf *sums, float *block, size_t place,
+                                 const vf *sums, float *block, size_t index,
                                  const lmp_kernel_out *out, size_t element, size_t live) {
     for (int l = low; l < high; l++) {
         float *middle = block + (l * l + l - low * low) * LMP_LANES;
         accumulate_band(tile, l, monic, planes, sums, middle, middle, LMP_LANES);
     }
-    layout_put(block, place + (size_t)(low * low), (size_t)(high * high - low * low), out, element,
+    layout_put(block, index + (size_t)(low * low), (size_t)(high * high - low * low), out, element,
                live);
 }
 
@@ -299,20 +299,20 @@ LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accum
     float *block = (float *)(void *)waiting;
     for (int p = 0; p < of.sets; p++) {
         const vf *set = sums + of.skip + p;
-        const size_t place = (size_t)(p * bands * bands);
+        const size_t index = (size_t)(p * bands * bands);
         int low = tile.low, high;
         for (; low < tile.high; low = high) {
             high = low + 1;
-            float *middle = to + (place + (size_t)(low * low + low)) * stride;
+            float *middle = to + (index + (size_t)(low * low + low)) * stride;
             if (direct) {
                 accumulate_band(tile, low, monic, of.planes, set, middle, middle, stride);
             } else if (tile.first > 0 || low >= tile.end) {
-                accumulate_runs(tile, low, monic, of.planes, set, block, place, out, element, live);
+                accumulate_runs(tile, low, monic, of.planes, set, block, index, out, element, live);
             } else {
                 while (high < tile.end && high < tile.high &&
                        (high + 1) * (high + 1) - low * low <= ACCUMULATE_WAITING)
                     high++;
-                accumulate_whole(tile, low, high, monic, of.planes, set, block, place, out, element,
+                accumulate_whole(tile, low, high, monic, of.planes, set, block, index, out, element,
                                  live);
             }
         }
