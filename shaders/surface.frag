@@ -23,7 +23,7 @@ layout(binding = SHARED_EMISSION) uniform sampler2D emission_map;
 layout(binding = SHARED_OCCLUSION) uniform sampler2D occlusion_map;
 layout(binding = SHARED_SPECULAR) uniform sampler2D specular_map;
 
-/* Maps by their place in the block. */
+/* Maps by their index in the block. */
 #define MAP_OCCLUSION 4
 #define MAP_SPECULAR  5
 
