@@ -11,7 +11,7 @@
 #define RECONSTRUCT_BLOCKS (LMP_LANES == 16 ? 2 : 1)
 
 /* A factor counts as 0 below this: of it nothing is left beside band 0, whose factor is about 1,
- * and sharp lobes alone take many bands. */
+ * and narrow lobes alone take many bands. */
 #define RECONSTRUCT_FACTOR_MIN 7.450580597e-9f
 
 typedef struct reconstruct_block {
