@@ -23,7 +23,7 @@
 #define ACCUMULATE_WAITING (LMP_LANES > 4 ? 2048 / LMP_LANES : 512)
 
 /* Columns first … end-1 of bands low … high-1: whole columns, which begin at their own band m, or
- * a part of one. Gradients of few bands have whole bands instead. */
+ * a part of one. */
 typedef struct accumulate_tile {
     int first, end, low, high;
 } accumulate_tile;
@@ -319,8 +319,15 @@ LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accum
     }
 }
 
-/* Lights are kept where there are tiles for them. What waits gets a quarter of the rest at most:
- * a tile has no more bands than pairs, of six sums, and two lights wait. */
+/* Registers that wait of the `left`, `each` a band, where sums take `width` a pair: for all bands,
+ * or for as many as a tile has, which are no more than its pairs. */
+static inline int accumulate_waits(int bands, int left, int each, int width) {
+    const int most = left / (each + width) + 1;
+    const int waiting = each * (bands < most ? bands : most);
+    return waiting < ACCUMULATE_WAITING ? ACCUMULATE_WAITING : waiting;
+}
+
+/* Lights are kept where there are tiles for them. */
 static inline void accumulate_divide(accumulate_work *work, vf *stack) {
     const int bands = work->bands;
     int left = ACCUMULATE_STACK;
@@ -330,9 +337,7 @@ static inline void accumulate_divide(accumulate_work *work, vf *stack) {
         work->kept_count = count < ACCUMULATE_KEPT ? count : ACCUMULATE_KEPT;
         left -= (int)(work->kept_count * (sizeof *work->kept / sizeof *stack));
     }
-    int waiting = 2 * bands < left / 4 ? 2 * bands : left / 4;
-    if (waiting < ACCUMULATE_WAITING)
-        waiting = ACCUMULATE_WAITING;
+    const int waiting = accumulate_waits(bands, left, ACCUMULATE_LIGHTS, 6);
     work->waiting = stack + ACCUMULATE_STACK - left;
     work->sums = work->waiting + waiting;
     work->most = (left - waiting) / 6;
