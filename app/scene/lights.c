@@ -2,8 +2,10 @@
 #include "app/scene/builtin.h"
 #include "app/scene/random.h"
 #include "app/scene/scene.h"
+#include "app/scene/space.h"
 #include "app/scene/vector.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Random lights: radii relative to the scene's size, and the mean irradiance (a white light spread
@@ -11,7 +13,9 @@
 #define RANDOM_RADIUS_SMALL  0.008f
 #define RANDOM_RADIUS_LARGE  0.020f
 #define RANDOM_IRRADIANCE    12.0f
-#define RANDOM_MARGIN        0.08f /* kept free at the sides of the bounds */
+#define RANDOM_MARGIN        0.08f /* kept free at the sides of a building's bounds */
+#define RANDOM_AROUND        0.35f /* added to the bounds of what is none, but below */
+#define RANDOM_ATTEMPTS      64    /* to find room for a light */
 #define RANDOM_WARM_FRACTION 0.5f
 
 void scene_clear_lights(scene *s) {
@@ -40,33 +44,90 @@ lmp_rgb builtin_light_color(uint64_t *random, float warm_fraction) {
                        pure.b + (1.0f - pure.b) * 0.12f * shade };
 }
 
+/* Where random lights may be: inside a building, else around and above what stands there. */
+typedef struct random_box {
+    float lo[3], hi[3];
+} random_box;
+
+static random_box box_of(const scene *s) {
+    const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
+    const bool building =
+        space_is_building(s, vec_scale(vec_add(lo, hi), 0.5f), &(space_room) { 0 });
+    const float around = RANDOM_AROUND * scene_size(s);
+    random_box box;
+    for (int k = 0; k < 3; k++) {
+        const float extent = s->maximum[k] - s->minimum[k];
+        box.lo[k] = s->minimum[k] + (building ? RANDOM_MARGIN * extent : k == 1 ? 0.0f : -around);
+        box.hi[k] = s->maximum[k] + (building ? -RANDOM_MARGIN * extent : around);
+    }
+    return box;
+}
+
+static lmp_vec3 position_in(const random_box *box, uint64_t *random) {
+    float position[3];
+    for (int k = 0; k < 3; k++)
+        position[k] = random_between(random, box->lo[k], box->hi[k]);
+    return vec_load(position);
+}
+
+/* Draws positions anew for those of the lights that are in something; where there is no room, they
+ * are above everything. Each has a stream of its own, so that none changes for another. */
+static bool make_room(scene *s, size_t first, const random_box *box, uint64_t seed) {
+    size_t count = s->light_count - first;
+    space_ball *balls = malloc((count + 1) * sizeof *balls);
+    for (size_t i = 0; balls && i < count; i++)
+        balls[i].number = first + i;
+    for (uint64_t attempt = 1; balls && count; attempt++) {
+        for (size_t i = 0; i < count; i++) {
+            const lmp_light *light = &s->lights[balls[i].number].emitter;
+            balls[i].center = light->position;
+            balls[i].radius = light->radius;
+        }
+        space_fit(s, balls, count);
+        size_t misfits = 0;
+        for (size_t i = 0; i < count; i++) {
+            const space_ball ball = balls[i];
+            lmp_vec3 *position = &s->lights[ball.number].emitter.position;
+            uint64_t random = seed ^ ((uint64_t)ball.number << 32 | attempt);
+            if (ball.fits)
+                continue;
+            *position = position_in(box, &random);
+            if (attempt < RANDOM_ATTEMPTS)
+                balls[misfits++] = ball;
+            else
+                position->y = s->maximum[1] + 2.0f * ball.radius;
+        }
+        count = misfits;
+    }
+    free(balls);
+    return balls;
+}
+
 bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *error) {
     if (count < 0 || (size_t)count > SCENE_LIGHTS_MAX - s->light_count)
         return cli_fail(error, s->origin, "would have %zu lights (at most %d)",
                         s->light_count + (size_t)count, SCENE_LIGHTS_MAX);
+    const size_t first = s->light_count;
     const float size = scene_size(s);
+    const random_box box = box_of(s);
     uint64_t random = seed;
     for (int i = 0; i < count; i++) {
         /* Many lights are smaller ones, so that a thousand of them still leave room. */
         const float crowd = fminf(1.0f, sqrtf(30.0f / (float)count));
         const float radius =
             size * crowd * random_between(&random, RANDOM_RADIUS_SMALL, RANDOM_RADIUS_LARGE);
-        float position[3];
-        for (int k = 0; k < 3; k++) {
-            const float extent = s->maximum[k] - s->minimum[k];
-            position[k] = s->minimum[k] +
-                          extent * random_between(&random, RANDOM_MARGIN, 1.0f - RANDOM_MARGIN);
-        }
+        const lmp_vec3 position = position_in(&box, &random);
         const lmp_rgb color = builtin_light_color(&random, RANDOM_WARM_FRACTION);
         /* Power that gives the bounding sphere its irradiance, divided among the lights. */
         const float power = RANDOM_IRRADIANCE * PI * size * size / (float)count;
         s->lights[s->light_count++].emitter = (lmp_light) {
-            .position = vec_load(position),
+            .position = position,
             .radius = radius,
             .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)),
         };
     }
-    return true;
+    return make_room(s, first, &box, seed) ||
+           cli_fail(error, s->origin, "does not fit into memory");
 }
 
 /* Points become spheres and parallel rays suns, of the same intensity and irradiance. */

@@ -165,7 +165,8 @@ lmp_dielectric scene_dielectric(const scene_material *material);
 /* Adds the lights of a JSON file (docs/lights.md); none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);
 
-/* Adds `count` seeded random lights inside the bounds, sized to the scene: the same on any machine.
+/* Adds `count` seeded random lights where there is room, sized to the scene: the same on any
+ * machine.
  */
 bool scene_add_random_lights(scene *scene, int count, uint64_t seed, cli_error *error);
 

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+/* Where lights and cameras find room: in a building, and around what is none. */
+#include "app/scene/space.h"
+
+#include "tests/program/folder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define HALF 2.0f
+
+/* A cube of side 4, its faces showing their fronts inwards (a room) or outwards (a block). */
+static scene load_cube(bool inwards) {
+    static const int faces[6][4] = { { 1, 2, 4, 3 }, { 5, 7, 8, 6 }, { 1, 5, 6, 2 },
+                                     { 3, 4, 8, 7 }, { 1, 3, 7, 5 }, { 2, 6, 8, 4 } };
+    char text[1024];
+    size_t used = 0;
+    scene s;
+    cli_error error;
+    for (int i = 0; i < 8; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "v %d %d %d\n", i & 4 ? 2 : -2,
+                                 i & 2 ? 2 : -2, i & 1 ? 2 : -2);
+    for (int i = 0; i < 6; i++) {
+        const int *f = faces[i];
+        used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", f[0],
+                                 f[inwards ? 3 : 1], f[2], f[inwards ? 1 : 3]);
+    }
+    folder_write_text("cube.obj", text);
+    if (!scene_load(in_folder("cube.obj"), &(scene_options) { .no_cache = true }, &s, &error))
+        fail_msg("%s", error.text);
+    return s;
+}
+
+/* Largest coordinate: below 2 inside the cube. */
+static float outside(lmp_vec3 p) {
+    return fmaxf(fabsf(p.x), fmaxf(fabsf(p.y), fabsf(p.z)));
+}
+
+static float from_center(const float p[3]) {
+    return outside((lmp_vec3) { p[0], p[1], p[2] });
+}
+
+static void a_room_is_a_building_and_a_block_is_none(void **state) {
+    (void)state;
+    space_room room;
+    const lmp_vec3 off = { 1, 0.5f, 0 };
+    scene s = load_cube(true);
+    assert_true(space_is_building(&s, off, &room));
+    assert_true(room.ahead[0] == 1 && room.back[0] == 3 && room.back[1] == 2.5f);
+    scene_free(&s);
+    s = load_cube(false);
+    assert_false(space_is_building(&s, off, &room));
+    scene_free(&s);
+}
+
+static void the_camera_stands_inside_a_room_and_outside_a_block(void **state) {
+    (void)state;
+    for (int inwards = 0; inwards < 2; inwards++) {
+        scene s = load_cube(inwards);
+        const scene_camera camera = scene_default_camera(&s, 1.5f);
+        assert_int_equal(from_center(camera.eye) < 0.9f * HALF, inwards);
+        assert_true(from_center(camera.target) < HALF);
+        scene_free(&s);
+    }
+}
+
+/* 200 of them in either: those of the room are clear of its walls, those of the block are not in
+ * it, and none is below its floor. */
+static void random_lights_are_never_in_anything(void **state) {
+    (void)state;
+    for (int inwards = 0; inwards < 2; inwards++) {
+        scene s = load_cube(inwards);
+        cli_error error;
+        int above = 0;
+        assert_true(scene_add_random_lights(&s, 200, 5, &error));
+        for (size_t i = 0; i < s.light_count; i++) {
+            const lmp_light *light = &s.lights[i].emitter;
+            const float distance = outside(light->position);
+            assert_true(inwards ? distance + light->radius <= HALF
+                                : distance - light->radius >= HALF);
+            assert_true(light->position.y >= -HALF);
+            above += light->position.y > HALF;
+        }
+        assert_int_equal(above > 0, !inwards);
+        scene_free(&s);
+    }
+}
+
+/* A triangle in y = 0: to its plane, its side, its corner. */
+static void balls_are_measured_to_planes_sides_and_corners(void **state) {
+    (void)state;
+    static const struct {
+        lmp_vec3 center;
+        float nearest;
+    } cases[] = {
+        { { 0.25f, 0.5f, 0.25f }, 0.5f },
+        { { 0.5f, 0, -3 }, 3 },
+        { { -3, 0, -4 }, 5 },
+        { { 1, 0.5f, 1 }, 0.8660254f },
+    };
+    scene s;
+    cli_error error;
+    folder_write_text("flat.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
+    assert_true(
+        scene_load(in_folder("flat.obj"), &(scene_options) { .no_cache = true }, &s, &error));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        space_ball balls[2] = {
+            { .center = cases[i].center, .radius = 0.999f * cases[i].nearest, .number = 0 },
+            { .center = cases[i].center, .radius = 1.001f * cases[i].nearest, .number = 1 },
+        };
+        space_fit(&s, balls, 2);
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(balls[k].fits, balls[k].number == 0);
+    }
+    space_ball under = { .center = { 0.25f, -3, 0.25f }, .radius = 0.1f };
+    space_fit(&s, &under, 1);
+    assert_false(under.fits);
+    scene_free(&s);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_room_is_a_building_and_a_block_is_none),
+        cmocka_unit_test(the_camera_stands_inside_a_room_and_outside_a_block),
+        cmocka_unit_test(random_lights_are_never_in_anything),
+        cmocka_unit_test(balls_are_measured_to_planes_sides_and_corners),
+    };
+    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+}
