@@ -38,6 +38,48 @@ static void widen_sun(lmp_light *light, float radius, float angle) {
     light->radiance = rgb_scale(light->irradiance, 1.0f / (PI * sine * sine));
 }
 
+#define MODEL_RADIUS 0.012f /* of the diagonal */
+
+static const lmp_rgb warm = { 1, 0.6f, 0.25f };
+
+static float power_of(float irradiance, float diagonal) {
+    return irradiance * PI * diagonal * diagonal;
+}
+
+static void model_sphere(lmp_light *light, float irradiance, float diagonal) {
+    const float power = power_of(irradiance, diagonal);
+    light->radius = MODEL_RADIUS * diagonal;
+    light->radiance = rgb_scale(warm, lmp_sphere_radiance_from_power(power, light->radius));
+}
+
+static void model_point(lmp_light *light, float irradiance, float diagonal) {
+    light->intensity = rgb_scale(warm, power_of(irradiance, diagonal) / (4 * PI));
+}
+
+static void model_spot(lmp_light *light, float irradiance, float diagonal) {
+    model_point(light, irradiance, diagonal);
+    light->direction = vec(0, -1, 0);
+    light->inner = 0.4f;
+    light->outer = 0.6f;
+}
+
+static void model_directional(lmp_light *light, float irradiance, float diagonal) {
+    (void)diagonal;
+    light->irradiance = rgb_scale(warm, irradiance);
+}
+
+static void model_cap(lmp_light *light, float irradiance, float diagonal) {
+    (void)diagonal;
+    light->angle = 0.1f;
+    light->radiance = rgb_scale(warm, irradiance / (PI * 0.01f));
+}
+
+static void model_sky(lmp_light *light, float irradiance, float diagonal) {
+    (void)diagonal;
+    light->radiance = rgb_scale((lmp_rgb) { 0.6f, 0.8f, 1 }, irradiance / PI);
+    light->ground = rgb_scale(warm, 0.2f * irradiance / PI);
+}
+
 const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
     [LMP_LIGHT_SPHERE] = { .name = "sphere",
                            .members = { POSITION,
@@ -48,23 +90,35 @@ const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
                                           false, lmp_sphere_radiance_from_power },
                                         { "intensity", SCENE_LIGHT_COLOR,
                                           offsetof(lmp_light, radiance), false,
-                                          lmp_sphere_radiance_from_intensity } } },
+                                          lmp_sphere_radiance_from_intensity } },
+                           .model = model_sphere },
     [LMP_LIGHT_POINT] = { .name = "point",
                           .members = { POSITION, COLOR(intensity, false) },
-                          .widen = widen_point },
+                          .widen = widen_point,
+                          .model = model_point },
     [LMP_LIGHT_SPOT] = { .name = "spot",
                          .members = { POSITION, DIRECTION, ANGLE(inner, true), ANGLE(outer, false),
                                       COLOR(intensity, false) },
-                         .wrong = wrong_spot },
+                         .wrong = wrong_spot,
+                         .model = model_spot },
     [LMP_LIGHT_DIRECTIONAL] = { .name = "directional",
                                 .members = { DIRECTION, COLOR(irradiance, false) },
-                                .widen = widen_sun },
+                                .widen = widen_sun,
+                                .model = model_directional },
     [LMP_LIGHT_CAP] = { .name = "cap",
-                        .members = { DIRECTION, ANGLE(angle, false), COLOR(radiance, false) } },
+                        .members = { DIRECTION, ANGLE(angle, false), COLOR(radiance, false) },
+                        .model = model_cap },
     [LMP_LIGHT_HEMISPHERE] = { .name = "hemisphere",
                                .members = { DIRECTION, COLOR(radiance, false),
-                                            COLOR(ground, true) } },
+                                            COLOR(ground, true) },
+                               .model = model_sky },
 };
+
+lmp_light scene_light_model(lmp_light_kind kind, float irradiance, float diagonal) {
+    lmp_light light = { .kind = kind, .direction = { 0, 1, 0 } };
+    scene_light_kinds[kind].model(&light, irradiance, diagonal);
+    return light;
+}
 
 bool scene_light_has(const scene_light *light, scene_light_type type) {
     const scene_light_member *m = scene_light_kinds[light->emitter.kind].members;

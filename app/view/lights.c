@@ -10,9 +10,8 @@
 #define POWER_STEP     1.25f
 #define COLOR_MAX      1e30f
 #define HUE_STEP       (1.0f / 12)
-#define NEW_RADIUS     0.012f /* of the scene's diagonal */
-#define NEW_IRRADIANCE 0.4f   /* that a new light gives the scene's bounding sphere */
-#define FRAMED_RADIUS  0.1f   /* at least, of the scene's diagonal */
+#define NEW_IRRADIANCE 0.4f /* that a new light gives the scene's bounding sphere */
+#define FRAMED_RADIUS  0.1f /* at least, of the scene's diagonal */
 
 static float scene_diagonal(const scene *world) {
     return fmaxf(vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum))), 1e-6f);
@@ -120,39 +119,8 @@ static bool is_selected(view_state *s) {
     return s->selected >= 0;
 }
 
-/* Warm, of a size and brightness that suit the scene. */
-static lmp_light model_light(const view_state *s, lmp_light_kind kind) {
-    const float diagonal = scene_diagonal(s->world),
-                power = NEW_IRRADIANCE * PI * diagonal * diagonal;
-    const lmp_rgb warm = { 1, 0.6f, 0.25f };
-    lmp_light light = { .kind = kind, .direction = { 0, 1, 0 } };
-    switch (kind) {
-    case LMP_LIGHT_SPHERE:
-        light.radius = NEW_RADIUS * diagonal;
-        light.radiance = rgb_scale(warm, lmp_sphere_radiance_from_power(power, light.radius));
-        break;
-    case LMP_LIGHT_SPOT:
-        light.direction = vec(0, -1, 0);
-        light.inner = 0.4f;
-        light.outer = 0.6f;
-        light.intensity = rgb_scale(warm, power / (4 * PI));
-        break;
-    case LMP_LIGHT_POINT:
-        light.intensity = rgb_scale(warm, power / (4 * PI));
-        break;
-    case LMP_LIGHT_DIRECTIONAL:
-        light.irradiance = rgb_scale(warm, NEW_IRRADIANCE);
-        break;
-    case LMP_LIGHT_CAP:
-        light.angle = 0.1f;
-        light.radiance = rgb_scale(warm, NEW_IRRADIANCE / (PI * 0.01f));
-        break;
-    case LMP_LIGHT_HEMISPHERE:
-        light.radiance = rgb_scale((lmp_rgb) { 0.6f, 0.8f, 1 }, NEW_IRRADIANCE / PI);
-        light.ground = rgb_scale(warm, 0.2f * NEW_IRRADIANCE / PI);
-        break;
-    }
-    return light;
+static lmp_light new_light(const view_state *s, lmp_light_kind kind) {
+    return scene_light_model(kind, NEW_IRRADIANCE, scene_diagonal(s->world));
 }
 
 static view_ray pointer_ray(const view_state *s) {
@@ -172,7 +140,7 @@ void view_add_light(view_state *s, int unused) {
     }
     const view_ray ray = pointer_ray(s);
     const view_hit hit = view_pick_surface(&ray, s->world);
-    scene_light light = { .emitter = model_light(s, LMP_LIGHT_SPHERE) };
+    scene_light light = { .emitter = new_light(s, LMP_LIGHT_SPHERE) };
     if (s->selected >= 0 && scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
         light.emitter = s->now.lights[s->selected].emitter;
     const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));
@@ -210,7 +178,7 @@ void view_change_kind(view_state *s, int step) {
     lmp_light *light = &s->now.lights[s->selected].emitter;
     const lmp_vec3 position = light->position;
     const int kind = ((int)light->kind + step + LMP_LIGHT_KINDS) % LMP_LIGHT_KINDS;
-    *light = model_light(s, (lmp_light_kind)kind);
+    *light = new_light(s, (lmp_light_kind)kind);
     light->position = position; /* for when it has one again */
     s->drag = VIEW_DRAG_NONE;
     s->lights_edited = true;
