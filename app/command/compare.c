@@ -64,7 +64,7 @@ static void print_json_number(double value) {
 }
 
 static void print(const compare_arguments *arguments, const image *pixels,
-                  const compare_result *result) {
+                  const compare_result *result, double white) {
     const char *space = is_exr(arguments->paths[1]) ? "linear" : "display";
     if (arguments->json) {
         printf("{ \"width\": %d, \"height\": %d, \"space\": \"%s\"", pixels->width, pixels->height,
@@ -73,6 +73,8 @@ static void print(const compare_arguments *arguments, const image *pixels,
             printf(", \"%s\": ", compare_metrics[m]);
             print_json_number(result->values[m]);
         }
+        if (arguments->heat_map)
+            printf(", \"heatmap_white\": %.9g", white);
         printf(", \"max_pixel\": [%d, %d], \"bad_values\": %zu }\n", result->max_x, result->max_y,
                result->bad_values);
         return;
@@ -84,24 +86,36 @@ static void print(const compare_arguments *arguments, const image *pixels,
             printf(" at pixel %d,%d", result->max_x, result->max_y);
         printf("\n");
     }
+    if (arguments->heat_map)
+        printf("heatmap black is 0, white %.6g\n", white);
 }
 
-static bool write_heat_map(const compare_arguments *arguments, const image images[2],
+/* *white receives the difference that is white. */
+static bool write_heat_map(const compare_arguments *arguments, const image images[2], double *white,
                            cli_error *error) {
     const int width = images[0].width, height = images[0].height;
     unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!rgb8)
         return cli_fail(error, NULL, "out of memory");
-    compare_heat_map(&images[0], &images[1], (double)arguments->heat_scale, rgb8);
+    *white = compare_heat_map(&images[0], &images[1], (double)arguments->heat_scale, rgb8);
     const bool ok = image_write_png8(rgb8, width, height, arguments->heat_map, error);
     free(rgb8);
     return ok;
+}
+
+/* What a display shows of both, exposed as suits the reference. */
+static bool judge_shown(image images[2], bool linear, compare_result *result, cli_error *error) {
+    const image_display display = { .exposure = linear ? image_auto_exposure(&images[1]) : 1 };
+    for (int i = 0; linear && i < 2; i++)
+        image_show(&images[i], &display);
+    return compare_shown(&images[0], &images[1], result, error);
 }
 
 /* Reads both, compares, prints; *status says whether the limits hold. */
 static bool compare(const compare_arguments *arguments, const limit *limits, image images[2],
                     int *status, cli_error *error) {
     compare_result result;
+    double white = 0;
     const bool linear = is_exr(arguments->paths[1]);
     for (int i = 0; i < 2; i++) {
         if (!image_read(arguments->paths[i], arguments->pixels_max, &images[i], error))
@@ -111,9 +125,11 @@ static bool compare(const compare_arguments *arguments, const limit *limits, ima
     }
     if (!compare_images(&images[0], &images[1], linear ? 0 : 1, &result, error))
         return false;
-    if (arguments->heat_map && !write_heat_map(arguments, images, error))
+    if (arguments->heat_map && !write_heat_map(arguments, images, &white, error))
         return false;
-    print(arguments, &images[0], &result);
+    if (!result.bad_values && !judge_shown(images, linear, &result, error))
+        return false;
+    print(arguments, &images[0], &result, white);
     if (result.bad_values)
         return cli_fail(error, NULL, "%zu values are not finite numbers, the first at pixel %d,%d",
                         result.bad_values, result.max_x, result.max_y);
@@ -133,8 +149,9 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_LIST,
           .target = &a.limits,
           .argument = "METRIC=VALUE",
-          .help = "exit with status 1 if rmse, relmse or max is above VALUE, or psnr or ssim below "
-                  "it; may be repeated" },
+          .help =
+              "exit with status 1 if rmse, relmse, max or flip is above VALUE, or psnr, ssim or "
+              "shown below it; may be repeated" },
         { .name = "heatmap",
           .kind = CLI_TEXT,
           .target = &a.heat_map,
@@ -152,7 +169,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_INT,
           .target = &a.pixels_max,
           .argument = "N",
-          .help = "refuse larger images, which take 36 bytes a pixel",
+          .help = "refuse larger images, which take 80 bytes a pixel",
           .minimum = 1,
           .maximum = IMAGE_PIXELS_MAX },
         { .name = NULL },

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/compare/compare.h"
 
+#include "app/compare/flip.h"
 #include "app/compare/ssim.h"
 
 #include <math.h>
 
 const char *const compare_metrics[COMPARE_COUNT + 1] = {
     [COMPARE_RMSE] = "rmse", [COMPARE_RELMSE] = "relmse", [COMPARE_PSNR] = "psnr",
-    [COMPARE_MAX] = "max",   [COMPARE_SSIM] = "ssim",
+    [COMPARE_MAX] = "max",   [COMPARE_SSIM] = "ssim",     [COMPARE_SHOWN] = "shown",
+    [COMPARE_FLIP] = "flip",
 };
 
 #define RELATIVE_FLOOR 0.01 /* of relMSE: keeps black pixels from counting without end */
 
 bool compare_grows_with_likeness(compare_metric metric) {
-    return metric == COMPARE_PSNR || metric == COMPARE_SSIM;
+    return metric == COMPARE_PSNR || metric == COMPARE_SSIM || metric == COMPARE_SHOWN;
 }
 
 static size_t value_count(const image *candidate) {
@@ -67,7 +69,15 @@ bool compare_images(const image *candidate, const image *reference, double peak,
     result->values[COMPARE_RELMSE] = relative / (double)count;
     result->values[COMPARE_PSNR] = rmse > 0 ? 20 * log10(full / rmse) : (double)INFINITY;
     result->values[COMPARE_MAX] = largest;
+    result->values[COMPARE_SHOWN] = result->values[COMPARE_FLIP] = (double)NAN;
     return compare_ssim(candidate, reference, full, &result->values[COMPARE_SSIM]) ||
+           cli_fail(error, NULL, "out of memory");
+}
+
+bool compare_shown(const image *candidate, const image *reference, compare_result *result,
+                   cli_error *error) {
+    return (compare_ssim(candidate, reference, 1, &result->values[COMPARE_SHOWN]) &&
+            compare_flip(candidate, reference, &result->values[COMPARE_FLIP])) ||
            cli_fail(error, NULL, "out of memory");
 }
 
@@ -106,8 +116,8 @@ static double pixel_difference(const image *candidate, const image *reference, s
     return largest;
 }
 
-void compare_heat_map(const image *candidate, const image *reference, double scale,
-                      unsigned char *rgb8) {
+double compare_heat_map(const image *candidate, const image *reference, double scale,
+                        unsigned char *rgb8) {
     const size_t pixels = value_count(candidate) / 3;
     double full = scale;
     for (size_t p = 0; p < pixels && scale <= 0; p++)
@@ -120,4 +130,5 @@ void compare_heat_map(const image *candidate, const image *reference, double sca
             for (int c = 0; c < 3; c++)
                 rgb8[3 * p + (size_t)c] = bad_color[c];
     }
+    return full;
 }

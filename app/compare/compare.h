@@ -12,6 +12,8 @@ typedef enum compare_metric {
     COMPARE_PSNR,   /* 20 log10(peak / RMSE), dB; infinite for equal images */
     COMPARE_MAX,    /* largest absolute difference of a channel */
     COMPARE_SSIM,   /* mean structural similarity of luminance (Wang et al. 2004); 1 = equal */
+    COMPARE_SHOWN,  /* the same of what is displayed */
+    COMPARE_FLIP,   /* mean FLIP of what is displayed, 0 … 1 (flip.h) */
     COMPARE_COUNT
 } compare_metric;
 extern const char *const compare_metrics[COMPARE_COUNT + 1]; /* names, NULL-terminated */
@@ -25,18 +27,22 @@ typedef struct compare_result {
     size_t bad_values;            /* NaN and infinite ones, in both images */
 } compare_result;
 
-/* The images must have equal sizes. `peak` is what PSNR and SSIM count as full scale; 0 means the
- * reference's largest value. */
+/* All metrics but the last two, which are then NaN. The images must have equal sizes. `peak` is
+ * what PSNR and SSIM count as full scale; 0 means the reference's largest value. */
 bool compare_images(const image *candidate, const image *reference, double peak,
                     compare_result *result, cli_error *error);
+
+/* The last two, of images as they are displayed, 0 … 1. */
+bool compare_shown(const image *candidate, const image *reference, compare_result *result,
+                   cli_error *error);
 
 /* Encodes linear values by sRGB's transfer function, in place, held to 0 … 1. */
 void compare_to_display(image *candidate);
 
 /* Largest channel's absolute difference as color, from black over purple and orange to white at
- * `scale` and above (0: the largest there is); bad values are green. rgb8 receives
- * 3 * width * height bytes. */
-void compare_heat_map(const image *candidate, const image *reference, double scale,
-                      unsigned char *rgb8);
+ * `scale` and above (0: the largest there is), which is returned; bad values are green. rgb8
+ * receives 3 * width * height bytes. */
+double compare_heat_map(const image *candidate, const image *reference, double scale,
+                        unsigned char *rgb8);
 
 #endif

@@ -109,17 +109,32 @@ static float limit(float x) {
     return x > 0 ? fminf(x, SHARED_TONE_MAX) : 0;
 }
 
+static void map_pixel(const float *radiance, const image_display *display, float shown[3]) {
+    float x[3];
+    for (int c = 0; c < 3; c++)
+        x[c] = limit(radiance[c] * display->exposure);
+    image_tones[display->tone].apply(x, shown);
+}
+
 void image_tone_map(const image *pixels, const image_display *display, unsigned char *rgb8) {
     const size_t count = (size_t)pixels->width * (size_t)pixels->height;
-    const image_tone_row *curve = &image_tones[display->tone];
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < count; i++) {
-        float x[3], y[3];
-        for (int c = 0; c < 3; c++)
-            x[c] = limit(pixels->rgb[3 * i + (size_t)c] * display->exposure);
-        curve->apply(x, y);
-        for (int c = 0; c < 3; c++)
-            rgb8[3 * i + (size_t)c] = to_byte(y[c]);
+        float shown[3];
+        map_pixel(pixels->rgb + 3 * i, display, shown);
+        for (size_t c = 0; c < 3; c++)
+            rgb8[3 * i + c] = to_byte(shown[c]);
+    }
+}
+
+void image_show(image *pixels, const image_display *display) {
+    const size_t count = (size_t)pixels->width * (size_t)pixels->height;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < count; i++) {
+        float shown[3];
+        map_pixel(pixels->rgb + 3 * i, display, shown);
+        for (size_t c = 0; c < 3; c++)
+            pixels->rgb[3 * i + c] = transfer(fminf(fmaxf(shown[c], 0), 1));
     }
 }
 

@@ -47,6 +47,9 @@ typedef struct image_display {
 /* Exposure, tone curve and the sRGB transfer to 8 bits: rgb8 receives 3 * width * height bytes. */
 void image_tone_map(const image *image, const image_display *display, unsigned char *rgb8);
 
+/* The same in place and in float, 0 … 1. */
+void image_show(image *image, const image_display *display);
+
 /* The sRGB transfer alone. */
 void image_encode(const image *image, unsigned char *rgb8);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Metrics of hand-made images. */
 #include "app/compare/compare.h"
+#include "app/compare/flip.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
@@ -170,11 +171,64 @@ static void display_values_are_srgb(void **state) {
         CHECK_WITHIN(fabsf(values[i] - expected[i]), 1e-5);
 }
 
+/* One color against another, without any edge: the paper's steps by hand for black against white,
+ * whose distance is 100 in lightness. */
+static void flip_of_flat_images_is_that_of_their_colors(void **state) {
+    (void)state;
+    pair p;
+    double flip;
+    make_pair(&p);
+    for (int i = 0; i < VALUES; i++) {
+        p.a_values[i] = 0;
+        p.b_values[i] = 1;
+    }
+    assert_true(compare_flip(&p.a, &p.b, &flip));
+    const double largest = pow(203.36, 0.7), part = pow(100, 0.7) / largest;
+    CHECK_WITHIN(fabs(flip - (0.95 + 0.05 * (part - 0.4) / 0.6)), 1e-4);
+    assert_true(compare_flip(&p.a, &p.a, &flip));
+    assert_true(flip == 0);
+}
+
+/* A line of another gray is more than its color: what an edge adds does not vanish with the
+ * difference of lightness, and both grow. */
+static void flip_grows_with_a_line_in_a_gray_image(void **state) {
+    (void)state;
+    pair p;
+    double before = 0;
+    make_pair(&p);
+    for (int step = 1; step <= 4; step++) {
+        double flip, swapped;
+        for (int i = 0; i < VALUES; i++) {
+            p.a_values[i] = 0.5f;
+            p.b_values[i] = i / 3 % WIDTH == WIDTH / 2 ? 0.5f + 0.1f * (float)step : 0.5f;
+        }
+        assert_true(compare_flip(&p.a, &p.b, &flip) && compare_flip(&p.b, &p.a, &swapped));
+        assert_true(flip > before + 0.01 && flip < 1);
+        CHECK_WITHIN(fabs(flip - swapped), 1e-12);
+        before = flip;
+    }
+}
+
+static void what_is_shown_is_judged(void **state) {
+    (void)state;
+    pair p;
+    cli_error error;
+    make_pair(&p);
+    compare_result r = compare(&p, 1);
+    assert_true(isnan(r.values[COMPARE_SHOWN]) && isnan(r.values[COMPARE_FLIP]));
+    assert_true(compare_shown(&p.a, &p.b, &r, &error));
+    CHECK_WITHIN(fabs(r.values[COMPARE_SHOWN] - 1), 1e-12);
+    assert_true(r.values[COMPARE_FLIP] == 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_images_have_no_difference),
         cmocka_unit_test(one_changed_value_gives_the_metrics_by_hand),
         cmocka_unit_test(the_peak_scales_psnr),
+        cmocka_unit_test(flip_of_flat_images_is_that_of_their_colors),
+        cmocka_unit_test(flip_grows_with_a_line_in_a_gray_image),
+        cmocka_unit_test(what_is_shown_is_judged),
         cmocka_unit_test(ssim_of_an_offset_is_the_luminance_term),
         cmocka_unit_test(ssim_of_noise_is_that_of_its_definition),
         cmocka_unit_test(bad_values_poison_every_metric),
