@@ -172,7 +172,8 @@ LMP_API void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_
                                     size_t stride, float *sh);
 
 /* lmp_light_project of the same spheres at many points: 3 * LMP_SH_COUNT(bands) values an element,
- * red, then green, then blue. */
+ * red, then green, then blue. Spheres are added in their order: the bits of a point do not depend
+ * on the other points of the call. */
 LMP_API void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
                                      lmp_vec3_array points, size_t point_count,
                                      lmp_sh_layout layout, size_t stride, float *sh);

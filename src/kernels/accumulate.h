@@ -107,10 +107,8 @@ LMP_INLINE void accumulate_rotate(int m, accumulate_light *light) {
 
 /* At column 0; returns the factor of band 0. Inside, R_l changes sign with even l but 0:
  * so do the coefficients of a light of negative radiance on the other side. */
-LMP_INLINE vf accumulate_begin(const lmp_kernel_lights *lights, size_t i, const vf point[3],
-                               accumulate_light *light) {
+LMP_INLINE vf accumulate_begin(cap_lanes cap, accumulate_light *light) {
     const vf pi = vf_set(LMP_KERNEL_PI);
-    cap_lanes cap = lights_cap(lights, i, point, 0);
     cap_axis(&cap);
     *light = (accumulate_light) { cap.x,       cap.y,     cap.z,     cap.t,
                                   pi * cap.s2, vf_set(0), vf_set(1), vf_set(0) };
@@ -166,6 +164,14 @@ typedef struct accumulate_column {
     vf z[ACCUMULATE_LIGHTS], q0[ACCUMULATE_LIGHTS], q1[ACCUMULATE_LIGHTS];
 } accumulate_column;
 
+/* At its first pair, (m, m). */
+LMP_INLINE void accumulate_column_begin(int m, int monic, int at_once, accumulate_column *column) {
+    LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        column->q0[k] = vf_set(0);
+        column->q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);
+    }
+}
+
 /* To the pair of index i. Monic recurrences leave the norm N_lm to the end, and are for
  * LMP_TABLE_MONIC_BANDS (tables.h). */
 LMP_INLINE void accumulate_step(size_t i, int monic, int at_once, accumulate_column *column) {
@@ -183,10 +189,7 @@ LMP_INLINE vf *accumulate_column_add(accumulate_tile tile, int m, int monic, int
                                      vf *sums) {
     size_t i = lmp_table_index(m, m);
     int l = m;
-    LMP_UNROLL for (int k = 0; k < at_once; k++) {
-        column->q0[k] = vf_set(0);
-        column->q1[k] = vf_set(monic ? 1 : lmp_table_diagonal[m]);
-    }
+    accumulate_column_begin(m, monic, at_once, column);
     LMP_ROLLED for (; l < tile.low; l++) accumulate_step(++i, monic, at_once, column);
     for (const vf *radial = waiting + at_once * (l - tile.low);; radial += at_once) {
         vf value[ACCUMULATE_LIGHTS];
@@ -217,7 +220,7 @@ LMP_INLINE void accumulate_lights(const accumulate_work *work, accumulate_tile t
         LMP_UNROLL for (int k = 0; k < at_once; k++) light[k] = kept[k];
     } else {
         LMP_UNROLL for (int k = 0; k < at_once; k++) work->waiting[k] =
-            accumulate_begin(work->lights, first + (size_t)k, point, &light[k]);
+            accumulate_begin(lights_cap(work->lights, first + (size_t)k, point, 0), &light[k]);
         accumulate_advance(tile.first, at_once, light);
     }
     accumulate_radial(work->bands, tile, at_once, light, work->waiting);
@@ -343,36 +346,35 @@ static inline void accumulate_divide(accumulate_work *work, vf *stack) {
     work->most = (left - waiting) / 6;
 }
 
-LMP_INLINE void accumulate_points(int bands, int monic, const lmp_kernel_lights *lights,
-                                  const lmp_kernel_vec3 *points, size_t count,
-                                  const lmp_kernel_out *out) {
-    vf stack[ACCUMULATE_STACK];
-    accumulate_work work = { .bands = bands, .lights = lights };
-    accumulate_divide(&work, stack);
-    for (size_t e = 0; e < count; e += LMP_LANES) {
-        const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
-                              vf_load(points->z + e) };
-        for (accumulate_tile tile = accumulate_first(bands, work.most); tile.first < bands;
-             tile = accumulate_next(bands, tile, work.most)) {
-            size_t i = 0;
-            memset(work.sums, 0, 6 * accumulate_pairs(tile) * sizeof *work.sums);
-            for (; i + ACCUMULATE_LIGHTS <= lights->count; i += ACCUMULATE_LIGHTS)
-                accumulate_lights(&work, tile, monic, ACCUMULATE_LIGHTS, i, point);
-            for (; i < lights->count; i++)
-                accumulate_lights(&work, tile, monic, 1, i, point);
-            accumulate_put(bands, tile, monic, (accumulate_sets) { 3, 0, 3 }, work.sums,
-                           work.waiting, out, e, layout_live(count, e));
-        }
+LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const vf point[3],
+                                 const lmp_kernel_out *out, size_t element, size_t live) {
+    const accumulate_sets values = { 3, 0, 3 };
+    const int bands = work->bands;
+    for (accumulate_tile tile = accumulate_first(bands, work->most); tile.first < bands;
+         tile = accumulate_next(bands, tile, work->most)) {
+        size_t i = 0;
+        memset(work->sums, 0, 6 * accumulate_pairs(tile) * sizeof *work->sums);
+        for (; i + ACCUMULATE_LIGHTS <= work->lights->count; i += ACCUMULATE_LIGHTS)
+            accumulate_lights(work, tile, monic, ACCUMULATE_LIGHTS, i, point);
+        for (; i < work->lights->count; i++)
+            accumulate_lights(work, tile, monic, 1, i, point);
+        accumulate_put(bands, tile, monic, values, work->sums, work->waiting, out, element, live);
     }
 }
 
-static void kernel_accumulate(int bands, const lmp_kernel_lights *lights,
-                              const lmp_kernel_vec3 *points, size_t count,
-                              const lmp_kernel_out *out) {
+/* The sums of the lights at the points from `element` on, a block of them. */
+static LMP_NOINLINE void accumulate_block(int bands, const lmp_kernel_lights *lights,
+                                          const lmp_kernel_vec3 *points, const lmp_kernel_out *out,
+                                          size_t element, size_t live) {
+    const vf point[3] = { vf_load(points->x + element), vf_load(points->y + element),
+                          vf_load(points->z + element) };
+    vf stack[ACCUMULATE_STACK];
+    accumulate_work work = { .bands = bands, .lights = lights };
+    accumulate_divide(&work, stack);
     if (bands <= LMP_TABLE_MONIC_BANDS)
-        accumulate_points(bands, 1, lights, points, count, out);
+        accumulate_tiles(&work, 1, point, out, element, live);
     else
-        accumulate_points(bands, 0, lights, points, count, out);
+        accumulate_tiles(&work, 0, point, out, element, live);
 }
 
 #endif

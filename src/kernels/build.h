@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* build.h - one build of the kernels: the file that includes it sets LMP_LANES and LMP_KERNELS, and
  * CMake its instruction set. */
+#include "src/kernels/accumulate_few.h"
 #include "src/kernels/eval_gradient.h"
 #include "src/kernels/gradient.h"
 #include "src/kernels/lobe.h"

@@ -179,5 +179,23 @@ LMP_INLINE vf vf_load_first(const float *from, int count) {
 LMP_INLINE void vf_store(float *to, vf v) {
     memcpy(to, &v, sizeof v);
 }
+/* The first `count` of them, 1 … LMP_LANES - 1; nothing past them is written. */
+LMP_INLINE void vf_store_first(float *to, vf v, int count) {
+#if LMP_LANES == 16
+    _mm512_mask_storeu_ps(to, (__mmask16)((1u << count) - 1), (__m512)v);
+#elif LMP_LANES == 8
+    const vi lane = { 0, 1, 2, 3, 4, 5, 6, 7 };
+    _mm256_maskstore_ps(to, (__m256i)(lane < count), (__m256)v);
+#elif LMP_LANES == 4
+    to[0] = v[0];
+    if (count > 1)
+        to[1] = v[1];
+    if (count > 2)
+        to[2] = v[2];
+#else
+    (void)count; /* there is no such count */
+    *to = v;
+#endif
+}
 
 #endif

@@ -133,12 +133,15 @@ static inline void layout_rows(const float *block, size_t values, float *rows, s
             rows[e * stride + v] = block[v * LMP_LANES + e];
 }
 
-/* A plane's `live` elements. The compilers turn memcpy of any length into many instructions. */
-LMP_INLINE void layout_copy(float *to, const float *from, size_t live) {
+/* A plane's `live` elements, from a block and to one; the lanes past them are 0. */
+LMP_INLINE void layout_put_plane(float *to, const float *plane, size_t live) {
     if (live == LMP_LANES)
-        vf_store(to, vf_load(from));
+        vf_store(to, vf_load(plane));
     else
-        memcpy(to, from, live * sizeof(float));
+        vf_store_first(to, vf_load(plane), (int)live);
+}
+LMP_INLINE void layout_get_plane(float *plane, const float *from, size_t live) {
+    vf_store(plane, live == LMP_LANES ? vf_load(from) : vf_load_first(from, (int)live));
 }
 
 /* Writes `values` planes of a block, the values first … of an element, into the output. */
@@ -150,7 +153,7 @@ static inline void layout_put(const float *block, size_t first, size_t values,
     }
     float *to = out->at + first * out->stride + element;
     for (size_t v = 0; v < values; v++)
-        layout_copy(to + v * out->stride, block + v * LMP_LANES, live);
+        layout_put_plane(to + v * out->stride, block + v * LMP_LANES, live);
 }
 
 /* Reads values first … first+values-1 of a block's elements into planes; lanes past `live` are 0.
@@ -172,11 +175,10 @@ static inline void layout_get(float *block, size_t first, size_t values, const l
     for (size_t v = 0; v < values; v++) {
         float *plane = block + v * LMP_LANES;
         if (in->planar)
-            layout_copy(plane, from + v * in->stride, live);
+            layout_get_plane(plane, from + v * in->stride, live);
         else
-            for (size_t e = 0; e < live; e++)
-                plane[e] = from[e * in->stride + v];
-        memset(plane + live, 0, (LMP_LANES - live) * sizeof(float));
+            for (size_t e = 0; e < LMP_LANES; e++)
+                plane[e] = e < live ? from[e * in->stride + v] : 0;
     }
 }
 

@@ -88,6 +88,34 @@ static void a_split_of_the_points_changes_no_bit(void **test) {
     assert_memory_equal(out, other, COUNT * 3 * VALUES * sizeof(float));
 }
 
+/* The sums of one point in a call of its own, where lanes are lights, and among `count`. */
+static void check_alone(int bands, int light_count, int point, int count, lmp_sh_layout layout) {
+    static float among[17 * 3 * 35 * 35], alone[3 * 35 * 35];
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    const size_t values = 3 * LMP_SH_COUNT(bands);
+    lmp_sphere_accumulate_n(bands, &spheres, (size_t)light_count, lmp_vec3_array_of(points),
+                            (size_t)count, LMP_SH_INTERLEAVED, 0, among);
+    lmp_sphere_accumulate_n(bands, &spheres, (size_t)light_count, lmp_vec3_array_of(points + point),
+                            1, layout, 0, alone);
+    assert_memory_equal(alone, among + (size_t)point * values, values * sizeof(float));
+}
+
+static void a_point_alone_gets_the_bits_of_a_batch(void **test) {
+    (void)test;
+    const unsigned all = lmp_cpu_flags();
+    const lmp_light before[] = { lights[1], lights[2] };
+    lights[1].position = points[3];
+    lights[2].position = (lmp_vec3) { points[3].x, points[3].y + 0.1f, 0 };
+    lights[2].radius = 0.5f;
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= all; flag *= 2)
+        for (int bands = 1; bands <= 35 && lmp_cpu_mask(flag) == flag; bands++)
+            for (int count = 3; count <= 83; count += 16)
+                for (lmp_sh_layout layout = LMP_SH_INTERLEAVED; layout <= LMP_SH_PLANAR; layout++)
+                    check_alone(bands, count, bands % 2 ? 3 : 11, 17, layout);
+    lmp_cpu_mask(LMP_CPU_ALL);
+    memcpy(lights + 1, before, sizeof before);
+}
+
 static void accumulate_is_the_sum_of_the_lights(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
@@ -204,6 +232,7 @@ int main(void) {
         cmocka_unit_test(planes_are_rows_transposed),
         cmocka_unit_test(all_pairs_are_every_sphere_at_every_point),
         cmocka_unit_test(a_split_of_the_points_changes_no_bit),
+        cmocka_unit_test(a_point_alone_gets_the_bits_of_a_batch),
         cmocka_unit_test(accumulate_is_the_sum_of_the_lights),
         cmocka_unit_test(gradients_are_those_of_one_light),
         cmocka_unit_test(lobes_respond_as_one_by_one),
