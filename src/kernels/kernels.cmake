@@ -3,7 +3,7 @@
 set(lampion_kernel_options -fno-tree-vectorize -fno-tree-slp-vectorize)
 if(CMAKE_C_COMPILER_ID MATCHES Clang)
   # The loops to unroll have a run-time length in the kernels for any number of bands.
-  set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize -Wno-pass-failed)
+  set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize)
 endif()
 # Arrays whose length the bands decide, no foreign bytes: a guard of the stack would only cost.
 list(APPEND lampion_kernel_options -fno-stack-protector)

@@ -4,6 +4,8 @@
 #ifndef LAMPION_KERNELS_LANES_H
 #define LAMPION_KERNELS_LANES_H
 
+#include "src/base/unroll.h"
+
 #include <stdint.h>
 #include <string.h>
 
@@ -13,21 +15,6 @@
 #include <arm_neon.h>
 #elif LMP_LANES == 1
 #include <math.h>
-#endif
-
-#define LMP_INLINE   static inline __attribute__((always_inline))
-#define LMP_NOINLINE __attribute__((noinline))
-
-/* Unrolls a loop of constant length whole; the specialized kernels are straight-line code. */
-#if !defined(__OPTIMIZE__)
-#define LMP_UNROLL
-#define LMP_ROLLED
-#elif defined(__clang__)
-#define LMP_UNROLL _Pragma("clang loop unroll(full)")
-#define LMP_ROLLED _Pragma("clang loop unroll(disable)")
-#else
-#define LMP_UNROLL _Pragma("GCC unroll 16")
-#define LMP_ROLLED _Pragma("GCC unroll 1")
 #endif
 
 /* Hides where a pointer comes from. Constants read through it stay broadcasting memory operands;

@@ -155,6 +155,16 @@ static void add_column(int low, int high, int m, const float *radial, lmp_azimut
     }
 }
 
+/* All bands of a cap, few of them. */
+static void add_few(int bands, const lmp_cap *cap, const float *r, const float strength[3],
+                    float *const planes[3]) {
+    float sh[LMP_SH_COUNT(LMP_FEW_BANDS)];
+    LMP_STRAIGHT(bands, lmp_sh_put, cap->axis, r, NULL, sh)
+    for (int c = 0; c < 3; c++)
+        for (size_t i = 0; planes[c] && i < LMP_SH_COUNT(bands); i++)
+            planes[c][i] += strength[c] * sh[i];
+}
+
 void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]) {
     const float strength[3] = { cap->strength.r, cap->strength.g, cap->strength.b };
     const float ambient[3] = { cap->ambient.r, cap->ambient.g, cap->ambient.b };
@@ -164,6 +174,10 @@ void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]) 
     for (int c = 0; low == 0 && c < 3; c++)
         if (planes[c])
             planes[c][0] += ambient[c] / lmp_table_pole[0];
+    if (low == 0 && high <= LMP_FEW_BANDS) {
+        add_few(high, cap, r, strength, planes);
+        return;
+    }
     for (int m = 0; m < high; m++) {
         lmp_sh_column(high, m, cap->axis.z, q);
         for (int l = m > low ? m : low; l < high; l++)

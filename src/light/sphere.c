@@ -54,8 +54,7 @@ void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point
     lmp_sight sight;
     lmp_sight_sphere(center, radius, point, &sight);
     sight_factors(bands, &sight, factors);
-    lmp_sh_values(bands, sight.axis, sh);
-    lmp_sh_window_apply(bands, factors, sh, sh);
+    lmp_sh_scaled_values(bands, sight.axis, factors, sh);
 }
 
 /* --- the gradient ----------------------------------------------------------------------------- */

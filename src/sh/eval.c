@@ -5,17 +5,11 @@
 #include <lampion/sh.h>
 
 void lmp_sh_values(int bands, lmp_vec3 direction, float *sh) {
-    float q[LMP_BANDS_MAX];
-    lmp_azimuth a = { 1, 0 };
-    for (int m = 0; m < bands; m++) {
-        lmp_sh_column(bands, m, direction.z, q);
-        for (int l = m; l < bands; l++) {
-            /* -m first: at m = 0 both are one coefficient, and cosine wins */
-            sh[LMP_SH_INDEX(l, -m)] = q[l] * a.s;
-            sh[LMP_SH_INDEX(l, m)] = q[l] * a.c;
-        }
-        a = lmp_azimuth_next(a, direction);
-    }
+    LMP_STRAIGHT(bands, lmp_sh_put, direction, NULL, NULL, sh)
+}
+
+void lmp_sh_scaled_values(int bands, lmp_vec3 direction, const float *factors, float *sh) {
+    LMP_STRAIGHT(bands, lmp_sh_put, direction, NULL, factors, sh)
 }
 
 void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {
