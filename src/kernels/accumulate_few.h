@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* accumulate_few.h - many RGB lights into one point: lanes are lights.
  *
- * A register of products, one coefficient of LMP_LANES lights, is turned into rows of a light each,
+ * A register of products, one coefficient of LMP_LANES lights, becomes rows of a light each,
  * which are added in the order of the lights, by the operations of accumulate.h in their order: the
  * same bits. */
 #ifndef LAMPION_KERNELS_ACCUMULATE_FEW_H

@@ -2,7 +2,6 @@
 # say what is a vector, and the scalar build is the one to compare with.
 set(lampion_kernel_options -fno-tree-vectorize -fno-tree-slp-vectorize)
 if(CMAKE_C_COMPILER_ID MATCHES Clang)
-  # The loops to unroll have a run-time length in the kernels for any number of bands.
   set(lampion_kernel_options -fno-vectorize -fno-slp-vectorize)
 endif()
 # Arrays whose length the bands decide, no foreign bytes: a guard of the stack would only cost.
