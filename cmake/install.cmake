@@ -1,6 +1,6 @@
 # What `cmake --install` puts where: library, headers, shaders and program, found again through
 # find_package(lampion) or pkg-config, wherever the tree is moved to. The components are the Debian
-# packages: library, development, tools.
+# packages: library, development, documentation, tools.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS ${lampion_libraries} EXPORT lampionTargets

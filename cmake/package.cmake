@@ -1,4 +1,4 @@
-# The Debian packages liblampion0.1, liblampion-dev and lampion, made by `cpack`. Nothing in them
+# The Debian packages liblampion0.1, liblampion-dev, liblampion-doc and lampion, made by `cpack`. Nothing in them
 # depends on where or when they are made: SOURCE_DATE_EPOCH is the time of every file.
 if(CPACK_TEMPORARY_INSTALL_DIRECTORY) # read again by cpack, before it makes archives of what it has installed
   execute_process(COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -exec touch -h -d @$ENV{SOURCE_DATE_EPOCH} {} +
@@ -19,7 +19,7 @@ set(CPACK_PACKAGE_CONTACT "The Lampion authors <maintainers@users.noreply.h-seed
 set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_FILE})
-set(CPACK_COMPONENTS_ALL library development tools)
+set(CPACK_COMPONENTS_ALL library development documentation tools)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${release})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -44,6 +44,13 @@ set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
   "${about}\n\nThese are the headers, the \
 static library, lampion.glsl and examples.")
 
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME liblampion-doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOCUMENTATION_DESCRIPTION
+  "${about}\n\nThese are its pages and the descriptions of its functions, as a site to read \
+without a network.")
+
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME lampion)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
@@ -52,6 +59,20 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION
   "${about}\n\nThis is the program, which renders \
 glTF and OBJ scenes with or without a GPU.")
 
+# The documents, by pandoc.
+set(documents ${PROJECT_BINARY_DIR}/documents)
+file(GLOB pages CONFIGURE_DEPENDS *.md docs/*.md docs/site/* include/lampion/*.h)
+add_custom_command(OUTPUT ${documents}/lampion-formats.5.gz
+  COMMAND docs/site/build.sh ${documents}/html
+  COMMAND docs/site/formats.sh ${documents}/lampion-formats.5
+  COMMAND gzip -9nf ${documents}/lampion-formats.5
+  DEPENDS ${pages} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Making the documents" VERBATIM)
+add_custom_target(lampion_documents ALL DEPENDS ${documents}/lampion-formats.5.gz)
+install(DIRECTORY ${documents}/html DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/liblampion-doc
+  COMPONENT documentation)
+install(FILES ${documents}/lampion-formats.5.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man5
+  COMPONENT tools)
+
 # What Debian wants of every package.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
 file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
@@ -59,7 +80,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/debian/changelog.Debian
   "lampion (${PROJECT_VERSION}-${release}) unstable; urgency=medium\n\n  * Version ${PROJECT_VERSION}.\n\n \
 -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
 execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/debian/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
-foreach(component IN ITEMS library development tools)
+foreach(component IN ITEMS library development documentation tools)
   string(TOUPPER ${component} upper)
   set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
   install(FILES LICENSE DESTINATION ${folder} RENAME copyright COMPONENT ${component})

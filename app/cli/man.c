@@ -84,7 +84,7 @@ void option_man(const cli_command *command, const cli_option *options) {
     }
     printf(".fi\n");
     print_status();
-    printf(".SH \"SEE ALSO\"\n\\fBlampion\\fR(1)\n");
+    printf(".SH \"SEE ALSO\"\n\\fBlampion\\fR(1), \\fBlampion\\-formats\\fR(5)\n");
 }
 
 void cli_man(const char *summary, const cli_command *const *commands,
@@ -103,4 +103,7 @@ void cli_man(const char *summary, const cli_command *const *commands,
         print_line((*environment)[1]);
     }
     print_status();
+    printf(".SH \"SEE ALSO\"\n\\fBlampion\\-formats\\fR(5) for the files that it reads and writes; "
+           "the "
+           "package liblampion\\-doc for the documents.\n");
 }
