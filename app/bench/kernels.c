@@ -34,6 +34,28 @@ static void run_accumulate(const bench_batch *b) {
     lmp_sphere_accumulate_n(b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count, b->layout,
                             b->stride, b->out);
 }
+/* The calls an engine makes for one light and one point, a call an element. */
+static void run_one_light(const bench_batch *b) {
+    const lmp_vec3_array *c = &b->spheres.center, *p = &b->points;
+    for (size_t i = 0; i < b->count; i++)
+        lmp_sphere_project(b->bands, (lmp_vec3) { c->x[i], c->y[i], c->z[i] },
+                           b->spheres.radius.at[i], (lmp_vec3) { p->x[i], p->y[i], p->z[i] },
+                           b->out + i * LMP_SH_COUNT(b->bands));
+}
+static void run_points_alone(const bench_batch *b, size_t lights) {
+    const lmp_vec3_array *p = &b->points;
+    for (size_t i = 0; i < b->count; i++) {
+        const lmp_vec3 point = { p->x[i], p->y[i], p->z[i] };
+        lmp_sphere_accumulate_n(b->bands, &b->spheres, lights, lmp_vec3_array_same(&point), 1,
+                                LMP_SH_INTERLEAVED, 0, b->out + 3 * i * LMP_SH_COUNT(b->bands));
+    }
+}
+static void run_one_point(const bench_batch *b) {
+    run_points_alone(b, BENCH_LIGHTS);
+}
+static void run_one_point_few(const bench_batch *b) {
+    run_points_alone(b, BENCH_LIGHTS_FEW);
+}
 static void run_gradient(const bench_batch *b) {
     const size_t n = LMP_SH_COUNT(b->bands);
     const size_t stride = b->layout == LMP_SH_PLANAR ? b->stride : 0;
@@ -175,6 +197,12 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       BENCH_LIGHTS, false, BENCH_TABLE_NONE, false },
     { "gradient", values_gradient, slots_gradient, run_gradient, bench_paper_gradient, BENCH_LIGHTS,
       false, BENCH_TABLE_NONE, false },
+    { "one-light", values_basis, slots_project, run_one_light, bench_paper_project, 1, true,
+      BENCH_TABLE_NONE, false },
+    { "one-point", values_rgb, slots_accumulate, run_one_point, bench_paper_accumulate,
+      BENCH_LIGHTS, true, BENCH_TABLE_NONE, false },
+    { "one-point-8-lights", values_rgb, slots_accumulate, run_one_point_few,
+      bench_paper_accumulate_few, BENCH_LIGHTS_FEW, true, BENCH_TABLE_NONE, false },
     { "lobe", values_lobe, slots_lobe, run_lobe, bench_paper_lobe, BENCH_LIGHTS, false,
       BENCH_TABLE_NONE, false },
     { "zonal", values_zonal, slots_zonal, run_zonal, bench_paper_zonal, 1, false, BENCH_TABLE_NONE,

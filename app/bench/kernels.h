@@ -7,8 +7,13 @@
 #include <lampion/lampion.h>
 
 /* Sizes: outputs of a call fit the first cache (48 KiB), as a caller that uses them at once sees;
- * BENCH_LIGHTS lights go into each point. */
-enum { BENCH_LIGHTS = 32, BENCH_ELEMENTS_MAX = 480, BENCH_OUTPUT_FLOATS = 6144 };
+ * BENCH_LIGHTS lights go into each point, or BENCH_LIGHTS_FEW. */
+enum {
+    BENCH_LIGHTS = 32,
+    BENCH_LIGHTS_FEW = 8,
+    BENCH_ELEMENTS_MAX = 480,
+    BENCH_OUTPUT_FLOATS = 6144
+};
 
 /* What a kernel works on. */
 typedef struct bench_batch {
@@ -28,7 +33,7 @@ typedef struct bench_batch {
 typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_BRDF } bench_table;
 enum { BENCH_TABLE_BANDS = 10 };
 
-/* One light a pair, or BENCH_LIGHTS of them. */
+/* One light an element, or as many as `lights`. */
 typedef struct bench_kernel {
     const char *name;
     size_t (*values)(int bands); /* of an element */
@@ -41,7 +46,7 @@ typedef struct bench_kernel {
     bool ggx; /* it shades glTF's metallic-roughness */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 16 };
+enum { BENCH_KERNELS = 19 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- paper.c: elements of the same work by the paper's formulas, one by one ----------------------
@@ -55,6 +60,7 @@ void bench_paper_rotate(const bench_batch *b, size_t element);
 void bench_paper_zonal(const bench_batch *b, size_t element);
 void bench_paper_project(const bench_batch *b, size_t element);
 void bench_paper_accumulate(const bench_batch *b, size_t element);
+void bench_paper_accumulate_few(const bench_batch *b, size_t element);
 void bench_paper_gradient(const bench_batch *b, size_t element);
 void bench_paper_lobe(const bench_batch *b, size_t element);
 void bench_paper_shade(const bench_batch *b, size_t element);

@@ -70,12 +70,13 @@ void bench_paper_zonal(const bench_batch *b, size_t i) {
 void bench_paper_project(const bench_batch *b, size_t i) {
     paper_light(b, i, vector_at(&b->points, i), coefficient_sink);
 }
-static void paper_sum(const bench_batch *b, size_t point, lmp_vec3 shift, float *sum) {
+static void paper_sum(const bench_batch *b, size_t lights, size_t point, lmp_vec3 shift,
+                      float *sum) {
     const size_t n = LMP_SH_COUNT(b->bands);
     lmp_vec3 at = vector_at(&b->points, point);
     at = (lmp_vec3) { at.x + shift.x, at.y + shift.y, at.z + shift.z };
     memset(sum, 0, 3 * n * sizeof *sum);
-    for (size_t light = 0; light < BENCH_LIGHTS; light++) {
+    for (size_t light = 0; light < lights; light++) {
         static float sh[LMP_SH_COUNT(LMP_BANDS_MAX)];
         const lmp_vec3 rgb = vector_at(&b->spheres.radiance, light);
         paper_light(b, light, at, sh);
@@ -87,17 +88,20 @@ static void paper_sum(const bench_batch *b, size_t point, lmp_vec3 shift, float 
     }
 }
 void bench_paper_accumulate(const bench_batch *b, size_t i) {
-    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    paper_sum(b, BENCH_LIGHTS, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+}
+void bench_paper_accumulate_few(const bench_batch *b, size_t i) {
+    paper_sum(b, BENCH_LIGHTS_FEW, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
 }
 /* The paper has no gradient: one-sided differences. */
 void bench_paper_gradient(const bench_batch *b, size_t i) {
     const size_t n = 3 * LMP_SH_COUNT(b->bands);
     const float h = 0.001f;
-    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    paper_sum(b, BENCH_LIGHTS, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
     for (size_t axis = 0; axis < 3; axis++) {
         float *slope = coefficient_sink + (1 + axis) * n;
-        paper_sum(b, i, (lmp_vec3) { axis == 0 ? h : 0, axis == 1 ? h : 0, axis == 2 ? h : 0 },
-                  slope);
+        paper_sum(b, BENCH_LIGHTS, i,
+                  (lmp_vec3) { axis == 0 ? h : 0, axis == 1 ? h : 0, axis == 2 ? h : 0 }, slope);
         for (size_t v = 0; v < n; v++)
             slope[v] = (slope[v] - coefficient_sink[v]) / h;
     }
@@ -105,7 +109,7 @@ void bench_paper_gradient(const bench_batch *b, size_t i) {
 void bench_paper_lobe(const bench_batch *b, size_t i) {
     static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
     const size_t n = LMP_SH_COUNT(b->bands);
-    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    paper_sum(b, BENCH_LIGHTS, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
     lmp_lobe_project(b->bands, b->lambda, vector_at(&b->axes, i), lobe);
     for (size_t c = 0; c < 3; c++)
         coefficient_sink[c] = lmp_sh_dot(b->bands, coefficient_sink + c * n, lobe);
@@ -117,7 +121,7 @@ void bench_paper_shade(const bench_batch *b, size_t i) {
     const size_t n = LMP_SH_COUNT(b->bands);
     const lmp_vec3_array around[2] = { b->surfaces.normal, b->axes };
     float rgb[3] = { 0, 0, 0 };
-    paper_sum(b, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
+    paper_sum(b, BENCH_LIGHTS, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
     for (int k = b->surfaces.material->kind == LMP_MATERIAL_TABLE ? 1 : 0; k < 2; k++) {
         lmp_lobe_project(b->bands, b->lambda, vector_at(&around[k], i), lobe);
         for (size_t c = 0; c < 3; c++)

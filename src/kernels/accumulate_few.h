@@ -9,9 +9,10 @@
 
 #include "src/kernels/accumulate.h"
 
-/* Sums of more bands would not fit the stack. */
-#define FEW_BANDS 32
-#define FEW_SUMS  (3 * FEW_BANDS * FEW_BANDS)
+/* Points that are few; and the bands whose sums fit the stack. */
+#define FEW_POINTS 3
+#define FEW_BANDS  32
+#define FEW_SUMS   (3 * FEW_BANDS * FEW_BANDS)
 
 /* Products that wait; a pair (l, m) has six at most. */
 #define FEW_WAITING 128
@@ -24,10 +25,11 @@ typedef struct few_sums {
     int first, waiting; /* sum of the first product that waits, and their number */
 } few_sums;
 
-/* A point under so many lights costs less this way: as measured, a fifth of a block of points. */
+/* Whether `live` points cost less one by one: as measured, where the registers of lights are fewer
+ * than a quarter of the lights, which a block of points takes a register each. */
 LMP_INLINE int few_pays(int bands, size_t lights, size_t live) {
-    const size_t blocks = (lights + LMP_LANES - 1) / LMP_LANES;
-    return LMP_LANES > 1 && bands <= FEW_BANDS && 5 * live * blocks <= lights;
+    const size_t registers = live * ((lights + LMP_LANES - 1) / LMP_LANES);
+    return LMP_LANES > 1 && bands <= FEW_BANDS && live <= FEW_POINTS && 4 * registers <= lights;
 }
 
 /* Adds the first `count` products that wait, of `live` lights; the others are the first then. */
@@ -109,7 +111,7 @@ static LMP_NOINLINE void accumulate_few(int bands, const lmp_kernel_lights *ligh
     const size_t step = out->planar ? out->stride : 1;
     float *to = out->at + element * (out->planar ? 1 : out->stride);
     few_sums few;
-    memset(few.sums, 0, sizeof few.sums);
+    memset(few.sums, 0, (size_t)(3 * bands * bands + LMP_LANES) * sizeof *few.sums);
     for (size_t i = 0; i < lights->count; i += LMP_LANES)
         few_lights(bands, monic, lights, i, point, &few);
     const float *sum = few.sums;
