@@ -1,52 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/animation/animation.h"
+#include "app/command/render.h"
 #include "app/bake/bake.h"
 #include "app/command/command.h"
-#include "app/environment/environment.h"
 #include "app/file/file.h"
 #include "app/image/sequence.h"
-#include "app/override/override.h"
 #include "app/shade/shade.h"
-#include "app/timing/timing.h"
 #include "app/view/view.h"
 
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { REPEAT_MAX = 1000, SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 4096 };
-
-/* Everything the command line says. */
-typedef struct render_options {
-    const char *output, *device, *animate, *from;
-    int size[2], bands, method, window, tone, device_kind, repeat, samples, pixels_max;
-    int frames[2], shard[2]; /* first and last; part and number of parts */
-    float exposure, stops, fps, background[3];
-    bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;
-    environment_options environment;
-    scene_camera_options camera;
-    scene_lights_options lights;
-    cli_list materials;
-    scene_options load;
-} render_options;
-
-/* Everything that is open while rendering. */
-typedef struct job {
-    const render_options *options;
-    scene world;
-    environment around;
-    gpu_context context;
-    gpu_renderer *renderer;
-    gpu_frame frame;
-    device_kind shading;
-    lmp_preintegrated_lobe *lobes; /* of methods that read them */
-    animation *path;               /* of the lights */
-    scene_light *moved;
-    override_set materials;
-    image_display display;
-} job;
+enum { SAMPLES_MAX = 1024, FRAME_MAX = 99999, PATH_SIZE = 4096 };
 
 static void name_frame(const render_options *o, int index, char path[PATH_SIZE]) {
     if (o->frames_given)
@@ -58,7 +24,7 @@ static void name_frame(const render_options *o, int index, char path[PATH_SIZE])
 /* --- one image --------------------------------------------------------------------------------
  */
 
-static bool write_exr(const job *j, const char *path, cli_error *error) {
+static bool write_exr(const render_job *j, const char *path, cli_error *error) {
     image pixels;
     if (!gpu_read_image(j->renderer, &pixels, error))
         return false;
@@ -67,7 +33,7 @@ static bool write_exr(const job *j, const char *path, cli_error *error) {
     return ok;
 }
 
-static bool write_png(const job *j, const char *path, cli_error *error) {
+static bool write_png(const render_job *j, const char *path, cli_error *error) {
     const int width = j->frame.width, height = j->frame.height;
     unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!rgb8)
@@ -79,7 +45,7 @@ static bool write_png(const job *j, const char *path, cli_error *error) {
 }
 
 /* The lights as they are at the time of a frame of a sequence. */
-static void move_lights(job *j, int index) {
+static void move_lights(render_job *j, int index) {
     if (!j->options->frames_given)
         return;
     animation_move_all(j->path, &j->world, (double)index / (double)j->options->fps, j->moved);
@@ -88,7 +54,7 @@ static void move_lights(job *j, int index) {
 
 /* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker.
  * What is seen past everything does not count, and the studio has an exposure of its own. */
-static bool settle_exposure(job *j, cli_error *error) {
+static bool settle_exposure(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     float factor =
         o->exposure_given ? o->exposure : environment_exposure(&j->around, j->world.light_count);
@@ -112,7 +78,7 @@ static bool settle_exposure(job *j, cli_error *error) {
     return true;
 }
 
-static bool render_frame(job *j, int index, cli_error *error) {
+static bool render_frame(render_job *j, int index, cli_error *error) {
     char path[PATH_SIZE];
     name_frame(j->options, index, path);
     move_lights(j, index);
@@ -130,7 +96,7 @@ static void split_frames(const render_options *o, int *first, int *end) {
     *end = o->frames[0] + (int)(count * o->shard[0] / o->shard[1]);
 }
 
-static bool render_frames(job *j, cli_error *error) {
+static bool render_frames(render_job *j, cli_error *error) {
     int first, end;
     split_frames(j->options, &first, &end);
     bool ok = settle_exposure(j, error);
@@ -142,102 +108,11 @@ static bool render_frames(job *j, cli_error *error) {
     return ok;
 }
 
-/* --- statistics ---------------------------------------------------------------------------------
- */
-
-enum { SHADE = 2, PASSES = 5 };
-
-/* The median of each pass over the repetitions of one method, after a frame that warms it up. */
-static bool measure(job *j, method_kind method, double medians[PASSES], cli_error *error) {
-    static double samples[PASSES][REPEAT_MAX];
-    gpu_frame frame = j->frame;
-    frame.method = method;
-    frame.samples = 1;
-    unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
-    bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
-    ok = ok && gpu_render(j->renderer, &frame, NULL, error);
-    for (int i = 0; i < j->options->repeat && ok; i++) {
-        gpu_times times;
-        ok = gpu_render(j->renderer, &frame, &times, error) &&
-             gpu_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
-        if (ok) {
-            const double passes[PASSES] = { times.gbuffer, times.transfer, times.shade, times.tone,
-                                            times.total };
-            for (int p = 0; p < PASSES; p++)
-                samples[p][i] = passes[p];
-        }
-    }
-    free(rgb8);
-    for (int p = 0; p < PASSES && ok; p++)
-        medians[p] = timing_of(samples[p], j->options->repeat).median;
-    return ok;
-}
-
-/* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
-static bool compared(const job *j, method_kind method) {
-    if (method == (method_kind)j->options->method)
-        return true;
-    return j->options->compare && method_table[method].bands_max[j->shading] >= j->options->bands;
-}
-
-static bool add_timings(job *j, cJSON *stats, cli_error *error) {
-    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade", "tonemap", "total" };
-    cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
-    double medians[PASSES], shade[METHODS] = { 0 };
-    for (int m = 0; m < METHODS; m++) {
-        if (!compared(j, (method_kind)m))
-            continue;
-        if (!measure(j, (method_kind)m, medians, error))
-            return false;
-        cJSON *passes = cJSON_AddObjectToObject(timings, method_table[m].name);
-        for (int p = 0; p < PASSES; p++)
-            cJSON_AddNumberToObject(passes, names[p], medians[p]);
-        shade[m] = medians[SHADE];
-    }
-    for (int m = 0; m < METHODS; m++) {
-        const method_row *row = &method_table[m];
-        if (row->speedup && shade[m] > 0 && shade[row->compared] > 0)
-            cJSON_AddNumberToObject(stats, row->speedup, shade[row->compared] / shade[m]);
-    }
-    return true;
-}
-
-static bool print_stats(job *j, cli_error *error) {
-    const render_options *o = j->options;
-    cJSON *stats = cJSON_CreateObject();
-    cJSON_AddStringToObject(stats, "scene", j->world.origin);
-    cJSON_AddNumberToObject(stats, "triangles", (double)(j->world.index_count / 3));
-    cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
-    cJSON_AddNumberToObject(stats, "bands", o->bands);
-    cJSON_AddStringToObject(stats, "method", method_table[o->method].name);
-    cJSON_AddStringToObject(stats, "window", lmp_sh_window_name((lmp_window)o->window));
-    cJSON_AddNumberToObject(stats, "width", o->size[0]);
-    cJSON_AddNumberToObject(stats, "height", o->size[1]);
-    cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
-    cJSON_AddStringToObject(stats, "device", j->context.device);
-    cJSON_AddStringToObject(stats, "driver", j->context.driver);
-    cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
-    cJSON_AddNumberToObject(stats, "repeat", o->repeat);
-    cJSON_AddStringToObject(stats, "shading", device_table[j->shading].name);
-    if (j->lobes)
-        cJSON_AddNumberToObject(stats, "preintegrated_bytes",
-                                (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
-    if (!add_timings(j, stats, error)) {
-        cJSON_Delete(stats);
-        return false;
-    }
-    char *text = file_json_text(stats, true, NULL, error);
-    if (text)
-        puts(text);
-    free(text);
-    return text != NULL;
-}
-
 /* --- the command --------------------------------------------------------------------------------
  */
 
 /* Chooses where to shade, and has the lobes ready that a preintegrated method reads. */
-static bool settle_shading(job *j, cli_error *error) {
+static bool settle_shading(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     const method_kind method = (method_kind)o->method;
     const unsigned needs = o->materials.count > 0 && environment_shines(&j->around)
@@ -261,11 +136,19 @@ static bool settle_shading(job *j, cli_error *error) {
     return ok;
 }
 
+static bool cast_shadows(render_job *j, cli_error *error) {
+    if (!j->options->shadow.on || j->options->shadow.off)
+        return true;
+    j->shadow = shadow_create(&j->world, &j->around, &j->options->shadow.settings, error);
+    j->frame.shadow = (gpu_host_pass) { shadow_frame, j->shadow };
+    return j->shadow != NULL;
+}
+
 static int default_samples(const render_options *o) {
     return image_format_of(o->output) == IMAGE_EXR ? 1 : 8;
 }
 
-static bool open_job(const char *name, job *j, cli_error *error) {
+static bool open_job(const char *name, render_job *j, cli_error *error) {
     const render_options *o = j->options;
     char path[PATH_SIZE];
     name_frame(o, 0, path);
@@ -293,16 +176,17 @@ static bool open_job(const char *name, job *j, cli_error *error) {
     memcpy(j->frame.background, o->background, sizeof j->frame.background);
     if (j->renderer && !j->moved)
         return cli_fail(error, NULL, "out of memory");
-    return j->renderer &&
+    return j->renderer && cast_shadows(j, error) &&
            override_prepare(&o->materials, &j->world, &j->frame, j->renderer, &j->materials, error);
 }
 
-static void close_job(job *j) {
+static void close_job(render_job *j) {
     gpu_renderer_destroy(j->renderer);
     override_free(&j->materials);
     gpu_context_destroy(&j->context);
     environment_free(&j->around);
     scene_free(&j->world);
+    shadow_destroy(j->shadow);
     lmp_preintegrated_lobe_destroy(j->lobes);
     free(j->moved);
     animation_close(j->path);
@@ -337,9 +221,9 @@ static int check_options(const cli_command *command, const render_options *o, in
 
 static int render(const render_options *o, const char *name) {
     cli_error error = { "" };
-    job all = { .options = o };
+    render_job all = { .options = o };
     const bool ok = open_job(name, &all, &error) && render_frames(&all, &error) &&
-                    (!(o->stats || o->compare) || print_stats(&all, &error));
+                    (!(o->stats || o->compare) || render_print_stats(&all, &error));
     close_job(&all);
     return ok ? CLI_OK : cli_report(&error);
 }
@@ -366,6 +250,7 @@ static const render_options defaults = { .size = { 1280, 720 },
                                          .bands = LMP_SHADE_BANDS_DEFAULT,
                                          .window = LMP_WINDOW_HANNING,
                                          .environment = ENVIRONMENT_DEFAULTS,
+                                         .shadow = SHADOW_DEFAULTS,
                                          .pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
                                          .repeat = 5,
@@ -395,8 +280,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "--max-pixels none of these; without SCENE its scene",
           0, 0, NULL, NULL },
         { "max-pixels", 0, CLI_INT, &o.pixels_max, "N",
-          "refuse a screenshot of more, which takes 85 bytes a pixel", 1, IMAGE_PIXELS_MAX, NULL,
-          NULL },
+          "refuse one of more, which takes 85 bytes a pixel", 1, IMAGE_PIXELS_MAX, NULL, NULL },
         { "background", 0, CLI_VEC3, o.background, "R,G,B",
           "radiance of the background, where no surface is", 0, 1e30, NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",
@@ -413,10 +297,11 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "samples", 0, CLI_INT, &o.samples, "N",
           "samples a pixel; without it 8, of a .exr the one in its middle, as reference has it", 1,
           SAMPLES_MAX, NULL, &o.samples_given },
+        SHADOW_OPTION_ROWS(o.shadow),
         { "stats", 0, CLI_FLAG, &o.stats, NULL,
           "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },
-        { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1, REPEAT_MAX,
-          NULL, NULL },
+        { "repeat", 0, CLI_INT, &o.repeat, "N", "frames whose median --stats takes", 1,
+          RENDER_REPEAT_MAX, NULL, NULL },
         { "compare-methods", 0, CLI_FLAG, &o.compare, NULL, "--stats times all", 0, 0, NULL, NULL },
         { "gl-device", 0, CLI_TEXT, &o.device, "DEVICE", "a number, part of a name, or software", 0,
           0, NULL, NULL },

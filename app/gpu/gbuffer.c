@@ -207,6 +207,10 @@ static lmp_material material_of(const gpu_gbuffer *g, size_t pixel) {
     return material;
 }
 
+int gpu_gbuffer_sample(const gpu_gbuffer *g) {
+    return g->sample;
+}
+
 void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
     const size_t first = (size_t)y * (size_t)g->width;
     decode_points(g, y, row);

@@ -46,6 +46,13 @@ typedef struct gpu_gbuffer gpu_gbuffer;
 typedef bool (*gpu_host_shader)(const struct gpu_frame *frame, const gpu_gbuffer *gbuffer,
                                 float *rgba, cli_error *error);
 
+/* Changes rgba on the host, whichever device has shaded it. */
+typedef struct gpu_host_pass {
+    bool (*run)(void *user, const struct gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                cli_error *error);
+    void *user;
+} gpu_host_pass;
+
 /* What to draw. */
 typedef struct gpu_frame {
     int width, height;
@@ -60,6 +67,7 @@ typedef struct gpu_frame {
     int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
     const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
     gpu_host_shader host;                /* instead of the compute pass, or NULL */
+    gpu_host_pass shadow;                /* after shading; zero: none */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
     float samples_exposure; /* the mean suits an image of this exposure; 0: the plain mean */
 } gpu_frame;
@@ -70,7 +78,8 @@ size_t gpu_zonal_bytes(int bands);
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
 typedef struct gpu_times {
     double gbuffer, shade, tone, total;
-    double transfer; /* pixels to a host shader and back, part of the total */
+    double transfer; /* pixels to the host and back, part of the total */
+    double shadow;   /* gpu_frame.shadow */
 } gpu_times;
 
 typedef struct gpu_renderer gpu_renderer;
@@ -193,6 +202,9 @@ void gpu_row_free(gpu_row *row);
 
 /* From any thread, each with a row of its own. */
 void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
+
+/* Which of the frame's samples it is, from 0. */
+int gpu_gbuffer_sample(const gpu_gbuffer *gbuffer);
 
 /* The environment that shines on its surfaces; NULL: none. */
 const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer);

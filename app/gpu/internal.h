@@ -140,7 +140,7 @@ typedef struct gpu_base16 {
 
 /* The attachments as they are stored (shared.h), and what decoding them needs. */
 struct gpu_gbuffer {
-    int width, height;
+    int width, height, sample;
     float *depth;
     gpu_base16 *base_metallic;
     gpu_pair16 *normal, *roughness_kind;

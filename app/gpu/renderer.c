@@ -110,19 +110,30 @@ void gpu_renderer_destroy(gpu_renderer *r) {
 
 /* The G-buffer goes to the host and comes back as radiance. */
 static bool shade_host(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block,
-                       gpu_times *times, cli_error *error) {
+                       int index, gpu_times *times, cli_error *error) {
+    float *rgba;
     const double start = 1e3 * timing_now();
     if (!gpu_gbuffer_read(r, block, frame, &r->gbuffer, error))
         return false;
+    r->gbuffer.sample = index;
+    rgba = &r->gbuffer.rgba[0][0];
+    if (!frame->host)
+        glGetTextureImage(r->hdr, 0, GL_RGBA, GL_FLOAT,
+                          (GLsizei)((size_t)r->width * (size_t)r->height * sizeof(vec4)), rgba);
     const double read = 1e3 * timing_now();
-    if (!frame->host(frame, &r->gbuffer, &r->gbuffer.rgba[0][0], error))
+    if (frame->host && !frame->host(frame, &r->gbuffer, rgba, error))
         return false;
     const double shaded = 1e3 * timing_now();
-    glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGBA, GL_FLOAT, r->gbuffer.rgba);
+    if (frame->shadow.run &&
+        !frame->shadow.run(frame->shadow.user, frame, &r->gbuffer, rgba, error))
+        return false;
+    const double shadowed = 1e3 * timing_now();
+    glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGBA, GL_FLOAT, rgba);
     if (times) {
         glFinish();
         times->shade += shaded - read;
-        times->transfer += read - start + 1e3 * timing_now() - shaded;
+        times->shadow += shadowed - shaded;
+        times->transfer += read - start + 1e3 * timing_now() - shadowed;
     }
     return true;
 }
@@ -146,7 +157,8 @@ static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GL
         times->gbuffer += gpu_marked(r, 1) - gpu_marked(r, 0);
         times->shade += frame->host ? 0 : gpu_marked(r, 2) - gpu_marked(r, 1);
     }
-    return !frame->host || shade_host(r, frame, &block, times, error);
+    return (!frame->host && !frame->shadow.run) ||
+           shade_host(r, frame, &block, index, times, error);
 }
 
 /* Samples `first` to `last` of a frame. */
@@ -174,7 +186,7 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
             gpu_resolve(r, frame, i, show);
     }
     if (times)
-        times->total = times->gbuffer + times->shade + times->transfer;
+        times->total = times->gbuffer + times->shade + times->shadow + times->transfer;
     return true;
 }
 

@@ -23,6 +23,7 @@ struct trace_bvh {
 /* Embree hands the context it was called with to the filter. */
 typedef struct trace_context {
     struct RTCIntersectContext embree;
+    const trace_bvh *bvh;
     trace_kind kind;
 } trace_context;
 
@@ -79,7 +80,7 @@ static bool cut_out(const trace_mesh *mesh, const trace_triangle *t, trace_kind 
 }
 
 /* Embree hands rays and hits over as rows of n values; C++ alone has names for them. */
-enum { ROW_DIRECTION = 4, ROW_NORMAL = 0, ROW_U = 3, ROW_V = 4, ROW_TRIANGLE = 5 };
+enum { ROW_DIRECTION = 4, ROW_NORMAL = 0, ROW_U = 3, ROW_V = 4, ROW_TRIANGLE = 5, ROW_MESH = 6 };
 
 static float value_at(const void *rows, unsigned row, unsigned n, unsigned lane) {
     return ((const float *)rows)[row * n + lane];
@@ -98,11 +99,9 @@ static bool shows_back(const struct RTCFilterFunctionNArguments *a, unsigned lan
     return facing >= 0;
 }
 
-static void filter(const struct RTCFilterFunctionNArguments *a) {
+static void pass_cut_out(const struct RTCFilterFunctionNArguments *a) {
     const trace_context *context = (const trace_context *)(const void *)a->context;
     const trace_mesh *mesh = a->geometryUserPtr;
-    const bool one_sided =
-        context->kind == TRACE_CAMERA && !(mesh->material->flags & SCENE_DOUBLE_SIDED);
     for (unsigned i = 0; i < a->N; i++) {
         if (!a->valid[i])
             continue;
@@ -110,7 +109,19 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
         set_corners(mesh->scene, mesh->mesh, number_at(a->hit, ROW_TRIANGLE, a->N, i),
                     value_at(a->hit, ROW_U, a->N, i), value_at(a->hit, ROW_V, a->N, i), t.corners,
                     t.weights);
-        if ((one_sided && shows_back(a, i)) || cut_out(mesh, &t, context->kind))
+        if (cut_out(mesh, &t, context->kind))
+            a->valid[i] = 0;
+    }
+}
+
+static void pass_backs(const struct RTCFilterFunctionNArguments *a) {
+    const trace_context *context = (const trace_context *)(const void *)a->context;
+    for (unsigned i = 0; i < a->N; i++) {
+        if (!a->valid[i])
+            continue;
+        const uint32_t mesh = number_at(a->hit, ROW_MESH, a->N, i);
+        const uint32_t flags = context->bvh->meshes[mesh].material->flags;
+        if (!(flags & SCENE_DOUBLE_SIDED) && shows_back(a, i))
             a->valid[i] = 0;
     }
 }
@@ -130,9 +141,8 @@ static bool add_mesh(trace_bvh *bvh, const scene *world, size_t number) {
                                mesh->mesh->first_index * sizeof *world->indices,
                                3 * sizeof *world->indices, mesh->mesh->index_count / 3);
     rtcSetGeometryUserData(geometry, mesh);
-    rtcSetGeometryIntersectFilterFunction(geometry, filter);
     if (may_be_cut(mesh->material, TRACE_LIGHT))
-        rtcSetGeometryOccludedFilterFunction(geometry, filter);
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_cut_out);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(bvh->rays, geometry, (unsigned)number);
     rtcReleaseGeometry(geometry);
@@ -144,7 +154,7 @@ static bool build(trace_bvh *bvh, const scene *world) {
     bvh->device = rtcNewDevice(NULL);
     if (!bvh->meshes || !bvh->device || !(bvh->rays = rtcNewScene(bvh->device)))
         return false;
-    rtcSetSceneFlags(bvh->rays, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(bvh->rays, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     for (size_t i = 0; i < world->mesh_count; i++)
         if (!add_mesh(bvh, world, i))
             return false;
@@ -174,9 +184,19 @@ void trace_destroy(trace_bvh *bvh) {
 /* --- rays ---------------------------------------------------------------------------------------
  */
 
+static void set_context(const trace_bvh *bvh, trace_kind kind, trace_context *context) {
+    rtcInitIntersectContext(&context->embree);
+    context->bvh = bvh;
+    context->kind = kind;
+    if (kind == TRACE_CAMERA) {
+        context->embree.filter = pass_backs;
+        context->embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    }
+}
+
 trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origin[3],
                         const float direction[3]) {
-    trace_context context = { .kind = kind };
+    trace_context context;
     struct RTCRayHit query = {
         .ray = { .org_x = origin[0],
                  .org_y = origin[1],
@@ -189,7 +209,7 @@ trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origi
                  .mask = ~0u },
         .hit = { .geomID = RTC_INVALID_GEOMETRY_ID },
     };
-    rtcInitIntersectContext(&context.embree);
+    set_context(bvh, kind, &context);
     rtcIntersect1(bvh->rays, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return (trace_hit) { .distance = INFINITY, .mesh = TRACE_NOTHING };
@@ -216,30 +236,17 @@ static void set_rays(const trace_rays *rays, struct RTCRay16 *packet, int valid[
 
 void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
                      trace_hit hits[TRACE_LANES]) {
-    trace_context context = { .kind = kind };
+    trace_context context;
     struct RTCRayHit16 query;
     _Alignas(64) int valid[TRACE_LANES];
     set_rays(rays, &query.ray, valid);
     for (int i = 0; i < TRACE_LANES; i++)
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    rtcInitIntersectContext(&context.embree);
-    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    set_context(bvh, kind, &context);
     rtcIntersect16(valid, bvh->rays, &context.embree, &query);
     for (int i = 0; i < TRACE_LANES; i++)
         hits[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                       ? (trace_hit) { .distance = INFINITY, .mesh = TRACE_NOTHING }
                       : (trace_hit) { query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i],
                                       query.hit.u[i], query.hit.v[i] };
-}
-
-void trace_hidden_n(const trace_bvh *bvh, const trace_rays *rays,
-                    unsigned char hidden[TRACE_LANES]) {
-    trace_context context = { .kind = TRACE_LIGHT };
-    struct RTCRay16 packet;
-    _Alignas(64) int valid[TRACE_LANES];
-    set_rays(rays, &packet, valid);
-    rtcInitIntersectContext(&context.embree);
-    rtcOccluded16(valid, bvh->rays, &context.embree, &packet);
-    for (int i = 0; i < TRACE_LANES; i++)
-        hidden[i] = valid[i] && packet.tfar[i] < 0;
 }

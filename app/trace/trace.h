@@ -43,12 +43,8 @@ void trace_corners(const scene *scene, const trace_hit *hit, const scene_vertex 
 trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origin[3],
                         const float direction[3]);
 
-/* The same of rays beside each other. */
+/* The same of rays beside each other, up to their lengths. */
 void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
                      trace_hit hits[TRACE_LANES]);
-
-/* Which rays of light a triangle stops within their length: 1, or 0. */
-void trace_hidden_n(const trace_bvh *bvh, const trace_rays *rays,
-                    unsigned char hidden[TRACE_LANES]);
 
 #endif

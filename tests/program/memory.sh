@@ -67,3 +67,4 @@ sweep project --light 0,3,0 --radius 0.5 --bands 4
 sweep project --batch lights.csv --bands 3
 sweep reference scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --spp 1 --threads 1 -o image.exr
 sweep render scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --bands 3 --stats --repeat 1 -o image.png
+sweep render scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --bands 3 --shadows -o image.png

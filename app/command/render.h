@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* render.h - what `lampion render` is told and holds while it draws, and what its --stats prints.
+ */
+#ifndef LAMPION_COMMAND_RENDER_H
+#define LAMPION_COMMAND_RENDER_H
+
+#include "app/animation/animation.h"
+#include "app/environment/environment.h"
+#include "app/override/override.h"
+#include "app/shadow/shadow.h"
+
+#define RENDER_REPEAT_MAX 1000
+
+/* Everything the command line says. */
+typedef struct render_options {
+    const char *output, *device, *animate, *from;
+    int size[2], bands, method, window, tone, device_kind, repeat, samples, pixels_max;
+    int frames[2], shard[2]; /* first and last; part and number of parts */
+    float exposure, stops, fps, background[3];
+    bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;
+    shadow_options shadow;
+    environment_options environment;
+    scene_camera_options camera;
+    scene_lights_options lights;
+    cli_list materials;
+    scene_options load;
+} render_options;
+
+/* Everything that is open while rendering. */
+typedef struct render_job {
+    const render_options *options;
+    scene world;
+    environment around;
+    gpu_context context;
+    gpu_renderer *renderer;
+    gpu_frame frame;
+    device_kind shading;
+    lmp_preintegrated_lobe *lobes; /* of methods that read them */
+    shadow *shadow;                /* with --shadows */
+    animation *path;               /* of the lights */
+    scene_light *moved;
+    override_set materials;
+    image_display display;
+} render_job;
+
+/* Measures the frame again and prints what was drawn, as JSON. */
+bool render_print_stats(render_job *job, cli_error *error);
+
+#endif

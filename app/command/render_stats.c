@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/command/render.h"
+#include "app/file/file.h"
+#include "app/timing/timing.h"
+
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { SHADE = 2, PASSES = 6 };
+
+/* The median of each pass over the repetitions of one method, after a frame that warms it up. */
+static bool measure(render_job *j, method_kind method, double medians[PASSES], cli_error *error) {
+    static double samples[PASSES][RENDER_REPEAT_MAX];
+    gpu_frame frame = j->frame;
+    frame.method = method;
+    frame.samples = 1;
+    unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
+    bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
+    ok = ok && gpu_render(j->renderer, &frame, NULL, error);
+    for (int i = 0; i < j->options->repeat && ok; i++) {
+        gpu_times times;
+        ok = gpu_render(j->renderer, &frame, &times, error) &&
+             gpu_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
+        if (ok) {
+            const double passes[PASSES] = { times.gbuffer, times.transfer, times.shade,
+                                            times.shadow,  times.tone,     times.total };
+            for (int p = 0; p < PASSES; p++)
+                samples[p][i] = passes[p];
+        }
+    }
+    free(rgb8);
+    for (int p = 0; p < PASSES && ok; p++)
+        medians[p] = timing_of(samples[p], j->options->repeat).median;
+    return ok;
+}
+
+/* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
+static bool compared(const render_job *j, method_kind method) {
+    if (method == (method_kind)j->options->method)
+        return true;
+    return j->options->compare && method_table[method].bands_max[j->shading] >= j->options->bands;
+}
+
+static bool add_timings(render_job *j, cJSON *stats, cli_error *error) {
+    static const char *const names[PASSES] = { "gbuffer", "transfer", "shade",
+                                               "shadow",  "tonemap",  "total" };
+    cJSON *timings = cJSON_AddObjectToObject(stats, "milliseconds");
+    double medians[PASSES], shade[METHODS] = { 0 };
+    for (int m = 0; m < METHODS; m++) {
+        if (!compared(j, (method_kind)m))
+            continue;
+        if (!measure(j, (method_kind)m, medians, error))
+            return false;
+        cJSON *passes = cJSON_AddObjectToObject(timings, method_table[m].name);
+        for (int p = 0; p < PASSES; p++)
+            cJSON_AddNumberToObject(passes, names[p], medians[p]);
+        shade[m] = medians[SHADE];
+    }
+    for (int m = 0; m < METHODS; m++) {
+        const method_row *row = &method_table[m];
+        if (row->speedup && shade[m] > 0 && shade[row->compared] > 0)
+            cJSON_AddNumberToObject(stats, row->speedup, shade[row->compared] / shade[m]);
+    }
+    return true;
+}
+
+/* Of the last frame that was timed. */
+static void add_shadows(const render_job *j, cJSON *stats) {
+    const shadow_statistics s = shadow_describe(j->shadow);
+    cJSON *shadows = cJSON_AddObjectToObject(stats, "shadows");
+    cJSON_AddNumberToObject(shadows, "rays_a_pixel", j->options->shadow.settings.rays);
+    cJSON_AddNumberToObject(shadows, "rays", (double)s.rays);
+    cJSON_AddNumberToObject(shadows, "rays_a_second", 1e3 * (double)s.rays / s.rays_milliseconds);
+    cJSON_AddNumberToObject(shadows, "rays_milliseconds", s.rays_milliseconds);
+    cJSON_AddNumberToObject(shadows, "filter_milliseconds", s.filter_milliseconds);
+}
+
+bool render_print_stats(render_job *j, cli_error *error) {
+    const render_options *o = j->options;
+    cJSON *stats = cJSON_CreateObject();
+    cJSON_AddStringToObject(stats, "scene", j->world.origin);
+    cJSON_AddNumberToObject(stats, "triangles", (double)(j->world.index_count / 3));
+    cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
+    cJSON_AddNumberToObject(stats, "bands", o->bands);
+    cJSON_AddStringToObject(stats, "method", method_table[o->method].name);
+    cJSON_AddStringToObject(stats, "window", lmp_sh_window_name((lmp_window)o->window));
+    cJSON_AddNumberToObject(stats, "width", o->size[0]);
+    cJSON_AddNumberToObject(stats, "height", o->size[1]);
+    cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
+    cJSON_AddStringToObject(stats, "device", j->context.device);
+    cJSON_AddStringToObject(stats, "driver", j->context.driver);
+    cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
+    cJSON_AddNumberToObject(stats, "repeat", o->repeat);
+    cJSON_AddStringToObject(stats, "shading", device_table[j->shading].name);
+    if (j->lobes)
+        cJSON_AddNumberToObject(stats, "preintegrated_bytes",
+                                (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
+    if (!add_timings(j, stats, error)) {
+        cJSON_Delete(stats);
+        return false;
+    }
+    if (j->shadow)
+        add_shadows(j, stats);
+    char *text = file_json_text(stats, true, NULL, error);
+    if (text)
+        puts(text);
+    free(text);
+    return text != NULL;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT */
+/* planes.h - what is known of an image's pixels before the shadow is: planes of floats. */
+#ifndef LAMPION_SHADOW_PLANES_H
+#define LAMPION_SHADOW_PLANES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Light that would arrive and be reflected, and of it what is not hidden; what is hidden, and that
+ * times the width of its penumbra. Sums over rays, whose scale does not matter. */
+enum {
+    SHADOW_UNHIDDEN, /* red, green, blue: the numerator */
+    SHADOW_ALL = 3,  /* the denominator */
+    SHADOW_HIDDEN = 6,
+    SHADOW_HIDDEN_WIDTH = 7,
+    SHADOW_VALUES
+};
+
+typedef struct shadow_planes {
+    int width, height;
+    float *memory;
+    float *position[3], *normal[3]; /* the normal is 0 where there is no surface */
+    float *footprint;               /* the width of a pixel there */
+    float *values[SHADOW_VALUES];
+    float *scratch[SHADOW_VALUES]; /* of the filter */
+} shadow_planes;
+
+/* Of another size, in place of what was there. False without memory. */
+bool shadow_planes_resize(shadow_planes *planes, int width, int height);
+void shadow_planes_free(shadow_planes *planes);
+
+/* Mixes the values of neighbors on one surface, as far as a part of the width of penumbras. False
+ * without memory. */
+bool shadow_filter(shadow_planes *planes, float reach);
+
+#endif

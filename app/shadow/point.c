@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/shadow/point.h"
+
+#include "app/scene/vector.h"
+
+/* The triangle of a pixel is looked for this many lifts before and behind its position. */
+static const float near_lifts = 10;
+
+static lmp_vec3 lane_of(const shadow_vectors *v, int lane) {
+    return vec(v->of[0][lane], v->of[1][lane], v->of[2][lane]);
+}
+
+static void set_lane(shadow_vectors *v, int lane, lmp_vec3 value) {
+    v->of[0][lane] = value.x;
+    v->of[1][lane] = value.y;
+    v->of[2][lane] = value.z;
+}
+
+/* --- where rays start ---------------------------------------------------------------------------
+ */
+
+/* A smooth normal says that the surface bulges past its flat triangle: a ray that starts on the
+ * triangle would meet its neighbors. So it starts on the surface that the corners' tangent planes
+ * make (Hanika 2021), and, against rounding, a little off the triangle. */
+static void leave_triangle(const shadow_view *view, const trace_hit *hit, int lane,
+                           shadow_points *p) {
+    const scene_vertex *corners[3];
+    double weights[3];
+    lmp_vec3 at = { 0, 0, 0 }, smooth = { 0, 0, 0 }, bulge = { 0, 0, 0 };
+    trace_corners(view->scene, hit, corners, weights);
+    const lmp_vec3 a = vec_load(corners[0]->position);
+    const lmp_vec3 face = vec_normalize(vec_cross(vec_sub(vec_load(corners[1]->position), a),
+                                                  vec_sub(vec_load(corners[2]->position), a)),
+                                        vec(0, 1, 0));
+    const float side = vec_dot(face, lane_of(&p->view, lane)) < 0 ? -1.0f : 1.0f;
+    for (int i = 0; i < 3; i++) {
+        at = vec_add(at, vec_scale(vec_load(corners[i]->position), (float)weights[i]));
+        smooth = vec_add(smooth, vec_scale(vec_load(corners[i]->normal), (float)weights[i] * side));
+    }
+    for (int i = 0; i < 3; i++) {
+        const lmp_vec3 normal = vec_scale(vec_load(corners[i]->normal), side);
+        const float below = vec_dot(vec_sub(at, vec_load(corners[i]->position)), normal);
+        if (below < 0)
+            bulge = vec_sub(bulge, vec_scale(normal, (float)weights[i] * below));
+    }
+    set_lane(&p->smooth, lane, vec_normalize(smooth, vec_scale(face, side)));
+    set_lane(&p->origin, lane, vec_add(vec_add(at, bulge), vec_scale(face, side * view->lift)));
+}
+
+/* Where rounding hides the triangle from the ray, what the pixel knows serves. */
+static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
+    const lmp_vec3 normal = lane_of(&p->normal, lane);
+    set_lane(&p->smooth, lane, normal);
+    set_lane(&p->origin, lane,
+             vec_add(lane_of(&p->position, lane), vec_scale(normal, near_lifts * view->lift)));
+}
+
+static void find_origins(const shadow_view *view, shadow_points *p) {
+    const float before = near_lifts * view->lift;
+    trace_rays rays;
+    trace_hit hits[SHADOW_LANES];
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        rays.length[i] = p->lit[i] ? 2 * before : -1;
+        for (int c = 0; c < 3; c++) {
+            rays.origin[c][i] = p->position.of[c][i] + before * p->view.of[c][i];
+            rays.direction[c][i] = -p->view.of[c][i];
+        }
+    }
+    trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        if (p->lit[i] && hits[i].mesh != TRACE_NOTHING)
+            leave_triangle(view, &hits[i], i, p);
+        else if (p->lit[i])
+            leave_pixel(view, i, p);
+    }
+}
+
+/* --- what they reflect --------------------------------------------------------------------------
+ */
+
+/* n bands show a lobe as wide as one of GGX of this alpha², at least. */
+static float resolved(const lmp_shade_settings *settings) {
+    const float width = settings->window == LMP_WINDOW_NONE ? 1.5f : 2.4f;
+    const float alpha = width / (float)settings->bands;
+    return alpha * alpha;
+}
+
+static const lmp_dielectric plain = { true, { 0.04f, 0.04f, 0.04f }, 1 };
+
+static void set_material(const lmp_material *m, float least, int i, shadow_points *p) {
+    const lmp_dielectric *given = m->dielectric.given ? &m->dielectric : &plain;
+    const float dielectric[3] = { given->f0.r, given->f0.g, given->f0.b };
+    const float base[3] = { m->base_color.r, m->base_color.g, m->base_color.b };
+    float diffuse = 0, specular = 0;
+    if (m->kind != LMP_MATERIAL_METALLIC_ROUGHNESS) {
+        p->albedo[i] = p->shine[i] = 0.5f;
+        p->alpha2[i] = least;
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        p->diffuse.of[c][i] = base[c] * (1 - m->metallic);
+        p->f0.of[c][i] = dielectric[c] + (base[c] - dielectric[c]) * m->metallic;
+        diffuse += p->diffuse.of[c][i] / 3;
+        specular += p->f0.of[c][i] / 3;
+    }
+    p->f90[i] = given->f90 + (1 - given->f90) * m->metallic;
+    p->albedo[i] = diffuse;
+    p->shine[i] = specular;
+    p->alpha2[i] = m->roughness * m->roughness * m->roughness * m->roughness + least;
+}
+
+void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, int width,
+                       shadow_points *p) {
+    const float least = resolved(&view->settings);
+    p->material = row->material + first;
+    p->settings = &view->settings;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const int x = first + i < width ? first + i : width - 1;
+        p->lit[i] = first + i < width && row->kind[x] == GPU_KIND_SURFACE;
+        float along = 0;
+        for (int c = 0; c < 3; c++) {
+            p->position.of[c][i] = row->position[c][x];
+            p->normal.of[c][i] = row->normal[c][x];
+            p->view.of[c][i] = row->view[c][x];
+            along += row->normal[c][x] * row->view[c][x];
+        }
+        for (int c = 0; c < 3; c++)
+            p->mirror.of[c][i] = 2 * along * p->normal.of[c][i] - p->view.of[c][i];
+        p->ambient[i] = row->ambient[x];
+        set_material(&row->material[x], least, i, p);
+    }
+    find_origins(view, p);
+}
+
+static lmp_rgb reflect_series(const shadow_points *p, int lane, lmp_vec3 w) {
+    const lmp_light light = { .kind = LMP_LIGHT_DIRECTIONAL,
+                              .direction = w,
+                              .irradiance = { 1, 1, 1 } };
+    const lmp_surface surface = { .position = lane_of(&p->position, lane),
+                                  .normal = lane_of(&p->normal, lane),
+                                  .view = lane_of(&p->view, lane) };
+    return lmp_shade(p->settings, &p->material[lane], &surface, &light, 1);
+}
+
+lmp_rgb shadow_reflect(const shadow_points *p, int lane, lmp_vec3 w) {
+    if (p->material[lane].kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
+        return reflect_series(p, lane, w);
+    const lmp_vec3 n = lane_of(&p->normal, lane), v = lane_of(&p->view, lane);
+    const float in = vec_dot(n, w), out = fmaxf(vec_dot(n, v), 1e-3f), a2 = p->alpha2[lane];
+    if (!(in > 0))
+        return (lmp_rgb) { 0, 0, 0 };
+    const lmp_vec3 h = vec_normalize(vec_add(v, w), n);
+    const float nh = vec_dot(n, h), across = 1 - fminf(fabsf(vec_dot(v, h)), 1);
+    const float peak = nh * nh * (a2 - 1) + 1;
+    const float masking =
+        in * sqrtf(out * out * (1 - a2) + a2) + out * sqrtf(in * in * (1 - a2) + a2);
+    const float specular = in * a2 / (2 * PI * peak * peak * masking);
+    const float square = across * across, grazing = square * square * across;
+    float k[3];
+    for (int c = 0; c < 3; c++) {
+        const float f0 = p->f0.of[c][lane];
+        k[c] = p->diffuse.of[c][lane] / PI * in + specular * (f0 + (p->f90[lane] - f0) * grazing);
+    }
+    return rgb_load(k);
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT */
+/* point.h - what the rays of some neighboring pixels leave from: surface points beside each other.
+ */
+#ifndef LAMPION_SHADOW_POINT_H
+#define LAMPION_SHADOW_POINT_H
+
+#include "app/gpu/gpu.h"
+#include "app/trace/trace.h"
+
+enum { SHADOW_LANES = TRACE_LANES };
+
+typedef float shadow_lanes[SHADOW_LANES];
+typedef struct shadow_vectors {
+    shadow_lanes of[3];
+} shadow_vectors;
+
+typedef struct shadow_points {
+    bool lit[SHADOW_LANES]; /* a surface; the rest means nothing elsewhere */
+    shadow_vectors position, normal, view, mirror;
+    shadow_vectors origin; /* of rays */
+    shadow_vectors smooth; /* the normal without its map */
+    /* Metallic-roughness, and how much of diffuse and specular light any material reflects. */
+    shadow_vectors diffuse, f0;
+    shadow_lanes f90, alpha2, albedo, shine;
+    shadow_lanes ambient;         /* how much of the environment comes: the occlusion map */
+    const lmp_material *material; /* of each point */
+    const lmp_shade_settings *settings;
+} shadow_points;
+
+/* What points are found by. */
+typedef struct shadow_view {
+    const scene *scene;
+    const trace_bvh *bvh;
+    float lift; /* of rays off their surface */
+    lmp_shade_settings settings;
+} shadow_view;
+
+/* The points of the row's pixels from `first` on, at most SHADOW_LANES and up to `width`. */
+void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, int width,
+                       shadow_points *points);
+
+/* f_r cos(theta) of light from the unit direction w at one of the points, never negative: glTF's
+ * own, but no sharper than the bands resolve; of tables, the series. */
+lmp_rgb shadow_reflect(const shadow_points *points, int lane, lmp_vec3 w);
+
+#endif

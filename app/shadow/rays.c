@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/shadow/rays.h"
+
+#include "app/scene/vector.h"
+#include "app/shadow/sequence.h"
+
+/* One ray a lane, and what it stands for. */
+typedef struct ray_shot {
+    trace_rays rays;
+    shadow_lanes size; /* of the light, as in shadow_sample */
+    lmp_rgb value[SHADOW_LANES];
+} ray_shot;
+
+/* Of the values of planes.h. */
+typedef struct shadow_sums {
+    shadow_lanes of[SHADOW_VALUES];
+} shadow_sums;
+
+static float mean_of(lmp_rgb rgb) {
+    return (rgb.r + rgb.g + rgb.b) / 3;
+}
+
+/* The sources' weights, each with those before it, from lane to lane. */
+static void accumulate_weights(const shadow_job *job, const shadow_points *points, float *weights) {
+    shadow_lanes sum = { 0 }, weight;
+    for (size_t s = 0; s < job->source_count; s++) {
+        shadow_source_weigh(&job->sources[s], points, weight);
+        for (int i = 0; i < SHADOW_LANES; i++) {
+            sum[i] += weight[i] > 0 ? weight[i] : 0;
+            weights[s * SHADOW_LANES + (size_t)i] = sum[i];
+        }
+    }
+}
+
+/* The sources that numbers in 0 … 1 fall on. */
+static void choose(const shadow_job *job, const float *weights, const float *u, int *chosen) {
+    const float *total = weights + (job->source_count - 1) * SHADOW_LANES;
+    for (int i = 0; i < SHADOW_LANES; i++)
+        chosen[i] = 0;
+    for (const float *sum = weights; sum < total; sum += SHADOW_LANES)
+        for (int i = 0; i < SHADOW_LANES; i++)
+            chosen[i] += sum[i] <= u[i] * total[i];
+}
+
+static void aim(const shadow_job *job, const shadow_points *p, const float *weights, int source,
+                const float u[3], int i, ray_shot *shot) {
+    const float total = weights[(job->source_count - 1) * SHADOW_LANES + (size_t)i];
+    const float *sum = weights + source * SHADOW_LANES + i;
+    const float weight = source > 0 ? sum[0] - sum[-SHADOW_LANES] : sum[0];
+    shot->rays.length[i] = -1;
+    shot->value[i] = (lmp_rgb) { 0, 0, 0 };
+    if (!p->lit[i] || !(weight > 0))
+        return;
+    const lmp_vec3 at = { p->position.of[0][i], p->position.of[1][i], p->position.of[2][i] };
+    const shadow_sample sample = shadow_source_draw(&job->sources[source], at, u[1], u[2]);
+    const lmp_rgb k = shadow_reflect(p, i, sample.direction);
+    const float heeded = job->sources[source].kind == SHADOW_AROUND ? p->ambient[i] : 1;
+    const float scale = heeded * total / weight;
+    const lmp_rgb value = { sample.arrives.r * k.r * scale, sample.arrives.g * k.g * scale,
+                            sample.arrives.b * k.b * scale };
+    if (!(mean_of(value) > 0) || !isfinite(mean_of(value)))
+        return;
+    shot->value[i] = value;
+    shot->size[i] = sample.size;
+    shot->rays.length[i] = sample.length;
+    for (int c = 0; c < 3; c++)
+        shot->rays.origin[c][i] = p->origin.of[c][i];
+    shot->rays.direction[0][i] = sample.direction.x;
+    shot->rays.direction[1][i] = sample.direction.y;
+    shot->rays.direction[2][i] = sample.direction.z;
+}
+
+/* Adds what the rays have found to the pixels' sums. */
+static size_t add_shot(const ray_shot *shot, const trace_hit hits[SHADOW_LANES],
+                       shadow_sums *sums) {
+    size_t count = 0;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_rgb value = shot->value[i];
+        const float length = shot->rays.length[i], distance = hits[i].distance;
+        if (length < 0)
+            continue;
+        count++;
+        const bool hidden = hits[i].mesh != TRACE_NOTHING && distance < length;
+        const float rgb[3] = { value.r, value.g, value.b };
+        for (int c = 0; c < 3; c++) {
+            sums->of[SHADOW_ALL + c][i] += rgb[c];
+            sums->of[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : rgb[c];
+        }
+        if (!hidden)
+            continue;
+        const float beyond = isfinite(length) ? length / (length - distance) : 1;
+        const float penumbra = 2 * shot->size[i] * distance * fminf(beyond, 100);
+        sums->of[SHADOW_HIDDEN][i] += mean_of(value);
+        sums->of[SHADOW_HIDDEN_WIDTH][i] += mean_of(value) * penumbra;
+    }
+    return count;
+}
+
+static size_t send_rays(const shadow_job *job, const shadow_points *points, int x, int y,
+                        float *weights, shadow_sums *sums) {
+    shadow_sequence sequences[SHADOW_LANES];
+    size_t count = 0;
+    accumulate_weights(job, points, weights);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        sequences[i] =
+            shadow_sequence_of((uint32_t)(x + i), (uint32_t)y, (uint32_t)job->rays, job->seed);
+    for (int ray = 0; ray < job->rays; ray++) {
+        float u[SHADOW_LANES][3];
+        shadow_lanes first;
+        int chosen[SHADOW_LANES];
+        ray_shot shot;
+        trace_hit hits[SHADOW_LANES];
+        for (int i = 0; i < SHADOW_LANES; i++) {
+            shadow_draw(&sequences[i], (uint32_t)ray, u[i]);
+            first[i] = u[i][0];
+        }
+        choose(job, weights, first, chosen);
+        for (int i = 0; i < SHADOW_LANES; i++)
+            aim(job, points, weights, chosen[i], u[i], i, &shot);
+        trace_nearest_n(job->view.bvh, TRACE_LIGHT, &shot.rays, hits);
+        count += add_shot(&shot, hits, sums);
+    }
+    return count;
+}
+
+/* What is no surface is 0, and so without weight for the filter. */
+static void store(const shadow_job *job, const shadow_points *points, const shadow_sums *sums,
+                  size_t first, int count, shadow_planes *planes) {
+    const float *eye = job->camera->eye;
+    for (int i = 0; i < count; i++) {
+        const size_t pixel = first + (size_t)i;
+        const bool lit = points->lit[i];
+        float d2 = 0;
+        for (int c = 0; c < 3; c++) {
+            const float d = points->position.of[c][i] - eye[c];
+            d2 += d * d;
+            planes->position[c][pixel] = lit ? points->position.of[c][i] : 0;
+            planes->normal[c][pixel] = lit ? points->smooth.of[c][i] : 0;
+        }
+        planes->footprint[pixel] =
+            lit ? scene_camera_height(job->camera, sqrtf(d2)) / (float)planes->height : 1;
+        for (int k = 0; k < SHADOW_VALUES; k++)
+            planes->values[k][pixel] = lit ? sums->of[k][i] : 0;
+    }
+}
+
+size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, float *weights,
+                       shadow_planes *planes) {
+    const int width = planes->width;
+    size_t sent = 0;
+    for (int x = 0; x < width; x += SHADOW_LANES) {
+        const int count = width - x < SHADOW_LANES ? width - x : SHADOW_LANES;
+        shadow_sums sums = { { { 0 } } };
+        shadow_points points;
+        shadow_points_set(&job->view, row, x, width, &points);
+        if (job->source_count > 0)
+            sent += send_rays(job, &points, x, y, weights, &sums);
+        store(job, &points, &sums, (size_t)y * (size_t)width + (size_t)x, count, planes);
+    }
+    return sent;
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT */
+/* rays.h - the noisy planes of a frame: a few rays a pixel to lights that matter there. */
+#ifndef LAMPION_SHADOW_RAYS_H
+#define LAMPION_SHADOW_RAYS_H
+
+#include "app/shadow/planes.h"
+#include "app/shadow/source.h"
+
+typedef struct shadow_job {
+    shadow_view view;
+    const shadow_source *sources;
+    size_t source_count;
+    int rays; /* a pixel */
+    uint32_t seed;
+    const scene_camera *camera;
+} shadow_job;
+
+/* Fills row y of the planes; `weights` is memory for SHADOW_LANES floats a source. Returns how many
+ * rays toward lights were sent. */
+size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, float *weights,
+                       shadow_planes *planes);
+
+#endif

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: MIT */
+/* sequence.h - the random numbers of a pixel's rays. Pixels are numbered along a Morton curve and
+ * their rays go on where those of the pixel before end, in one sequence of low discrepancy: so the
+ * rays of every square of pixels, which a filter brings together, are as even as those of one pixel
+ * (Ahmed and Wonka 2020). Scrambled after Owen by Laine and Karras's hash (Burley 2020). */
+#ifndef LAMPION_SHADOW_SEQUENCE_H
+#define LAMPION_SHADOW_SEQUENCE_H
+
+#include <stdint.h>
+
+static inline uint32_t shadow_hash(uint32_t a, uint32_t b) {
+    uint32_t x = a * 0x9e3779b9u ^ b;
+    x = (x ^ x >> 16) * 0x21f0aaadu;
+    x = (x ^ x >> 15) * 0x735a2d97u;
+    return x ^ x >> 15;
+}
+
+static inline uint32_t shadow_reverse(uint32_t x) {
+    x = x >> 16 | x << 16;
+    x = (x & 0xff00ff00u) >> 8 | (x & 0x00ff00ffu) << 8;
+    x = (x & 0xf0f0f0f0u) >> 4 | (x & 0x0f0f0f0fu) << 4;
+    x = (x & 0xccccccccu) >> 2 | (x & 0x33333333u) << 2;
+    return (x & 0xaaaaaaaau) >> 1 | (x & 0x55555555u) << 1;
+}
+
+/* Every bit is flipped or not by a hash of those above it. */
+static inline uint32_t shadow_scramble(uint32_t x, uint32_t seed) {
+    x = shadow_reverse(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= seed >> 16 | 1;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return shadow_reverse(x);
+}
+
+static inline float shadow_unit(uint32_t x) {
+    return (float)(x >> 8) * 0x1p-24f;
+}
+
+/* The second dimension of Sobol's sequence; the first is the reversed index. */
+static inline uint32_t shadow_sobol(uint32_t index) {
+    uint32_t x = 0;
+    for (uint32_t column = 1u << 31; index; index >>= 1, column ^= column >> 1)
+        x ^= index & 1 ? column : 0;
+    return x;
+}
+
+static inline uint32_t shadow_spread(uint32_t x) {
+    x = (x | x << 8) & 0x00ff00ffu;
+    x = (x | x << 4) & 0x0f0f0f0fu;
+    x = (x | x << 2) & 0x33333333u;
+    return (x | x << 1) & 0x55555555u;
+}
+
+/* Where the rays of a pixel begin in the sequence, and which scrambling of it is theirs: one for
+ * each square of SHADOW_TILE pixels. */
+enum { SHADOW_TILE = 1024 };
+typedef struct shadow_sequence {
+    uint32_t first, seed;
+} shadow_sequence;
+
+static inline shadow_sequence shadow_sequence_of(uint32_t x, uint32_t y, uint32_t rays,
+                                                 uint32_t seed) {
+    const uint32_t morton = shadow_spread(x % SHADOW_TILE) | shadow_spread(y % SHADOW_TILE) << 1;
+    const uint32_t tile = shadow_hash(x / SHADOW_TILE, y / SHADOW_TILE);
+    return (shadow_sequence) { morton * rays, shadow_hash(seed, tile) };
+}
+
+/* Three numbers in 0 … 1 of ray number `ray`: which light, and where on it. */
+static inline void shadow_draw(const shadow_sequence *s, uint32_t ray, float u[3]) {
+    const uint32_t index = s->first + ray, seed = s->seed;
+    const uint32_t shuffled = shadow_scramble(index, shadow_hash(seed, 3));
+    u[0] = shadow_unit(shadow_scramble(shadow_reverse(shuffled), shadow_hash(seed, 0)));
+    u[1] = shadow_unit(shadow_scramble(shadow_reverse(index), shadow_hash(seed, 1)));
+    u[2] = shadow_unit(shadow_scramble(shadow_sobol(index), shadow_hash(seed, 2)));
+}
+
+#endif

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/shadow/shadow.h"
+
+#include "app/reference/environment.h"
+#include "app/scene/vector.h"
+#include "app/shadow/rays.h"
+#include "app/shadow/sequence.h"
+#include "app/timing/timing.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct shadow {
+    const scene *scene;
+    shadow_settings settings;
+    trace_bvh *bvh;
+    reference_environment around;
+    shadow_source *sources;
+    shadow_planes planes;
+    shadow_statistics statistics;
+};
+
+shadow *shadow_create(const scene *world, const environment *surroundings,
+                      const shadow_settings *settings, cli_error *error) {
+    shadow *s = calloc(1, sizeof *s);
+    if (s) {
+        s->scene = world;
+        s->settings = *settings;
+        s->sources = malloc(SHADOW_SOURCES(SCENE_LIGHTS_MAX) * sizeof *s->sources);
+        if (s->sources && reference_environment_create(surroundings, &s->around) &&
+            (s->bvh = trace_create(world)))
+            return s;
+    }
+    shadow_destroy(s);
+    cli_fail(error, world->origin, "out of memory for shadows (--no-shadows renders without them)");
+    return NULL;
+}
+
+void shadow_destroy(shadow *s) {
+    if (!s)
+        return;
+    trace_destroy(s->bvh);
+    reference_environment_free(&s->around);
+    shadow_planes_free(&s->planes);
+    free(s->sources);
+    free(s);
+}
+
+shadow_statistics shadow_describe(const shadow *s) {
+    return s->statistics;
+}
+
+static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *gbuffer) {
+    const bool shines = reference_environment_shines(&s->around);
+    shadow_job job = {
+        .view = { .scene = s->scene,
+                  .bvh = s->bvh,
+                  .lift = (float)trace_lift(s->scene),
+                  .settings = { .bands = frame->bands, .window = frame->window } },
+        .sources = s->sources,
+        .rays = s->settings.rays,
+        .seed = shadow_hash(s->settings.seed, (uint32_t)gpu_gbuffer_sample(gbuffer)),
+        .camera = &frame->camera,
+    };
+    job.source_count = shadow_sources_make(frame->lights, frame->light_count,
+                                           shines ? &s->around : NULL, s->sources);
+    return job;
+}
+
+static bool send_rays(shadow *s, const shadow_job *job, const gpu_gbuffer *gbuffer) {
+    size_t rays = 0;
+    bool ok = true;
+#pragma omp parallel reduction(&& : ok) reduction(+ : rays)
+    {
+        gpu_row row;
+        float *weights = malloc((job->source_count + 1) * sizeof(shadow_lanes));
+        const bool mine = gpu_row_create(s->planes.width, &row);
+        ok = mine && weights;
+#pragma omp for schedule(dynamic, 4)
+        for (int y = 0; y < s->planes.height; y++)
+            if (ok) {
+                gpu_gbuffer_row(gbuffer, y, &row);
+                rays += shadow_rays_row(job, &row, y, weights, &s->planes);
+            }
+        if (mine)
+            gpu_row_free(&row);
+        free(weights);
+    }
+    s->statistics.rays = rays;
+    return ok;
+}
+
+/* Where no light would arrive, nothing is hidden. */
+static float ratio_of(const shadow_planes *planes, int channel, size_t pixel) {
+    const float all = planes->values[SHADOW_ALL + channel][pixel];
+    const float unhidden = planes->values[SHADOW_UNHIDDEN + channel][pixel];
+    return all > 0 && unhidden < all ? unhidden / all : 1;
+}
+
+static bool apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
+    const size_t width = (size_t)s->planes.width;
+    bool ok = true;
+#pragma omp parallel reduction(&& : ok)
+    {
+        gpu_row row;
+        ok = gpu_row_create(s->planes.width, &row);
+        const bool mine = ok;
+#pragma omp for schedule(dynamic, 4)
+        for (int y = 0; y < s->planes.height; y++) {
+            if (mine)
+                gpu_gbuffer_row(gbuffer, y, &row);
+            for (size_t i = 0; mine && i < 3 * width; i++) {
+                const size_t x = i / 3, pixel = (size_t)y * width + x;
+                const int c = (int)(i % 3);
+                const float ratio = ratio_of(&s->planes, c, pixel);
+                const float emission = row.emission[c][x];
+                float *radiance = &rgba[4 * pixel + (size_t)c];
+                if (ratio < 1)
+                    *radiance = emission + (*radiance - emission) * ratio;
+            }
+        }
+        if (mine)
+            gpu_row_free(&row);
+    }
+    return ok;
+}
+
+/* A quarter of a penumbra for two rays, less for more: what many samples average needs no filter.
+ */
+static float reach_of(const shadow *s, const gpu_frame *frame) {
+    const int samples = frame->samples > 0 ? frame->samples : 1;
+    return 0.25f * sqrtf(2 / (float)(s->settings.rays * samples));
+}
+
+bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                  cli_error *error) {
+    shadow *s = user;
+    const double start = timing_now();
+    const shadow_job job = job_of(s, frame, gbuffer);
+    bool ok = shadow_planes_resize(&s->planes, frame->width, frame->height) &&
+              send_rays(s, &job, gbuffer);
+    const double sent = timing_now();
+    if (!s->settings.raw)
+        ok = ok && shadow_filter(&s->planes, reach_of(s, frame));
+    ok = ok && apply(s, gbuffer, rgba);
+    s->statistics.rays_milliseconds = 1e3 * (sent - start);
+    s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
+    return ok || cli_fail(error, NULL,
+                          "out of memory for shadows (--no-shadows renders without "
+                          "them)");
+}

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/shadow/source.h"
+
+#include "app/scene/vector.h"
+
+/* --- the sources --------------------------------------------------------------------------------
+ */
+
+static shadow_source source_of(shadow_kind kind, const lmp_light *light, lmp_rgb color) {
+    return (shadow_source) { .kind = kind,
+                             .light = light,
+                             .color = color,
+                             .brightness = (color.r + color.g + color.b) / 3 };
+}
+
+static shadow_source far_source(const lmp_light *light, lmp_vec3 axis, float one_minus_cos,
+                                lmp_rgb color) {
+    shadow_source source = source_of(SHADOW_FAR, light, color);
+    source.axis = axis;
+    source.one_minus_cos = one_minus_cos;
+    return source;
+}
+
+static size_t add_light(const lmp_light *light, shadow_source *sources) {
+    const float half = sinf(light->angle / 2);
+    switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+        sources[0] = source_of(SHADOW_SPHERE, light, light->radiance);
+        return 1;
+    case LMP_LIGHT_POINT:
+    case LMP_LIGHT_SPOT:
+        sources[0] = source_of(SHADOW_POINT, light, light->intensity);
+        return 1;
+    case LMP_LIGHT_DIRECTIONAL:
+        sources[0] = far_source(light, light->direction, 0, light->irradiance);
+        return 1;
+    case LMP_LIGHT_CAP:
+        sources[0] = far_source(light, light->direction, 2 * half * half, light->radiance);
+        return 1;
+    case LMP_LIGHT_HEMISPHERE:
+        sources[0] = far_source(light, light->direction, 1, light->radiance);
+        sources[1] = far_source(light, vec_scale(light->direction, -1), 1, light->ground);
+        return 2;
+    }
+    return 0;
+}
+
+size_t shadow_sources_make(const scene_light *lights, size_t count,
+                           const reference_environment *around, shadow_source *sources) {
+    size_t made = 0;
+    for (size_t i = 0; i < count; i++)
+        made += add_light(&lights[i].emitter, sources + made);
+    if (around) {
+        const double *mean = around->mean;
+        sources[made] = source_of(SHADOW_AROUND, NULL,
+                                  (lmp_rgb) { (float)mean[0], (float)mean[1], (float)mean[2] });
+        sources[made++].around = around;
+    }
+    return made;
+}
+
+/* --- from a point -------------------------------------------------------------------------------
+ */
+
+/* Of a sphere at a distance; inside it the cap goes on growing, as in <lampion/light.h>. */
+static float one_minus_cos_of(float radius, float distance) {
+    if (distance < radius) {
+        const float s = distance / radius;
+        return 1 + sqrtf((1 - s) * (1 + s));
+    }
+    const float s = distance > 0 ? radius / distance : 1;
+    return s * s / (1 + sqrtf((1 - s) * (1 + s)));
+}
+
+/* As of KHR_lights_punctual, whose difference of cosines is held to 1e-3. */
+static float spot_falloff(const lmp_light *light, lmp_vec3 axis) {
+    if (light->kind != LMP_LIGHT_SPOT)
+        return 1;
+    const float outer = cosf(light->outer), inner = cosf(light->inner);
+    const float cosine = -vec_dot(light->direction, axis);
+    const float t = fminf(fmaxf((cosine - outer) / fmaxf(inner - outer, 1e-3f), 0), 1);
+    return t * t;
+}
+
+static float sine_of(float one_minus_cos) {
+    return one_minus_cos < 1 ? sqrtf(one_minus_cos * (2 - one_minus_cos)) : 1;
+}
+
+/* Without a branch, so that loops become vectors. */
+static float larger(float a, float b) {
+    return 0.5f * (a + b + fabsf(a - b));
+}
+
+/* Caps beside each other, and the irradiance across them. */
+typedef struct cap_lanes {
+    shadow_vectors axis;
+    shadow_lanes sine, power;
+} cap_lanes;
+
+static void see_spheres(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+    const lmp_light *light = source->light;
+    const lmp_vec3 center = light->position;
+    const float r = light->radius, least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float x = center.x - p->position.of[0][i], y = center.y - p->position.of[1][i];
+        const float z = center.z - p->position.of[2][i];
+        const float d2 = larger(x * x + y * y + z * z, least), scale = 1 / sqrtf(d2);
+        const float sin2 = r * r / larger(d2, r * r);
+        caps->axis.of[0][i] = x * scale;
+        caps->axis.of[1][i] = y * scale;
+        caps->axis.of[2][i] = z * scale;
+        caps->sine[i] = sqrtf(sin2);
+        caps->power[i] = source->brightness * PI * sin2; /* inside up to four times as much */
+    }
+}
+
+static void see_points(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+    const lmp_vec3 center = source->light->position;
+    const float least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 to =
+            vec_sub(center, vec(p->position.of[0][i], p->position.of[1][i], p->position.of[2][i]));
+        const float d2 = fmaxf(vec_dot(to, to), least);
+        const lmp_vec3 axis = vec_scale(to, 1 / sqrtf(d2));
+        caps->axis.of[0][i] = axis.x;
+        caps->axis.of[1][i] = axis.y;
+        caps->axis.of[2][i] = axis.z;
+        caps->sine[i] = 0;
+        caps->power[i] = source->brightness / d2 * spot_falloff(source->light, axis);
+    }
+}
+
+static void see_far(const shadow_source *source, cap_lanes *caps) {
+    const float solid_angle = 2 * PI * source->one_minus_cos;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        caps->axis.of[0][i] = source->axis.x;
+        caps->axis.of[1][i] = source->axis.y;
+        caps->axis.of[2][i] = source->axis.z;
+        caps->sine[i] = sine_of(source->one_minus_cos);
+        caps->power[i] = source->brightness * (solid_angle > 0 ? solid_angle : 1);
+    }
+}
+
+static void weigh_caps(const cap_lanes *restrict caps, const shadow_points *restrict p,
+                       float *restrict weights) {
+    const shadow_lanes *n = p->normal.of, *m = p->mirror.of, *axis = caps->axis.of;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
+        const float mirrored = m[0][i] * axis[0][i] + m[1][i] * axis[1][i] + m[2][i] * axis[2][i];
+        const float s = caps->sine[i], a2 = p->alpha2[i] + 0.25f * s * s;
+        const float off = a2 + larger(0.5f - 0.5f * mirrored, 0);
+        const float facing = larger((along + s) / (1 + s), 0);
+        const float specular = p->shine[i] * a2 / (4 * off * off);
+        const float weight = caps->power[i] / PI * (p->albedo[i] * facing + specular);
+        weights[i] = facing > 0 ? weight : 0;
+    }
+}
+
+void shadow_source_weigh(const shadow_source *source, const shadow_points *p,
+                         shadow_lanes weights) {
+    cap_lanes caps;
+    if (source->kind == SHADOW_AROUND) {
+        for (int i = 0; i < SHADOW_LANES; i++)
+            weights[i] = source->brightness * PI * (p->albedo[i] + p->shine[i]);
+        return;
+    }
+    if (source->kind == SHADOW_SPHERE)
+        see_spheres(source, p, &caps);
+    else if (source->kind == SHADOW_POINT)
+        see_points(source, p, &caps);
+    else
+        see_far(source, &caps);
+    weigh_caps(&caps, p, weights);
+}
+
+/* --- a direction --------------------------------------------------------------------------------
+ */
+
+/* Around an orthonormal basis without branches at the poles (Duff et al. 2017). */
+static lmp_vec3 in_cap(lmp_vec3 axis, float one_minus_cos, float u, float v) {
+    const float t = u * one_minus_cos, sine = sqrtf(t * (2 - t)), angle = 2 * PI * v;
+    const float sign = copysignf(1, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
+    const lmp_vec3 across = vec(1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
+    const lmp_vec3 along = vec(b, sign + axis.y * axis.y * a, -axis.y);
+    return vec_add(vec_scale(axis, 1 - t), vec_add(vec_scale(across, sine * cosf(angle)),
+                                                   vec_scale(along, sine * sinf(angle))));
+}
+
+static shadow_sample draw_sphere(const shadow_source *source, lmp_vec3 point, float u, float v) {
+    const lmp_vec3 to = vec_sub(source->light->position, point);
+    const float r = source->light->radius, distance = vec_length(to);
+    const float one_minus_cos = one_minus_cos_of(r, distance);
+    const lmp_vec3 w = in_cap(vec_normalize(to, vec(0, 0, 1)), one_minus_cos, u, v);
+    const float off = vec_length(vec_cross(to, w)), along = vec_dot(to, w);
+    const float half = sqrtf(fmaxf((r - off) * (r + off), 0));
+    const float length = distance < r ? along + half : along - half;
+    return (shadow_sample) { .direction = w,
+                             .length = fmaxf(length, 0),
+                             .size = sine_of(one_minus_cos),
+                             .arrives = rgb_scale(source->color, 2 * PI * one_minus_cos) };
+}
+
+static shadow_sample draw_point(const shadow_source *source, lmp_vec3 point) {
+    const lmp_vec3 to = vec_sub(source->light->position, point);
+    const float distance = vec_length(to), held = fmaxf(distance, LMP_POINT_DISTANCE_MIN);
+    const lmp_vec3 w = vec_normalize(to, vec(0, 0, 1));
+    return (shadow_sample) { .direction = w,
+                             .length = distance,
+                             .arrives = rgb_scale(source->color,
+                                                  spot_falloff(source->light, w) / (held * held)) };
+}
+
+static shadow_sample draw_far(const shadow_source *source, float u, float v) {
+    const float one_minus_cos = source->one_minus_cos;
+    const float solid_angle = one_minus_cos > 0 ? 2 * PI * one_minus_cos : 1;
+    return (shadow_sample) { .direction = in_cap(source->axis, one_minus_cos, u, v),
+                             .length = INFINITY,
+                             .size = sine_of(one_minus_cos),
+                             .arrives = rgb_scale(source->color, solid_angle) };
+}
+
+static shadow_sample draw_around(const shadow_source *source, float u, float v) {
+    double radiance[3] = { 0 };
+    const reference_vec w = reference_environment_draw(source->around, (double)u, (double)v);
+    const double density = reference_environment_at(source->around, w, radiance);
+    const float scale = density > 0 ? (float)(1 / density) : 0;
+    const lmp_rgb rgb = { (float)radiance[0], (float)radiance[1], (float)radiance[2] };
+    return (shadow_sample) { .direction = vec((float)w.x, (float)w.y, (float)w.z),
+                             .length = INFINITY,
+                             .size = 1,
+                             .arrives = rgb_scale(rgb, scale) };
+}
+
+shadow_sample shadow_source_draw(const shadow_source *source, lmp_vec3 point, float u, float v) {
+    switch (source->kind) {
+    case SHADOW_SPHERE:
+        return draw_sphere(source, point, u, v);
+    case SHADOW_POINT:
+        return draw_point(source, point);
+    case SHADOW_FAR:
+        return draw_far(source, u, v);
+    case SHADOW_AROUND:
+        break;
+    }
+    return draw_around(source, u, v);
+}

@@ -1,0 +1,447 @@
+/* SPDX-License-Identifier: MIT */
+/* Shadows by rays and a ratio, held to the ground truth. */
+#include "app/shadow/shadow.h"
+#include "app/reference/reference.h"
+#include "app/scene/shape.h"
+#include "app/scene/vector.h"
+#include "app/shade/shade.h"
+#include "tests/gpu/device.h"
+#include "tests/oracle/check.h"
+#include "tests/oracle/kinds.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BANDS = 20 };
+
+/* --- the scene ----------------------------------------------------------------------------------
+ */
+
+static void add_material(scene_builder *builder, const char *name, float gray) {
+    scene_material *material = builder_material(builder, name);
+    assert_non_null(material);
+    for (int c = 0; c < 3; c++)
+        material->base_color[c] = gray;
+    material->metallic = 0;
+    material->roughness = 1;
+}
+
+/* A texture of 8 x 8 holes and bars. */
+static void add_screen(scene_builder *builder) {
+    enum { SIZE = 32 };
+    scene_material *material = builder_material(builder, "screen");
+    scene_texture *texture = builder_append(builder, BLOB_TEXTURES, 1);
+    unsigned char *texels = builder_append(builder, BLOB_TEXELS, 4 * SIZE * SIZE);
+    assert_true(material && texture && texels);
+    material->metallic = 0;
+    material->flags = SCENE_ALPHA_MASK | SCENE_DOUBLE_SIDED;
+    material->alpha_cutoff = 0.5f;
+    material->base_color_map =
+        (scene_texture_use) { .texture = 0, .matrix = { 1, 0, 0, 1 }, .offset = { 0, 0 } };
+    *texture = (scene_texture) { .name = "holes", .width = SIZE, .height = SIZE };
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        memset(texels + 4 * i, 200, 3);
+        texels[4 * i + 3] = i % SIZE % 4 < 2 || i / SIZE % 4 < 2 ? 255 : 0;
+    }
+}
+
+/* A pierced screen that stands on the floor; it is a mesh of its own. */
+static void stand_screen(scene_builder *builder) {
+    static const float at[4][2] = { { -1, 0 }, { 0.6f, 0 }, { 0.6f, 1.2f }, { -1, 1.2f } };
+    const uint32_t first = (uint32_t)builder_count(builder, BLOB_VERTICES);
+    const size_t first_index = builder_count(builder, BLOB_INDICES);
+    scene_vertex *corners = builder_append(builder, BLOB_VERTICES, 4);
+    uint32_t *indices = builder_append(builder, BLOB_INDICES, 6);
+    assert_true(corners && indices);
+    for (int i = 0; i < 4; i++) {
+        corners[i] = (scene_vertex) { .position = { at[i][0], at[i][1], -0.8f },
+                                      .normal = { 0, 0, 1 },
+                                      .uv = { { at[i][0], -at[i][1] } },
+                                      .tangent = { 1, 0, 0, 1 } };
+    }
+    for (uint32_t i = 0; i < 6; i++)
+        indices[i] = first + (uint32_t[]) { 0, 1, 2, 0, 2, 3 }[i];
+    builder_mesh(builder, "screen", 2, first_index);
+}
+
+static void open_scene(scene_builder *builder, scene *world) {
+    cli_error error = { "" };
+    void *block;
+    size_t size;
+    assert_true(builder_pack(builder, &block, &size));
+    builder_free(builder);
+    expect(blob_validate(block, size, false, "held", &error), &error);
+    expect(blob_open(block, size, "held", world, &error), &error);
+    world->origin = "held";
+}
+
+/* A floor with a box, three thin poles and the screen on it, before a wall. */
+static void make_scene(scene *world) {
+    scene_builder builder = { .out_of_memory = false };
+    add_material(&builder, "floor", 0.8f);
+    add_material(&builder, "things", 0.6f);
+    add_screen(&builder);
+    scene_shaper shaper = { .builder = &builder };
+    shape_quad(&shaper, vec(-3, 0, 3), vec(3, 0, 3), vec(3, 0, -3), vec(-3, 0, -3));
+    shape_quad(&shaper, vec(-3, 0, -2), vec(3, 0, -2), vec(3, 3, -2), vec(-3, 3, -2));
+    shaper.material = 1;
+    shape_box(&shaper, vec(0.9f, 0, -0.6f), vec(1.5f, 0.7f, 0));
+    for (int i = 0; i < 3; i++) {
+        const float x = 0.4f * (float)i - 0.9f;
+        shape_box(&shaper, vec(x, 0, 0.5f), vec(x + 0.03f, 1.1f, 0.53f));
+    }
+    shaper_finish(&shaper);
+    stand_screen(&builder);
+    open_scene(&builder, world);
+}
+
+/* A ball of 32 segments and 16 rings. */
+static void make_ball(scene *world) {
+    enum { RINGS = 16 };
+    scene_builder builder = { .out_of_memory = false };
+    shape_point profile[RINGS + 1];
+    add_material(&builder, "ball", 0.8f);
+    scene_shaper shaper = { .builder = &builder };
+    for (int i = 0; i <= RINGS; i++) {
+        const float angle = PI * (float)i / RINGS;
+        profile[i] = (shape_point) { i % RINGS ? sinf(angle) : 0, -cosf(angle) };
+    }
+    shape_revolve(&shaper, &(shape_revolution) { .profile = profile,
+                                                 .point_count = RINGS + 1,
+                                                 .origin = { 0.1f, 0.5f, 0 },
+                                                 .axis = 'y',
+                                                 .segments = 32 });
+    shaper_finish(&shaper);
+    open_scene(&builder, world);
+}
+
+static const scene_camera camera = {
+    .eye = { 0.3f, 1.6f, 4 }, .target = { 0.1f, 0.5f, 0 }, .up = { 0, 1, 0 }, .fov = 0.8f
+};
+
+typedef struct stage {
+    scene world;
+    gpu_renderer *renderer;
+    gpu_frame frame;
+} stage;
+
+static void open_scene_stage(stage *s, void (*make)(scene *world)) {
+    make(&s->world);
+    s->renderer = open_renderer(&s->world);
+    s->frame = frame_of(&s->world, WIDTH, HEIGHT);
+    s->frame.camera = camera;
+    s->frame.bands = BANDS;
+    s->frame.host = shade_frame;
+}
+
+static void open_stage(stage *s) {
+    open_scene_stage(s, make_scene);
+}
+
+static void set_lights(stage *s, const lmp_light *lights, int count) {
+    for (int i = 0; i < count; i++)
+        s->world.lights[i] = (scene_light) { .emitter = lights[i], .hidden = 1 };
+    s->world.light_count = s->frame.light_count = (size_t)count;
+    s->frame.lights = s->world.lights;
+}
+
+static void close_stage(stage *s) {
+    gpu_renderer_destroy(s->renderer);
+    scene_free(&s->world);
+}
+
+static image draw_shadows(stage *s, const environment *around, const shadow_settings *settings) {
+    cli_error error = { "" };
+    shadow *all = shadow_create(&s->world, around, settings, &error);
+    expect(all != NULL, &error);
+    s->frame.shadow = (gpu_host_pass) { shadow_frame, all };
+    image pixels = render_image(s->renderer, &s->frame);
+    s->frame.shadow = (gpu_host_pass) { NULL, NULL };
+    shadow_destroy(all);
+    return pixels;
+}
+
+/* --- the ground truth ---------------------------------------------------------------------------
+ */
+
+typedef struct ground_truth {
+    image lit, lit_error, shadowed, shadowed_error;
+} ground_truth;
+
+static ground_truth find_truth(const stage *s, const environment *around) {
+    ground_truth t;
+    cli_error error = { "" };
+    reference_settings settings = {
+        .width = WIDTH,
+        .height = HEIGHT,
+        .camera = camera,
+        .samples = check_count(256, 1024),
+        .seed = 1,
+        .environment = around,
+    };
+    expect(reference_render(&s->world, &settings, &t.lit, &t.lit_error, &error), &error);
+    settings.shadows = true;
+    expect(reference_render(&s->world, &settings, &t.shadowed, &t.shadowed_error, &error), &error);
+    return t;
+}
+
+static void free_truth(ground_truth *t) {
+    image_free(&t->lit);
+    image_free(&t->lit_error);
+    image_free(&t->shadowed);
+    image_free(&t->shadowed_error);
+}
+
+/* The mean over many seeds, and the variance of that mean, of each channel. */
+static void average(stage *s, const environment *around, int seeds, double *mean,
+                    double *variance) {
+    memset(mean, 0, 3 * PIXELS * sizeof *mean);
+    memset(variance, 0, 3 * PIXELS * sizeof *variance);
+    for (int seed = 0; seed < seeds; seed++) {
+        const shadow_settings settings = { .rays = 16, .seed = (uint32_t)seed, .raw = true };
+        image pixels = draw_shadows(s, around, &settings);
+        for (int i = 0; i < 3 * PIXELS; i++) {
+            const double value = (double)pixels.rgb[i];
+            mean[i] += value / seeds;
+            variance[i] += value * value / seeds;
+        }
+        image_free(&pixels);
+    }
+    for (int i = 0; i < 3 * PIXELS; i++)
+        variance[i] = fmax(variance[i] - mean[i] * mean[i], 0) / (seeds - 1);
+}
+
+/* What is hidden, within 3 standard errors and what 20 bands leave of a cosine. Along edges the
+ * rasterizer and a ray may show different surfaces: these differ without shadows, too. */
+static void check_against_truth(stage *s, const environment *around) {
+    static double mean[3 * PIXELS], variance[3 * PIXELS];
+    ground_truth t = find_truth(s, around);
+    image lit = render_image(s->renderer, &s->frame);
+    int judged = 0, wrong = 0;
+    double hidden = 0;
+    average(s, around, check_count(16, 64), mean, variance);
+    for (int p = 0; p < PIXELS; p++) {
+        bool edge = false, off = false;
+        for (int i = 3 * p; i < 3 * p + 3; i++) {
+            const double all = (double)lit.rgb[i], true_all = (double)t.lit.rgb[i];
+            const double e = (double)t.lit_error.rgb[i], f = (double)t.shadowed_error.rgb[i];
+            const double d = mean[i] - (double)t.shadowed.rgb[i];
+            edge = edge || !(fabs(all - true_all) <= 5 * e + 0.02 * true_all);
+            off = off || !(fabs(d) <= 3 * sqrt(f * f + variance[i]) + 0.01 * true_all);
+            hidden += (all - mean[i]) / (3 * PIXELS);
+        }
+        judged += !edge;
+        wrong += !edge && off;
+    }
+    print_message("%d of %d pixels differ, %d not judged\n", wrong, judged, PIXELS - judged);
+    assert_true(hidden > 0);
+    assert_in_range(PIXELS - judged, 0, PIXELS / 25);
+    assert_in_range(wrong, 0, judged / 200);
+    image_free(&lit);
+    free_truth(&t);
+}
+
+static void the_mean_ratio_is_the_truth_of_every_kind_of_light(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s);
+    set_lights(&s, one_of_each_kind, KINDS);
+    check_against_truth(&s, NULL);
+    close_stage(&s);
+}
+
+static void the_mean_ratio_is_the_truth_of_spheres_near_and_far(void **state) {
+    (void)state;
+    const lmp_light spheres[] = {
+        { .position = { -0.7f, 0.5f, 0.2f }, .radius = 0.2f, .radiance = { 9, 3, 1 } },
+        { .position = { 1.2f, 1.6f, 0.4f }, .radius = 0.5f, .radiance = { 1, 4, 2 } },
+        { .position = { -40, 90, 60 }, .radius = 1, .radiance = { 9e3f, 9e3f, 2e4f } },
+    };
+    stage s;
+    open_stage(&s);
+    set_lights(&s, spheres, 3);
+    check_against_truth(&s, NULL);
+    close_stage(&s);
+}
+
+static void the_mean_ratio_is_the_truth_of_an_environment(void **state) {
+    (void)state;
+    stage s;
+    cli_error error;
+    environment e = { .azimuth = 0.4f };
+    expect(image_create(&e.light, 32, 16, &error), &error);
+    for (int i = 0; i < 3 * 32 * 16; i++)
+        e.light.rgb[i] = (float)(i * 7919 % 101 + (i / 96 < 4 ? 300 : 0)) / 100;
+    open_stage(&s);
+    expect(environment_project(&e, BANDS, &error), &error);
+    gpu_set_environment(s.renderer, &e);
+    set_lights(&s, one_of_each_kind, 1);
+    check_against_truth(&s, &e);
+    close_stage(&s);
+    environment_free(&e);
+}
+
+/* --- the filter ---------------------------------------------------------------------------------
+ */
+
+static double relative_error(const image *drawn, const image *true_image) {
+    const int count = 3 * drawn->width * drawn->height;
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        const double t = (double)true_image->rgb[i], d = (double)drawn->rgb[i] - t;
+        sum += d * d / (t * t + 1e-4);
+    }
+    return sum / count;
+}
+
+static void the_filter_takes_nine_tenths_of_the_error(void **state) {
+    (void)state;
+    stage s;
+    lmp_light lanterns[24];
+    open_stage(&s);
+    for (int i = 0; i < 24; i++)
+        lanterns[i] =
+            (lmp_light) { .position = { (float)(i % 6) * 0.9f - 2.2f, 1.5f + 0.3f * (float)(i % 4),
+                                        2.6f - (float)(i / 6) },
+                          .radius = 0.25f,
+                          .radiance = { 1, 1, 1 } };
+    set_lights(&s, lanterns, 24);
+    s.frame.width *= 4;
+    s.frame.height *= 4;
+    image many = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 512, .seed = 9, .raw = true });
+    image raw = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2, .raw = true });
+    image filtered = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2 });
+    const double before = relative_error(&raw, &many), after = relative_error(&filtered, &many);
+    print_message("relative error %.4f unfiltered, %.4f filtered\n", before, after);
+    assert_true(after * 10 <= before);
+    image_free(&many);
+    image_free(&raw);
+    image_free(&filtered);
+    close_stage(&s);
+}
+
+/* --- limits -------------------------------------------------------------------------------------
+ */
+
+static void any_number_of_threads_gives_the_same_bits(void **state) {
+    (void)state;
+    static const int threads[] = { 1, 2, 7 };
+    const int before = omp_get_max_threads();
+    stage s;
+    image first = { .rgb = NULL };
+    open_stage(&s);
+    set_lights(&s, one_of_each_kind, KINDS);
+    for (int i = 0; i < 3; i++) {
+        omp_set_num_threads(threads[i]);
+        image pixels = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 3, .seed = 5 });
+        if (i == 0)
+            first = pixels;
+        else {
+            assert_memory_equal(pixels.rgb, first.rgb, 3 * PIXELS * sizeof(float));
+            image_free(&pixels);
+        }
+    }
+    omp_set_num_threads(before);
+    image_free(&first);
+    close_stage(&s);
+}
+
+static void both_devices_have_the_same_shadows(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s);
+    set_lights(&s, one_of_each_kind, KINDS);
+    image cpu = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 4 });
+    s.frame.host = NULL;
+    image gpu = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 4 });
+    for (int i = 0; i < 3 * PIXELS; i++)
+        CHECK_WITHIN(fabsf(cpu.rgb[i] - gpu.rgb[i]), 1e-3f * (1 + cpu.rgb[i]));
+    image_free(&cpu);
+    image_free(&gpu);
+    close_stage(&s);
+}
+
+/* Where its normals face the light it is lit, and not the other way round. */
+static void a_coarse_ball_does_not_shade_itself(void **state) {
+    (void)state;
+    int lit = 0, dark = 0;
+    stage s;
+    open_scene_stage(&s, make_ball);
+    set_lights(&s,
+               &(lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
+                              .direction = { 0.96f, 0.28f, 0 },
+                              .irradiance = { 1, 1, 1 } },
+               1);
+    image all = render_image(s.renderer, &s.frame);
+    image pixels = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 1, .raw = true });
+    for (int i = 0; i < 3 * PIXELS; i += 3) {
+        const bool faces = all.rgb[i] > 0.01f;
+        lit += faces;
+        dark += faces && pixels.rgb[i] < 0.99f * all.rgb[i];
+    }
+    print_message("%d of %d lit pixels are dark\n", dark, lit);
+    assert_in_range(lit, PIXELS / 20, PIXELS);
+    assert_int_equal(dark, 0);
+    image_free(&all);
+    image_free(&pixels);
+    close_stage(&s);
+}
+
+/* Of the pixels, how many the light reaches. */
+static int count_lit(stage *s, const lmp_light *light) {
+    int lit = 0;
+    set_lights(s, light, 1);
+    image pixels = draw_shadows(s, NULL, &(shadow_settings) { .rays = 2 });
+    for (int i = 0; i < PIXELS; i++) {
+        for (int c = 0; c < 3; c++)
+            assert_true(isfinite(pixels.rgb[3 * i + c]));
+        lit += pixels.rgb[3 * i] > 1e-3f;
+    }
+    image_free(&pixels);
+    return lit;
+}
+
+static void a_light_in_a_closed_box_lights_nothing_outside(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s);
+    assert_int_equal(count_lit(&s, &(lmp_light) { .position = { 1.2f, 0.35f, -0.3f },
+                                                  .radius = 0.1f,
+                                                  .radiance = { 50, 50, 50 } }),
+                     0);
+    close_stage(&s);
+}
+
+/* A surface inside a light, one that touches it, and a point in a surface. */
+static void lights_that_meet_surfaces_are_finite(void **state) {
+    (void)state;
+    const lmp_light lights[] = {
+        { .position = { 0, 0, 0 }, .radius = 1, .radiance = { 1, 1, 1 } },
+        { .position = { 0, 1, 0 }, .radius = 1, .radiance = { 1, 1, 1 } },
+        { .position = { 0, 0, 0 }, .radius = 40, .radiance = { 1, 1, 1 } },
+        { .position = { 0, 0, 0 }, .radius = 0, .radiance = { 1, 1, 1 } },
+        { .kind = LMP_LIGHT_POINT, .position = { 0, 0, 0 }, .intensity = { 1, 1, 1 } },
+    };
+    stage s;
+    open_stage(&s);
+    for (size_t i = 0; i < sizeof lights / sizeof *lights; i++)
+        count_lit(&s, &lights[i]);
+    close_stage(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_mean_ratio_is_the_truth_of_every_kind_of_light),
+        cmocka_unit_test(the_mean_ratio_is_the_truth_of_spheres_near_and_far),
+        cmocka_unit_test(the_mean_ratio_is_the_truth_of_an_environment),
+        cmocka_unit_test(the_filter_takes_nine_tenths_of_the_error),
+        cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
+        cmocka_unit_test(both_devices_have_the_same_shadows),
+        cmocka_unit_test(a_coarse_ball_does_not_shade_itself),
+        cmocka_unit_test(a_light_in_a_closed_box_lights_nothing_outside),
+        cmocka_unit_test(lights_that_meet_surfaces_are_finite),
+    };
+    return cmocka_run_group_tests(tests, open_device, close_device);
+}
