@@ -11,7 +11,8 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion)
 install(FILES shaders/lampion.glsl shaders/coefficients.glsl shaders/preintegrated_lookup.h shaders/preintegrated_lobe.glsl shaders/preintegrated_brdf.glsl
   shaders/probe.glsl shaders/ggx.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
-install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  PATTERN node_modules EXCLUDE PATTERN examples/three/shaders EXCLUDE PATTERN probe.json EXCLUDE)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lampion)
 install(EXPORT lampionTargets NAMESPACE lampion:: DESTINATION ${package_dir})

@@ -55,7 +55,7 @@ END
 # found FOLDER: the lines under it with a word that is not ours.
 found() {
     words | while IFS== read -r word instead; do
-        grep -rnIiwE --exclude-dir=images --exclude=words.sh -e "$word" $1 | sed "s|\$|  <- $instead|" || true
+        grep -rnIiwE --exclude-dir=images --exclude-dir=node_modules --exclude=words.sh -e "$word" $1 | sed "s|\$|  <- $instead|" || true
     done
 }
 
