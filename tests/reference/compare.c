@@ -202,7 +202,8 @@ static void flip_grows_with_a_line_in_a_gray_image(void **state) {
             p.a_values[i] = 0.5f;
             p.b_values[i] = i / 3 % WIDTH == WIDTH / 2 ? 0.5f + 0.1f * (float)step : 0.5f;
         }
-        assert_true(compare_flip(&p.a, &p.b, &flip) && compare_flip(&p.b, &p.a, &swapped));
+        assert_true(compare_flip(&p.a, &p.b, &flip));
+        assert_true(compare_flip(&p.b, &p.a, &swapped));
         assert_true(flip > before + 0.01 && flip < 1);
         CHECK_WITHIN(fabs(flip - swapped), 1e-12);
         before = flip;
