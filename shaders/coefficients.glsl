@@ -159,7 +159,7 @@ void lmp_lights_project(lmp_surface surface, mat3 world_to_local, out vec3 sum[L
 
 /* Radiance to the viewer under all lights by the paper's method: the coefficients of all lights are
  * summed, then multiplied with those of the material. */
-vec3 lmp_shade_coefficients(lmp_surface surface, lmp_lobes lobes) {
+vec3 lmp_shade_some_coefficients(lmp_surface surface, lmp_lobes lobes) {
     mat3 world_to_local = lmp_view_frame(surface);
     vec3 sum[LMP_HALF_COUNT];
     lmp_lights_project(surface, world_to_local, sum);
@@ -197,12 +197,12 @@ vec3 lmp_shade_coefficients(lmp_surface surface, lmp_lobes lobes) {
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_COLUMN
 #undef LMP_ROW
-    return max(lobes.diffuse / LMP_PI * diffuse_response + glossy_response, vec3(0.0));
+    return lobes.diffuse / LMP_PI * diffuse_response + glossy_response;
 }
 #undef LMP_POWER
 #undef LMP_MONIC
 
-LMP_SHADE_MATERIALS(lmp_shade_coefficients)
+LMP_SHADE_MATERIALS(lmp_shade_coefficients, lmp_shade_some_coefficients)
 
 #endif
 #endif

@@ -52,8 +52,10 @@ vec3 environment_shade(lmp_surface surface, lmp_lobes lobes) {
     if (surroundings.x == 0.0)
         return vec3(0.0);
     vec3 sum = lobes.diffuse * environment_response(surface.normal, 1.0);
-    for (int k = 0; k < LMP_LOBES; k++)
-        sum += lobes.weight[k] * environment_response(lobes.axis[k], lobes.exponent[k]);
+    do {
+        for (int k = 0; k < LMP_LOBES; k++)
+            sum += lobes.weight[k] * environment_response(lobes.axis[k], lobes.exponent[k]);
+    } while (lmp_lobes_next(lobes));
     return max(sum, vec3(0.0));
 }
 

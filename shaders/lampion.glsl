@@ -43,7 +43,7 @@
  *
  * What there is
  *   lmp_shade_zonal          radiance to the viewer under all lights: O(LMP_BANDS) a light
- *   lmp_lobes_of             what a surface reflects by, for passes of your own
+ *   lmp_lobes_of, _next      what a surface reflects by, for passes of your own
  *   lmp_lobe_diffuse, _phong coefficients lambda_l of lobes: lobe around w: lambda_l Y_lm(w)
  *   lmp_cap_of_light, lmp_cap_series, lmp_window_weight, lmp_view_frame: their parts
  * After this file, coefficients.glsl has the coefficients themselves, for probes and the paper's
@@ -95,11 +95,11 @@ struct lmp_material {
     float exponent;
 };
 
-/* Phong lobes of a surface: one, or those of GGX. What each of them has is a LMP_EACH or, of three
- * numbers, a column of a LMP_EACH_VEC3; LMP_LOBE is that of lobe k, LMP_DOT(v, m) v times each
+/* Phong lobes of a surface: one, or those of GGX, of which LMP_GGX_LOBES_FEW are summed together,
+ * then the others. What each of them has is a LMP_EACH or, of three numbers, a column of a LMP_EACH_VEC3; LMP_LOBE is that of lobe k, LMP_DOT(v, m) v times each
  * column. */
 #ifdef LAMPION_GGX_GLSL
-#define LMP_LOBES       LMP_GGX_LOBES
+#define LMP_LOBES       LMP_GGX_LOBES_FEW
 #define LMP_EACH        vec3
 #define LMP_EACH_VEC3   mat3
 #define LMP_LOBE(of, k) of[k]
@@ -118,7 +118,24 @@ struct lmp_lobes {
     vec3 diffuse;
     LMP_EACH_VEC3 axis, weight;
     LMP_EACH exponent;
+#ifdef LAMPION_GGX_GLSL
+    bool more; /* those that follow */
+    mat3 more_axis, more_weight;
+    vec3 more_exponent;
+#endif
 };
+
+/* Puts the lobes that follow in the place of those summed; false where none do. */
+bool lmp_lobes_next(inout lmp_lobes lobes) {
+#ifdef LAMPION_GGX_GLSL
+    bool more = lobes.more;
+    lobes = lmp_lobes(vec3(0.0), lobes.more_axis, lobes.more_weight, lobes.more_exponent, false,
+                      lobes.more_axis, lobes.more_weight, lobes.more_exponent);
+    return more;
+#else
+    return false;
+#endif
+}
 
 /* What a sphere light is from one point. Its coefficients for radiance 1 are, by paper Eq. 12 and
  * 13 in one,
@@ -212,39 +229,28 @@ lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_material material) {
 #else
     lobes.axis = mat3(mirror, mirror, mirror);
     lobes.weight = mat3(material.specular, vec3(0.0), vec3(0.0));
+    lobes.more = false;
 #endif
     return lobes;
 }
 
 #ifdef LAMPION_GGX_GLSL
-/* glTF's; metallic and roughness in 0 … 1. */
-struct lmp_metallic_roughness {
-    vec3 base_color;
-    float metallic, roughness;
-};
-
-/* The reflectance of the layer over a dielectric, along the normal and at grazing angles. */
-struct lmp_dielectric {
-    vec3 f0;
-    float f90;
-};
-
 /* A metal, whose F0 is the base color, mixed with a dielectric, whose base color is under a layer.
  */
 lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material, lmp_dielectric layer) {
-    lmp_ggx_place place = lmp_ggx_lookup(surface.normal, surface.view, material.roughness);
+    lmp_ggx_node node = lmp_ggx_lookup(surface.normal, surface.view, material.roughness);
     vec3 f0 = mix(layer.f0, material.base_color, material.metallic);
     float f90 = layer.f90 + (1.0 - layer.f90) * material.metallic;
     float held = max(layer.f0.r, max(layer.f0.g, layer.f0.b));
-    float passed = 1.0 - held - (layer.f90 - held) * lmp_ggx_diffuse_f90(place);
+    float passed = 1.0 - held - (layer.f90 - held) * lmp_ggx_diffuse_f90(node);
     lmp_lobes lobes;
     lobes.diffuse = material.base_color * ((1.0 - material.metallic) * passed);
-    for (int k = 0; k < LMP_LOBES; k++) {
-        lmp_ggx_lobe lobe = lmp_ggx_lobe_at(place, surface.normal, surface.view, k);
-        lobes.axis[k] = lobe.axis;
-        lobes.weight[k] = lobe.f0 * f0 + lobe.f90 * f90;
-        lobes.exponent[k] = lobe.exponent;
-    }
+    lmp_ggx_lobes(node, surface.normal, surface.view, 0, f0, f90, lobes.axis, lobes.weight,
+                  lobes.exponent);
+    lobes.more = lmp_ggx_count(node) > LMP_LOBES;
+    if (lobes.more)
+        lmp_ggx_lobes(node, surface.normal, surface.view, LMP_LOBES, f0, f90, lobes.more_axis,
+                      lobes.more_weight, lobes.more_exponent);
     return lobes;
 }
 
@@ -332,16 +338,27 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 #ifndef LMP_LIGHT_COLOR
 #define LMP_LIGHT_COLOR(i, p) LMP_LIGHT_RADIANCE(i)
 #endif
-/* A function of a surface and its lobes, of a surface and a material. */
+/* A function of a surface and the lobes that are summed together, of a surface and all its lobes, or
+ * its material, clamped at 0. */
+#define LMP_SHADE_LOBES(shade, shade_some)                                                         \
+    vec3 shade(lmp_surface surface, lmp_lobes lobes) {                                             \
+        vec3 sum = vec3(0.0);                                                                      \
+        do                                                                                         \
+            sum += shade_some(surface, lobes);                                                     \
+        while (lmp_lobes_next(lobes));                                                             \
+        return max(sum, vec3(0.0));                                                                \
+    }
 #define LMP_SHADE_MATERIAL(shade, type)                                                            \
     vec3 shade(lmp_surface surface, type material) {                                               \
         return shade(surface, lmp_lobes_of(surface, material));                                    \
     }
 #ifdef LAMPION_GGX_GLSL
-#define LMP_SHADE_MATERIALS(shade)                                                                 \
+#define LMP_SHADE_MATERIALS(shade, shade_some)                                                     \
+    LMP_SHADE_LOBES(shade, shade_some)                                                             \
     LMP_SHADE_MATERIAL(shade, lmp_material) LMP_SHADE_MATERIAL(shade, lmp_metallic_roughness)
 #else
-#define LMP_SHADE_MATERIALS(shade) LMP_SHADE_MATERIAL(shade, lmp_material)
+#define LMP_SHADE_MATERIALS(shade, shade_some)                                                     \
+    LMP_SHADE_LOBES(shade, shade_some) LMP_SHADE_MATERIAL(shade, lmp_material)
 #endif
 /* What the includer defined is read here alone, where no local name can stand for one of its own. */
 int lmp_light_count() {
@@ -360,7 +377,7 @@ vec3 lmp_light_color(int lmp_i, vec3 lmp_p) {
  *
  * for all lobes in one pass. P_l is carried monic (p_l = u p_(l-1) - b_l p_(l-2)) and the
  * differences of R_l scaled, which saves four products a band; the scales are in the weights. */
-vec3 lmp_shade_zonal(lmp_surface surface, lmp_lobes lobes) {
+vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
     float diffuse[LMP_BANDS];
     LMP_EACH glossy[LMP_BANDS];
     lmp_lobe_diffuse(diffuse);
@@ -414,7 +431,7 @@ vec3 lmp_shade_zonal(lmp_surface surface, lmp_lobes lobes) {
         g = glossy[0] * cap.base + cap.strength * g;
         sum += lmp_light_color(i, surface.position) * (lobes.diffuse * d + lobes.weight * g);
     }
-    return max(sum, vec3(0.0));
+    return sum;
 }
 
 /* From the world to the frame whose z is the normal and in whose x-z plane the viewer is, x >= 0. */
@@ -427,7 +444,7 @@ mat3 lmp_view_frame(lmp_surface surface) {
     return transpose(mat3(tangent, cross(normal, tangent), normal));
 }
 
-LMP_SHADE_MATERIALS(lmp_shade_zonal)
+LMP_SHADE_MATERIALS(lmp_shade_zonal, lmp_shade_some_zonal)
 
 #endif
 #endif

@@ -40,8 +40,7 @@ vec3 paper_shade(lmp_surface surface, lmp_lobes lobes) {
     }
 
     lmp_lobe_diffuse(diffuse);
-    lmp_lobe_phong(lobes.exponent, glossy);
-    vec3 diffuse_response = vec3(0.0), glossy_response[LMP_LOBES];
+    vec3 diffuse_response = vec3(0.0);
     lmp_sh_eval(surface.normal, sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
@@ -51,23 +50,25 @@ vec3 paper_shade(lmp_surface surface, lmp_lobes lobes) {
     }
     LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW
-    for (int k = 0; k < LMP_LOBES; k++) {
-        lmp_sh_eval(LMP_LOBE(lobes.axis, k), sh);
-        glossy_response[k] = vec3(0.0);
+    vec3 reflected = lobes.diffuse / LMP_PI * diffuse_response;
+    do {
+        lmp_lobe_phong(lobes.exponent, glossy);
+        for (int k = 0; k < LMP_LOBES; k++) {
+            vec3 glossy_response = vec3(0.0);
+            lmp_sh_eval(LMP_LOBE(lobes.axis, k), sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         float factor = LMP_LOBE(glossy[LMP_BAND(l)], k);                                           \
-        glossy_response[k] += factor * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];                 \
+        glossy_response += factor * sh[LMP_INDEX(l, m)] * sum[LMP_INDEX(l, m)];                    \
         if (m > 0)                                                                                 \
-            glossy_response[k] += factor * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)];           \
+            glossy_response += factor * sh[LMP_INDEX(l, -m)] * sum[LMP_INDEX(l, -m)];              \
     }
-        LMP_FOR_COLUMNS(LMP_COLUMN)
+            LMP_FOR_COLUMNS(LMP_COLUMN)
 #undef LMP_ROW
 #undef LMP_COLUMN
-    }
-    vec3 reflected = lobes.diffuse / LMP_PI * diffuse_response;
-    for (int k = 0; k < LMP_LOBES; k++)
-        reflected += LMP_LOBE(lobes.weight, k) * glossy_response[k];
+            reflected += LMP_LOBE(lobes.weight, k) * glossy_response;
+        }
+    } while (lmp_lobes_next(lobes));
     return max(reflected, vec3(0.0));
 }
 

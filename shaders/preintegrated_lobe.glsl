@@ -84,7 +84,7 @@ float lmp_preintegrated_lobe_response(lmp_lobe_position position, lmp_cap cap, f
 }
 
 /* lmp_shade_zonal, within its error. */
-vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_lobes lobes) {
+vec3 lmp_shade_some_preintegrated(lmp_surface surface, lmp_lobes lobes) {
     lmp_lobe_position diffuse = lmp_preintegrated_lobe_lookup(1.0), specular[LMP_LOBES];
     for (int k = 0; k < LMP_LOBES; k++)
         specular[k] = lmp_preintegrated_lobe_lookup(LMP_LOBE(lobes.exponent, k));
@@ -97,9 +97,9 @@ vec3 lmp_shade_preintegrated(lmp_surface surface, lmp_lobes lobes) {
                          lmp_preintegrated_lobe_response(specular[k], cap, dot(cap.axis, LMP_LOBE(lobes.axis, k)));
         sum += lmp_light_color(i, surface.position) * reflected;
     }
-    return max(sum, vec3(0.0));
+    return sum;
 }
 
-LMP_SHADE_MATERIALS(lmp_shade_preintegrated)
+LMP_SHADE_MATERIALS(lmp_shade_preintegrated, lmp_shade_some_preintegrated)
 #endif
 #endif

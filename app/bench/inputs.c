@@ -34,6 +34,11 @@ bool bench_inputs_create(bench_inputs *in) {
         in->normal[0][i] = x / length;
         in->normal[1][i] = y / length;
         in->normal[2][i] = z / length;
+        float facing = 0;
+        for (int k = 0; k < 3; k++)
+            facing += in->normal[k][i] * in->axis[k][i];
+        for (int k = 0; k < 3 && facing < 0; k++) /* seen from their front */
+            in->axis[k][i] = -in->axis[k][i];
         const lmp_rgb color = { in->radiance[0][i], in->radiance[1][i], in->radiance[2][i] };
         in->phong[i] = (lmp_material) { .diffuse = color, .specular = color, .exponent = 20 };
         in->ggx[i] = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,

@@ -57,8 +57,10 @@ LMP_API void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array 
  * with c = (1 - v·h)^5; glTF's core has F90 = 1. Its diffuse part, (1 - F) base/pi, is in all
  * directions the fraction 1 - diffuse_f0 F0 - diffuse_f90 F90 of base/pi.
  *
- * Lobes reach a little below the horizon: docs/ggx.md has the errors. */
-#define LMP_GGX_LOBES 3
+ * The lobes from LMP_GGX_LOBES_FEW on have weight 0 but toward grazing views, from about 53 degrees
+ * on. Lobes reach a little below the horizon: docs/ggx.md has the errors. */
+#define LMP_GGX_LOBES     5
+#define LMP_GGX_LOBES_FEW 3
 
 typedef struct lmp_ggx_lobe {
     lmp_vec3 axis;  /* unit, in the plane of incidence */
@@ -77,7 +79,7 @@ LMP_API void lmp_lobe_ggx(lmp_vec3 normal, lmp_vec3 view, float roughness, lmp_g
 
 #define LMP_GGX_TEXELS (32 * 32 * LMP_GGX_LOBES + 32)
 
-/* The table of these lobes, which ggx.glsl looks up: LMP_GGX_TEXELS texels of 4 values, 50 KB. */
+/* The table of these lobes, which ggx.glsl looks up: LMP_GGX_TEXELS texels of 4 values, 82 KB. */
 LMP_API void lmp_lobe_ggx_texels(float *texels);
 
 #ifdef __cplusplus

@@ -76,7 +76,7 @@ typedef struct lmp_kernel_preintegrated_brdf {
     const int16_t *texels;
 } lmp_kernel_preintegrated_brdf;
 
-#define LMP_KERNEL_LOBES_MAX 3
+#define LMP_KERNEL_LOBES_MAX 5
 
 /* A Phong lobe of every surface. */
 typedef struct lmp_kernel_lobe {
@@ -84,8 +84,8 @@ typedef struct lmp_kernel_lobe {
     const float *exponent;
 } lmp_kernel_lobe;
 
-/* Surfaces to shade. Those that have lobes have a diffuse one around the normal, and of Phong's 1
- * or LMP_KERNEL_LOBES_MAX; a BRDF is seen from `view` instead. */
+/* Surfaces to shade. Those that have lobes have a diffuse one around the normal, and of Phong's 1,
+ * 3 or 5; a BRDF is seen from `view` instead. */
 typedef struct lmp_kernel_surfaces {
     lmp_kernel_vec3 point, normal, view;
     int lobe_count;
@@ -101,7 +101,7 @@ typedef struct lmp_kernel_light {
 } lmp_kernel_light;
 
 /* Lights that one call of a shading kernel takes at most. */
-#define LMP_KERNEL_LIGHTS_MAX 32
+#define LMP_KERNEL_LIGHTS_MAX 16
 
 /* What the lobes receive, in planes of red, green, blue; added to. */
 typedef struct lmp_kernel_accumulated {

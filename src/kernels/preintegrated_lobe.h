@@ -122,44 +122,20 @@ LMP_INLINE void lobe_pair(const lobe_lanes *first_lobe, const lobe_lanes *second
     }
 }
 
-static_assert(LMP_KERNEL_LOBES_MAX == 1 + 2, "the first goes with the diffuse one, two together");
-
-/* Lights go by once for each pair: more lobes at once would not find registers. */
-LMP_INLINE void lobe_surfaces(int count, const lmp_kernel_preintegrated_lobe *lobe,
-                              const lmp_kernel_lobe_positions *diffuse,
-                              const lmp_kernel_lobe_positions *specular,
-                              const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                              size_t light_count, size_t surface_count,
-                              const lmp_kernel_accumulated *accumulated) {
-    lobe_lanes normal_lobe, lobes[2];
-    shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
-    vf responses[2];
-    lobe_lanes_load(lobe, diffuse, 0, &normal_lobe);
-    for (size_t e = 0; e < surface_count; e += LMP_LANES) {
-        shade_sums sums;
-        shade_sums_load(count, accumulated, e, &sums);
-        shade_directions(count, surfaces, lights, light_count, e, directions);
-        lobe_lanes_load(lobe, &specular[0], e, &lobes[0]);
-        for (size_t i = 0; i < light_count; i++) {
-            lobe_pair(&normal_lobe, &lobes[0], &directions[i], directions[i].u, directions[i].v[0],
-                      responses);
-            shade_accumulate(lights[i].radiance, responses[0], sums.diffuse);
-            shade_accumulate(lights[i].radiance, responses[1], sums.specular[0]);
-        }
-        if (count > 1) {
-            lobe_lanes_load(lobe, &specular[1], e, &lobes[0]);
-            lobe_lanes_load(lobe, &specular[2], e, &lobes[1]);
-        }
-        for (size_t i = 0; i < light_count && count > 1; i++) {
-            lobe_pair(&lobes[0], &lobes[1], &directions[i], directions[i].v[1], directions[i].v[2],
-                      responses);
-            shade_accumulate(lights[i].radiance, responses[0], sums.specular[1]);
-            shade_accumulate(lights[i].radiance, responses[1], sums.specular[2]);
-        }
-        shade_sums_store(count, &sums, e, accumulated);
-    }
+/* Lobe -1 is the diffuse one. */
+LMP_INLINE void lobe_pair_load(const lmp_kernel_preintegrated_lobe *lobe,
+                               const lmp_kernel_lobe_positions *diffuse,
+                               const lmp_kernel_lobe_positions *specular, int first, size_t e,
+                               lobe_lanes lobes[2]) {
+    if (first < 0)
+        lobe_lanes_load(lobe, diffuse, 0, &lobes[0]);
+    else
+        lobe_lanes_load(lobe, &specular[first], e, &lobes[0]);
+    lobe_lanes_load(lobe, &specular[first + 1], e, &lobes[1]);
 }
 
+/* Lights go by once for each pair of lobes, the diffuse one before Phong's: more at once would not
+ * find registers. */
 static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *lobe,
                                             const lmp_kernel_lobe_positions *diffuse,
                                             const lmp_kernel_lobe_positions *specular,
@@ -167,12 +143,30 @@ static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe 
                                             const lmp_kernel_light *lights, size_t light_count,
                                             size_t count,
                                             const lmp_kernel_accumulated *accumulated) {
-    if (surfaces->lobe_count == 1)
-        lobe_surfaces(1, lobe, diffuse, specular, surfaces, lights, light_count, count,
-                      accumulated);
-    else
-        lobe_surfaces(LMP_KERNEL_LOBES_MAX, lobe, diffuse, specular, surfaces, lights, light_count,
-                      count, accumulated);
+    shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
+    lobe_lanes lobes[2];
+    vf sums[2][3], responses[2];
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        shade_directions(surfaces->lobe_count, surfaces, lights, light_count, e, directions);
+        for (int first = -1; first < surfaces->lobe_count; first += 2) {
+            float *const *const planes[2] = { first < 0 ? accumulated->diffuse
+                                                        : accumulated->specular[first],
+                                              accumulated->specular[first + 1] };
+            lobe_pair_load(lobe, diffuse, specular, first, e, lobes);
+            shade_sums_load(planes[0], e, sums[0]);
+            shade_sums_load(planes[1], e, sums[1]);
+            for (size_t i = 0; i < light_count; i++) {
+                const shade_direction *direction = &directions[i];
+                lobe_pair(&lobes[0], &lobes[1], direction,
+                          first < 0 ? direction->u : direction->v[first], direction->v[first + 1],
+                          responses);
+                shade_accumulate(lights[i].radiance, responses[0], sums[0]);
+                shade_accumulate(lights[i].radiance, responses[1], sums[1]);
+            }
+            shade_sums_store(sums[0], e, planes[0]);
+            shade_sums_store(sums[1], e, planes[1]);
+        }
+    }
 }
 
 #endif

@@ -65,11 +65,7 @@ LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, siz
         shade_dot(block->axis[k], &cap) * cap.per_d;
 }
 
-/* What the lobes of a block of surfaces have accumulated: red, green, blue. */
-typedef struct shade_sums {
-    vf diffuse[3], specular[LMP_KERNEL_LOBES_MAX][3];
-} shade_sums;
-
+/* Adds a response to what a lobe of a block of surfaces has accumulated: red, green, blue. */
 LMP_INLINE void shade_accumulate(lmp_rgb rgb, vf response, vf sums[3]) {
     sums[0] = sums[0] + rgb.r * response;
     sums[1] = sums[1] + rgb.g * response;
@@ -82,22 +78,14 @@ LMP_INLINE void shade_planes(const lmp_kernel_vec3 *planes, size_t e, vf to[3]) 
     to[2] = vf_load(planes->z + e);
 }
 
-LMP_INLINE void shade_sums_load(int lobes, const lmp_kernel_accumulated *accumulated, size_t e,
-                                shade_sums *sums) {
-    for (int c = 0; c < 3; c++) {
-        sums->diffuse[c] = vf_load(accumulated->diffuse[c] + e);
-        LMP_UNROLL for (int k = 0; k < lobes; k++) sums->specular[k][c] =
-            vf_load(accumulated->specular[k][c] + e);
-    }
+LMP_INLINE void shade_sums_load(float *const planes[3], size_t e, vf sums[3]) {
+    for (int c = 0; c < 3; c++)
+        sums[c] = vf_load(planes[c] + e);
 }
 
-LMP_INLINE void shade_sums_store(int lobes, const shade_sums *sums, size_t e,
-                                 const lmp_kernel_accumulated *accumulated) {
-    for (int c = 0; c < 3; c++) {
-        vf_store(accumulated->diffuse[c] + e, sums->diffuse[c]);
-        LMP_UNROLL for (int k = 0; k < lobes; k++)
-            vf_store(accumulated->specular[k][c] + e, sums->specular[k][c]);
-    }
+LMP_INLINE void shade_sums_store(const vf sums[3], size_t e, float *const planes[3]) {
+    for (int c = 0; c < 3; c++)
+        vf_store(planes[c] + e, sums[c]);
 }
 
 /* All lights first, then their lobes: in one loop, the roots and quotients of a light would wait

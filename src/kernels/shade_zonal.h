@@ -92,16 +92,19 @@ LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, 
     }
 }
 
-/* Of R_l P_l of each Phong lobe, by band. */
+/* Phong lobes that go through the bands together. More would not find registers. */
+#define ZONAL_LOBES_MAX 3
+
+/* Of R_l P_l of each of them, by band. */
 typedef struct zonal_weights {
-    vf of[LMP_KERNEL_LOBES_MAX][LMP_BANDS_MAX];
+    vf of[ZONAL_LOBES_MAX][LMP_BANDS_MAX];
 } zonal_weights;
 
 /* The lobes' sums on their way through the bands: R_l, P_l of the normal (even l) and of each axis,
  * each with the one before. */
 typedef struct zonal_sums {
-    vf r1, r0, p1, p0, q1[LMP_KERNEL_LOBES_MAX], q0[LMP_KERNEL_LOBES_MAX];
-    vf diffuse, specular[LMP_KERNEL_LOBES_MAX];
+    vf r1, r0, p1, p0, q1[ZONAL_LOBES_MAX], q0[ZONAL_LOBES_MAX];
+    vf diffuse, specular[ZONAL_LOBES_MAX];
 } zonal_sums;
 
 LMP_INLINE void zonal_add_specular(int lobes, const zonal_weights *weights, int l,
@@ -133,8 +136,10 @@ LMP_INLINE void zonal_step(int lobes, const zonal_tables *tables, int l, vf x, c
     }
 }
 
-LMP_INLINE zonal_sums zonal_monic(int lobes, int bands, const zonal_tables *tables,
-                                  const zonal_weights *weights, const shade_direction *direction) {
+/* v: of direction->v, the lobes'. */
+LMP_INLINE zonal_sums zonal_monic(int lobes, int diffuse, int bands, const zonal_tables *tables,
+                                  const zonal_weights *weights, const shade_direction *direction,
+                                  const vf *v) {
     const vf one = vf_set(1), square = direction->u * direction->u, x = one - direction->t;
     zonal_sums sums = { .r1 = x,
                         .r0 = one,
@@ -142,46 +147,49 @@ LMP_INLINE zonal_sums zonal_monic(int lobes, int bands, const zonal_tables *tabl
                         .p0 = one,
                         .diffuse = tables->diffuse_1 * direction->u };
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
-        sums.q1[k] = direction->v[k] * direction->v[k] - tables->lobe[2];
-        sums.q0[k] = direction->v[k];
-        sums.specular[k] = weights->of[k][1] * direction->v[k];
+        sums.q1[k] = v[k] * v[k] - tables->lobe[2];
+        sums.q0[k] = v[k];
+        sums.specular[k] = weights->of[k][1] * v[k];
     }
-    sums.diffuse = sums.diffuse + tables->diffuse[1] * (x * sums.p1);
+    if (diffuse)
+        sums.diffuse = sums.diffuse + tables->diffuse[1] * (x * sums.p1);
     zonal_add_specular(lobes, weights, 2, &sums);
     LMP_UNROLL for (int l = 3; l < bands; l += 2) {
-        zonal_step(lobes, tables, l, x, direction->v, &sums);
+        zonal_step(lobes, tables, l, x, v, &sums);
         zonal_add_specular(lobes, weights, l, &sums);
         if (l + 1 == bands)
             break;
-        zonal_step(lobes, tables, l + 1, x, direction->v, &sums);
+        zonal_step(lobes, tables, l + 1, x, v, &sums);
         zonal_add_specular(lobes, weights, l + 1, &sums);
-        zonal_add_diffuse(tables, l + 1, square, &sums);
+        if (diffuse)
+            zonal_add_diffuse(tables, l + 1, square, &sums);
     }
     return sums;
 }
 
 /* The same of more bands: R_l by its differences r0 = R_l - R_(l-1), which keeps more of them
  * exact. */
-LMP_INLINE zonal_sums zonal_long(int lobes, int bands, const zonal_tables *tables,
-                                 const zonal_weights *weights, const shade_direction *direction) {
+LMP_INLINE zonal_sums zonal_long(int lobes, int diffuse, int bands, const zonal_tables *tables,
+                                 const zonal_weights *weights, const shade_direction *direction,
+                                 const vf *v) {
     const vf one = vf_set(1), zero = vf_set(0), square = direction->u * direction->u;
     zonal_sums sums = { one, zero, one, zero, .diffuse = tables->diffuse_1 * direction->u };
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
-        sums.q1[k] = direction->v[k];
+        sums.q1[k] = v[k];
         sums.q0[k] = one;
-        sums.specular[k] = weights->of[k][1] * direction->v[k];
+        sums.specular[k] = weights->of[k][1] * v[k];
     }
     LMP_ROLLED for (int l = 2; l < bands; l++) {
         const float *d = lmp_table_legendre_d, *t = lmp_table_legendre_t;
         sums.r0 = lmp_table_cap_d[l] * sums.r0 - lmp_table_cap_t[l] * (direction->t * sums.r1);
         sums.r1 = sums.r1 + sums.r0;
         LMP_UNROLL for (int k = 0; k < lobes; k++) {
-            const vf q2 = t[l] * (direction->v[k] * sums.q1[k]) - d[l] * sums.q0[k];
+            const vf q2 = t[l] * (v[k] * sums.q1[k]) - d[l] * sums.q0[k];
             sums.q0[k] = sums.q1[k];
             sums.q1[k] = q2;
         }
         zonal_add_specular(lobes, weights, l, &sums);
-        if (l % 2 == 0)
+        if (diffuse && l % 2 == 0)
             zonal_add_diffuse(tables, l, tables->even_a[l / 2] * square, &sums);
     }
     return sums;
@@ -194,17 +202,55 @@ LMP_INLINE vf zonal_response(const shade_direction *direction, vf sum, vf whole)
                                                       : response;
 }
 
-/* Adds one light's responses to the block's sums. The chains of successive lights run side by side:
- * none waits for the one before. */
-LMP_INLINE void zonal_light(int lobes, int bands, int monic, const zonal_tables *tables,
-                            const zonal_weights *weights, const shade_direction *direction,
-                            lmp_rgb rgb, shade_sums *sums) {
-    const zonal_sums zonal = monic ? zonal_monic(lobes, bands, tables, weights, direction)
-                                   : zonal_long(lobes, bands, tables, weights, direction);
-    shade_accumulate(rgb, zonal_response(direction, zonal.diffuse, zonal_lanes(tables->diffuse[0])),
-                     sums->diffuse);
+/* What a block of surfaces accumulates. */
+typedef struct zonal_accumulated {
+    vf diffuse[3], specular[ZONAL_LOBES_MAX][3];
+} zonal_accumulated;
+
+/* Adds one light's responses. The chains of successive lights run side by side: none waits for the
+ * one before. */
+LMP_INLINE void zonal_light(int lobes, int diffuse, int bands, int monic,
+                            const zonal_tables *tables, const zonal_weights *weights,
+                            const shade_direction *direction, const vf *v, lmp_rgb rgb,
+                            zonal_accumulated *to) {
+    const zonal_sums zonal = monic
+                                 ? zonal_monic(lobes, diffuse, bands, tables, weights, direction, v)
+                                 : zonal_long(lobes, diffuse, bands, tables, weights, direction, v);
+    if (diffuse)
+        shade_accumulate(rgb,
+                         zonal_response(direction, zonal.diffuse, zonal_lanes(tables->diffuse[0])),
+                         to->diffuse);
     LMP_UNROLL for (int k = 0; k < lobes; k++) shade_accumulate(
-        rgb, zonal_response(direction, zonal.specular[k], weights->of[k][0]), sums->specular[k]);
+        rgb, zonal_response(direction, zonal.specular[k], weights->of[k][0]), to->specular[k]);
+}
+
+/* All lights on Phong's lobes from `first` on, and on the diffuse one; the weights are those of the
+ * block before, if `kept`. */
+LMP_INLINE void zonal_lobes(int first, int lobes, int diffuse, int bands, int monic,
+                            const zonal_tables *tables, const lmp_kernel_surfaces *surfaces,
+                            const lmp_kernel_light *lights, const shade_direction *directions,
+                            size_t light_count, size_t e, int kept, zonal_weights *weights,
+                            const lmp_kernel_accumulated *accumulated) {
+    zonal_accumulated sums;
+    if (diffuse)
+        shade_sums_load(accumulated->diffuse, e, sums.diffuse);
+    for (int k = 0; k < lobes; k++) {
+        const float *exponent = surfaces->lobe[first + k].exponent + e;
+        /* Neighbors are often of one material. */
+        if (!kept || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
+            zonal_phong(bands, tables, vf_load(exponent), weights->of[k]);
+    }
+    LMP_UNROLL for (int k = 0; k < lobes; k++)
+        shade_sums_load(accumulated->specular[first + k], e, sums.specular[k]);
+    for (size_t i = 0; i < light_count; i++) {
+        LMP_OPAQUE(tables);
+        zonal_light(lobes, diffuse, bands, monic, tables, weights, &directions[i],
+                    directions[i].v + first, lights[i].radiance, &sums);
+    }
+    if (diffuse)
+        shade_sums_store(sums.diffuse, e, accumulated->diffuse);
+    LMP_UNROLL for (int k = 0; k < lobes; k++)
+        shade_sums_store(sums.specular[k], e, accumulated->specular[first + k]);
 }
 
 LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_tables *tables,
@@ -213,22 +259,17 @@ LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_tables *t
                           const lmp_kernel_accumulated *accumulated) {
     shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
     zonal_weights weights;
+    const int more = lobes == ZONAL_LOBES_MAX && surfaces->lobe_count > lobes;
     for (size_t e = 0; e < count; e += LMP_LANES) {
-        shade_sums sums;
-        shade_sums_load(lobes, accumulated, e, &sums);
-        for (int k = 0; k < lobes; k++) {
-            const float *exponent = surfaces->lobe[k].exponent + e;
-            /* Neighbors are often of one material. */
-            if (e == 0 || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
-                zonal_phong(bands, tables, vf_load(exponent), weights.of[k]);
-        }
-        shade_directions(lobes, surfaces, lights, light_count, e, directions);
-        for (size_t i = 0; i < light_count; i++) {
-            LMP_OPAQUE(tables);
-            zonal_light(lobes, bands, monic, tables, &weights, &directions[i], lights[i].radiance,
-                        &sums);
-        }
-        shade_sums_store(lobes, &sums, e, accumulated);
+        if (more)
+            shade_directions(LMP_KERNEL_LOBES_MAX, surfaces, lights, light_count, e, directions);
+        else
+            shade_directions(lobes, surfaces, lights, light_count, e, directions);
+        zonal_lobes(0, lobes, 1, bands, monic, tables, surfaces, lights, directions, light_count, e,
+                    e > 0 && !more, &weights, accumulated);
+        if (more)
+            zonal_lobes(lobes, LMP_KERNEL_LOBES_MAX - ZONAL_LOBES_MAX, 0, bands, monic, tables,
+                        surfaces, lights, directions, light_count, e, 0, &weights, accumulated);
     }
 }
 
@@ -252,7 +293,7 @@ static void kernel_shade_zonal(int bands, const float *window, const float *diff
         BASIS_SPECIALISE(bands, zonal_surfaces, 1, &tables, surfaces, lights, light_count, count,
                          accumulated)
     } else {
-        BASIS_SPECIALISE(bands, zonal_surfaces, LMP_KERNEL_LOBES_MAX, &tables, surfaces, lights,
+        BASIS_SPECIALISE(bands, zonal_surfaces, ZONAL_LOBES_MAX, &tables, surfaces, lights,
                          light_count, count, accumulated)
     }
 }

@@ -21,6 +21,9 @@
  *   [3] its weight of F90 - F0 */
 extern const float lmp_ggx_table[LMP_GGX_ROUGHNESSES][LMP_GGX_VIEWS][LMP_GGX_LOBES][4];
 
+/* The column of a row from which the lobes from LMP_GGX_LOBES_FEW on have weight 0. */
+extern const float lmp_ggx_few[LMP_GGX_ROUGHNESSES];
+
 /* ∫ (1 - v·h)^5 cos / pi: what a diffuse surface loses of F90 - F0. */
 extern const float lmp_ggx_diffuse[LMP_GGX_VIEWS];
 

@@ -126,11 +126,14 @@ void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfa
             chunk.count = 0;
             for (size_t i = first; i < end; i++) {
                 const lmp_material *material = lmp_material_at(surfaces, i);
-                const shade_source source = lmp_shade_source(material, LMP_SHADE_ZONAL);
-                if (source.phong_count == lobes && lobes > 0)
+                if (lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, i),
+                                          lmp_vec3_element(&surfaces->view, i)) != lobes)
+                    continue;
+                if (lobes > 0)
                     chunk.at[chunk.count++] = i;
-                else if (source.phong_count == lobes)
-                    shade_one(surfaces, i, environment, source.table, stride, rgb);
+                else
+                    shade_one(surfaces, i, environment,
+                              lmp_shade_source(material, LMP_SHADE_ZONAL).table, stride, rgb);
             }
             if (chunk.count > 0)
                 shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);

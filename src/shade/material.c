@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/shade/material.h"
 #include "src/base/precondition.h"
+#include "src/lobe/ggx.h"
 
 #include <math.h>
 
@@ -54,13 +55,20 @@ shade_layers lmp_shade_layers(const lmp_material *material) {
                             layer->f90 };
 }
 
+int lmp_shade_phong_count(const lmp_material *material, lmp_vec3 n, lmp_vec3 v) {
+    if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
+        return lmp_lobe_ggx_count(n.x * v.x + n.y * v.y + n.z * v.z, material->roughness);
+    return material->kind == LMP_MATERIAL_LOBES;
+}
+
 static void reflect_metallic_roughness(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
                                        shade_reflection *reflection) {
     const shade_layers layers = lmp_shade_layers(material);
     lmp_ggx_lobes ggx;
     lmp_lobe_ggx(normal, view, material->roughness, &ggx);
     reflection->diffuse = times(layers.diffuse, lmp_shade_passed(&layers, ggx.diffuse_f90));
-    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+    reflection->count = lmp_shade_phong_count(material, normal, view);
+    for (int k = 0; k < reflection->count; k++) {
         const lmp_ggx_lobe *lobe = &ggx.lobe[k];
         const float f90 = layers.f90 * lobe->f90;
         reflection->lobe[k] =
@@ -78,6 +86,7 @@ void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec
         return;
     }
     reflection->diffuse = material->diffuse;
+    reflection->count = 1;
     reflection->lobe[0] =
         (shade_phong) { mirrored(normal, view), material->exponent, material->specular };
 }
@@ -88,8 +97,8 @@ void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *mat
     shade_reflection reflection;
     float window[LMP_BANDS_MAX];
     lobes->bands = bands;
-    lobes->count = 1 + lmp_shade_source(material, resolved->method).phong_count;
     lmp_shade_reflection(material, surface->normal, surface->view, &reflection);
+    lobes->count = 1 + reflection.count;
     lmp_lobe_diffuse(bands, lobes->lobe[0].lambda);
     lobes->lobe[0].axis = surface->normal;
     lobes->lobe[0].weight = (lmp_rgb) { reflection.diffuse.r / pi, reflection.diffuse.g / pi,

@@ -9,7 +9,7 @@
 #include <lampion/shade.h>
 
 /* What a surface reflects by, as long as nothing is truncated: a diffuse lobe of an albedo around
- * the normal, and Phong lobes, as many as lmp_shade_phong_count says. */
+ * the normal, and Phong lobes. */
 typedef struct shade_phong {
     lmp_vec3 axis;
     float exponent;
@@ -18,6 +18,7 @@ typedef struct shade_phong {
 
 typedef struct shade_reflection {
     lmp_rgb diffuse;
+    int count;
     shade_phong lobe[LMP_GGX_LOBES];
 } shade_reflection;
 
@@ -35,21 +36,16 @@ typedef struct shade_lobes {
     shade_lobe lobe[SHADE_LOBES_MAX];
 } shade_lobes;
 
-/* What a surface is shaded from under one method: a table, a preintegrated BRDF, or lobes, of which
- * so many are Phong's. */
+/* What a surface is shaded from under one method: a table, a preintegrated BRDF, or, if both are
+ * NULL, lobes. */
 typedef struct shade_source {
     const lmp_brdf_table *table;
     const lmp_preintegrated_brdf *preintegrated;
-    int phong_count;
 } shade_source;
 
 static inline shade_source lmp_shade_source(const lmp_material *material, lmp_shade_method method) {
-    shade_source source = { NULL, NULL, 0 };
-    if (material->kind == LMP_MATERIAL_LOBES)
-        source.phong_count = 1;
-    else if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
-        source.phong_count = LMP_GGX_LOBES;
-    else if (material->kind == LMP_MATERIAL_PREINTEGRATED)
+    shade_source source = { NULL, NULL };
+    if (material->kind == LMP_MATERIAL_PREINTEGRATED)
         source.preintegrated = material->preintegrated;
     else if (material->kind == LMP_MATERIAL_TABLE && method == LMP_SHADE_PREINTEGRATED &&
              material->preintegrated)
@@ -126,6 +122,9 @@ shade_layers lmp_shade_layers(const lmp_material *material);
 static inline float lmp_shade_passed(const shade_layers *layers, float diffuse_f90) {
     return 1 - layers->layer_f0 * (1 - diffuse_f90) - layers->layer_f90 * diffuse_f90;
 }
+
+/* How many Phong lobes a surface needs; 0 of a material that has none. */
+int lmp_shade_phong_count(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view);
 
 /* For a material of a kind that has lobes. */
 void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,

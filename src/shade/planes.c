@@ -48,7 +48,7 @@ static void scale(const float *factors, size_t count, float *values) {
         values[i] *= factors[i];
 }
 
-static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t count,
+static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobe_count,
                      const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
                      shade_planes *planes) {
     lmp_batch_plane roughness, passed, f0_part[LMP_GGX_LOBES], f90_part[LMP_GGX_LOBES];
@@ -65,7 +65,7 @@ static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t coun
         store_vector(of->diffuse.r, of->diffuse.g, of->diffuse.b, &planes->diffuse, i);
         store_vector(of->f0.r, of->f0.g, of->f0.b, &f0, i);
     }
-    for (int k = 0; k < LMP_GGX_LOBES; k++) {
+    for (int k = 0; k < lobe_count; k++) {
         shade_lobe_planes *to = &planes->lobe[k];
         lobes[k] = (lmp_ggx_lobe_planes) { { to->axis.x.at, to->axis.y.at, to->axis.z.at },
                                            to->exponent.at,
@@ -74,14 +74,14 @@ static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t coun
     }
     const float *const n[3] = { normal->x.at, normal->y.at, normal->z.at };
     const float *const v[3] = { view->x.at, view->y.at, view->z.at };
-    lmp_lobe_ggx_n(n, v, roughness.at, count, lobes, passed.at);
+    lmp_lobe_ggx_n(n, v, roughness.at, count, lobe_count, lobes, passed.at);
     for (size_t i = 0; i < count; i++)
         passed.at[i] = lmp_shade_passed(&layers[i], passed.at[i]);
-    for (int k = 0; k < LMP_GGX_LOBES; k++)
+    for (int k = 0; k < lobe_count; k++)
         scale(f90.at, count, f90_part[k].at);
     for (size_t c = 0; c < 3; c++) {
         scale(passed.at, count, plane_of(&planes->diffuse, c));
-        for (int k = 0; k < LMP_GGX_LOBES; k++)
+        for (int k = 0; k < lobe_count; k++)
             weigh(plane_of(&f0, c), f0_part[k].at, f90_part[k].at, count,
                   plane_of(&planes->lobe[k].weight, c));
     }
@@ -93,7 +93,7 @@ void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count
     if (lobes == 1)
         load_phong(surfaces, at, count, normal, view, planes);
     else
-        load_ggx(surfaces, at, count, normal, view, planes);
+        load_ggx(surfaces, at, count, lobes, normal, view, planes);
     for (int k = 0; k < lobes; k++)
         for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++) {
             store_vector(0, 0, 0, &planes->lobe[k].axis, i);

@@ -3,7 +3,7 @@
 #ifndef LAMPION_SHADE_PLANES_H
 #define LAMPION_SHADE_PLANES_H
 
-/* Planes of three lobes: a larger chunk would leave the stack that base.h promises. */
+/* Planes of five lobes: a larger chunk would leave the stack that base.h promises. */
 #define LMP_BATCH 64
 
 #include "src/kernels/batch.h"

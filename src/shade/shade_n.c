@@ -23,6 +23,7 @@ enum { SPOTS_MAX = 4 };
 /* Surfaces near each other that are shaded from the same. */
 typedef struct chunk {
     shade_source source;
+    int phong_count; /* 0: no lobes, but a table or a BRDF */
     size_t count;
     size_t at[LMP_BATCH]; /* among the caller's; rising */
     lmp_batch_vec3 point, normal, view;
@@ -38,12 +39,18 @@ static size_t take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, 
     size_t others = 0;
     chunk->count = 0;
     for (size_t i = 0; i < count; i++) {
-        const shade_source source = lmp_shade_source(lmp_material_at(surfaces, left[i]), method);
-        if (i == 0)
+        const lmp_material *material = lmp_material_at(surfaces, left[i]);
+        const shade_source source = lmp_shade_source(material, method);
+        const int phong_count =
+            lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, left[i]),
+                                  lmp_vec3_element(&surfaces->view, left[i]));
+        if (i == 0) {
             chunk->source = source;
+            chunk->phong_count = phong_count;
+        }
         if (source.table == chunk->source.table &&
             source.preintegrated == chunk->source.preintegrated &&
-            source.phong_count == chunk->source.phong_count)
+            phong_count == chunk->phong_count)
             chunk->at[chunk->count++] = left[i];
         else
             left[others++] = left[i];
@@ -74,7 +81,7 @@ static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const chunk_pla
 
 static void load_lobes(const lmp_surfaces *surfaces, chunk_planes *chunk) {
     shade_planes *planes = &chunk->planes;
-    const int lobes = chunk->source.phong_count;
+    const int lobes = chunk->phong_count;
     lmp_shade_load(surfaces, chunk->at, chunk->count, lobes, &chunk->normal, &chunk->view, planes);
     chunk->surfaces.lobe_count = lobes;
     for (int k = 0; k < lobes; k++) {
@@ -238,7 +245,7 @@ static __attribute__((noinline)) void shade_by_readings(const shade_method *meth
     chunk_places places[LMP_KERNEL_LOBES_MAX];
     lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
     const lmp_kernel_preintegrated_lobe lobe = { method->info.coefficients };
-    for (int k = 0; k < chunk->source.phong_count; k++)
+    for (int k = 0; k < chunk->phong_count; k++)
         specular[k] = find_places(&method->info, &chunk->planes.lobe[k], chunk->count, &places[k]);
     lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &method->diffuse_position, specular,
                                                 &chunk->surfaces, lights, count, chunk->count,
@@ -313,9 +320,8 @@ static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
     }
-    if (chunk->source.phong_count)
-        lmp_shade_sum_planes(chunk->count, chunk->source.phong_count, chunk->ambient,
-                             &chunk->planes);
+    if (chunk->phong_count)
+        lmp_shade_sum_planes(chunk->count, chunk->phong_count, chunk->ambient, &chunk->planes);
     store_chunk(chunk, stride, rgb);
 }
 
@@ -361,7 +367,7 @@ void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surface
             left[i] = first + i;
         while (left_count > 0) {
             left_count = take_alike(surfaces, resolved.method, left, left_count, &chunk);
-            const bool lobes = chunk.source.phong_count > 0;
+            const bool lobes = chunk.phong_count > 0;
             assert(!lobes || resolved.method != LMP_SHADE_PREINTEGRATED || resolved.lobe);
             if (chunk.source.table || (lobes && resolved.method == LMP_SHADE_COEFFICIENTS))
                 shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,

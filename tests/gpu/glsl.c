@@ -186,12 +186,13 @@ static const char ggx_main[] =
     "void main() {\n"
     "    uint i = gl_GlobalInvocationID.x;\n"
     "    vec3 normal = vec3(0.0, 0.0, 1.0), view = views[i].xyz;\n"
-    "    lmp_ggx_place place = lmp_ggx_lookup(normal, view, views[i].w);\n"
+    "    lmp_ggx_node node = lmp_ggx_lookup(normal, view, views[i].w);\n"
     "    for (int k = 0; k < LMP_GGX_LOBES; k++) {\n"
-    "        lmp_ggx_lobe lobe = lmp_ggx_lobe_at(place, normal, view, k);\n"
+    "        lmp_ggx_lobe lobe = lmp_ggx_lobe_at(node, normal, view, k);\n"
     "        uint at = (i * LMP_GGX_LOBES + k) * 2;\n"
     "        values[at] = vec4(lobe.axis, lobe.exponent);\n"
-    "        values[at + 1] = vec4(lobe.f0, lobe.f90, lmp_ggx_diffuse_f90(place), 0.0);\n"
+    "        values[at + 1] = vec4(lobe.f0, lobe.f90, lmp_ggx_diffuse_f90(node), "
+    "float(lmp_ggx_count(node)));\n"
     "    }\n"
     "}\n";
 
@@ -208,6 +209,8 @@ static void check_ggx_lobes(const float view[4], const float (*values)[4]) {
         CHECK_WITHIN(fabsf(second[0] - lobe->f0), 1e-5);
         CHECK_WITHIN(fabsf(second[1] - lobe->f90), 1e-5);
         CHECK_WITHIN(fabsf(second[2] - lobes.diffuse_f90), 1e-5);
+        if (k >= (int)second[3]) /* not among those that count */
+            CHECK_WITHIN(fabsf(lobe->f0) + fabsf(lobe->f90), 1e-5);
     }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Checksums of every kernel (rows) in 1, 2, 3, 5, 10, 11, 33, 64, 65 and 128 bands, written by
- * LAMPION_GOLDEN=1 test_kernels_kernels. They hold for every compiler and instruction set. */
+/* Checksums of every kernel (rows) in 1, 2, 3, 5, 10, 11, 33, 64, 65 and 128
+ * bands, written by LAMPION_GOLDEN=1 test_kernels_kernels. They hold for every
+ * compiler and instruction set. */
 {
     0x092618f8u, 0xbb326c92u, 0x8eb8d73au, 0x49356e26u, 0xed063799u,
     0x9e9a43ecu, 0xa98d763du, 0xaa314fe7u, 0xdc0e4a07u, 0xef898c71u,
@@ -64,4 +65,12 @@
     {
         0x4511c19eu, 0x656f9227u, 0x6c01862cu, 0xc929260fu, 0x61e9f9e5u,
         0x9d93bf8au, 0x02eb0975u, 0x09db455cu, 0x39c448bau, 0xe9ec888eu,
+    },
+    {
+        0x529dd0c3u, 0x96ea7bf7u, 0x27d4bfb7u, 0x1e8e6bb4u, 0x76a86890u,
+        0xd062f35eu, 0x77098088u, 0xd790a261u, 0x800e4f9fu, 0x89c9359cu,
+    },
+    {
+        0x862d5740u, 0x94646408u, 0x244b4399u, 0x1601945bu, 0xec48a4e9u,
+        0x0c555eecu, 0x55dfde8eu, 0xea512c9au, 0x12fde97bu, 0xccfac197u,
     },

@@ -276,10 +276,13 @@ static void functions_of_coefficients_match_double_precision(void **test) {
 
 static void shading_matches_double_precision(void **test) {
     (void)test;
-    static void (*const expect[])(const shading *, int,
-                                  shaded *) = { expect_zonal, expect_preintegrated_lobe,
-                                                expect_preintegrated_brdf, expect_zonal,
-                                                expect_preintegrated_lobe };
+    static void (*const expect[])(const shading *, int, shaded *) = { expect_zonal,
+                                                                      expect_preintegrated_lobe,
+                                                                      expect_preintegrated_brdf,
+                                                                      expect_zonal,
+                                                                      expect_preintegrated_lobe,
+                                                                      expect_zonal,
+                                                                      expect_preintegrated_lobe };
     lmp_kernels best;
     lmp_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());

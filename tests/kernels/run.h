@@ -26,8 +26,10 @@ typedef enum kind {
     SHADE_ZONAL,
     SHADE_PREINTEGRATED_LOBE,
     SHADE_PREINTEGRATED_BRDF,
-    SHADE_ZONAL_GGX,
-    SHADE_PREINTEGRATED_LOBE_GGX,
+    SHADE_ZONAL_FEW,
+    SHADE_PREINTEGRATED_LOBE_FEW,
+    SHADE_ZONAL_ALL,
+    SHADE_PREINTEGRATED_LOBE_ALL,
     KINDS
 } kind;
 static const char *const kind_names[] = { "eval",
@@ -44,13 +46,27 @@ static const char *const kind_names[] = { "eval",
                                           "shade_zonal",
                                           "shade_preintegrated_lobe",
                                           "shade_preintegrated_brdf",
+                                          "shade_zonal of few lobes",
+                                          "shade_preintegrated_lobe of few lobes",
                                           "shade_zonal of all lobes",
                                           "shade_preintegrated_lobe of all lobes" };
 
 /* Of Phong's, that a kernel of shading takes. */
 static int lobes_of(kind which) {
-    return which == SHADE_ZONAL_GGX || which == SHADE_PREINTEGRATED_LOBE_GGX ? LMP_KERNEL_LOBES_MAX
-                                                                             : 1;
+    switch (which) {
+    case SHADE_ZONAL_FEW:
+    case SHADE_PREINTEGRATED_LOBE_FEW:
+        return 3;
+    case SHADE_ZONAL_ALL:
+    case SHADE_PREINTEGRATED_LOBE_ALL:
+        return LMP_KERNEL_LOBES_MAX;
+    default:
+        return 1;
+    }
+}
+
+static bool is_zonal(kind which) {
+    return which == SHADE_ZONAL || which == SHADE_ZONAL_FEW || which == SHADE_ZONAL_ALL;
 }
 enum { PLANES = 3 + 3 * LMP_KERNEL_LOBES_MAX };
 
@@ -74,10 +90,11 @@ static size_t values_of(kind which, int bands) {
         return 3;
     case SHADE_ZONAL:
     case SHADE_PREINTEGRATED_LOBE:
-        return 6;
-    case SHADE_ZONAL_GGX:
-    case SHADE_PREINTEGRATED_LOBE_GGX:
-        return PLANES;
+    case SHADE_ZONAL_FEW:
+    case SHADE_PREINTEGRATED_LOBE_FEW:
+    case SHADE_ZONAL_ALL:
+    case SHADE_PREINTEGRATED_LOBE_ALL:
+        return 3 + 3 * (size_t)lobes_of(which);
     default:
         return n;
     }
@@ -174,10 +191,10 @@ static void call_shading(const lmp_kernels *k, kind which, const shading *s, siz
     const lmp_kernel_lobe_positions diffuse = { s->diffuse_first, s->diffuse_columns,
                                                 s->diffuse_weights[0], s->diffuse_weights[1],
                                                 s->diffuse_weights[2] };
-    if (which == SHADE_ZONAL || which == SHADE_ZONAL_GGX)
+    if (is_zonal(which))
         k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
                        &sums);
-    else if (which == SHADE_PREINTEGRATED_LOBE || which == SHADE_PREINTEGRATED_LOBE_GGX)
+    else if (which != SHADE_PREINTEGRATED_BRDF)
         k->shade_preintegrated_lobe(&table, &diffuse, positions, &surfaces, s->lights, SHADE_LIGHTS,
                                     count, &sums);
     else
@@ -258,8 +275,10 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case SHADE_ZONAL:
     case SHADE_PREINTEGRATED_LOBE:
     case SHADE_PREINTEGRATED_BRDF:
-    case SHADE_ZONAL_GGX:
-    case SHADE_PREINTEGRATED_LOBE_GGX:
+    case SHADE_ZONAL_FEW:
+    case SHADE_PREINTEGRATED_LOBE_FEW:
+    case SHADE_ZONAL_ALL:
+    case SHADE_PREINTEGRATED_LOBE_ALL:
         run_shading(k, which, bands, in, count, out);
         break;
     case KINDS:

@@ -108,17 +108,16 @@ static void phong_lobes_over_caps_have_their_closed_forms(void **state) {
 }
 
 /* A white metal under caps of half angle 0.15 above the horizon, and the largest and the rms error
- * of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps. Below 70
- * degrees lobes that are symmetric each by itself follow a stretched highlight less closely; there
- * the bound is their own. */
+ * of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps. These are
+ * the bounds, but of the smoothest metals at 0 and 60 degrees, whose tails a few lobes end. */
 static const struct around {
     double roughness, degrees, ltc_largest, ltc_rms, largest, rms;
 } around[] = {
-    { 0.2, 0, 0.002, 0.0010, 0.01, 0.004 },   { 0.2, 60, 0.014, 0.006, 0.06, 0.025 },
-    { 0.2, 85, 0.208, 0.069, 0.208, 0.069 },  { 0.35, 0, 0.003, 0.0017, 0.01, 0.004 },
-    { 0.35, 60, 0.023, 0.010, 0.08, 0.025 },  { 0.35, 75, 0.102, 0.046, 0.102, 0.046 },
+    { 0.2, 0, 0.002, 0.0010, 0.01, 0.004 },   { 0.2, 60, 0.014, 0.006, 0.016, 0.007 },
+    { 0.2, 85, 0.208, 0.069, 0.208, 0.069 },  { 0.35, 0, 0.003, 0.0017, 0.005, 0.0017 },
+    { 0.35, 60, 0.023, 0.010, 0.023, 0.010 }, { 0.35, 75, 0.102, 0.046, 0.102, 0.046 },
     { 0.35, 85, 0.244, 0.143, 0.244, 0.143 }, { 0.5, 0, 0.010, 0.006, 0.010, 0.006 },
-    { 0.5, 60, 0.068, 0.033, 0.09, 0.033 },   { 0.5, 85, 0.177, 0.094, 0.177, 0.094 },
+    { 0.5, 60, 0.068, 0.033, 0.068, 0.033 },  { 0.5, 85, 0.177, 0.094, 0.177, 0.094 },
     { 0.7, 60, 0.145, 0.064, 0.145, 0.064 },  { 0.7, 85, 0.232, 0.104, 0.232, 0.104 },
     { 0.9, 60, 0.154, 0.041, 0.154, 0.041 },  { 0.9, 85, 0.220, 0.080, 0.220, 0.080 },
 };
@@ -172,14 +171,15 @@ static void plates_look_as_the_specification_says(void **state) {
                                     metal ? 0.9 : 0.04, 1, metal ? 0 : 0.5 };
             const apart worst = compare_plates(&s, &all);
             print_message(" %.3f %.2f %.3f |", worst.rms, worst.largest, worst.energy);
-            CHECK_WITHIN(worst.rms, degrees < 70 ? 0.045 : 0.06);
-            CHECK_WITHIN(worst.largest, degrees < 70 ? 0.15 : 0.4);
-            CHECK_WITHIN(fabs(worst.energy - 1), degrees < 70 ? 0.05 : 0.1);
+            const bool chalk = metal && plate_roughnesses[r] > 0.9 && degrees > 70;
+            CHECK_WITHIN(worst.rms, chalk ? 0.045 : 0.035);
+            CHECK_WITHIN(worst.largest, chalk ? 0.15 : 0.125);
+            CHECK_WITHIN(fabs(worst.energy - 1), 0.05);
         }
         print_message("\n");
     }
     print_message("rms of %ld plates: %.4f\n", all.count, check_errors_rms(&all));
-    CHECK_WITHIN(check_errors_rms(&all), 0.02);
+    CHECK_WITHIN(check_errors_rms(&all), 0.015);
 }
 
 /* Under a uniform sky. What GGX loses, light that would leave after several reflections, is lost.
@@ -268,7 +268,7 @@ static void lobes_follow_ggx_everywhere(void **state) {
         const double a = fmax(0.1, 2 * s.alpha) / (1 + s.alpha);
         const cap_grid caps = { a, fmin(a + 3 * s.alpha, PI / 2), 8, 6, -sin(a) };
         const apart d = compare(&s, &caps, true);
-        CHECK_WITHIN(d.rms, 0.065);
+        CHECK_WITHIN(d.rms, 0.05);
         CHECK_WITHIN(fabs(d.energy - 1), 0.08);
     }
 }

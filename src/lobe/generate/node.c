@@ -8,13 +8,16 @@
 static const double pi = 3.14159265358979323846;
 
 static const double dielectric_f0 = 0.04;
-static const double weight_of_size[SIZES + 1] = { 1, 0.8, 0.5, 2 };
+static const double weight_of_size[SIZES + 1] = { 1, 0.8, 0.5, 4 };
 static const double weight_of_material[MATERIALS] = { 1, 0.8 };
+
+#define LARGE         0.03 /* in parts of the peak: a large error */
+#define ENERGY_WEIGHT 0.3
 
 /* --- nodes of the table ----------------------------------------------------------------------- */
 
 double node_cap_size(double alpha, int size) {
-    static const double wide[SIZES] = { 1.5, 5, 15 }, most[SIZES] = { 0.1, 0.25, 0.8 };
+    static const double wide[SIZES] = { 1.5, 5, 15 }, most[SIZES] = { 0.06, 0.2, 0.7 };
     return size == SIZES ? pi / 2 : fmin(wide[size] * alpha, most[size]);
 }
 
@@ -41,6 +44,7 @@ static void cap_create(fit_node *node, int size, int i, int k) {
     node->direction[cap][0] = x;
     node->direction[cap][1] = z;
     set_targets(node, cap, value);
+    node->solid[cap] = hidden < 1 ? 0 : sin(rho);
     for (int m = 0; m < MATERIALS; m++)
         node->weight[m][cap] = hidden * sqrt(sin(rho));
 }
@@ -57,13 +61,16 @@ static void scale_weights(fit_node *node, int size, int material) {
     for (int cap = first; cap < first + count; cap++)
         weight[cap] =
             weight_of_material[material] * weight_of_size[size] * sqrt(weight[cap] / sum) / peak;
+    node->peak[material][size] = peak;
 }
 
-void node_create(fit_node *node, double z, double alpha, const caps_table *tables) {
+void node_create(fit_node *node, double z, double alpha, double extra_max,
+                 const caps_table *tables) {
     const double a2 = alpha * alpha;
     double sky[2];
     node->view = (ggx_view) { alpha, z, sqrt(1 - z * z), sqrt(a2 + (1 - a2) * z * z) };
     node->tables = tables;
+    node->extra_max = extra_max;
     for (int size = 0; size < SIZES; size++)
         for (int i = 0; i < DISTANCES; i++)
             for (int k = 0; k < AZIMUTHS; k++)
@@ -94,10 +101,15 @@ static void equations_add(equations *e, const double row[PARAMETERS], double res
     }
 }
 
-/* Adds the two residuals of a cap and their derivatives. */
-static void add_cap(const fit_node *node, const double p[PARAMETERS], int cap, equations *e) {
+/* What the lobes give of a cap, and its derivatives, for each material. */
+typedef struct cap_model {
+    double value[MATERIALS], row[MATERIALS][PARAMETERS];
+} cap_model;
+
+static void model_cap(const fit_node *node, const double p[PARAMETERS], int cap, cap_model *to) {
     const double *d = node->direction[cap];
-    double sum[2] = { 0, 0 }, row[MATERIALS][PARAMETERS];
+    for (int m = 0; m < MATERIALS; m++)
+        to->value[m] = 0;
     for (int k = 0; k < LOBES; k++) {
         const double *q = p + 4 * k;
         const double height = node->view.z + node->view.alpha * q[0];
@@ -110,31 +122,63 @@ static void add_cap(const fit_node *node, const double p[PARAMETERS], int cap, e
         /* the axis rotates toward (-z, x) as the height grows */
         const double rotation = value[1] * (z * d[0] - x * d[1]) / sine * node->view.sine *
                                 node->view.alpha / (length * length);
-        sum[0] += q[2] * value[0];
-        sum[1] += q[3] * value[0];
         for (int m = 0; m < MATERIALS; m++) {
             const double f0 = m == 0 ? 1 : dielectric_f0, w = f0 * q[2] + (1 - f0) * q[3];
-            double *r = row[m] + 4 * k;
+            double *r = to->row[m] + 4 * k;
+            to->value[m] += w * value[0];
             r[0] = w * rotation;
             r[1] = w * value[2];
             r[2] = f0 * value[0];
             r[3] = (1 - f0) * value[0];
         }
     }
-    for (int m = 0; m < MATERIALS; m++) {
-        const double f0 = m == 0 ? 1 : dielectric_f0, model = f0 * sum[0] + (1 - f0) * sum[1];
-        for (int i = 0; i < PARAMETERS; i++)
-            row[m][i] *= node->weight[m][cap];
-        equations_add(e, row[m], node->weight[m][cap] * (model - node->target[m][cap]));
+}
+
+/* Adds the errors of a cap: beyond LARGE they count by their fourth power. */
+static void add_cap(const fit_node *node, int m, int cap, const cap_model *model, equations *e) {
+    const double peak = node->peak[m][cap / (DISTANCES * AZIMUTHS)];
+    const double error = model->value[m] - node->target[m][cap];
+    const double square = (error / peak / LARGE) * (error / peak / LARGE), root = sqrt(1 + square);
+    double row[PARAMETERS];
+    for (int i = 0; i < PARAMETERS; i++)
+        row[i] = node->weight[m][cap] * model->row[m][i] * (1 + 2 * square) / root;
+    equations_add(e, row, node->weight[m][cap] * error * root);
+}
+
+/* Adds the error of the energy that all caps of a size reflect. */
+static void add_energy(const fit_node *node, int m, int size, const cap_model *models,
+                       equations *e) {
+    double row[PARAMETERS] = { 0 }, error = 0, all = 0;
+    const int first = size * DISTANCES * AZIMUTHS;
+    for (int i = 0; i < DISTANCES * AZIMUTHS; i++) {
+        const double solid = node->solid[first + i];
+        all += solid * node->target[m][first + i];
+        error += solid * (models[i].value[m] - node->target[m][first + i]);
+        for (int k = 0; k < PARAMETERS; k++)
+            row[k] += solid * models[i].row[m][k];
     }
+    for (int k = 0; k < PARAMETERS; k++)
+        row[k] *= ENERGY_WEIGHT / all;
+    equations_add(e, row, ENERGY_WEIGHT / all * error);
 }
 
 static void accumulate(const fit_node *node, const double p[PARAMETERS],
                        const double toward[PARAMETERS], double pull, equations *e) {
     static const double scale[4] = { 1, 0.5, 2, 2 };
+    cap_model models[DISTANCES * AZIMUTHS];
     memset(e, 0, sizeof *e);
-    for (int cap = 0; cap < CAPS; cap++)
-        add_cap(node, p, cap, e);
+    for (int size = 0; size <= SIZES; size++) {
+        const int first = size * DISTANCES * AZIMUTHS;
+        const int count = size == SIZES ? 1 : DISTANCES * AZIMUTHS;
+        for (int i = 0; i < count; i++)
+            model_cap(node, p, first + i, &models[i]);
+        for (int m = 0; m < MATERIALS; m++) {
+            for (int i = 0; i < count; i++)
+                add_cap(node, m, first + i, &models[i], e);
+            if (size < SIZES)
+                add_energy(node, m, size, models, e);
+        }
+    }
     for (int i = 0; i < PARAMETERS; i++) {
         double row[PARAMETERS] = { 0 };
         row[i] = pull * scale[i % 4];
@@ -170,13 +214,17 @@ static bool solve(const equations *e, double damping, double x[PARAMETERS]) {
 
 /* Least values of a lobe's parameters: weights are not negative. */
 static const double least[4] = { -10, CAPS_SPREAD_LOG_MIN + 0.3, 0, 0 };
-static const double most[4] = { 30, CAPS_SPREAD_LOG_MAX - 0.3, 3, 3 };
+
+static double most(const fit_node *node, int i) {
+    static const double of_all[4] = { 80, CAPS_SPREAD_LOG_MAX - 0.3, 3, 3 };
+    return i % 4 >= 2 && i / 4 >= LMP_GGX_LOBES_FEW ? node->extra_max : of_all[i % 4];
+}
 
 /* Parameters at a bound that want to go beyond stay where they are. */
-static void equations_bound(equations *e, const double p[PARAMETERS]) {
+static void equations_bound(const fit_node *node, equations *e, const double p[PARAMETERS]) {
     for (int i = 0; i < PARAMETERS; i++) {
         const bool low = p[i] <= least[i % 4] && e->vector[i] < 0;
-        const bool high = p[i] >= most[i % 4] && e->vector[i] > 0;
+        const bool high = p[i] >= most(node, i) && e->vector[i] > 0;
         if (!low && !high)
             continue;
         for (int k = 0; k < PARAMETERS; k++)
@@ -190,20 +238,22 @@ double node_fit(const fit_node *node, double p[PARAMETERS], const double toward[
                 double pull, int steps) {
     equations now, next;
     double damping = 1e-3, step[PARAMETERS], tried[PARAMETERS];
+    for (int k = 0; k < PARAMETERS; k++)
+        p[k] = fmin(p[k], most(node, k));
     accumulate(node, p, toward, pull, &now);
-    equations_bound(&now, p);
+    equations_bound(node, &now, p);
     for (int i = 0; i < steps && damping < 1e6; i++) {
         if (!solve(&now, damping, step)) {
             damping *= 10;
             continue;
         }
         for (int k = 0; k < PARAMETERS; k++)
-            tried[k] = fmin(fmax(p[k] + step[k], least[k % 4]), most[k % 4]);
+            tried[k] = fmin(fmax(p[k] + step[k], least[k % 4]), most(node, k));
         accumulate(node, tried, toward, pull, &next);
         if (next.error < now.error) {
             const bool done = next.error > now.error * (1 - 1e-7);
             memcpy(p, tried, sizeof tried);
-            equations_bound(&next, p);
+            equations_bound(node, &next, p);
             now = next;
             damping = fmax(damping / 5, 1e-9);
             if (done)

@@ -21,7 +21,10 @@ typedef struct fit_node {
     ggx_view view;
     const caps_table *tables;  /* [SIZES + 1] */
     double direction[CAPS][2]; /* x and z of the middles of the caps */
+    double solid[CAPS];        /* what their energy counts */
     double target[MATERIALS][CAPS], weight[MATERIALS][CAPS];
+    double peak[MATERIALS][SIZES + 1]; /* of the targets of a size */
+    double extra_max;                  /* largest weight of the lobes from LMP_GGX_LOBES_FEW on */
     double fit[PARAMETERS];
 } fit_node;
 
@@ -29,7 +32,8 @@ typedef struct fit_node {
 double node_cap_size(double alpha, int size);
 
 /* tables: of node_cap_size(alpha, 0 … SIZES). */
-void node_create(fit_node *node, double z, double alpha, const caps_table *tables);
+void node_create(fit_node *node, double z, double alpha, double extra_max,
+                 const caps_table *tables);
 
 /* Improves the lobes p in so many steps, pulled toward others; the sum of squares, pull included.
  */
