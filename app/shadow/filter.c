@@ -10,13 +10,15 @@
 typedef struct filter_pass {
     shadow_planes *planes;
     int first, count, step;
-    float reach; /* of the width of a penumbra, what is mixed; 0: however far */
+    bool narrow; /* no farther than penumbras are wide */
 } filter_pass;
 
 /* Neighbors this far off the plane of a pixel, in distances to it and in pixels' widths, and of
  * normals so different are of another surface. */
 static const float off_plane = 0.15f, off_pixel = 0.5f;
 
+/* The part of a penumbra's width that is mixed. */
+static const float mixed_width = 0.25f;
 static const float tiny = 1e-30f;
 
 /* Where a row's taps at an offset lie: pixels begin ≤ x < end have one. */
@@ -48,7 +50,7 @@ static void weigh(const filter_pass *pass, const span *at, float kernel, float *
     const float *restrict footprint = p->footprint + at->row;
     const float *restrict hidden = pass->planes->values[SHADOW_HIDDEN] + at->row;
     const float *restrict width = pass->planes->values[SHADOW_HIDDEN_WIDTH] + at->row;
-    const float limit = pass->reach > 0 ? 1 : 0;
+    const float limit = pass->narrow ? 1 : 0;
 #pragma omp simd
     for (int x = at->begin; x < at->end; x++) {
         const float dx = qx[x] - px[x], dy = qy[x] - py[x], dz = qz[x] - pz[x];
@@ -58,7 +60,7 @@ static void weigh(const filter_pass *pass, const span *at, float kernel, float *
         const float flat = positive(1 - off * off / most);
         const float facing = positive(nx[x] * mx[x] + ny[x] * my[x] + nz[x] * mz[x]);
         const float f2 = facing * facing, f4 = f2 * f2, f8 = f4 * f4;
-        const float penumbra = pass->reach * width[x], least = 0.5f * pixel * hidden[x];
+        const float penumbra = mixed_width * width[x], least = 0.5f * pixel * hidden[x];
         const float wide = penumbra * penumbra + least * least + tiny;
         const float near = wide / (wide + limit * d2 * hidden[x] * hidden[x]);
         weights[x] = kernel * f8 * flat * near;
@@ -122,12 +124,12 @@ static bool run_pass(const filter_pass *pass) {
     return ok;
 }
 
-bool shadow_filter(shadow_planes *planes, float reach) {
+bool shadow_filter(shadow_planes *planes) {
     enum { WIDTH_PASSES = 3, PASSES = 4 };
     bool ok = true;
     for (int i = 0; i < WIDTH_PASSES && ok; i++)
-        ok = run_pass(&(filter_pass) { planes, SHADOW_HIDDEN, 2, 1 << i, 0 });
+        ok = run_pass(&(filter_pass) { planes, SHADOW_HIDDEN, 2, 1 << i, false });
     for (int i = 0; i < PASSES && ok; i++)
-        ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_HIDDEN, 1 << i, reach });
+        ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_HIDDEN, 1 << i, true });
     return ok;
 }

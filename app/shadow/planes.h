@@ -29,8 +29,8 @@ typedef struct shadow_planes {
 bool shadow_planes_resize(shadow_planes *planes, int width, int height);
 void shadow_planes_free(shadow_planes *planes);
 
-/* Mixes the values of neighbors on one surface, as far as a part of the width of penumbras. False
- * without memory. */
-bool shadow_filter(shadow_planes *planes, float reach);
+/* Mixes the values of neighbors on one surface, as far as penumbras are wide. False without memory.
+ */
+bool shadow_filter(shadow_planes *planes);
 
 #endif

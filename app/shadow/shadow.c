@@ -125,13 +125,6 @@ static bool apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
     return ok;
 }
 
-/* A quarter of a penumbra for two rays, less for more: what many samples average needs no filter.
- */
-static float reach_of(const shadow *s, const gpu_frame *frame) {
-    const int samples = frame->samples > 0 ? frame->samples : 1;
-    return 0.25f * sqrtf(2 / (float)(s->settings.rays * samples));
-}
-
 bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
                   cli_error *error) {
     shadow *s = user;
@@ -141,7 +134,7 @@ bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer
               send_rays(s, &job, gbuffer);
     const double sent = timing_now();
     if (!s->settings.raw)
-        ok = ok && shadow_filter(&s->planes, reach_of(s, frame));
+        ok = ok && shadow_filter(&s->planes);
     ok = ok && apply(s, gbuffer, rgba);
     s->statistics.rays_milliseconds = 1e3 * (sent - start);
     s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
