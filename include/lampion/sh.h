@@ -99,7 +99,8 @@ typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
 
 /* Coefficients of any function (paper Eq. 5) by Gauss-Legendre nodes in z times uniform nodes in
  * azimuth: exact, up to rounding, for functions band-limited to degree 2*nodes - bands. `function`
- * is called at `nodes` heights times 2*nodes azimuths; 0 means bands, enough for as many bands. */
+ * is called at `nodes` heights times 2*nodes azimuths; 0 means bands, enough for as many bands. Of
+ * a function with a step at the equator take an even number: an odd one has nodes on it. */
 LMP_API void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
                                      float *sh);
 
