@@ -44,6 +44,18 @@ extern const float lmp_table_cap_t[LMP_BANDS_MAX];
 extern const float lmp_table_legendre_d[LMP_BANDS_MAX];
 extern const float lmp_table_legendre_t[LMP_BANDS_MAX];
 
+/* Sums of s_l R_l P_l over bands, of zonal lobes: [0] as they are, [1] in monic form, in which R
+ * and P go as x p_(l-1) - c_l p_(l-2) and s_l holds their norms. s_l = (2l+1)/4, 1/2 of l = 0; in
+ * double, for it is multiplied by a weight before it is rounded. */
+extern const double lmp_table_zonal_scale[2][LMP_BANDS_MAX];
+extern const float lmp_table_zonal_cap[LMP_BANDS_MAX],
+    lmp_table_zonal_lobe[LMP_BANDS_MAX]; /* c_l */
+
+/* Two steps of P_l at once, entry l/2 of even l: P_l = (a u² - b) P_(l-2) - c P_(l-4). */
+extern const float lmp_table_even_a[2][LMP_BANDS_MAX / 2];
+extern const float lmp_table_even_b[2][LMP_BANDS_MAX / 2];
+extern const float lmp_table_even_c[2][LMP_BANDS_MAX / 2];
+
 /* Y_l0(z) = sqrt((2l+1)/(4 pi)). */
 extern const float lmp_table_pole[LMP_BANDS_MAX];
 

@@ -36,47 +36,24 @@ typedef struct zonal_tables {
     zonal_number even_a[LMP_BANDS_MAX / 2], even_b[LMP_BANDS_MAX / 2], even_c[LMP_BANDS_MAX / 2];
 } zonal_tables;
 
-/* P_l = t_l u P_(l-1) - d_l P_(l-2), or in monic form t = 1. */
-LMP_INLINE double zonal_t(int monic, int l) {
-    return monic ? 1 : (2 * l - 1) / (double)l;
-}
-LMP_INLINE double zonal_d(int monic, int l) {
-    return monic ? (l - 1) * (l - 1) / (double)((2 * l - 1) * (2 * l - 3)) : (l - 1) / (double)l;
-}
-
-/* Two steps of P_l at once, l even. */
-static inline void zonal_prepare_even(int l, int monic, zonal_tables *tables) {
-    const double t2 = zonal_t(monic, l), t1 = zonal_t(monic, l - 1);
-    const double d2 = zonal_d(monic, l), d1 = zonal_d(monic, l - 1);
-    const double down = l == 2 ? 0 : t2 * d1 / zonal_t(monic, l - 2);
-    tables->even_a[l / 2] = zonal_number_of((float)(t2 * t1));
-    tables->even_b[l / 2] = zonal_number_of((float)(down + d2));
-    tables->even_c[l / 2] = zonal_number_of(l == 2 ? 0.f : (float)(down * zonal_d(monic, l - 2)));
-}
-
 static inline void zonal_prepare(int bands, int monic, const float *window, const float *diffuse,
                                  zonal_tables *tables) {
-    double norm_p = 1, norm_r = 1;
     for (int l = 0; l < bands || l < ZONAL_BANDS_MIN; l++) {
-        if (monic && l >= 1)
-            norm_p *= (2 * l - 1) / (double)l;
-        if (monic && l >= 2) {
-            /* R_l = (2l-1)/(l+1) alpha R_(l-1) - (l-2)/(l+1) R_(l-2) */
-            norm_r *= (2 * l - 1) / (double)(l + 1);
-            tables->cap[l] =
-                zonal_number_of((float)((l - 2) * l / (double)((2 * l - 1) * (2 * l - 3))));
-            tables->lobe[l] = zonal_number_of((float)zonal_d(monic, l));
-        }
-        const double scale = (l == 0 ? 0.5 : (2 * l + 1) / 4.0) * norm_p * norm_r;
-        const double factor = l < bands ? scale * (double)window[l] : 0;
-        tables->phong[l] = zonal_number_of((float)factor);
+        const double factor = l < bands ? lmp_table_zonal_scale[monic][l] * (double)window[l] : 0;
         const float of_diffuse = l < bands ? (float)(factor * (double)diffuse[l]) : 0;
-        if (l % 2 == 0)
-            tables->diffuse[l / 2] = zonal_number_of(of_diffuse);
-        else if (l == 1)
+        tables->phong[l] = zonal_number_of((float)factor);
+        if (monic) {
+            tables->cap[l] = zonal_number_of(lmp_table_zonal_cap[l]);
+            tables->lobe[l] = zonal_number_of(lmp_table_zonal_lobe[l]);
+        }
+        if (l == 1)
             tables->diffuse_1 = zonal_number_of(of_diffuse);
-        if (l >= 2 && l % 2 == 0)
-            zonal_prepare_even(l, monic, tables);
+        if (l % 2 != 0)
+            continue;
+        tables->diffuse[l / 2] = zonal_number_of(of_diffuse);
+        tables->even_a[l / 2] = zonal_number_of(lmp_table_even_a[monic][l / 2]);
+        tables->even_b[l / 2] = zonal_number_of(lmp_table_even_b[monic][l / 2]);
+        tables->even_c[l / 2] = zonal_number_of(lmp_table_even_c[monic][l / 2]);
     }
 }
 
