@@ -17,7 +17,7 @@ typedef struct shade_block {
 
 /* What of a light they need: of its cap of at most a hemisphere u and v, the cosines of its axis
  * with the normal and with the axis of each lobe, and t; the weight of its responses, t but for the
- * light's scale and sign. With `is_ambient`, light from all around besides (lmp_cap). */
+ * light's scale and sign. With `is_ambient`, ambient light besides (lmp_cap). */
 typedef struct shade_direction {
     vf u, v[LMP_KERNEL_LOBES_MAX], t, weight;
     vf ambient; /* set if is_ambient */
@@ -36,7 +36,7 @@ LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf
     cap_lanes cap = cap_from(x, y, z, vf_set(light->radius), 0);
     vf weight = cap.t;
     if (__builtin_expect(cap.inside, 0)) {
-        /* even is -1 inside: the complementary cap is taken away from light all around. */
+        /* even is -1 inside: the complementary cap is taken away from ambient light. */
         cap.per_d = cap.per_d * cap.even;
         weight = weight * cap.even;
         direction->ambient = (vf_set(1) - cap.even) * 0.5f;

@@ -146,7 +146,7 @@ static lmp_rgb scaled(lmp_rgb color, float factor) {
     return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
 }
 
-/* A cap seen alike from all around. */
+/* The same cap from every point. */
 static lmp_kernel_light fixed_cap(lmp_vec3 direction, float sine, lmp_rgb radiance) {
     return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL };
 }
@@ -209,32 +209,33 @@ typedef struct method {
 } shade_method;
 
 /* Where each surface's lobe lies. */
-typedef struct chunk_places {
+typedef struct chunk_positions {
     uint32_t first[LMP_BATCH], columns[LMP_BATCH];
-    lmp_batch_plane share, density, lobe_angle;
-} chunk_places;
+    lmp_batch_plane fraction, density, lobe_angle;
+} chunk_positions;
 
-static lmp_kernel_lobe_positions find_places(const lmp_preintegrated_lobe_info *info,
-                                             const shade_lobe_planes *lobe, size_t count,
-                                             chunk_places *places) {
-    lmp_preintegrated_lobe_position place = { 0 };
+static lmp_kernel_lobe_positions find_positions(const lmp_preintegrated_lobe_info *info,
+                                                const shade_lobe_planes *lobe, size_t count,
+                                                chunk_positions *positions) {
+    lmp_preintegrated_lobe_position position = { 0 };
     float exponent = -1;
     for (size_t i = 0; i < LMP_BATCH; i++) {
-        /* Past the last surface, its place again: a kernel reads whole vectors. */
+        /* Past the last surface, its position again: a kernel reads whole vectors. */
         const float e = lobe->exponent.at[i < count ? i : count - 1];
         if (e < exponent || e > exponent)
-            lmp_preintegrated_lobe_lookup(info, e, &place);
+            lmp_preintegrated_lobe_lookup(info, e, &position);
         exponent = e;
-        places->first[i] = place.first;
-        places->columns[i] = place.columns;
-        places->share.at[i] = place.fraction;
-        places->density.at[i] = place.density;
-        places->lobe_angle.at[i] = place.lobe_angle;
+        positions->first[i] = position.first;
+        positions->columns[i] = position.columns;
+        positions->fraction.at[i] = position.fraction;
+        positions->density.at[i] = position.density;
+        positions->lobe_angle.at[i] = position.lobe_angle;
         if (i >= count && i % LMP_KERNEL_LANES_MAX == LMP_KERNEL_LANES_MAX - 1)
             break;
     }
-    return (lmp_kernel_lobe_positions) { places->first, places->columns, places->share.at,
-                                         places->density.at, places->lobe_angle.at };
+    return (lmp_kernel_lobe_positions) { positions->first, positions->columns,
+                                         positions->fraction.at, positions->density.at,
+                                         positions->lobe_angle.at };
 }
 
 /* A function of its own: under the zonal kernel its arrays would be too much stack. */
@@ -242,11 +243,12 @@ static __attribute__((noinline)) void shade_by_readings(const shade_method *meth
                                                         const chunk_planes *chunk,
                                                         const lmp_kernel_light *lights,
                                                         size_t count) {
-    chunk_places places[LMP_KERNEL_LOBES_MAX];
+    chunk_positions positions[LMP_KERNEL_LOBES_MAX];
     lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
     const lmp_kernel_preintegrated_lobe lobe = { method->info.coefficients };
     for (int k = 0; k < chunk->phong_count; k++)
-        specular[k] = find_places(&method->info, &chunk->planes.lobe[k], chunk->count, &places[k]);
+        specular[k] =
+            find_positions(&method->info, &chunk->planes.lobe[k], chunk->count, &positions[k]);
     lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &method->diffuse_position, specular,
                                                 &chunk->surfaces, lights, count, chunk->count,
                                                 &chunk->sums);
@@ -263,7 +265,7 @@ static void shade_lobes_of_chunk(const shade_method *method, const chunk_planes 
 
 static_assert(sizeof(lmp_kernel_slice) == sizeof(lmp_preintegrated_brdf_slice) &&
                   offsetof(lmp_kernel_slice, unit) == offsetof(lmp_preintegrated_brdf_slice, unit),
-              "the kernels' slices are the responses'");
+              "the kernels' slices are those of preintegrated BRDFs");
 
 static void shade_brdf_planes(const chunk_planes *chunk, const lmp_kernel_light *lights,
                               size_t count, lmp_rgb ambient) {
