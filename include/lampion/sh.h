@@ -104,6 +104,11 @@ typedef float (*lmp_sh_function)(lmp_vec3 direction, void *user);
 LMP_API void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
                                      float *sh);
 
+/* The same of a color, which is asked for each direction once: three planes, red, green, blue. */
+typedef lmp_rgb (*lmp_sh_function_rgb)(lmp_vec3 direction, void *user);
+LMP_API void lmp_sh_project_function_rgb(int bands, int nodes, lmp_sh_function_rgb function,
+                                         void *user, float *sh);
+
 /* Texels of an image: any number of channels, interleaved or planar. Strides 0 mean tight and
  * interleaved. A texel counts as a constant seen at its center, weighted by its exact solid angle:
  * take images of at least 4 * bands rows. Sums are in double; bands² / 2 multiplications and

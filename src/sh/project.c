@@ -24,33 +24,72 @@ static void add_azimuth(int bands, double c, double s, double value, double *cos
     }
 }
 
-void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
-                             float *sh) {
+/* A function of one channel or of three. */
+typedef struct sampled {
+    int channels;
+    lmp_sh_function one;
+    lmp_sh_function_rgb three;
+    void *user;
+} sampled;
+
+static void sample(const sampled *f, lmp_vec3 w, float value[3]) {
+    if (f->channels == 1) {
+        value[0] = f->one(w, f->user);
+        return;
+    }
+    const lmp_rgb color = f->three(w, f->user);
+    value[0] = color.r;
+    value[1] = color.g;
+    value[2] = color.b;
+}
+
+/* Adds a ring of nodes at height z, by what its azimuths summed up to. The power of the radius is
+ * m's: those azimuths are of unit vectors. */
+static void add_ring(int bands, double z, double radius, const double *cosine, const double *sine,
+                     float *sh) {
+    float q[LMP_BANDS_MAX];
+    double power = 1;
+    for (int m = 0; m < bands; m++) {
+        lmp_sh_column(bands, m, (float)z, q);
+        for (int l = m; l < bands; l++) {
+            sh[LMP_SH_INDEX(l, m)] += q[l] * (float)(power * cosine[m]);
+            if (m > 0)
+                sh[LMP_SH_INDEX(l, -m)] += q[l] * (float)(power * sine[m]);
+        }
+        power *= radius;
+    }
+}
+
+static void project(int bands, int nodes, const sampled *f, float *sh) {
+    const size_t plane = LMP_SH_COUNT(bands);
     assert(lmp_is_bands(bands));
     assert(nodes >= 0);
     if (nodes == 0)
         nodes = bands;
-    memset(sh, 0, LMP_SH_COUNT(bands) * sizeof *sh);
+    memset(sh, 0, (size_t)f->channels * plane * sizeof *sh);
     for (int i = 0; i < nodes; i++) {
-        double cosine[LMP_BANDS_MAX] = { 0 }, sine[LMP_BANDS_MAX] = { 0 }, z, weight;
+        double cosine[3][LMP_BANDS_MAX] = { 0 }, sine[3][LMP_BANDS_MAX] = { 0 }, z, weight;
         lmp_gauss_legendre(nodes, i, &z, &weight);
         const double radius = sqrt((1 - z) * (1 + z));
         for (int j = 0; j < 2 * nodes; j++) {
             const double c = cos(pi * (j + 0.5) / nodes), s = sin(pi * (j + 0.5) / nodes);
-            const lmp_vec3 w = { (float)(radius * c), (float)(radius * s), (float)z };
-            const double value = (double)function(w, user) * weight * pi / nodes;
-            add_azimuth(bands, c, s, value, cosine, sine);
+            float value[3];
+            sample(f, (lmp_vec3) { (float)(radius * c), (float)(radius * s), (float)z }, value);
+            for (int k = 0; k < f->channels; k++)
+                add_azimuth(bands, c, s, (double)value[k] * weight * pi / nodes, cosine[k],
+                            sine[k]);
         }
-        float q[LMP_BANDS_MAX];
-        double power = 1; /* radius^m: the azimuths above are those of unit vectors */
-        for (int m = 0; m < bands; m++) {
-            lmp_sh_column(bands, m, (float)z, q);
-            for (int l = m; l < bands; l++) {
-                sh[LMP_SH_INDEX(l, m)] += q[l] * (float)(power * cosine[m]);
-                if (m > 0)
-                    sh[LMP_SH_INDEX(l, -m)] += q[l] * (float)(power * sine[m]);
-            }
-            power *= radius;
-        }
+        for (int k = 0; k < f->channels; k++)
+            add_ring(bands, z, radius, cosine[k], sine[k], sh + (size_t)k * plane);
     }
+}
+
+void lmp_sh_project_function(int bands, int nodes, lmp_sh_function function, void *user,
+                             float *sh) {
+    project(bands, nodes, &(sampled) { .channels = 1, .one = function, .user = user }, sh);
+}
+
+void lmp_sh_project_function_rgb(int bands, int nodes, lmp_sh_function_rgb function, void *user,
+                                 float *sh) {
+    project(bands, nodes, &(sampled) { .channels = 3, .three = function, .user = user }, sh);
 }

@@ -76,11 +76,33 @@ static void calls_the_function_as_often_as_documented(void **state) {
         CHECK_WITHIN(fabsf(all[k]), 1e-4);
 }
 
+static lmp_rgb color_value(lmp_vec3 direction, void *user) {
+    series *f = user;
+    return (lmp_rgb) { series_value(direction, &f[0]), series_value(direction, &f[1]),
+                       series_value(direction, &f[2]) };
+}
+
+static void a_color_is_three_functions(void **state) {
+    (void)state;
+    enum { BANDS = 6, COUNT = LMP_SH_COUNT(BANDS) };
+    float sh[3][COUNT], alone[3][COUNT], together[3][COUNT];
+    series f[3];
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < COUNT; k++)
+            sh[c][k] = (float)check_random_between(-1, 1);
+        f[c] = (series) { BANDS, sh[c] };
+        lmp_sh_project_function(BANDS, 0, series_value, &f[c], alone[c]);
+    }
+    lmp_sh_project_function_rgb(BANDS, 0, color_value, f, together[0]);
+    assert_memory_equal(alone, together, sizeof alone);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(returns_the_coefficients_of_a_series),
         cmocka_unit_test(is_exact_up_to_the_documented_degree),
         cmocka_unit_test(calls_the_function_as_often_as_documented),
+        cmocka_unit_test(a_color_is_three_functions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

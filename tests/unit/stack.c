@@ -63,6 +63,11 @@ static float ramp(lmp_vec3 direction, void *user) {
     return direction.z;
 }
 
+static lmp_rgb gray_ramp(lmp_vec3 direction, void *user) {
+    const float gray = ramp(direction, user);
+    return (lmp_rgb) { gray, gray, gray };
+}
+
 static void shade_all_ways(void) {
     for (int method = 0; method < 3; method++)
         for (int kind = 0; kind < 4; kind++) {
@@ -117,6 +122,7 @@ static void shade_all_ways(void) {
     X(lmp_sh_window_laplacian, lmp_sh_window_laplacian(N, 0.5f, sh, weights)) \
     X(lmp_sh_window_apply, lmp_sh_window_apply(N, weights, sh, out)) \
     X(lmp_sh_project_function, lmp_sh_project_function(N, 4, ramp, NULL, out)) \
+    X(lmp_sh_project_function_rgb, lmp_sh_project_function_rgb(N, 4, gray_ramp, NULL, out)) \
     X(lmp_sh_project_latlong, lmp_sh_project_latlong(N, &(lmp_latlong) { .pixels = texels, .width = 4, .height = 4, .channels = 3 }, out)) \
     X(lmp_sh_project_cubemap, lmp_sh_project_cubemap(N, &(lmp_cubemap) { .faces = { texels, texels, texels, texels, texels, texels }, .size = 4, .channels = 3 }, out)) \
     X(lmp_sh_product_create, MAKE(lmp_sh_product_destroy, product, lmp_sh_product_create(NULL, N, &product))) \
