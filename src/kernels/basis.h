@@ -253,21 +253,7 @@ LMP_INLINE void basis_put_straight(int bands, const vf axis[3], const vf *radial
     layout_put(block, 0, (size_t)(bands * bands), out, element, live);
 }
 
-/* Calls body(BANDS, 1, …) with BANDS a constant from 1 to 10, else body(bands, 0, …). Under a
- * sanitizer, where straight-line code takes compilers minutes, two of them say as much. */
-#ifdef LMP_KERNELS_SANITIZED
-#define BASIS_SPECIALISE(bands, body, ...)                                                         \
-    switch (bands) {                                                                               \
-    case 3:                                                                                        \
-        body(3, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 4:                                                                                        \
-        body(4, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    default:                                                                                       \
-        body(bands, 0, __VA_ARGS__);                                                               \
-    }
-#else
+/* Calls body(BANDS, 1, …) with BANDS a constant from 1 to 10, else body(bands, 0, …). */
 #define BASIS_SPECIALISE(bands, body, ...)                                                         \
     switch (bands) {                                                                               \
     case 1:                                                                                        \
@@ -303,6 +289,5 @@ LMP_INLINE void basis_put_straight(int bands, const vf axis[3], const vf *radial
     default:                                                                                       \
         body(bands, 0, __VA_ARGS__);                                                               \
     }
-#endif
 
 #endif

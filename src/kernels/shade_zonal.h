@@ -260,6 +260,14 @@ LMP_INLINE void zonal_surfaces(int bands, int constant, int lobes, const zonal_t
         zonal_all(lobes, bands, 0, tables, surfaces, lights, light_count, count, accumulated);
 }
 
+/* Under a sanitizer, which makes straight-line code of ten numbers of bands the work of minutes,
+ * the code for any number does. */
+#ifdef LMP_KERNELS_SANITIZED
+#define ZONAL_SPECIALISE(bands, ...) zonal_surfaces(bands, 0, __VA_ARGS__)
+#else
+#define ZONAL_SPECIALISE(bands, ...) BASIS_SPECIALISE(bands, zonal_surfaces, __VA_ARGS__)
+#endif
+
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                size_t light_count, size_t count,
@@ -267,11 +275,10 @@ static void kernel_shade_zonal(int bands, const float *window, const float *diff
     zonal_tables tables;
     zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
     if (surfaces->lobe_count == 1) {
-        BASIS_SPECIALISE(bands, zonal_surfaces, 1, &tables, surfaces, lights, light_count, count,
-                         accumulated)
+        ZONAL_SPECIALISE(bands, 1, &tables, surfaces, lights, light_count, count, accumulated);
     } else {
-        BASIS_SPECIALISE(bands, zonal_surfaces, ZONAL_LOBES_MAX, &tables, surfaces, lights,
-                         light_count, count, accumulated)
+        ZONAL_SPECIALISE(bands, ZONAL_LOBES_MAX, &tables, surfaces, lights, light_count, count,
+                         accumulated);
     }
 }
 
