@@ -12,8 +12,8 @@
 #include "src/kernels/basis.h"
 #include "src/kernels/cap.h"
 
-/* Registers of a call's stack, 56 KiB: lights kept, bands of the lights of a pass, sums. */
-#define ACCUMULATE_STACK (LMP_LANES > 4 ? 14336 / LMP_LANES : 3584)
+/* Registers of a call's stack, 55 KiB: lights kept, bands of the lights of a pass, sums. */
+#define ACCUMULATE_STACK (LMP_LANES > 4 ? 14080 / LMP_LANES : 3520)
 
 /* Lights a pass, and lights kept. */
 #define ACCUMULATE_LIGHTS 2
