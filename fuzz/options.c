@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         { "list", 'l', CLI_LIST, &list, "NAME", "help", 0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };
-    const cli_command command = { "fuzz", "", "fuzzes", "", NULL };
+    const cli_command command = { "fuzz", "", "fuzzes", "", NULL, true };
     char command_name[] = "fuzz";
     char *const text = malloc(size + 1);
     if (!text)
