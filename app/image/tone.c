@@ -96,12 +96,13 @@ const char *image_tone_help(void) {
                         sizeof text);
 }
 
-static float transfer(float x) {
+static float transfer(float radiance) {
+    const float x = fminf(fmaxf(radiance, 0), 1);
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
 static unsigned char to_byte(float x) {
-    return (unsigned char)(255 * transfer(fminf(fmaxf(x, 0), 1)) + 0.5f);
+    return (unsigned char)(255 * transfer(x) + 0.5f);
 }
 
 /* Keeps the curve's squares finite, and off its pole below 0; NaN is black. */
@@ -134,7 +135,7 @@ void image_show(image *pixels, const image_display *display) {
         float shown[3];
         map_pixel(pixels->rgb + 3 * i, display, shown);
         for (size_t c = 0; c < 3; c++)
-            pixels->rgb[3 * i + c] = transfer(fminf(fmaxf(shown[c], 0), 1));
+            pixels->rgb[3 * i + c] = transfer(shown[c]);
     }
 }
 

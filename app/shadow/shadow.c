@@ -20,6 +20,11 @@ struct shadow {
     shadow_statistics statistics;
 };
 
+static bool fail_memory(const char *subject, cli_error *error) {
+    return cli_fail(error, subject,
+                    "out of memory for shadows (--no-shadows renders without them)");
+}
+
 shadow *shadow_create(const scene *world, const environment *surroundings,
                       const shadow_settings *settings, cli_error *error) {
     shadow *s = calloc(1, sizeof *s);
@@ -32,7 +37,7 @@ shadow *shadow_create(const scene *world, const environment *surroundings,
             return s;
     }
     shadow_destroy(s);
-    cli_fail(error, world->origin, "out of memory for shadows (--no-shadows renders without them)");
+    fail_memory(world->origin, error);
     return NULL;
 }
 
@@ -138,7 +143,5 @@ bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer
     ok = ok && apply(s, gbuffer, rgba);
     s->statistics.rays_milliseconds = 1e3 * (sent - start);
     s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
-    return ok || cli_fail(error, NULL,
-                          "out of memory for shadows (--no-shadows renders without "
-                          "them)");
+    return ok || fail_memory(NULL, error);
 }

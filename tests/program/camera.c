@@ -107,11 +107,6 @@ static void the_command_line_chooses_an_angle_or_a_height(void **state) {
     scene_free(&s);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_out_of_reach_are_refused),
@@ -119,5 +114,5 @@ int main(void) {
         cmocka_unit_test(a_scene_without_cameras_fills_nine_tenths_of_the_image),
         cmocka_unit_test(a_narrow_image_widens_the_camera_s_view),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

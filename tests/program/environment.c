@@ -179,11 +179,6 @@ static void the_studio_shines_where_nothing_else_does(void **state) {
     environment_free(&e);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_even_image_is_an_even_light),
@@ -193,5 +188,5 @@ int main(void) {
         cmocka_unit_test(what_is_no_environment_is_refused),
         cmocka_unit_test(the_studio_shines_where_nothing_else_does),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -193,14 +193,9 @@ static void every_float_is_found_by_another_reader(void **state) {
     printf("tried: %d OpenEXR files read by zlib alone\n", tried);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : 1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_float_is_found_by_another_reader),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

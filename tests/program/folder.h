@@ -29,6 +29,11 @@ static inline void folder_write_text(const char *name, const char *text) {
     folder_write(name, text, strlen(text));
 }
 
+static inline int folder_make(void **state) {
+    (void)state;
+    return mkdtemp(folder) ? 0 : 1;
+}
+
 static inline int folder_remove(void **state) {
     (void)state;
     char command[64];

@@ -11,11 +11,6 @@
 
 enum { WIDTH = 37, HEIGHT = 23, VALUES = 3 * WIDTH * HEIGHT };
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : 1;
-}
-
 static int remove_folder(void **state) {
     (void)state;
     static const char *const names[] = { "a.exr", "a.png", "bad.exr", "bad.png" };
@@ -235,5 +230,5 @@ int main(void) {
         cmocka_unit_test(the_curve_keeps_black_and_gray_rises_and_ends_white),
         cmocka_unit_test(every_curve_is_chosen_by_its_name_and_the_linear_one_does_nothing),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, folder_make, remove_folder);
 }

@@ -209,11 +209,6 @@ static void a_strict_reading_leaves_nothing_out(void **state) {
     assert_non_null(strstr(error.text, "left out: points and lines (1 element)"));
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_grammar_is_read),
@@ -224,5 +219,5 @@ int main(void) {
         cmocka_unit_test(what_other_formats_lose_is_named),
         cmocka_unit_test(a_strict_reading_leaves_nothing_out),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -342,11 +342,6 @@ static void every_letter_of_a_json_is_found(void **state) {
     free(text);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : 1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_of_a_png_is_found),
@@ -354,5 +349,5 @@ int main(void) {
         cmocka_unit_test(every_number_of_a_json_is_found),
         cmocka_unit_test(every_letter_of_a_json_is_found),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

@@ -121,11 +121,6 @@ static void balls_are_measured_to_planes_sides_and_corners(void **state) {
     scene_free(&s);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_room_is_a_building_and_a_block_is_none),
@@ -133,5 +128,5 @@ int main(void) {
         cmocka_unit_test(random_lights_are_never_in_anything),
         cmocka_unit_test(balls_are_measured_to_planes_sides_and_corners),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

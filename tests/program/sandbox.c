@@ -361,11 +361,6 @@ static void nothing_is_inherited_but_memory(void **state) {
     close(parent.descriptor);
 }
 
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : 1;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_work_writes_comes_back),
@@ -375,5 +370,5 @@ int main(void) {
         cmocka_unit_test(every_escape_fails),
         cmocka_unit_test(nothing_is_inherited_but_memory),
     };
-    return cmocka_run_group_tests(tests, make_folder, folder_remove);
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }
