@@ -146,15 +146,21 @@ typedef struct lmp_cubemap {
 /* Coefficients of a cube map: as many planes as channels. */
 LMP_API void lmp_sh_project_cubemap(int bands, const lmp_cubemap *map, float *sh);
 
-/* Multiplies functions, truncated to `bands` bands: a table of triple products Γ_ijk = ∫ Y_i Y_j
- * Y_k, or a quadrature grid where that is cheaper. Immutable; share it freely. */
+/* c = the first `bands` bands of the pointwise product of the functions a and b, exact up to
+ * rounding, from the triple products Γ_ijk = ∫ Y_i Y_j Y_k: c_k = Σ Γ_ijk a_i b_j.
+ *
+ * 1 … LMP_SH_FEW_BANDS bands */
+#define LMP_SH_FEW_BANDS 6
+LMP_API void lmp_sh_multiply_few(int bands, const float *a, const float *b, float *c);
+
+/* The same of any bands: beyond those a quadrature grid, which is made beforehand. Immutable; share
+ * it freely. */
 typedef struct lmp_sh_product lmp_sh_product;
 
 /* *product is NULL on failure (LMP_ERROR_ARGUMENT: bands); lmp_sh_product_destroy accepts NULL. */
 LMP_API lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product **product);
 LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
 
-/* c = the first `bands` bands of the pointwise product of a and b, exact up to rounding. */
 LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b,
                              float *c);
 

@@ -59,4 +59,15 @@ extern const float lmp_table_even_c[2][LMP_BANDS_MAX / 2];
 /* Y_l0(z) = sqrt((2l+1)/(4 pi)). */
 extern const float lmp_table_pole[LMP_BANDS_MAX];
 
+/* The Γ_ijk = ∫ Y_i Y_j Y_k that are not 0, i <= j <= k, in the order of k: those of `bands` bands
+ * come before lmp_table_triple_ends[bands]. Divided by 2 where two of the indices are equal and by
+ * 6 where all are, so that every one stands for its six orders. */
+#define LMP_TABLE_TRIPLE_BANDS 6
+typedef struct lmp_table_triple {
+    uint8_t i, j, k;
+    float value;
+} lmp_table_triple;
+extern const lmp_table_triple lmp_table_triples[];
+extern const int lmp_table_triple_ends[LMP_TABLE_TRIPLE_BANDS + 1];
+
 #endif

@@ -4,6 +4,7 @@
  * projected back: O(n^3), azimuth and height apart. */
 #include "src/base/host.h"
 #include "src/base/precondition.h"
+#include "src/base/tables.h"
 #include "src/sh/quadrature.h"
 
 #include <lampion/sh.h>
@@ -13,25 +14,11 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum {
-    TABLE_BANDS = 5, /* up to here the table takes fewer operations */
-    TABLE_COUNT = TABLE_BANDS * TABLE_BANDS
-};
-
-/* Γ_ijk with i <= j. */
-typedef struct triple {
-    int i, j, k;
-    float value;
-} triple;
-
 struct lmp_sh_product {
     lmp_host host;
     int bands;
-    /* the table */
-    size_t triple_count;
-    triple *triples;
-    /* the grid: per height, weight and q_l^m(z) r^m by m then l; per azimuth cos and sin of m phi
-     */
+    /* The grid, of more than LMP_SH_FEW_BANDS: per height, weight and q_l^m(z) r^m by m then l; per
+     * azimuth cos and sin of m phi. */
     int heights, azimuths;
     float *weights, *columns, *cosines, *sines;
 };
@@ -157,69 +144,18 @@ static void multiply_on_grid(const lmp_sh_product *product, const float *a, cons
 
 /* --- the table -------------------------------------------------------------------------------- */
 
-/* All Y_i at one node of the grid, in double. */
-static void eval_node(int bands, double z, double phi, double *y) {
-    double column[TABLE_COUNT];
-    fill_columns(bands, z, column);
-    const double *q = column;
-    for (int m = 0; m < bands; m++) {
-        for (int l = m; l < bands; l++, q++) {
-            y[LMP_SH_INDEX(l, -m)] = *q * sin(m * phi);
-            y[LMP_SH_INDEX(l, m)] = *q * cos(m * phi);
-        }
-    }
-}
+_Static_assert(LMP_SH_FEW_BANDS == LMP_TABLE_TRIPLE_BANDS, "the table has other bands");
 
-static void integrate_triples(int bands, double gamma[TABLE_COUNT][TABLE_COUNT][TABLE_COUNT]) {
-    const int count = bands * bands;
-    for (int node = 0; node < height_count(bands) * azimuth_count(bands); node++) {
-        double z, weight, y[TABLE_COUNT];
-        lmp_gauss_legendre(height_count(bands), node / azimuth_count(bands), &z, &weight);
-        const double step = 2 * pi / azimuth_count(bands);
-        eval_node(bands, z, step * (node % azimuth_count(bands)), y);
-        for (int i = 0; i < count; i++)
-            for (int j = i; j < count; j++)
-                for (int k = 0; k < count; k++)
-                    gamma[i][j][k] += weight * step * y[i] * y[j] * y[k];
-    }
-}
-
-/* The smallest true Γ of these bands is above 1e-2, the noise of the quadrature below 1e-14. */
-static int is_zero(double gamma) {
-    return fabs(gamma) < 1e-9;
-}
-
-static lmp_result create_table(lmp_sh_product *product) {
-    const int count = product->bands * product->bands;
-    const size_t size = sizeof(double) * TABLE_COUNT * TABLE_COUNT * TABLE_COUNT;
-    double(*gamma)[TABLE_COUNT][TABLE_COUNT] = lmp_allocate(&product->host, size);
-    if (!gamma)
-        return LMP_ERROR_MEMORY;
-    memset(gamma, 0, size);
-    integrate_triples(product->bands, gamma);
-    for (int i = 0; i < count; i++)
-        for (int j = i; j < count; j++)
-            for (int k = 0; k < count; k++)
-                product->triple_count += !is_zero(gamma[i][j][k]);
-    product->triples =
-        lmp_allocate(&product->host, product->triple_count * sizeof *product->triples);
-    triple *next = product->triples;
-    for (int i = 0; next && i < count; i++)
-        for (int j = i; j < count; j++)
-            for (int k = 0; k < count; k++)
-                if (!is_zero(gamma[i][j][k]))
-                    *next++ = (triple) { i, j, k, (float)gamma[i][j][k] };
-    lmp_release(&product->host, gamma);
-    return product->triples ? LMP_OK : LMP_ERROR_MEMORY;
-}
-
-static void multiply_by_table(const lmp_sh_product *product, const float *a, const float *b,
-                              float *c) {
-    memset(c, 0, LMP_SH_COUNT(product->bands) * sizeof *c);
-    for (size_t n = 0; n < product->triple_count; n++) {
-        const triple *t = &product->triples[n];
-        const float pair = t->i == t->j ? a[t->i] * b[t->i] : a[t->i] * b[t->j] + a[t->j] * b[t->i];
-        c[t->k] += t->value * pair;
+void lmp_sh_multiply_few(int bands, const float *a, const float *b, float *c) {
+    assert(bands >= 1 && bands <= LMP_SH_FEW_BANDS);
+    assert(lmp_are_apart(a, LMP_SH_COUNT(bands), c, LMP_SH_COUNT(bands)));
+    assert(lmp_are_apart(b, LMP_SH_COUNT(bands), c, LMP_SH_COUNT(bands)));
+    memset(c, 0, LMP_SH_COUNT(bands) * sizeof *c);
+    for (int n = 0; n < lmp_table_triple_ends[bands]; n++) {
+        const lmp_table_triple t = lmp_table_triples[n];
+        c[t.i] += t.value * (a[t.j] * b[t.k] + a[t.k] * b[t.j]);
+        c[t.j] += t.value * (a[t.i] * b[t.k] + a[t.k] * b[t.i]);
+        c[t.k] += t.value * (a[t.i] * b[t.j] + a[t.j] * b[t.i]);
     }
 }
 
@@ -234,7 +170,7 @@ lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product
     if (!created)
         return LMP_ERROR_MEMORY;
     *created = (lmp_sh_product) { .host = resolved, .bands = bands };
-    const lmp_result result = bands <= TABLE_BANDS ? create_table(created) : create_grid(created);
+    const lmp_result result = bands <= LMP_SH_FEW_BANDS ? LMP_OK : create_grid(created);
     if (result != LMP_OK) {
         lmp_sh_product_destroy(created);
         return result;
@@ -247,7 +183,6 @@ void lmp_sh_product_destroy(lmp_sh_product *product) {
     if (!product)
         return;
     const lmp_host host = product->host;
-    lmp_release(&host, product->triples);
     lmp_release(&host, product->weights);
     lmp_release(&host, product);
 }
@@ -255,8 +190,8 @@ void lmp_sh_product_destroy(lmp_sh_product *product) {
 void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b, float *c) {
     assert(lmp_are_apart(a, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
     assert(lmp_are_apart(b, LMP_SH_COUNT(product->bands), c, LMP_SH_COUNT(product->bands)));
-    if (product->triples)
-        multiply_by_table(product, a, b, c);
+    if (product->bands <= LMP_SH_FEW_BANDS)
+        lmp_sh_multiply_few(product->bands, a, b, c);
     else
         multiply_on_grid(product, a, b, c);
 }

@@ -69,6 +69,7 @@ static void create_half_a_host(void) {
     X(window, lmp_sh_window(BANDS, LMP_WINDOW_HANNING, 0, a), lmp_sh_window(BANDS, LMP_WINDOW_HANNING, -1, a)) \
     X(windowed, lmp_sh_window_apply(BANDS, b, a, a), lmp_sh_window_apply(BANDS, b, a, a + 1)) \
     X(keep, lmp_sh_window_laplacian(BANDS, 1, a, b), lmp_sh_window_laplacian(BANDS, 0, a, b)) \
+    X(multiply_few, lmp_sh_multiply_few(BANDS, a, b, c), lmp_sh_multiply_few(LMP_SH_FEW_BANDS + 1, a, b, c)) \
     X(multiply, lmp_sh_multiply(product, a, b, c), lmp_sh_multiply(product, a, b, a)) \
     X(eval_n, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_INTERLEAVED, 0, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&long_up), 2, LMP_SH_INTERLEAVED, 0, a)) \
     X(eval_gradient_n, lmp_sh_eval_gradient_n(BANDS, lmp_vec3_array_same(&up), 1, LMP_SH_PLANAR, 0, a, 0, b), lmp_sh_eval_gradient_n(BANDS, lmp_vec3_array_same(&up), 1, LMP_SH_PLANAR, 0, a, 2, b)) \

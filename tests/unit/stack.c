@@ -126,6 +126,7 @@ static void shade_all_ways(void) {
     X(lmp_sh_project_latlong, lmp_sh_project_latlong(N, &(lmp_latlong) { .pixels = texels, .width = 4, .height = 4, .channels = 3 }, out)) \
     X(lmp_sh_project_cubemap, lmp_sh_project_cubemap(N, &(lmp_cubemap) { .faces = { texels, texels, texels, texels, texels, texels }, .size = 4, .channels = 3 }, out)) \
     X(lmp_sh_product_create, MAKE(lmp_sh_product_destroy, product, lmp_sh_product_create(NULL, N, &product))) \
+    X(lmp_sh_multiply_few, lmp_sh_multiply_few(N < LMP_SH_FEW_BANDS ? N : LMP_SH_FEW_BANDS, sh, sh, out)) \
     X(lmp_sh_multiply, lmp_sh_multiply(product, sh, sh, out)) \
     X(lmp_sh_product_destroy, lmp_sh_product_destroy(product), product = NULL) \
     X(lmp_sh_eval_n, LAYOUTS(lmp_sh_eval_n(N, points, COUNT, layout, 0, out))) \

@@ -5,6 +5,7 @@
 #include "src/base/tables.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,6 +116,116 @@ static double even_c(int form, int l) {
     return l < 4 ? 0 : even_down(form, l) * zonal_d(form, l - 2);
 }
 
+/* --- triple products --------------------------------------------------------------------------
+ */
+
+enum { DEGREES = 3 * LMP_TABLE_TRIPLE_BANDS }; /* of a product of three, and more */
+
+/* Coefficients of a polynomial in z. */
+typedef struct polynomial {
+    double at[DEGREES];
+} polynomial;
+
+static polynomial times(const polynomial *a, const polynomial *b) {
+    polynomial product = { { 0 } };
+    for (int i = 0; i < DEGREES; i++)
+        for (int j = 0; i + j < DEGREES; j++)
+            product.at[i + j] += a->at[i] * b->at[j];
+    return product;
+}
+
+/* q_l^m (tables.h). */
+static polynomial column_of(int l, int m) {
+    polynomial before = { { 0 } }, now = { { diagonal(m) } };
+    for (int k = m + 1; k <= l; k++) {
+        polynomial next = { { 0 } };
+        for (int i = 0; i < DEGREES; i++)
+            next.at[i] = (i > 0 ? recurrence_a(k, m) * now.at[i - 1] : 0) +
+                         recurrence_b(k, m) * before.at[i];
+        before = now;
+        now = next;
+    }
+    return now;
+}
+
+/* What a product of three of cos(m phi), m >= 0, and sin(-m phi), m < 0, adds up to around z: each
+ * is a sum of exp(± i m phi). */
+static double around(const int m[3]) {
+    const int sines = (m[0] < 0) + (m[1] < 0) + (m[2] < 0);
+    double sum = 0;
+    for (int signs = 0; sines % 2 == 0 && signs < 8; signs++) {
+        int frequency = 0, sign = sines ? -1 : 1;
+        for (int i = 0; i < 3; i++) {
+            const int s = signs >> i & 1 ? -1 : 1;
+            frequency += s * abs(m[i]);
+            sign *= m[i] < 0 ? s : 1;
+        }
+        sum += frequency == 0 ? sign : 0;
+    }
+    return 2 * pi * sum / 8;
+}
+
+/* ∫ Y_i Y_j Y_k: the squared radius 1 - z² is there as often as half of all m. */
+static double triple_of(const int index[3]) {
+    const polynomial radius = { { 1, 0, -1 } };
+    polynomial product = { { 1 } };
+    int m[3], power = 0;
+    for (int i = 0; i < 3; i++) {
+        int l = 0;
+        while ((l + 1) * (l + 1) <= index[i])
+            l++;
+        m[i] = index[i] - l * l - l;
+        power += abs(m[i]);
+        const polynomial column = column_of(l, abs(m[i]));
+        product = times(&product, &column);
+    }
+    const double azimuth = around(m);
+    for (int i = 0; azimuth != 0 && i < power / 2; i++)
+        product = times(&product, &radius);
+    double sum = 0;
+    for (int i = 0; i < DEGREES; i += 2)
+        sum += 2 * product.at[i] / (i + 1);
+    return sum * azimuth;
+}
+
+/* Divided by how many orders of i, j, k are the same one. */
+static double triple_share(int i, int j, int k) {
+    const double value = triple_of((int[]) { i, j, k });
+    return i == k ? value / 6 : i == j || j == k ? value / 2 : value;
+}
+
+/* Returns how many there are whose largest index is k; the smallest that is not 0 is above 1e-3. */
+static int print_triples_of(int k, bool print) {
+    int count = 0;
+    for (int j = 0; j <= k; j++)
+        for (int i = 0; i <= j; i++) {
+            const double value = triple_share(i, j, k);
+            if (fabs(value) < 1e-9)
+                continue;
+            if (print)
+                printf("%s{ %d, %d, %d, %.9gf },", count % 4 == 0 ? "\n" : " ", i, j, k,
+                       (double)(float)value);
+            count++;
+        }
+    return count;
+}
+
+static void print_triples(void) {
+    int ends[LMP_TABLE_TRIPLE_BANDS + 1] = { 0 };
+    for (int bands = 1; bands <= LMP_TABLE_TRIPLE_BANDS; bands++) {
+        ends[bands] = ends[bands - 1];
+        for (int k = (bands - 1) * (bands - 1); k < bands * bands; k++)
+            ends[bands] += print_triples_of(k, false);
+    }
+    printf("\nconst int lmp_table_triple_ends[LMP_TABLE_TRIPLE_BANDS + 1] = {");
+    for (int bands = 0; bands <= LMP_TABLE_TRIPLE_BANDS; bands++)
+        printf(" %d,", ends[bands]);
+    printf(" };\n\nconst lmp_table_triple lmp_table_triples[%d] = {", ends[LMP_TABLE_TRIPLE_BANDS]);
+    for (int k = 0; k < LMP_TABLE_TRIPLE_BANDS * LMP_TABLE_TRIPLE_BANDS; k++)
+        print_triples_of(k, true);
+    printf("\n};\n");
+}
+
 /* --- output ----------------------------------------------------------------------------------- */
 
 static void print_value(int index, double value) {
@@ -186,5 +297,6 @@ int main(void) {
     print_even("b", even_b);
     print_even("c", even_c);
     print_bands("pole", pole);
+    print_triples();
     return 0;
 }
