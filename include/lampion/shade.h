@@ -17,7 +17,8 @@
  * where f0 and f90 are the dielectric's, 0.04 and 1 unless it says more.
  *
  * The sum over all lights is then clamped at 0, channel by channel, for a truncated series rings.
- * No visibility. */
+ * A coat reflects by GGX around a normal of its own, its weight w (0.04 + 0.96 (1 - |v·n|)^5), and
+ * leaves the rest to what is under it; both are clamped by themselves. No visibility. */
 #ifndef LAMPION_SHADE_H
 #define LAMPION_SHADE_H
 
@@ -48,6 +49,19 @@ typedef struct lmp_dielectric {
  * 1.5, 1 and white are the default. */
 LMP_API lmp_dielectric lmp_material_dielectric(float ior, float specular, lmp_rgb color);
 
+/* A clear coat over a material of any kind, as KHR_materials_clearcoat has it. Zero-initialized:
+ * none. */
+typedef struct lmp_coat {
+    float weight;    /* 0 … 1 */
+    float roughness; /* 0 … 1; clamped */
+} lmp_coat;
+
+/* The part of the light that a coat reflects, seen from `view`. What is under it, light that the
+ * surface emits too, is seen through it: it counts by the rest.
+ *
+ * normal, the coat's, and view must be unit */
+LMP_API float lmp_material_coated(const lmp_coat *coat, lmp_vec3 normal, lmp_vec3 view);
+
 /* A material; zero-initialize it and set the members its kind names. Others are ignored. */
 typedef struct lmp_material {
     lmp_material_kind kind;
@@ -62,6 +76,7 @@ typedef struct lmp_material {
     };
     float roughness; /* 0 … 1; clamped */
     lmp_dielectric dielectric;
+    lmp_coat coat; /* of every kind; its light is summed by lobes */
     /* A tabulated BRDF, with the bands and the windowing filter of the table. */
     const lmp_brdf_table *table;
     /* The same integrated beforehand: what LMP_SHADE_PREINTEGRATED reads in the table's place. */
@@ -85,7 +100,7 @@ typedef struct lmp_shade_settings {
     lmp_window window;
     float window_size; /* as in lmp_sh_window */
     /* Of LMP_SHADE_PREINTEGRATED, whose bands and window then count in place of those above; NULL
-     * where no material has lobes. */
+     * where no material has lobes, nor a coat. */
     const lmp_preintegrated_lobe *lobe;
 } lmp_shade_settings;
 #define LMP_SHADE_BANDS_DEFAULT 10
@@ -98,6 +113,7 @@ typedef struct lmp_surface {
     /* The x axis of a material with an anisotropic table, of any length and at any angle to the
      * normal but 0; zero means the horizontal one, y up x normal. */
     lmp_vec3 tangent;
+    lmp_vec3 coat_normal; /* unit, of a coat; zero means `normal` */
 } lmp_surface;
 
 /* Reflected radiance, W·sr⁻¹·m⁻². By LMP_SHADE_ZONAL it is the meaning that every other method,
@@ -117,6 +133,7 @@ typedef struct lmp_surfaces {
     lmp_vec3_array tangent; /* x NULL: zero for all */
     const lmp_material *material;
     size_t material_stride;
+    lmp_vec3_array coat_normal; /* x NULL: `normal` for all */
 } lmp_surfaces;
 
 /* lmp_shade of many surfaces, vectorized over them, with the same bits on every instruction set.

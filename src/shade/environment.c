@@ -111,9 +111,10 @@ static void shade_one(const lmp_surfaces *surfaces, size_t i, const lmp_environm
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
-void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                             size_t count, const lmp_environment *environment, size_t rgb_stride,
-                             float *rgb) {
+void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
+                                      const lmp_surfaces *surfaces, size_t count,
+                                      const lmp_environment *environment, size_t rgb_stride,
+                                      float *rgb) {
     const lmp_shade_settings resolved = settings_of(settings);
     const environment_method method = method_of(&resolved, environment);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
@@ -139,12 +140,4 @@ void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfa
                 shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);
         }
     }
-}
-
-lmp_rgb lmp_shade_environment(const lmp_shade_settings *settings, const lmp_material *material,
-                              const lmp_surface *surface, const lmp_environment *environment) {
-    const lmp_surfaces one = lmp_surfaces_of(material, surface);
-    lmp_rgb color;
-    lmp_shade_environment_n(settings, &one, 1, environment, 0, &color.r);
-    return color;
 }

@@ -64,6 +64,9 @@ static inline bool lmp_is_dielectric(const lmp_dielectric *d) {
 
 /* Whether the members that the material's kind names are in their ranges (shade.h). */
 static inline bool lmp_is_material(const lmp_material *material) {
+    const lmp_coat *coat = &material->coat;
+    if (!(coat->weight >= 0 && coat->weight <= 1 && isfinite(coat->roughness)))
+        return false;
     switch (material->kind) {
     case LMP_MATERIAL_LOBES:
         return material->exponent >= 0 && isfinite(material->exponent);
@@ -83,6 +86,11 @@ static inline const lmp_material *lmp_material_at(const lmp_surfaces *surfaces, 
     return (const lmp_material *)(const void *)(first + i * surfaces->material_stride);
 }
 
+static inline const lmp_vec3 *lmp_coat_normal(const lmp_surface *surface) {
+    const lmp_vec3 *n = &surface->coat_normal;
+    return n->x == 0 && n->y == 0 && n->z == 0 ? &surface->normal : n;
+}
+
 /* One surface as many, which functions of one hand to those of many. */
 static inline lmp_surfaces lmp_surfaces_of(const lmp_material *material,
                                            const lmp_surface *surface) {
@@ -90,7 +98,8 @@ static inline lmp_surfaces lmp_surfaces_of(const lmp_material *material,
                             .normal = lmp_vec3_array_same(&surface->normal),
                             .view = lmp_vec3_array_same(&surface->view),
                             .tangent = lmp_vec3_array_same(&surface->tangent),
-                            .material = material };
+                            .material = material,
+                            .coat_normal = lmp_vec3_array_same(lmp_coat_normal(surface)) };
 }
 
 static inline bool lmp_are_surfaces(const lmp_surfaces *surfaces, size_t count) {
@@ -138,6 +147,18 @@ void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *mat
  * lobes; clamped to 0. */
 lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *material,
                       const lmp_surface *surface, const lmp_light *lights, size_t count);
+
+/* A coat that reflects this part of the light: GGX without a base. */
+lmp_material lmp_coat_material(const lmp_coat *coat, float part);
+
+/* lmp_shade_n and lmp_shade_environment_n of what is under coats, as if there were none. */
+void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                          size_t count, const lmp_light *lights, size_t light_count,
+                          size_t rgb_stride, float *rgb);
+void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
+                                      const lmp_surfaces *surfaces, size_t count,
+                                      const lmp_environment *environment, size_t rgb_stride,
+                                      float *rgb);
 
 /* Not clamped. */
 lmp_rgb lmp_shade_lobes_coefficients(const shade_lobes *lobes, lmp_vec3 point,

@@ -130,10 +130,10 @@ static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *s
                        const size_t *at, size_t count, const lmp_light *lights, size_t light_count,
                        size_t stride, float *rgb) {
     for (size_t i = 0; i < count; i++) {
-        const lmp_surface surface = { vector_at(&surfaces->position, at[i]),
-                                      vector_at(&surfaces->normal, at[i]),
-                                      vector_at(&surfaces->view, at[i]),
-                                      vector_at(&surfaces->tangent, at[i]) };
+        const lmp_surface surface = { .position = vector_at(&surfaces->position, at[i]),
+                                      .normal = vector_at(&surfaces->normal, at[i]),
+                                      .view = vector_at(&surfaces->view, at[i]),
+                                      .tangent = vector_at(&surfaces->tangent, at[i]) };
         const lmp_rgb color = lmp_shade_sum(resolved, lmp_material_at(surfaces, at[i]), &surface,
                                             lights, light_count);
         memcpy((char *)rgb + at[i] * stride, &color, sizeof color);
@@ -351,8 +351,9 @@ static void prepare_preintegrated(const lmp_shade_settings *settings, shade_meth
                                       method->diffuse_numbers[2] };
 }
 
-void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces, size_t count,
-                 const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
+void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                          size_t count, const lmp_light *lights, size_t light_count,
+                          size_t rgb_stride, float *rgb) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
     assert(lmp_are_surfaces(surfaces, count) && lmp_are_lights(lights, light_count));

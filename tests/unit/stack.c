@@ -79,6 +79,7 @@ static void shade_all_ways(void) {
                                         .specular = { 1, 1, 1 },
                                         .exponent = 20,
                                         .roughness = 0.4f,
+                                        .coat = { 1, 0.5f },
                                         .table = table,
                                         .preintegrated = preintegrated };
             (void)lmp_shade(&settings, &material, &surface, lights, LIGHTS);
@@ -208,9 +209,10 @@ static void shade_all_ways(void) {
     X(lmp_preintegrated_brdf_destroy, lmp_preintegrated_brdf_destroy(read_preintegrated), read_preintegrated = NULL) \
     X(lmp_shade, shade_all_ways()) \
     X(lmp_shade_n, shade_all_ways()) \
-    X(lmp_shade_environment, lmp_shade_environment(&(lmp_shade_settings) { .bands = N }, &(lmp_material) { .exponent = 20 }, &(lmp_surface) { at, up, up, up }, &(lmp_environment) { sh, N })) \
+    X(lmp_shade_environment, lmp_shade_environment(&(lmp_shade_settings) { .bands = N }, &(lmp_material) { .exponent = 20 }, &(lmp_surface) { at, up, up, up, up }, &(lmp_environment) { sh, N })) \
     X(lmp_material_dielectric, (void)lmp_material_dielectric(2, 1, (lmp_rgb) { 1, 1, 1 })) \
-    X(lmp_shade_environment_n, lmp_shade_environment_n(NULL, &(lmp_surfaces) { points, points, points, { 0 }, &(lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table }, 0 }, COUNT, &(lmp_environment) { sh, N }, 0, rgb))
+    X(lmp_material_coated, (void)lmp_material_coated(&(lmp_coat) { 1, 0.5f }, up, up)) \
+    X(lmp_shade_environment_n, lmp_shade_environment_n(NULL, &(lmp_surfaces) { .position = points, .normal = points, .view = points, .material = &(lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table, .coat = { 1, 0.5f } } }, COUNT, &(lmp_environment) { sh, N }, 0, rgb))
 /* clang-format on */
 
 #define DEFINE(name, ...)                                                                          \
