@@ -161,6 +161,7 @@ typedef struct lmp_sh_product lmp_sh_product;
 LMP_API lmp_result lmp_sh_product_create(const lmp_host *host, int bands, lmp_sh_product **product);
 LMP_API void lmp_sh_product_destroy(lmp_sh_product *product);
 
+/* c as lmp_sh_multiply_few, of the bands of the product object. */
 LMP_API void lmp_sh_multiply(const lmp_sh_product *product, const float *a, const float *b,
                              float *c);
 
