@@ -3,117 +3,9 @@
 #include "src/base/tables.h"
 #include "src/light/cap.h"
 #include "src/preintegrated/lobe_eval.h"
-#include "src/shade/planes.h"
-
-#include <math.h>
-
-/* A Dirac is a cap this wide, or a sphere this large, of the same strength. That takes (n a)²/15
- * off its highlight, a the half angle: of the cap nothing that shows, of the sphere less than
- * rounding from a distance of 2e-3 on (shade.h). */
-#define DIRAC_SINE   1e-5f
-#define DIRAC_RADIUS LMP_POINT_DISTANCE_MIN
+#include "src/shade/chunk.h"
 
 static const float pi = 3.14159265f;
-
-/* --- a chunk ---------------------------------------------------------------------------------- */
-
-/* Spots that one call of a kernel takes at most: each needs a plane of its own. */
-enum { SPOTS_MAX = 4 };
-
-/* Surfaces near each other that are shaded from the same. */
-typedef struct chunk {
-    shade_source source;
-    int phong_count; /* 0: no lobes, but a table or a BRDF */
-    size_t count;
-    size_t at[LMP_BATCH]; /* among the caller's; rising */
-    lmp_batch_vec3 point, normal, view;
-    shade_planes planes;
-    float ambient[3];
-    lmp_kernel_surfaces surfaces;
-    lmp_kernel_accumulated sums;
-} chunk_planes;
-
-/* Moves from `left` what is like its first; returns how many stay. */
-static size_t take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
-                         size_t count, chunk_planes *chunk) {
-    size_t others = 0;
-    chunk->count = 0;
-    for (size_t i = 0; i < count; i++) {
-        const lmp_material *material = lmp_material_at(surfaces, left[i]);
-        const shade_source source = lmp_shade_source(material, method);
-        const int phong_count =
-            lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, left[i]),
-                                  lmp_vec3_element(&surfaces->view, left[i]));
-        if (i == 0) {
-            chunk->source = source;
-            chunk->phong_count = phong_count;
-        }
-        if (source.table == chunk->source.table &&
-            source.preintegrated == chunk->source.preintegrated &&
-            phong_count == chunk->phong_count)
-            chunk->at[chunk->count++] = left[i];
-        else
-            left[others++] = left[i];
-    }
-    return others;
-}
-
-static const float *load_floats(const float *array, size_t stride, const chunk_planes *chunk,
-                                lmp_batch_plane *plane) {
-    const size_t first = chunk->at[0], count = chunk->count;
-    if (chunk->at[count - 1] - first == count - 1) {
-        lmp_batch_floats(array, stride, first, count, plane);
-        return plane->at;
-    }
-    for (size_t i = 0; i < count; i++)
-        memcpy(&plane->at[i], (const char *)array + chunk->at[i] * stride, sizeof(float));
-    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
-        plane->at[i] = 0;
-    return plane->at;
-}
-
-static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const chunk_planes *chunk,
-                                    lmp_batch_vec3 *planes) {
-    return (lmp_kernel_vec3) { load_floats(array->x, array->stride, chunk, &planes->x),
-                               load_floats(array->y, array->stride, chunk, &planes->y),
-                               load_floats(array->z, array->stride, chunk, &planes->z) };
-}
-
-static void load_lobes(const lmp_surfaces *surfaces, chunk_planes *chunk) {
-    shade_planes *planes = &chunk->planes;
-    const int lobes = chunk->phong_count;
-    lmp_shade_load(surfaces, chunk->at, chunk->count, lobes, &chunk->normal, &chunk->view, planes);
-    chunk->surfaces.lobe_count = lobes;
-    for (int k = 0; k < lobes; k++) {
-        shade_lobe_planes *lobe = &planes->lobe[k];
-        chunk->surfaces.lobe[k] =
-            (lmp_kernel_lobe) { { lobe->axis.x.at, lobe->axis.y.at, lobe->axis.z.at },
-                                lobe->exponent.at };
-        memset(lobe->accumulated, 0, sizeof lobe->accumulated);
-        for (int c = 0; c < 3; c++)
-            chunk->sums.specular[k][c] = lobe->accumulated[c].at;
-    }
-}
-
-static void load_chunk(const lmp_surfaces *surfaces, chunk_planes *chunk) {
-    chunk->surfaces.point = load_vectors(&surfaces->position, chunk, &chunk->point);
-    chunk->surfaces.normal = load_vectors(&surfaces->normal, chunk, &chunk->normal);
-    chunk->surfaces.view = load_vectors(&surfaces->view, chunk, &chunk->view);
-    if (!chunk->source.preintegrated)
-        load_lobes(surfaces, chunk);
-    memset(chunk->planes.accumulated, 0, sizeof chunk->planes.accumulated);
-    memset(chunk->ambient, 0, sizeof chunk->ambient);
-    for (int c = 0; c < 3; c++)
-        chunk->sums.diffuse[c] = chunk->planes.accumulated[c].at;
-}
-
-static void store_chunk(const chunk_planes *chunk, size_t stride, float *rgb) {
-    for (size_t c = 0; c < 3; c++)
-        for (size_t i = 0; i < chunk->count; i++) {
-            const float color = lmp_shade_clamped(chunk->planes.accumulated[c].at[i]);
-            memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
-        }
-}
 
 static lmp_vec3 vector_at(const lmp_vec3_array *array, size_t i) {
     lmp_vec3 v = { 0, 0, 0 };
@@ -140,61 +32,8 @@ static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *s
     }
 }
 
-/* --- lights ----------------------------------------------------------------------------------- */
-
-static lmp_rgb scaled(lmp_rgb color, float factor) {
-    return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
-}
-
-/* The same cap from every point. */
-static lmp_kernel_light fixed_cap(lmp_vec3 direction, float sine, lmp_rgb radiance) {
-    return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL };
-}
-
-/* The light as one sphere or cap; `ambient` receives what it adds from every direction. scale: a
- * plane for spots. */
-static lmp_kernel_light take_light(const lmp_light *light, const chunk_planes *chunk,
-                                   lmp_batch_plane *scale, lmp_rgb *ambient) {
-    const lmp_vec3 p = light->position;
-    switch (light->kind) {
-    case LMP_LIGHT_SPHERE:
-        return (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL };
-    case LMP_LIGHT_POINT:
-    case LMP_LIGHT_SPOT: {
-        lmp_kernel_light dirac = {
-            p.x, p.y,          p.z,
-            1,   DIRAC_RADIUS, scaled(light->intensity, 1 / pi / DIRAC_RADIUS / DIRAC_RADIUS),
-            NULL
-        };
-        if (light->kind == LMP_LIGHT_POINT)
-            return dirac;
-        lmp_light white = *light;
-        lmp_light plain = *light;
-        white.intensity = plain.intensity = (lmp_rgb) { 1, 1, 1 };
-        plain.kind = LMP_LIGHT_POINT;
-        for (size_t i = 0; i < chunk->count; i++) {
-            const lmp_vec3 at = { chunk->point.x.at[i], chunk->point.y.at[i],
-                                  chunk->point.z.at[i] };
-            lmp_cap cone, full;
-            lmp_light_cap(&white, at, &cone);
-            lmp_light_cap(&plain, at, &full);
-            scale->at[i] = cone.strength.r / full.strength.r;
-        }
-        dirac.scale = scale->at;
-        return dirac;
-    }
-    default:
-        break;
-    }
-    /* The others are the same cap from every point. */
-    lmp_cap cap;
-    lmp_light_cap(light, p, &cap);
-    ambient->r += cap.ambient.r;
-    ambient->g += cap.ambient.g;
-    ambient->b += cap.ambient.b;
-    const float sine = cap.sin2 > 0 ? sqrtf(cap.sin2) : DIRAC_SINE;
-    return fixed_cap(cap.axis, sine, scaled(cap.strength, 1 / (pi * sine * sine)));
-}
+/* Spots that one call of a kernel takes at most: each needs a plane of its own. */
+enum { SPOTS_MAX = 4 };
 
 /* --- methods ---------------------------------------------------------------------------------- */
 
@@ -240,7 +79,7 @@ static lmp_kernel_lobe_positions find_positions(const lmp_preintegrated_lobe_inf
 
 /* A function of its own: under the zonal kernel its arrays would be too much stack. */
 static __attribute__((noinline)) void shade_by_readings(const shade_method *method,
-                                                        const chunk_planes *chunk,
+                                                        const shade_chunk *chunk,
                                                         const lmp_kernel_light *lights,
                                                         size_t count) {
     chunk_positions positions[LMP_KERNEL_LOBES_MAX];
@@ -254,7 +93,7 @@ static __attribute__((noinline)) void shade_by_readings(const shade_method *meth
                                                 &chunk->sums);
 }
 
-static void shade_lobes_of_chunk(const shade_method *method, const chunk_planes *chunk,
+static void shade_lobes_of_chunk(const shade_method *method, const shade_chunk *chunk,
                                  const lmp_kernel_light *lights, size_t count) {
     if (method->settings->method == LMP_SHADE_PREINTEGRATED)
         shade_by_readings(method, chunk, lights, count);
@@ -267,7 +106,7 @@ static_assert(sizeof(lmp_kernel_slice) == sizeof(lmp_preintegrated_brdf_slice) &
                   offsetof(lmp_kernel_slice, unit) == offsetof(lmp_preintegrated_brdf_slice, unit),
               "the kernels' slices are those of preintegrated BRDFs");
 
-static void shade_brdf_planes(const chunk_planes *chunk, const lmp_kernel_light *lights,
+static void shade_brdf_planes(const shade_chunk *chunk, const lmp_kernel_light *lights,
                               size_t count, lmp_rgb ambient) {
     const lmp_preintegrated_brdf_info info =
         lmp_preintegrated_brdf_describe(chunk->source.preintegrated);
@@ -291,25 +130,25 @@ static void shade_brdf_planes(const chunk_planes *chunk, const lmp_kernel_light 
 }
 
 /* Takes lights until one more would be too many; returns how many. */
-static size_t take_lights(const lmp_light *lights, size_t count, const chunk_planes *chunk,
+static size_t take_lights(const lmp_light *lights, size_t count, const shade_chunk *chunk,
                           lmp_batch_plane *scales, lmp_kernel_light *taken, lmp_rgb *ambient) {
     size_t n = 0, spots = 0;
     for (; n < count && n < LMP_KERNEL_LIGHTS_MAX; n++) {
         const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
         if (spot && spots == SPOTS_MAX)
             break;
-        taken[n] = take_light(&lights[n], chunk, &scales[spots], ambient);
+        taken[n] = lmp_shade_take_light(&lights[n], chunk, &scales[spots], ambient);
         spots += spot;
     }
     return n;
 }
 
 /* By the kernels. */
-static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces,
-                        chunk_planes *chunk, const lmp_light *lights, size_t light_count,
-                        size_t stride, float *rgb) {
+static void shade_by_kernels(const shade_method *method, const lmp_surfaces *surfaces,
+                             shade_chunk *chunk, const lmp_light *lights, size_t light_count,
+                             size_t stride, float *rgb) {
     lmp_batch_plane scales[SPOTS_MAX + 1];
-    load_chunk(surfaces, chunk);
+    lmp_shade_load_chunk(surfaces, chunk);
     for (size_t light = 0, taken; light < light_count; light += taken) {
         lmp_kernel_light some[LMP_KERNEL_LIGHTS_MAX];
         lmp_rgb ambient = { 0, 0, 0 };
@@ -324,7 +163,7 @@ static void shade_chunk(const shade_method *method, const lmp_surfaces *surfaces
     }
     if (chunk->phong_count)
         lmp_shade_sum_planes(chunk->count, chunk->phong_count, chunk->ambient, &chunk->planes);
-    store_chunk(chunk, stride, rgb);
+    lmp_shade_store_chunk(chunk, stride, rgb);
 }
 
 static void prepare_zonal(const lmp_shade_settings *settings, shade_method *method) {
@@ -359,7 +198,7 @@ void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces
     assert(lmp_are_surfaces(surfaces, count) && lmp_are_lights(lights, light_count));
     assert(stride >= sizeof(lmp_rgb) && stride % sizeof(float) == 0);
     shade_method method = { .settings = &resolved };
-    chunk_planes chunk;
+    shade_chunk chunk;
     if (resolved.method != LMP_SHADE_PREINTEGRATED)
         prepare_zonal(&resolved, &method);
     else if (resolved.lobe)
@@ -369,14 +208,14 @@ void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces
         for (size_t i = 0; i < left_count; i++)
             left[i] = first + i;
         while (left_count > 0) {
-            left_count = take_alike(surfaces, resolved.method, left, left_count, &chunk);
+            left_count = lmp_shade_take_alike(surfaces, resolved.method, left, left_count, &chunk);
             const bool lobes = chunk.phong_count > 0;
             assert(!lobes || resolved.method != LMP_SHADE_PREINTEGRATED || resolved.lobe);
             if (chunk.source.table || (lobes && resolved.method == LMP_SHADE_COEFFICIENTS))
                 shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,
                            rgb);
             else
-                shade_chunk(&method, surfaces, &chunk, lights, light_count, stride, rgb);
+                shade_by_kernels(&method, surfaces, &chunk, lights, light_count, stride, rgb);
         }
     }
 }

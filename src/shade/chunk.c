@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/shade/chunk.h"
+
+#include <math.h>
+
+static const float pi = 3.14159265f;
+
+size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
+                            size_t count, shade_chunk *chunk) {
+    size_t others = 0;
+    chunk->count = 0;
+    for (size_t i = 0; i < count; i++) {
+        const lmp_material *material = lmp_material_at(surfaces, left[i]);
+        const shade_source source = lmp_shade_source(material, method);
+        const int phong_count =
+            lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, left[i]),
+                                  lmp_vec3_element(&surfaces->view, left[i]));
+        if (i == 0) {
+            chunk->source = source;
+            chunk->phong_count = phong_count;
+        }
+        if (source.table == chunk->source.table &&
+            source.preintegrated == chunk->source.preintegrated &&
+            phong_count == chunk->phong_count)
+            chunk->at[chunk->count++] = left[i];
+        else
+            left[others++] = left[i];
+    }
+    return others;
+}
+
+static const float *load_floats(const float *array, size_t stride, const shade_chunk *chunk,
+                                lmp_batch_plane *plane) {
+    const size_t first = chunk->at[0], count = chunk->count;
+    if (chunk->at[count - 1] - first == count - 1) {
+        lmp_batch_floats(array, stride, first, count, plane);
+        return plane->at;
+    }
+    for (size_t i = 0; i < count; i++)
+        memcpy(&plane->at[i], (const char *)array + chunk->at[i] * stride, sizeof(float));
+    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        plane->at[i] = 0;
+    return plane->at;
+}
+
+static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const shade_chunk *chunk,
+                                    lmp_batch_vec3 *planes) {
+    return (lmp_kernel_vec3) { load_floats(array->x, array->stride, chunk, &planes->x),
+                               load_floats(array->y, array->stride, chunk, &planes->y),
+                               load_floats(array->z, array->stride, chunk, &planes->z) };
+}
+
+static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {
+    shade_planes *planes = &chunk->planes;
+    const int lobes = chunk->phong_count;
+    lmp_shade_load(surfaces, chunk->at, chunk->count, lobes, &chunk->normal, &chunk->view, planes);
+    chunk->surfaces.lobe_count = lobes;
+    for (int k = 0; k < lobes; k++) {
+        shade_lobe_planes *lobe = &planes->lobe[k];
+        chunk->surfaces.lobe[k] =
+            (lmp_kernel_lobe) { { lobe->axis.x.at, lobe->axis.y.at, lobe->axis.z.at },
+                                lobe->exponent.at };
+        memset(lobe->accumulated, 0, sizeof lobe->accumulated);
+        for (int c = 0; c < 3; c++)
+            chunk->sums.specular[k][c] = lobe->accumulated[c].at;
+    }
+}
+
+void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
+    chunk->surfaces.point = load_vectors(&surfaces->position, chunk, &chunk->point);
+    chunk->surfaces.normal = load_vectors(&surfaces->normal, chunk, &chunk->normal);
+    chunk->surfaces.view = load_vectors(&surfaces->view, chunk, &chunk->view);
+    if (!chunk->source.preintegrated)
+        load_lobes(surfaces, chunk);
+    memset(chunk->planes.accumulated, 0, sizeof chunk->planes.accumulated);
+    memset(chunk->ambient, 0, sizeof chunk->ambient);
+    for (int c = 0; c < 3; c++)
+        chunk->sums.diffuse[c] = chunk->planes.accumulated[c].at;
+}
+
+void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb) {
+    for (size_t c = 0; c < 3; c++)
+        for (size_t i = 0; i < chunk->count; i++) {
+            const float color = lmp_shade_clamped(chunk->planes.accumulated[c].at[i]);
+            memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
+        }
+}
+
+/* --- lights ----------------------------------------------------------------------------------- */
+
+static lmp_rgb scaled(lmp_rgb color, float factor) {
+    return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
+}
+
+/* The same cap from every point. */
+static lmp_kernel_light fixed_cap(lmp_vec3 direction, float sine, lmp_rgb radiance) {
+    return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL };
+}
+
+lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
+                                      lmp_batch_plane *scale, lmp_rgb *ambient) {
+    const lmp_vec3 p = light->position;
+    switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+        return (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL };
+    case LMP_LIGHT_POINT:
+    case LMP_LIGHT_SPOT: {
+        lmp_kernel_light dirac = { p.x,
+                                   p.y,
+                                   p.z,
+                                   1,
+                                   SHADE_DIRAC_RADIUS,
+                                   scaled(light->intensity,
+                                          1 / pi / SHADE_DIRAC_RADIUS / SHADE_DIRAC_RADIUS),
+                                   NULL };
+        if (light->kind == LMP_LIGHT_POINT)
+            return dirac;
+        lmp_light white = *light;
+        lmp_light plain = *light;
+        white.intensity = plain.intensity = (lmp_rgb) { 1, 1, 1 };
+        plain.kind = LMP_LIGHT_POINT;
+        for (size_t i = 0; i < chunk->count; i++) {
+            const lmp_vec3 at = { chunk->point.x.at[i], chunk->point.y.at[i],
+                                  chunk->point.z.at[i] };
+            lmp_cap cone, full;
+            lmp_light_cap(&white, at, &cone);
+            lmp_light_cap(&plain, at, &full);
+            scale->at[i] = cone.strength.r / full.strength.r;
+        }
+        dirac.scale = scale->at;
+        return dirac;
+    }
+    default:
+        break;
+    }
+    /* The others are the same cap from every point. */
+    lmp_cap cap;
+    lmp_light_cap(light, p, &cap);
+    ambient->r += cap.ambient.r;
+    ambient->g += cap.ambient.g;
+    ambient->b += cap.ambient.b;
+    const float sine = cap.sin2 > 0 ? sqrtf(cap.sin2) : SHADE_DIRAC_SINE;
+    return fixed_cap(cap.axis, sine, scaled(cap.strength, 1 / (pi * sine * sine)));
+}

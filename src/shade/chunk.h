@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/* chunk.h - surfaces of many, a chunk of planes at a time, and lights as the kernels take them. */
+#ifndef LAMPION_SHADE_CHUNK_H
+#define LAMPION_SHADE_CHUNK_H
+
+#include "src/shade/planes.h"
+
+/* A Dirac is a cap this wide, or a sphere this large, of the same strength. That takes (n a)²/15
+ * off its highlight, a the half angle: of the cap nothing that shows, of the sphere less than
+ * rounding from a distance of 2e-3 on (shade.h). */
+#define SHADE_DIRAC_SINE   1e-5f
+#define SHADE_DIRAC_RADIUS LMP_POINT_DISTANCE_MIN
+
+/* Surfaces near each other that are shaded from the same. */
+typedef struct shade_chunk {
+    shade_source source;
+    int phong_count; /* 0: no lobes, but a table or a BRDF */
+    size_t count;
+    size_t at[LMP_BATCH]; /* among the caller's; rising */
+    lmp_batch_vec3 point, normal, view;
+    shade_planes planes;
+    float ambient[3];
+    lmp_kernel_surfaces surfaces;
+    lmp_kernel_accumulated sums;
+} shade_chunk;
+
+/* Moves from `left` what is like its first; returns how many stay. */
+size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
+                            size_t count, shade_chunk *chunk);
+
+/* Of the surfaces taken all that a kernel reads; nothing is accumulated yet. */
+void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk);
+
+/* What the lobes and the diffuse one have accumulated, already weighted, clamped at 0. */
+void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb);
+
+/* The light as one sphere or cap; `ambient` receives what it adds from every direction. scale: a
+ * plane for spots. */
+lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
+                                      lmp_batch_plane *scale, lmp_rgb *ambient);
+
+#endif
