@@ -133,7 +133,7 @@ static bool measure_kernels(const bench_options *o, bench_inputs *in) {
     for (int k = 0; k < BENCH_KERNELS; k++)
         for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_TIMED); n++) {
             const bench_kernel *kernel = &bench_kernels[k];
-            if (kernel->table != BENCH_TABLE_NONE && !o->bands && bands[n] != BENCH_TABLE_BANDS)
+            if (kernel->table >= BENCH_TABLE_LOBES && !o->bands && bands[n] != BENCH_TABLE_BANDS)
                 continue;
             ok = ok && bench_tables_create(kernel->table, bands[n], in);
             for (int layout = kernel->shades ? LMP_SH_INTERLEAVED : LMP_SH_PLANAR;

@@ -22,6 +22,30 @@ static void run_dot(const bench_batch *b) {
 static void run_rotate(const bench_batch *b) {
     lmp_sh_rotate_n(b->bands, b->matrices, b->vectors, b->count, b->layout, b->stride, b->out);
 }
+/* Products and rotations about z, a call an element. */
+static void run_product(const bench_batch *b) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    for (size_t i = 0; i < b->count; i++)
+        lmp_sh_multiply(b->product, b->vectors + i * n, b->vectors, b->out + i * n);
+}
+static void run_rotate_z(const bench_batch *b) {
+    const size_t n = LMP_SH_COUNT(b->bands);
+    for (size_t i = 0; i < b->count; i++)
+        lmp_sh_rotate_z(b->bands, 0.5f, b->vectors + i * n, b->out + i * n);
+}
+/* Whole images of three channels. */
+static void run_cubemap(const bench_batch *b) {
+    lmp_cubemap map = { .size = BENCH_CUBE, .channels = 3 };
+    for (int face = 0; face < 6; face++)
+        map.faces[face] = b->vectors + face * 3 * BENCH_CUBE * BENCH_CUBE;
+    lmp_sh_project_cubemap(b->bands, &map, b->out);
+}
+static void run_panorama(const bench_batch *b) {
+    const lmp_latlong map = {
+        .pixels = b->vectors, .width = BENCH_PANORAMA, .height = BENCH_PANORAMA / 2, .channels = 3
+    };
+    lmp_sh_project_latlong(b->bands, &map, b->out);
+}
 static void run_zonal(const bench_batch *b) {
     const lmp_float_array distances = { b->distances, sizeof(float) };
     lmp_sphere_zonal_n(b->bands, b->spheres.radius, distances, b->count, b->layout, b->stride,
@@ -142,6 +166,22 @@ static double slots_rotate(int n) {
         slots += side * (2.0 * side - 1);
     return slots;
 }
+/* Four products and two sums a pair of coefficients. */
+static double slots_rotate_z(int n) {
+    return 6 * steps(n);
+}
+/* To 6 bands the table's triples, fifteen operations each; beyond, the grid's: per height four sums
+ * over columns, per azimuth three over orders. */
+static double slots_product(int n) {
+    static const double triples[] = { 0, 1, 4, 25, 77, 238, 549 };
+    if (n <= LMP_SH_FEW_BANDS)
+        return 15 * triples[n];
+    return (3 * n - 1) / 2.0 * (12 * entries(n) + (3 * n - 2) * 12.0 * n);
+}
+/* C_m and S_m anew every three orders; q_l^m; of (l, m) three channels of its cosine and sine. */
+static double slots_image(int n) {
+    return n * (double)n + 6 * later(n) + 4 * steps(n) + 14 * entries(n);
+}
 static double slots_zonal(int n) {
     return 14 + 5 * later(n) + n;
 }
@@ -212,6 +252,14 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
     { "basis-gradient", values_basis_gradient, slots_basis_gradient, run_basis_gradient,
       bench_paper_basis_gradient, 1, false, BENCH_TABLE_NONE, false },
     { "irradiance", values_lobe, slots_irradiance, run_irradiance, bench_paper_irradiance, 1, true,
+      BENCH_TABLE_NONE, false },
+    { "cubemap", values_lobe, slots_image, run_cubemap, bench_paper_cubemap,
+      6 * BENCH_CUBE *BENCH_CUBE / BENCH_ELEMENTS_MAX, true, BENCH_TABLE_NONE, false },
+    { "panorama", values_lobe, slots_image, run_panorama, bench_paper_panorama,
+      BENCH_PANORAMA *BENCH_PANORAMA / 2 / BENCH_ELEMENTS_MAX, true, BENCH_TABLE_NONE, false },
+    { "product", values_basis, slots_product, run_product, bench_paper_product, 1, true,
+      BENCH_TABLE_PRODUCT, false },
+    { "rotate-z", values_basis, slots_rotate_z, run_rotate_z, bench_paper_rotate, 1, true,
       BENCH_TABLE_NONE, false },
     { "rotate", values_basis, slots_rotate, run_rotate, bench_paper_rotate, 1, false,
       BENCH_TABLE_NONE, false },

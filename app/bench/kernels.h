@@ -11,6 +11,8 @@
 enum {
     BENCH_LIGHTS = 32,
     BENCH_LIGHTS_FEW = 8,
+    BENCH_CUBE = 40,      /* a face's side */
+    BENCH_PANORAMA = 120, /* its width, twice its height */
     BENCH_ELEMENTS_MAX = 480,
     BENCH_OUTPUT_FLOATS = 6144
 };
@@ -23,17 +25,24 @@ typedef struct bench_batch {
     lmp_vec3_array axes, points;
     lmp_spheres spheres;
     const float *distances, *lambda, *matrices, *vectors;
+    const lmp_sh_product *product;
     lmp_surfaces surfaces;
     const lmp_light *lights;
     const lmp_preintegrated_lobe *lobe; /* of the kernels that read one */
     float *out;
 } bench_batch;
 
-/* What a kernel reads. Its bands do not concern the cost: 10, unless others are asked for. */
-typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_BRDF } bench_table;
+/* What a kernel reads. The bands of lobes and BRDFs do not concern the cost: 10, unless others are
+ * asked for. */
+typedef enum bench_table {
+    BENCH_TABLE_NONE,
+    BENCH_TABLE_PRODUCT,
+    BENCH_TABLE_LOBES,
+    BENCH_TABLE_BRDF
+} bench_table;
 enum { BENCH_TABLE_BANDS = 10 };
 
-/* One light an element, or as many as `lights`. */
+/* One light an element, or as many as `lights`; of images as many texels. */
 typedef struct bench_kernel {
     const char *name;
     size_t (*values)(int bands); /* of an element */
@@ -46,7 +55,7 @@ typedef struct bench_kernel {
     bool ggx; /* it shades glTF's metallic-roughness */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 19 };
+enum { BENCH_KERNELS = 23 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- paper.c: elements of the same work by the paper's formulas, one by one ----------------------
@@ -55,6 +64,9 @@ extern const bench_kernel bench_kernels[BENCH_KERNELS];
 void bench_paper_basis(const bench_batch *b, size_t element);
 void bench_paper_basis_gradient(const bench_batch *b, size_t element);
 void bench_paper_irradiance(const bench_batch *b, size_t element);
+void bench_paper_cubemap(const bench_batch *b, size_t element);
+void bench_paper_panorama(const bench_batch *b, size_t element);
+void bench_paper_product(const bench_batch *b, size_t element);
 void bench_paper_dot(const bench_batch *b, size_t element);
 void bench_paper_rotate(const bench_batch *b, size_t element);
 void bench_paper_zonal(const bench_batch *b, size_t element);

@@ -56,6 +56,37 @@ void bench_paper_shade_environment(const bench_batch *b, size_t i) {
     for (size_t k = 0; k <= LMP_GGX_LOBES; k++)
         paper_respond(b, vector_at(&b->axes, i), coefficient_sink + 3 * k);
 }
+/* Eq. 5, texel by texel: the basis there times the texel's color. */
+static void paper_texels(const bench_batch *b, size_t texels) {
+    static float basis[LMP_SH_COUNT(LMP_BANDS_MAX)];
+    const size_t n = LMP_SH_COUNT(b->bands);
+    for (size_t i = 0; i < texels; i++) {
+        lmp_sh_eval(b->bands, vector_at(&b->axes, i), basis);
+        for (size_t c = 0; c < 3; c++)
+            for (size_t v = 0; v < n; v++)
+                coefficient_sink[c * n + v] += b->vectors[3 * i + c] * basis[v];
+    }
+}
+void bench_paper_cubemap(const bench_batch *b, size_t i) {
+    (void)i;
+    paper_texels(b, 6 * BENCH_CUBE * BENCH_CUBE / BENCH_ELEMENTS_MAX);
+}
+void bench_paper_panorama(const bench_batch *b, size_t i) {
+    (void)i;
+    paper_texels(b, BENCH_PANORAMA * BENCH_PANORAMA / 2 / BENCH_ELEMENTS_MAX);
+}
+/* Eq. 5 of the product of Eq. 6's values. */
+static float paper_square(lmp_vec3 direction, void *user) {
+    const bench_batch *b = user;
+    const float value = lmp_sh_reconstruct(b->bands, b->vectors, direction);
+    return value * value;
+}
+void bench_paper_product(const bench_batch *b, size_t i) {
+    bench_batch batch = *b;
+    (void)i;
+    lmp_sh_project_function(b->bands, (3 * b->bands - 1) / 2, paper_square, &batch,
+                            coefficient_sink);
+}
 void bench_paper_dot(const bench_batch *b, size_t i) {
     const float *vector = b->vectors + i * LMP_SH_COUNT(b->bands);
     coefficient_sink[0] = lmp_sh_dot(b->bands, vector, vector);

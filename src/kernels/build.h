@@ -4,6 +4,7 @@
 #include "src/kernels/accumulate_few.h"
 #include "src/kernels/eval_gradient.h"
 #include "src/kernels/gradient.h"
+#include "src/kernels/image.h"
 #include "src/kernels/lobe.h"
 #include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
@@ -31,6 +32,7 @@ const lmp_kernels LMP_KERNELS = {
     .dot = kernel_dot,
     .rotate = kernel_rotate,
     .reconstruct = kernel_reconstruct,
+    .image = kernel_image,
     .zonal = kernel_zonal,
     .project = kernel_project,
     .accumulate = kernel_accumulate,

@@ -108,6 +108,23 @@ typedef struct lmp_kernel_accumulated {
     float *diffuse[3], *specular[LMP_KERNEL_LOBES_MAX][3];
 } lmp_kernel_accumulated;
 
+/* Texels of up to LMP_KERNEL_CHANNELS channels: where each is seen, and its values times its solid
+ * angle, 0 for those past the last. */
+#define LMP_KERNEL_TEXELS   256
+#define LMP_KERNEL_CHANNELS 4
+typedef struct lmp_kernel_texels {
+    lmp_kernel_vec3 direction;
+    const float *value[LMP_KERNEL_CHANNELS];
+    int channels;
+} lmp_kernel_texels;
+
+/* What they add up to: the coefficients (l, m) and (l, -m) of a few orders m. */
+#define LMP_KERNEL_ORDERS 3
+typedef struct lmp_kernel_texel_sums {
+    double cosine[LMP_KERNEL_ORDERS][LMP_KERNEL_CHANNELS][LMP_BANDS_MAX];
+    double sine[LMP_KERNEL_ORDERS][LMP_KERNEL_CHANNELS][LMP_BANDS_MAX];
+} lmp_kernel_texel_sums;
+
 typedef struct lmp_kernels {
     const char *name;
     int lanes;
@@ -129,6 +146,9 @@ typedef struct lmp_kernels {
     void (*reconstruct)(int bands, const float *factors, const float *exponents,
                         const float *const planes[3], const lmp_kernel_vec3 *directions,
                         size_t count, const lmp_kernel_out *out);
+    /* Adds up to LMP_KERNEL_TEXELS texels to the sums of orders m … m+orders-1. */
+    void (*image)(int bands, int m, int orders, const lmp_kernel_texels *texels, size_t count,
+                  lmp_kernel_texel_sums *sums);
     /* `bands` values: Z_l (paper Eq. 12). */
     void (*zonal)(int bands, const float *radius, const float *distance, size_t count,
                   const lmp_kernel_out *out);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* image.c - images of the surroundings onto coefficients: latitude-longitude and cube maps.
  *
- * Texels go through in runs of a row. The recurrences of sh run for a whole run at once, a few
- * orders m a pass, and what a run adds is summed in double, so that no number of texels loses
- * digits. The order of every sum is fixed: the result depends on the input alone. */
+ * Texels go through a kernel in runs of a row, a few orders m a pass, and what a run adds is summed
+ * in double, so that no number of texels loses digits. Where a run's texels are is found once for
+ * all rows or faces that share it. */
 #include "src/base/precondition.h"
-#include "src/sh/column.h"
+#include "src/kernels/kernels.h"
 
 #include <lampion/sh.h>
 
@@ -14,22 +14,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum {
-    RUN = 64,    /* texels */
-    LANES = 8,   /* partial sums of a run */
-    ORDERS = 3,  /* orders m a pass: one pass does for irradiance */
-    CHANNELS = 4 /* a pass */
-};
-
-/* Texels in a row: directions, and values times their solid angles, 0 past the last. */
-typedef struct run {
-    float x[RUN], y[RUN], z[RUN];
-    float value[CHANNELS][RUN];
-} run;
-
-typedef struct sums {
-    double cosine[ORDERS][CHANNELS][LMP_BANDS_MAX], sine[ORDERS][CHANNELS][LMP_BANDS_MAX];
-} sums;
+enum { RUN = LMP_KERNEL_TEXELS };
 
 /* --- texels ----------------------------------------------------------------------------------- */
 
@@ -52,154 +37,121 @@ static grid grid_of(lmp_texel texel, int width, int channels, size_t row_stride,
     return g;
 }
 
+/* Infinity and NaN have the exponent that 2^112 would be short of. */
 static float float_of_half(uint16_t half) {
-    const int exponent = half >> 10 & 31, mantissa = half & 1023;
+    const uint32_t size = (half & 0x7fffu) << 13, sign = (half & 0x8000u) << 16;
     float value;
-    if (exponent == 31)
-        value = mantissa ? NAN : INFINITY;
-    else
-        value =
-            ldexpf((float)(exponent ? mantissa + 1024 : mantissa), (exponent ? exponent : 1) - 25);
-    return half >> 15 ? -value : value;
-}
-
-static float texel_at(const grid *g, const void *pixels, int row, int column, int channel) {
-    const char *at = (const char *)pixels + (size_t)row * g->row_stride +
-                     (size_t)column * g->texel_stride + (size_t)channel * g->channel_stride;
-    if (g->texel == LMP_TEXEL_HALF) {
-        uint16_t half;
-        memcpy(&half, at, sizeof half);
-        return float_of_half(half);
-    }
-    float value;
-    memcpy(&value, at, sizeof value);
+    memcpy(&value, &size, sizeof value);
+    value *= 0x1p112f;
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    bits |= sign | ((half & 0x7c00u) == 0x7c00u ? 0x7f800000u : 0);
+    memcpy(&value, &bits, sizeof value);
     return value;
 }
 
-/* Sets entry i of a run; w need not be unit. */
-static void run_set(run *r, int i, const double w[3], double solid_angle, const grid *g,
-                    const void *pixels, int row, int column, int first, int channels) {
-    const double scale = 1 / sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-    r->x[i] = (float)(w[0] * scale);
-    r->y[i] = (float)(w[1] * scale);
-    r->z[i] = (float)(w[2] * scale);
-    for (int c = 0; c < channels; c++)
-        r->value[c][i] = (float)((double)texel_at(g, pixels, row, column, first + c) * solid_angle);
-}
+/* --- a pass -----------------------------------------------------------------------------------
+ */
 
-/* --- sums ------------------------------------------------------------------------------------- */
+/* What is projected now: orders m … m+orders-1 of a few channels, and a run of texels. */
+typedef struct pass {
+    const lmp_kernels *kernels;
+    grid g;
+    int bands, m, orders, first, channels;
+    _Alignas(64) float x[RUN], y[RUN], z[RUN], value[LMP_KERNEL_CHANNELS][RUN];
+    lmp_kernel_texel_sums sums;
+} pass;
 
-static double run_dot(const float *a, const float *b) {
-    float part[LANES] = { 0 };
-    for (int i = 0; i < RUN; i += LANES)
-        for (int k = 0; k < LANES; k++)
-            part[k] += a[i + k] * b[i + k];
-    double sum = 0;
-    for (int k = 0; k < LANES; k++)
-        sum += (double)part[k];
-    return sum;
-}
-
-/* (x + iy)^m of every texel of a run. */
-static void run_azimuths(const run *r, int m, float *c, float *s) {
-    for (int i = 0; i < RUN; i++)
-        c[i] = 1, s[i] = 0;
-    for (; m > 0; m--)
-        for (int i = 0; i < RUN; i++) {
-            const lmp_azimuth next = lmp_azimuth_next((lmp_azimuth) { c[i], s[i] },
-                                                      (lmp_vec3) { r->x[i], r->y[i], r->z[i] });
-            c[i] = next.c;
-            s[i] = next.s;
+static void read_channel(const pass *p, const char *at, int count, const double *solid_angle,
+                         float *value) {
+    const size_t stride = p->g.texel_stride;
+    if (p->g.texel == LMP_TEXEL_HALF)
+        for (int i = 0; i < count; i++) {
+            uint16_t half;
+            memcpy(&half, at + (size_t)i * stride, sizeof half);
+            value[i] = (float)((double)float_of_half(half) * solid_angle[i]);
         }
+    else
+        for (int i = 0; i < count; i++) {
+            float texel;
+            memcpy(&texel, at + (size_t)i * stride, sizeof texel);
+            value[i] = (float)((double)texel * solid_angle[i]);
+        }
+    for (int i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        value[i] = 0;
 }
 
-/* Adds what a run gives to the coefficients ±m, l = m … bands-1, of every channel. */
-static void run_add(const run *r, int bands, int m, int channels, double (*cosine)[LMP_BANDS_MAX],
-                    double (*sine)[LMP_BANDS_MAX]) {
-    const float *a = lmp_table_a + lmp_table_index(m, m);
-    const float *b = lmp_table_b + lmp_table_index(m, m);
-    float c[RUN], s[RUN], q[RUN], before[RUN] = { 0 }, y[RUN];
-    run_azimuths(r, m, c, s);
-    for (int i = 0; i < RUN; i++)
-        q[i] = lmp_table_diagonal[m];
-    for (int l = m; l < bands; l++) {
-        if (l > m)
-            for (int i = 0; i < RUN; i++) {
-                const float next = a[l - m] * r->z[i] * q[i] + b[l - m] * before[i];
-                before[i] = q[i];
-                q[i] = next;
+/* Adds `count` texels from (row, column) on, whose directions are set. */
+static void add_run(pass *p, const void *pixels, int row, int column, int count,
+                    const double *solid_angle) {
+    const char *at =
+        (const char *)pixels + (size_t)row * p->g.row_stride + (size_t)column * p->g.texel_stride;
+    lmp_kernel_texels texels = { .direction = { p->x, p->y, p->z }, .channels = p->channels };
+    for (int c = 0; c < p->channels; c++) {
+        read_channel(p, at + (size_t)(p->first + c) * p->g.channel_stride, count, solid_angle,
+                     p->value[c]);
+        texels.value[c] = p->value[c];
+    }
+    p->kernels->image(p->bands, p->m, p->orders, &texels, (size_t)count, &p->sums);
+}
+
+static void write_sums(const pass *p, float *sh) {
+    for (int c = 0; c < p->channels; c++) {
+        float *plane = sh + (size_t)(p->first + c) * LMP_SH_COUNT(p->bands);
+        for (int i = 0; i < p->orders; i++)
+            for (int m = p->m + i, l = m; l < p->bands; l++) {
+                plane[LMP_SH_INDEX(l, -m)] = (float)p->sums.sine[i][c][l];
+                plane[LMP_SH_INDEX(l, m)] = (float)p->sums.cosine[i][c][l];
             }
-        for (int i = 0; i < RUN; i++)
-            y[i] = q[i] * c[i];
-        for (int channel = 0; channel < channels; channel++)
-            cosine[channel][l] += run_dot(y, r->value[channel]);
-        for (int i = 0; i < RUN; i++)
-            y[i] = q[i] * s[i];
-        for (int channel = 0; m > 0 && channel < channels; channel++)
-            sine[channel][l] += run_dot(y, r->value[channel]);
     }
 }
 
-static void sums_write(const sums *sum, int bands, int m, int order, int first, int channels,
-                       float *sh) {
-    for (int channel = 0; channel < channels; channel++) {
-        float *plane = sh + (size_t)(first + channel) * LMP_SH_COUNT(bands);
-        for (int l = m; l < bands; l++) {
-            plane[LMP_SH_INDEX(l, -m)] = (float)sum->sine[order][channel][l];
-            plane[LMP_SH_INDEX(l, m)] = (float)sum->cosine[order][channel][l];
-        }
-    }
-}
+/* Adds all texels of an image. */
+typedef void add_image(const void *image, pass *p);
 
-/* Fills a run with `count` texels from (row, column) on of image `face`. */
-typedef void fill_run(const void *image, const grid *g, int face, int row, int column, int count,
-                      int first, int channels, run *r);
-
-/* The coefficients of orders m … m+ORDERS-1 of a few channels. */
-static void project_orders(const void *image, const grid *g, fill_run *fill, const int size[3],
-                           int bands, int m, int first, int channels, float *sh) {
-    const int orders = bands - m < ORDERS ? bands - m : ORDERS;
-    sums sum;
-    memset(&sum, 0, sizeof sum);
-    for (int face = 0; face < size[2]; face++)
-        for (int row = 0; row < size[1]; row++)
-            for (int column = 0; column < size[0]; column += RUN) {
-                run r;
-                memset(&r, 0, sizeof r);
-                fill(image, g, face, row, column, size[0] - column < RUN ? size[0] - column : RUN,
-                     first, channels, &r);
-                for (int i = 0; i < orders; i++)
-                    run_add(&r, bands, m + i, channels, sum.cosine[i], sum.sine[i]);
-            }
-    for (int i = 0; i < orders; i++)
-        sums_write(&sum, bands, m + i, i, first, channels, sh);
-}
-
-static void project(const void *image, const grid *g, fill_run *fill, const int size[3], int bands,
-                    int channels, float *sh) {
+static void project(const void *image, grid g, add_image *add, int bands, int channels, float *sh) {
     assert(lmp_is_bands(bands));
-    for (int first = 0; first < channels; first += CHANNELS)
-        for (int m = 0; m < bands; m += ORDERS)
-            project_orders(image, g, fill, size, bands, m, first,
-                           channels - first < CHANNELS ? channels - first : CHANNELS, sh);
+    pass p = { .kernels = lmp_kernels_get(), .g = g, .bands = bands };
+    for (p.first = 0; p.first < channels; p.first += LMP_KERNEL_CHANNELS) {
+        const int left = channels - p.first;
+        p.channels = left < LMP_KERNEL_CHANNELS ? left : LMP_KERNEL_CHANNELS;
+        for (p.m = 0; p.m < bands; p.m += LMP_KERNEL_ORDERS) {
+            p.orders = bands - p.m < LMP_KERNEL_ORDERS ? bands - p.m : LMP_KERNEL_ORDERS;
+            memset(&p.sums, 0, sizeof p.sums);
+            add(image, &p);
+            write_sums(&p, sh);
+        }
+    }
 }
 
 /* --- latitude-longitude ------------------------------------------------------------------------
  */
 
-static void latlong_run(const void *image, const grid *g, int face, int row, int column, int count,
-                        int first, int channels, run *r) {
+static void add_latlong(const void *image, pass *p) {
     const lmp_latlong *map = image;
-    (void)face;
-    const double top = cos(pi * row / map->height), bottom = cos(pi * (row + 1) / map->height);
-    const double solid_angle = (top - bottom) * 2 * pi / map->width;
-    const double polar = pi * (row + 0.5) / map->height;
-    for (int i = 0; i < count; i++) {
-        const double across = 2 * pi * (column + i + 0.5) / map->width - pi;
-        const double azimuth = (map->mirrored ? -across : across) + (double)map->azimuth;
-        const double a = sin(polar) * cos(azimuth), b = sin(polar) * sin(azimuth), up = cos(polar);
-        const double w[3] = { a, map->z_up ? -b : up, map->z_up ? up : b };
-        run_set(r, i, w, solid_angle, g, map->pixels, row, column + i, first, channels);
+    double across[2][RUN], solid_angle[RUN];
+    for (int column = 0; column < map->width; column += RUN) {
+        const int count = map->width - column < RUN ? map->width - column : RUN;
+        for (int i = 0; i < count; i++) {
+            const double angle = 2 * pi * (column + i + 0.5) / map->width - pi;
+            const double azimuth = (map->mirrored ? -angle : angle) + (double)map->azimuth;
+            across[0][i] = cos(azimuth);
+            across[1][i] = map->z_up ? -sin(azimuth) : sin(azimuth);
+        }
+        for (int row = 0; row < map->height; row++) {
+            const double top = cos(pi * row / map->height);
+            const double bottom = cos(pi * (row + 1) / map->height);
+            const double polar = pi * (row + 0.5) / map->height;
+            const double radius = sin(polar), up = cos(polar);
+            float *level = map->z_up ? p->y : p->z, *height = map->z_up ? p->z : p->y;
+            for (int i = 0; i < count; i++) {
+                p->x[i] = (float)(radius * across[0][i]);
+                level[i] = (float)(radius * across[1][i]);
+                height[i] = (float)up;
+                solid_angle[i] = (top - bottom) * 2 * pi / map->width;
+            }
+            add_run(p, map->pixels, row, column, count, solid_angle);
+        }
     }
 }
 
@@ -208,8 +160,7 @@ void lmp_sh_project_latlong(int bands, const lmp_latlong *image, float *sh) {
     assert(isfinite(image->azimuth));
     const grid g = grid_of(image->texel, image->width, image->channels, image->row_stride,
                            image->texel_stride, image->channel_stride);
-    const int size[3] = { image->width, image->height, 1 };
-    project(image, &g, latlong_run, size, bands, image->channels, sh);
+    project(image, g, add_latlong, bands, image->channels, sh);
 }
 
 /* --- cube maps ---------------------------------------------------------------------------------
@@ -227,29 +178,56 @@ static double corner_angle(double u, double v) {
     return atan2(u * v, sqrt(u * u + v * v + 1));
 }
 
-static void cube_run(const void *image, const grid *g, int face, int row, int column, int count,
-                     int first, int channels, run *r) {
-    const lmp_cubemap *map = image;
-    const double step = 2.0 / map->size, v = step * (row + 0.5) - 1;
-    const double v0 = step * row - 1, v1 = step * (row + 1) - 1;
+/* What texels of all faces share: where they are on their face, as unit vectors, and how large they
+ * look. */
+typedef struct face_run {
+    double u[RUN], v[RUN], w[RUN], solid_angle[RUN];
+} face_run;
+
+static void set_face_run(int size, int row, int column, int count, face_run *run) {
+    const double step = 2.0 / size, v = step * (row + 0.5) - 1;
+    const double v0 = step * row - 1, v1 = step * (row + 1) - 1, left = step * column - 1;
+    double before = corner_angle(left, v1) - corner_angle(left, v0);
     for (int i = 0; i < count; i++) {
-        const double u = step * (column + i + 0.5) - 1;
-        const double u0 = step * (column + i) - 1, u1 = step * (column + i + 1) - 1;
-        const double solid_angle = (corner_angle(u1, v1) - corner_angle(u0, v1)) -
-                                   (corner_angle(u1, v0) - corner_angle(u0, v0));
-        double w[3];
-        for (int k = 0; k < 3; k++)
-            w[k] = face_axes[face][0][k] * u + face_axes[face][1][k] * v + face_axes[face][2][k];
-        if (map->left_handed)
-            w[2] = -w[2];
-        run_set(r, i, w, solid_angle, g, map->faces[face], row, column + i, first, channels);
+        const double u = step * (column + i + 0.5) - 1, right = step * (column + i + 1) - 1;
+        const double scale = 1 / sqrt(u * u + v * v + 1);
+        const double after = corner_angle(right, v1) - corner_angle(right, v0);
+        run->u[i] = u * scale;
+        run->v[i] = v * scale;
+        run->w[i] = scale;
+        run->solid_angle[i] = after - before;
+        before = after;
     }
+}
+
+/* Coordinate k of a face's texels. */
+static void set_coordinate(const face_run *run, int count, int face, int k, float sign, float *to) {
+    const signed char(*axes)[3] = face_axes[face];
+    const double *from = axes[0][k] ? run->u : axes[1][k] ? run->v : run->w;
+    const double scale = (double)sign * (axes[0][k] + axes[1][k] + axes[2][k]);
+    for (int i = 0; i < count; i++)
+        to[i] = (float)(scale * from[i]);
+}
+
+static void add_cubemap(const void *image, pass *p) {
+    const lmp_cubemap *map = image;
+    face_run run;
+    for (int row = 0; row < map->size; row++)
+        for (int column = 0; column < map->size; column += RUN) {
+            const int count = map->size - column < RUN ? map->size - column : RUN;
+            set_face_run(map->size, row, column, count, &run);
+            for (int face = 0; face < 6; face++) {
+                set_coordinate(&run, count, face, 0, 1, p->x);
+                set_coordinate(&run, count, face, 1, 1, p->y);
+                set_coordinate(&run, count, face, 2, map->left_handed ? -1 : 1, p->z);
+                add_run(p, map->faces[face], row, column, count, run.solid_angle);
+            }
+        }
 }
 
 void lmp_sh_project_cubemap(int bands, const lmp_cubemap *map, float *sh) {
     assert(map->size >= 1 && map->channels >= 1);
     const grid g = grid_of(map->texel, map->size, map->channels, map->row_stride, map->texel_stride,
                            map->channel_stride);
-    const int size[3] = { map->size, map->size, 6 };
-    project(map, &g, cube_run, size, bands, map->channels, sh);
+    project(map, g, add_cubemap, bands, map->channels, sh);
 }

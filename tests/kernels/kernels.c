@@ -205,6 +205,20 @@ static void wrong_reconstruct(int bands, const float *factors, const float *expo
     honest.reconstruct(bands, factors, exponents, planes, directions, count, out);
     spoil(out);
 }
+/* Of every image. */
+static void wrong_image(int bands, int m, int orders, const lmp_kernel_texels *texels, size_t count,
+                        lmp_kernel_texel_sums *sums) {
+    const int n = (int)LMP_SH_COUNT(bands), index = (int)flaw.value % n;
+    int l = 0;
+    honest.image(bands, m, orders, texels, count, sums);
+    while ((l + 1) * (l + 1) <= index)
+        l++;
+    const int order = index - l * l - l, i = abs(order) - m;
+    if (i < 0 || i >= orders)
+        return;
+    double *at = &(order < 0 ? sums->sine : sums->cosine)[i][flaw.value / (size_t)n][l];
+    *at = (double)nextafterf((float)*at, 1e9f);
+}
 static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
                          const lmp_kernel_out *out) {
     honest.project(bands, pairs, count, out);
@@ -254,6 +268,7 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .lobe = wrong_lobe,
                                    .eval_gradient = wrong_eval_gradient,
                                    .reconstruct = wrong_reconstruct,
+                                   .image = wrong_image,
                                    .shade_zonal = wrong_shade_zonal,
                                    .shade_preintegrated_lobe = wrong_shade_preintegrated_lobe,
                                    .shade_preintegrated_brdf = wrong_shade_preintegrated_brdf };

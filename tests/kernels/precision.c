@@ -9,6 +9,7 @@ static double bound_of(kind which, int bands, double alpha2) {
     switch (which) {
     case EVAL:
     case EVAL_GRADIENT:
+    case IMAGE:
         return 1e-6 * bands;
     case PROJECT:
         return 3e-6 + 1e-6 * bands + surface_bound(alpha2);
@@ -274,6 +275,32 @@ static void functions_of_coefficients_match_double_precision(void **test) {
     free(in);
 }
 
+static void images_match_double_precision(void **test) {
+    (void)test;
+    lmp_kernels best;
+    lmp_kernels_init(&best, LMP_CPU_ALL);
+    inputs *in = inputs_create(drawn_seed());
+    double *basis = malloc(128 * 128 * sizeof *basis), *sums = malloc(3 * 128 * 128 * sizeof *sums);
+    assert_true(basis && sums);
+    for (int bands = 1; bands <= 128; bands += bands < 20 ? 1 : 54) {
+        const size_t n = LMP_SH_COUNT(bands);
+        float *actual = results(&best, IMAGE, bands, in, COUNT, 0);
+        memset(sums, 0, 3 * n * sizeof *sums);
+        for (int i = 0; i < COUNT; i++) { /* image i has all texels of those before */
+            double axis[3];
+            widen(VECTOR(in->axis), i, axis);
+            oracle_sh_eval(bands, axis, basis);
+            for (size_t v = 0; v < 3 * n; v++)
+                sums[v] += (double)in->rgb[v / n][i] * basis[v % n];
+            check_element(i, bands, IMAGE, 3 * n, sums, actual + (size_t)i * 3 * n, 1);
+        }
+        free(actual);
+    }
+    free(basis);
+    free(sums);
+    free(in);
+}
+
 static void shading_matches_double_precision(void **test) {
     (void)test;
     static void (*const expect[])(const shading *, int, shaded *) = { expect_zonal,
@@ -323,6 +350,7 @@ int main(void) {
         cmocka_unit_test(rotation_and_dot_match_double_precision),
         cmocka_unit_test(gradients_of_the_basis_match_double_precision),
         cmocka_unit_test(functions_of_coefficients_match_double_precision),
+        cmocka_unit_test(images_match_double_precision),
         cmocka_unit_test(shading_matches_double_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

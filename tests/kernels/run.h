@@ -23,6 +23,7 @@ typedef enum kind {
     EVAL_GRADIENT,
     RECONSTRUCT,
     RECONSTRUCT_PHONG,
+    IMAGE,
     SHADE_ZONAL,
     SHADE_PREINTEGRATED_LOBE,
     SHADE_PREINTEGRATED_BRDF,
@@ -43,6 +44,7 @@ static const char *const kind_names[] = { "eval",
                                           "eval_gradient",
                                           "reconstruct",
                                           "reconstruct of Phong lobes",
+                                          "image",
                                           "shade_zonal",
                                           "shade_preintegrated_lobe",
                                           "shade_preintegrated_brdf",
@@ -78,6 +80,7 @@ static size_t values_of(kind which, int bands) {
     case ZONAL:
         return (size_t)bands;
     case ACCUMULATE:
+    case IMAGE:
         return 3 * n;
     case GRADIENT:
         return 12 * n;
@@ -164,6 +167,39 @@ static void run_reconstruct(const lmp_kernels *k, kind which, int bands, const i
     free(sh);
 }
 
+/* Element e is an image of e + 1 texels, of three channels. */
+static void run_image(const lmp_kernels *k, int bands, const inputs *in, size_t count,
+                      const lmp_kernel_out *out) {
+    const size_t n = LMP_SH_COUNT(bands);
+    lmp_kernel_texels texels = { .direction = { in->axis[0], in->axis[1], in->axis[2] },
+                                 .channels = 3 };
+    for (size_t e = 0; e < count; e++) {
+        _Alignas(64) float value[3][COUNT + 16] = { { 0 } };
+        lmp_kernel_texel_sums sums;
+        for (size_t c = 0; c < 3; c++) {
+            memcpy(value[c], in->rgb[c], (e + 1) * sizeof(float));
+            texels.value[c] = value[c];
+        }
+        for (int m = 0; m < bands; m++) {
+            const int i = m % LMP_KERNEL_ORDERS, left = bands - m;
+            if (i == 0) {
+                memset(&sums, 0, sizeof sums);
+                k->image(bands, m, left < LMP_KERNEL_ORDERS ? left : LMP_KERNEL_ORDERS, &texels,
+                         e + 1, &sums);
+            }
+            for (size_t c = 0; c < 3; c++)
+                for (int l = m; l < bands; l++) {
+                    const size_t minus = c * n + LMP_SH_INDEX(l, -m),
+                                 plus = c * n + LMP_SH_INDEX(l, m);
+                    out->at[out->planar ? minus * out->stride + e : e * out->stride + minus] =
+                        (float)sums.sine[i][c][l];
+                    out->at[out->planar ? plus * out->stride + e : e * out->stride + plus] =
+                        (float)sums.cosine[i][c][l];
+                }
+        }
+    }
+}
+
 /* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
  * guarded here. */
 enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * GUARD };
@@ -227,16 +263,22 @@ static void run_shading(const lmp_kernels *k, kind which, int bands, const input
     }
 }
 
+static lmp_kernel_lights lights_of(const inputs *in) {
+    return (lmp_kernel_lights) {
+        { in->center[0], in->center[1], in->center[2], sizeof(float) },
+        { in->radius, sizeof(float) },
+        { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
+        LIGHTS,
+    };
+}
+
 static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
                 int planar, const lmp_kernel_out *out) {
     const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
     const lmp_kernel_vec3 center = { in->center[0], in->center[1], in->center[2] };
     const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
     const lmp_kernel_pairs pairs = { center, point, in->radius };
-    const lmp_kernel_lights lights = { { center.x, center.y, center.z, sizeof(float) },
-                                       { in->radius, sizeof(float) },
-                                       { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
-                                       LIGHTS };
+    const lmp_kernel_lights lights = lights_of(in);
     /* Gradients follow the values: further on in a row, or in the planes after them. */
     lmp_kernel_out gradient = *out;
     gradient.at += (which == GRADIENT ? 3 : 1) * LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
@@ -271,6 +313,9 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case RECONSTRUCT:
     case RECONSTRUCT_PHONG:
         run_reconstruct(k, which, bands, in, count, out);
+        break;
+    case IMAGE:
+        run_image(k, bands, in, count, out);
         break;
     case SHADE_ZONAL:
     case SHADE_PREINTEGRATED_LOBE:
