@@ -119,6 +119,10 @@ static lmp_rgb decode_emission(uint32_t bits) {
                        small_float(bits >> 22, 5) };
 }
 
+lmp_rgb gpu_gbuffer_emission(const gpu_gbuffer *g, size_t pixel) {
+    return decode_emission(g->emission[pixel]);
+}
+
 static lmp_rgb light_of(const gpu_gbuffer *g, unsigned index) {
     return index < g->frame->light_count ? g->frame->lights[index].emitter.radiance
                                          : (lmp_rgb) { 0, 0, 0 };

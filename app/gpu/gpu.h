@@ -203,6 +203,9 @@ void gpu_row_free(gpu_row *row);
 /* From any thread, each with a row of its own. */
 void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
 
+/* What the surface of a pixel emits; the pixels are in rows. */
+lmp_rgb gpu_gbuffer_emission(const gpu_gbuffer *gbuffer, size_t pixel);
+
 /* Which of the frame's samples it is, from 0. */
 int gpu_gbuffer_sample(const gpu_gbuffer *gbuffer);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* filter.c - small kernels whose taps move apart from pass to pass (à trous, Dammertz 2010). */
 #include "app/shadow/planes.h"
+#include "app/shadow/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -79,7 +80,7 @@ static void add_tap(const filter_pass *pass, const span *at, const float *restri
     }
 }
 
-static void filter_row(const filter_pass *pass, int y, float *weights) {
+static SHADOW_WIDE void filter_row(const filter_pass *pass, int y, float *weights) {
     static const float kernel[2] = { 0.5f, 0.25f };
     const shadow_planes *p = pass->planes;
     const size_t width = (size_t)p->width, row = (size_t)y * width;

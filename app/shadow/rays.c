@@ -3,6 +3,7 @@
 
 #include "app/scene/vector.h"
 #include "app/shadow/sequence.h"
+#include "app/shadow/wide.h"
 
 /* One ray a lane, and what it stands for. */
 typedef struct ray_shot {
@@ -32,8 +33,19 @@ static void accumulate_weights(const shadow_job *job, const shadow_points *point
     }
 }
 
-/* The sources that numbers in 0 … 1 fall on. */
-static void choose(const shadow_job *job, const float *weights, const float *u, int *chosen) {
+/* The next numbers in 0 … 1 of every pixel. */
+static SHADOW_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        float numbers[3];
+        shadow_draw(&sequences[i], ray, numbers);
+        for (int k = 0; k < 3; k++)
+            u[k][i] = numbers[k];
+    }
+}
+
+/* The sources that numbers fall on. */
+static SHADOW_WIDE void choose(const shadow_job *job, const float *weights, const float *u,
+                               int *chosen) {
     const float *total = weights + (job->source_count - 1) * SHADOW_LANES;
     for (int i = 0; i < SHADOW_LANES; i++)
         chosen[i] = 0;
@@ -43,7 +55,7 @@ static void choose(const shadow_job *job, const float *weights, const float *u, 
 }
 
 static void aim(const shadow_job *job, const shadow_points *p, const float *weights, int source,
-                const float u[3], int i, ray_shot *shot) {
+                shadow_lanes *u, int i, ray_shot *shot) {
     const float total = weights[(job->source_count - 1) * SHADOW_LANES + (size_t)i];
     const float *sum = weights + source * SHADOW_LANES + i;
     const float weight = source > 0 ? sum[0] - sum[-SHADOW_LANES] : sum[0];
@@ -52,7 +64,7 @@ static void aim(const shadow_job *job, const shadow_points *p, const float *weig
     if (!p->lit[i] || !(weight > 0))
         return;
     const lmp_vec3 at = { p->position.of[0][i], p->position.of[1][i], p->position.of[2][i] };
-    const shadow_sample sample = shadow_source_draw(&job->sources[source], at, u[1], u[2]);
+    const shadow_sample sample = shadow_source_draw(&job->sources[source], at, u[1][i], u[2][i]);
     const lmp_rgb k = shadow_reflect(p, i, sample.direction);
     const float heeded = job->sources[source].kind == SHADOW_AROUND ? p->ambient[i] : 1;
     const float scale = heeded * total / weight;
@@ -105,18 +117,14 @@ static size_t send_rays(const shadow_job *job, const shadow_points *points, int 
         sequences[i] =
             shadow_sequence_of((uint32_t)(x + i), (uint32_t)y, (uint32_t)job->rays, job->seed);
     for (int ray = 0; ray < job->rays; ray++) {
-        float u[SHADOW_LANES][3];
-        shadow_lanes first;
+        shadow_lanes u[3];
         int chosen[SHADOW_LANES];
         ray_shot shot;
         trace_hit hits[SHADOW_LANES];
-        for (int i = 0; i < SHADOW_LANES; i++) {
-            shadow_draw(&sequences[i], (uint32_t)ray, u[i]);
-            first[i] = u[i][0];
-        }
-        choose(job, weights, first, chosen);
+        draw(sequences, (uint32_t)ray, u);
+        choose(job, weights, u[0], chosen);
         for (int i = 0; i < SHADOW_LANES; i++)
-            aim(job, points, weights, chosen[i], u[i], i, &shot);
+            aim(job, points, weights, chosen[i], u, i, &shot);
         trace_nearest_n(job->view.bvh, TRACE_LIGHT, &shot.rays, hits);
         count += add_shot(&shot, hits, sums);
     }

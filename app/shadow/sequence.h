@@ -38,12 +38,15 @@ static inline float shadow_unit(uint32_t x) {
     return (float)(x >> 8) * 0x1p-24f;
 }
 
-/* The second dimension of Sobol's sequence; the first is the reversed index. */
+/* The second dimension of Sobol's sequence: Pascal's triangle modulo 2, a product of sparse
+ * matrices, times the first, which is the reversed index. */
 static inline uint32_t shadow_sobol(uint32_t index) {
-    uint32_t x = 0;
-    for (uint32_t column = 1u << 31; index; index >>= 1, column ^= column >> 1)
-        x ^= index & 1 ? column : 0;
-    return x;
+    uint32_t x = shadow_reverse(index);
+    x ^= (x & 0x55555555u) << 1;
+    x ^= (x & 0x33333333u) << 2;
+    x ^= (x & 0x0f0f0f0fu) << 4;
+    x ^= (x & 0x00ff00ffu) << 8;
+    return x ^ x << 16;
 }
 
 static inline uint32_t shadow_spread(uint32_t x) {

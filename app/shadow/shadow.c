@@ -102,32 +102,22 @@ static float ratio_of(const shadow_planes *planes, int channel, size_t pixel) {
     return all > 0 && unhidden < all ? unhidden / all : 1;
 }
 
-static bool apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
-    const size_t width = (size_t)s->planes.width;
-    bool ok = true;
-#pragma omp parallel reduction(&& : ok)
-    {
-        gpu_row row;
-        ok = gpu_row_create(s->planes.width, &row);
-        const bool mine = ok;
-#pragma omp for schedule(dynamic, 4)
-        for (int y = 0; y < s->planes.height; y++) {
-            if (mine)
-                gpu_gbuffer_row(gbuffer, y, &row);
-            for (size_t i = 0; mine && i < 3 * width; i++) {
-                const size_t x = i / 3, pixel = (size_t)y * width + x;
-                const int c = (int)(i % 3);
-                const float ratio = ratio_of(&s->planes, c, pixel);
-                const float emission = row.emission[c][x];
-                float *radiance = &rgba[4 * pixel + (size_t)c];
-                if (ratio < 1)
-                    *radiance = emission + (*radiance - emission) * ratio;
-            }
+static void apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
+    const ptrdiff_t count = (ptrdiff_t)s->planes.width * s->planes.height;
+#pragma omp parallel for
+    for (ptrdiff_t i = 0; i < count; i++) {
+        const size_t pixel = (size_t)i;
+        if (!(s->planes.values[SHADOW_ALL][pixel] + s->planes.values[SHADOW_ALL + 1][pixel] +
+                  s->planes.values[SHADOW_ALL + 2][pixel] >
+              0))
+            continue;
+        const lmp_rgb glow = gpu_gbuffer_emission(gbuffer, pixel);
+        const float emission[3] = { glow.r, glow.g, glow.b };
+        for (int c = 0; c < 3; c++) {
+            float *radiance = &rgba[4 * pixel + (size_t)c];
+            *radiance = emission[c] + (*radiance - emission[c]) * ratio_of(&s->planes, c, pixel);
         }
-        if (mine)
-            gpu_row_free(&row);
     }
-    return ok;
 }
 
 bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
@@ -140,7 +130,8 @@ bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer
     const double sent = timing_now();
     if (!s->settings.raw)
         ok = ok && shadow_filter(&s->planes);
-    ok = ok && apply(s, gbuffer, rgba);
+    if (ok)
+        apply(s, gbuffer, rgba);
     s->statistics.rays_milliseconds = 1e3 * (sent - start);
     s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
     return ok || fail_memory(NULL, error);

@@ -2,6 +2,7 @@
 #include "app/shadow/source.h"
 
 #include "app/scene/vector.h"
+#include "app/shadow/wide.h"
 
 /* --- the sources --------------------------------------------------------------------------------
  */
@@ -97,7 +98,8 @@ typedef struct cap_lanes {
     shadow_lanes sine, power;
 } cap_lanes;
 
-static void see_spheres(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+static SHADOW_WIDE void see_spheres(const shadow_source *source, const shadow_points *p,
+                                    cap_lanes *caps) {
     const lmp_light *light = source->light;
     const lmp_vec3 center = light->position;
     const float r = light->radius, least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
@@ -141,8 +143,8 @@ static void see_far(const shadow_source *source, cap_lanes *caps) {
     }
 }
 
-static void weigh_caps(const cap_lanes *restrict caps, const shadow_points *restrict p,
-                       float *restrict weights) {
+static SHADOW_WIDE void weigh_caps(const cap_lanes *restrict caps, const shadow_points *restrict p,
+                                   float *restrict weights) {
     const shadow_lanes *n = p->normal.of, *m = p->mirror.of, *axis = caps->axis.of;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
