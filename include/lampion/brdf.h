@@ -10,8 +10,9 @@
  *               sphere of wi (Kautz, Sloan and Snyder 2002; paper §4.1): a dot product with the
  *               light's coefficients in the same frame is the reflected radiance.
  *
- * Readers take bytes, trust nothing, and say what is wrong and where. Objects are immutable: share
- * them freely among threads. */
+ * Readers take bytes, trust nothing, and say what is wrong and where, in every build; what else is
+ * asked a release build takes as kept (base.h). Objects are immutable: share them freely among
+ * threads. */
 #ifndef LAMPION_BRDF_H
 #define LAMPION_BRDF_H
 

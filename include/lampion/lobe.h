@@ -6,7 +6,9 @@
  * are lambda_l Y_lm(q). By the addition theorem its integral against a light of zonal coefficients
  * Z_l around w needs n terms instead of n²:
  *
- *     ∫ L(w') k(q·w') dw' = Σ_l Z_l sqrt((2l+1)/4pi) lambda_l P_l(q·w) */
+ *     ∫ L(w') k(q·w') dw' = Σ_l Z_l sqrt((2l+1)/4pi) lambda_l P_l(q·w)
+ *
+ * In a release build parameters out of range give factors of no meaning (base.h). */
 #ifndef LAMPION_LOBE_H
 #define LAMPION_LOBE_H
 

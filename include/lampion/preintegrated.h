@@ -14,7 +14,9 @@
  *            scale sqrt(e + 1.5) + offset); cubic B-splines in both, 4 x 4 coefficients a reading.
  *            Row 0 and column 0 are the nodes -1, so that a reading never leaves the cell.
  *   value    mean of the lobe over the cap, times the cap's solid angle plus the lobe's own, which
- *            makes it about 1 at the peak for any cap. 16 bits. */
+ *            makes it about 1 at the peak for any cap. 16 bits.
+ *
+ * A release build clamps what it looks up to the table (base.h). */
 #ifndef LAMPION_PREINTEGRATED_H
 #define LAMPION_PREINTEGRATED_H
 

@@ -3,7 +3,10 @@
  * coefficients from samples, conventions of other software, and series that stay positive.
  *
  * A probe is what sh.h and light.h make: coefficients of incoming radiance at a point, of one
- * channel or as three planes, red, green, blue, of LMP_SH_COUNT(bands) values. */
+ * channel or as three planes, red, green, blue, of LMP_SH_COUNT(bands) values.
+ *
+ * A release build asserts none of what is asked (base.h); lmp_probe_fit alone returns a result
+ * in every build. A normal that is not unit gives the polynomial's value there. */
 #ifndef LAMPION_PROBE_H
 #define LAMPION_PROBE_H
 
@@ -114,7 +117,7 @@ LMP_API void lmp_probe_convert(int bands, const lmp_probe_convention *from,
  * axes: true, and *convention receives them, if all agree within `tolerance` times the largest;
  * among several the first in the order of the enumerations (a function of one band tells little).
  *
- * ours and theirs hold LMP_SH_COUNT(bands) values */
+ * tolerance >= 0; ours and theirs hold LMP_SH_COUNT(bands) values */
 LMP_API bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                                  lmp_probe_convention *convention);
 

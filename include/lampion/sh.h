@@ -11,7 +11,9 @@
  *   arrays      coefficients (sh, a, b, c …) hold LMP_SH_COUNT(bands) values, what has one a band
  *               (weights, zonal) `bands`; they must not overlap unless a function says so
  *
- * bands is in 1 … LMP_BANDS_MAX everywhere, and directions and axes are unit. */
+ * bands is in 1 … LMP_BANDS_MAX everywhere, and directions and axes are unit. A release build,
+ * which does not look (base.h), evaluates the polynomials at directions that are not; arrays that
+ * overlap where they must not give wrong values, more bands lead outside arrays. */
 #ifndef LAMPION_SH_H
 #define LAMPION_SH_H
 

@@ -18,7 +18,10 @@
  *
  * The sum over all lights is then clamped at 0, channel by channel, for a truncated series rings.
  * A coat reflects by GGX around a normal of its own, its weight w (0.04 + 0.96 (1 - |v·n|)^5), and
- * leaves the rest to what is under it; both are clamped by themselves. No visibility. */
+ * leaves the rest to what is under it; both are clamped by themselves. No visibility.
+ *
+ * A release build takes vectors that are not unit and parameters out of range as they are, and
+ * stays finite and inside its arrays (base.h). */
 #ifndef LAMPION_SHADE_H
 #define LAMPION_SHADE_H
 

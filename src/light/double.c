@@ -29,7 +29,8 @@ static void cap_factors(int bands, double radius, double distance, double *facto
 
 void lmp_sphere_project_double(int bands, const double center[3], double radius,
                                const double point[3], double *sh) {
-    assert(lmp_is_bands(bands) && radius >= 0);
+    assert(lmp_is_bands(bands) && radius >= 0 && isfinite(radius));
+    assert(isfinite(center[0] + center[1] + center[2] + point[0] + point[1] + point[2]));
     const double v[3] = { center[0] - point[0], center[1] - point[1], center[2] - point[2] };
     const double distance = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     double axis[3] = { 0, 0, 1 }, factors[LMP_BANDS_MAX];

@@ -194,6 +194,10 @@ void lmp_light_project_channels(int bands, const lmp_light *lights, size_t count
     assert(lmp_is_bands(bands));
     float *const planes[3] = { red, green, blue };
     for (int c = 0; c < 3; c++)
+        assert(!planes[c] || !planes[(c + 1) % 3] ||
+               lmp_are_apart(planes[c], LMP_SH_COUNT(bands), planes[(c + 1) % 3],
+                             LMP_SH_COUNT(bands)));
+    for (int c = 0; c < 3; c++)
         if (planes[c])
             memset(planes[c], 0, LMP_SH_COUNT(bands) * sizeof *planes[c]);
     for (size_t i = 0; i < count; i++) {

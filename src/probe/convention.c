@@ -112,7 +112,7 @@ static bool agrees(int bands, const lmp_probe_convention *convention, const floa
 
 bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                          lmp_probe_convention *convention) {
-    assert(lmp_is_bands(bands));
+    assert(lmp_is_bands(bands) && tolerance >= 0);
     for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)
         for (int norm = 0; norm <= LMP_PROBE_SN3D; norm++) {
             const lmp_probe_convention guess = { .sign = (lmp_probe_sign)sign,

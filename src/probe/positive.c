@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* positive.c - the least value of a series, and the weakest window that keeps it positive. */
+#include "src/base/precondition.h"
+
 #include <lampion/probe.h>
 
-#include <assert.h>
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
@@ -138,6 +139,7 @@ static bool all_positive(int bands, const float *sh, int planes, const float *we
 void lmp_probe_window_positive(int bands, const float *sh, int planes, float *weights) {
     assert(bands >= 1 && bands <= LMP_PROBE_POSITIVE_BANDS_MAX);
     assert(planes >= 1);
+    assert(lmp_are_apart(sh, (size_t)planes * LMP_SH_COUNT(bands), weights, (size_t)bands));
     set_weights(bands, 0, weights);
     if (all_positive(bands, sh, planes, weights))
         return;

@@ -43,6 +43,8 @@ static void store_gradient(const double w[3], const double g[3], size_t plane, d
 void lmp_sh_eval_gradient_double(int bands, const double direction[3], double *sh,
                                  double *gradient) {
     assert(lmp_is_bands(bands) && lmp_is_unit_double(direction));
+    assert(!gradient || lmp_are_bytes_apart(sh, LMP_SH_COUNT(bands) * sizeof *sh, gradient,
+                                            3 * LMP_SH_COUNT(bands) * sizeof *gradient));
     const double *w = direction;
     const size_t plane = LMP_SH_COUNT(bands);
     double columns[2][LMP_BANDS_MAX + 1] = { { 0 } }, first = sqrt(1 / (4 * pi));

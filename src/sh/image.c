@@ -26,6 +26,7 @@ typedef struct grid {
 
 static grid grid_of(lmp_texel texel, int width, int channels, size_t row_stride,
                     size_t texel_stride, size_t channel_stride) {
+    assert(texel == LMP_TEXEL_FLOAT || texel == LMP_TEXEL_HALF);
     const size_t size = texel == LMP_TEXEL_HALF ? 2 : 4;
     grid g = { texel, row_stride, texel_stride, channel_stride };
     if (g.channel_stride == 0)
@@ -227,6 +228,8 @@ static void add_cubemap(const void *image, pass *p) {
 
 void lmp_sh_project_cubemap(int bands, const lmp_cubemap *map, float *sh) {
     assert(map->size >= 1 && map->channels >= 1);
+    for (int face = 0; face < 6; face++)
+        assert(map->faces[face]);
     const grid g = grid_of(map->texel, map->size, map->channels, map->row_stride, map->texel_stride,
                            map->channel_stride);
     project(map, g, add_cubemap, bands, map->channels, sh);

@@ -155,6 +155,8 @@ void lmp_sh_rotate(int bands, const float *matrices, const float *sh, float *rot
 void lmp_sh_rotate_double(int bands, const double *matrices, const double *sh, double *rotated) {
     const size_t size = LMP_SH_COUNT(bands) * sizeof *sh;
     assert(lmp_is_bands(bands) && lmp_are_bytes_apart(sh, size, rotated, size));
+    assert(lmp_are_bytes_apart(matrices, LMP_SH_ROTATION_COUNT(bands) * sizeof *matrices, rotated,
+                               size));
     (void)size;
     ROTATE(double)
 }

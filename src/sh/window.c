@@ -70,6 +70,7 @@ static double squared_laplacian(int bands, const double *energy, double mu) {
 void lmp_sh_window_laplacian(int bands, float keep, const float *sh, float *weights) {
     assert(lmp_is_bands(bands));
     assert(keep > 0 && keep <= 1);
+    assert(lmp_are_apart(sh, LMP_SH_COUNT(bands), weights, (size_t)bands));
     double energy[LMP_BANDS_MAX] = { 0 };
     for (int l = 0; l < bands; l++)
         for (int m = -l; m <= l; m++)

@@ -22,6 +22,17 @@ static const float identity[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 static const float mirror[9] = { 1, 0, 0, 0, 1, 0, 0, 0, -1 };
 static lmp_sh_product *product;
 
+static const double up_double[3] = { 0, 0, 1 };
+static double wide[32];
+static lmp_probe_convention convention;
+static lmp_probe_constants constants;
+
+/* Its last face may be missing. */
+static void project_cube(const float *face) {
+    const lmp_cubemap map = { .faces = { b, b, b, b, b, face }, .size = 2, .channels = 1 };
+    lmp_sh_project_cubemap(2, &map, c);
+}
+
 static lmp_rgb shaded(lmp_vec3 normal, float exponent, float radius) {
     const lmp_surface surface = { .normal = normal, .view = up };
     const lmp_material material = { .exponent = exponent };
@@ -69,6 +80,15 @@ static void create_half_a_host(void) {
     X(window, lmp_sh_window(BANDS, LMP_WINDOW_HANNING, 0, a), lmp_sh_window(BANDS, LMP_WINDOW_HANNING, -1, a)) \
     X(windowed, lmp_sh_window_apply(BANDS, b, a, a), lmp_sh_window_apply(BANDS, b, a, a + 1)) \
     X(keep, lmp_sh_window_laplacian(BANDS, 1, a, b), lmp_sh_window_laplacian(BANDS, 0, a, b)) \
+    X(cube_faces, project_cube(a), project_cube(NULL)) \
+    X(channels, lmp_light_project_channels(BANDS, NULL, 0, at, a, b, NULL), lmp_light_project_channels(BANDS, NULL, 0, at, a, a + 1, NULL)) \
+    X(gradient_double, lmp_sh_eval_gradient_double(2, up_double, wide, wide + 4), lmp_sh_eval_gradient_double(2, up_double, wide, wide + 3)) \
+    X(rotate_double, lmp_sh_rotate_double(2, wide, wide + 10, wide + 14), lmp_sh_rotate_double(2, wide, wide + 14, wide + 9)) \
+    X(sphere_double, lmp_sphere_project_double(2, up_double, 1, up_double, wide), lmp_sphere_project_double(2, up_double, -1, up_double, wide)) \
+    X(tolerance, lmp_probe_recognize(BANDS, 0, a, b, &convention), lmp_probe_recognize(BANDS, -1, a, b, &convention)) \
+    X(positive, lmp_probe_window_positive(BANDS, a, 1, b), lmp_probe_window_positive(BANDS, a, 1, a)) \
+    X(constants, lmp_probe_constants_of(3, 1, a, &constants), lmp_probe_constants_of(2, 1, a, &constants)) \
+    X(minimum, lmp_probe_minimum(3, a), lmp_probe_minimum(4, a)) \
     X(multiply_few, lmp_sh_multiply_few(BANDS, a, b, c), lmp_sh_multiply_few(LMP_SH_FEW_BANDS + 1, a, b, c)) \
     X(multiply, lmp_sh_multiply(product, a, b, c), lmp_sh_multiply(product, a, b, a)) \
     X(eval_n, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_INTERLEAVED, 0, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&long_up), 2, LMP_SH_INTERLEAVED, 0, a)) \
