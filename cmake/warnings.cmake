@@ -11,7 +11,7 @@ endif()
 # opens files that others made. Sanitizers and debuggers have their own ways.
 include(CheckCCompilerFlag)
 check_c_compiler_flag(-fcf-protection LAMPION_HAS_CF_PROTECTION)
-if(CMAKE_BUILD_TYPE STREQUAL Release AND NOT LAMPION_SANITIZE)
+if(CMAKE_BUILD_TYPE STREQUAL Release AND NOT LAMPION_SANITIZE AND NOT EMSCRIPTEN)
   target_compile_options(lampion_flags INTERFACE
     -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2 -fstack-protector-strong)
   if(LAMPION_HAS_CF_PROTECTION)

@@ -356,7 +356,7 @@ static size_t lay_out(const rgl_file *file, brdf_rgl *rgl, float *base) {
         f[FIELD_SIGMA].count,
         f[FIELD_VNDF].count,
         f[FIELD_VNDF].count,
-        slices * f[FIELD_VNDF].shape[2],
+        slices * (size_t)f[FIELD_VNDF].shape[2],
         samples->count / samples->shape[2] * 3,
     };
     float *parts[8];

@@ -23,6 +23,8 @@ const lmp_kernels LMP_KERNELS = {
     .name = "avx512",
 #elif defined(__SSE2__)
     .name = "sse2",
+#elif defined(__wasm__)
+    .name = "wasm",
 #else
     .name = "neon",
 #endif

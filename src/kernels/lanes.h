@@ -13,6 +13,8 @@
 #include <immintrin.h>
 #elif LMP_LANES > 1 && defined(__ARM_NEON)
 #include <arm_neon.h>
+#elif LMP_LANES > 1 && defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #elif LMP_LANES == 1
 #include <math.h>
 #endif
@@ -24,7 +26,7 @@
 /* The same for a register. Of equal lanes gcc would multiply the number they came from and
  * broadcast the product, two operations for one; a long sum's terms it would put off to its end and
  * spill. */
-#if LMP_LANES == 1
+#if LMP_LANES == 1 || defined(__wasm__)
 #define LMP_OPAQUE_LANES(v)
 #elif defined(__AVX512F__)
 #define LMP_OPAQUE_LANES(v) __asm__("" : "+v"(v))
@@ -106,6 +108,20 @@ LMP_INLINE vf vf_min(vf a, vf b) {
 }
 LMP_INLINE int vf_any_less(vf a, vf b) {
     return _mm_movemask_ps(_mm_cmplt_ps((__m128)a, (__m128)b)) != 0;
+}
+#elif defined(__wasm_simd128__)
+/* pmax(b, a) is b < a ? a : b, and pmin likewise: b where they are equal or not numbers. */
+LMP_INLINE vf vf_sqrt(vf a) {
+    return (vf)wasm_f32x4_sqrt((v128_t)a);
+}
+LMP_INLINE vf vf_max(vf a, vf b) {
+    return (vf)wasm_f32x4_pmax((v128_t)b, (v128_t)a);
+}
+LMP_INLINE vf vf_min(vf a, vf b) {
+    return (vf)wasm_f32x4_pmin((v128_t)b, (v128_t)a);
+}
+LMP_INLINE int vf_any_less(vf a, vf b) {
+    return wasm_v128_any_true(wasm_f32x4_lt((v128_t)a, (v128_t)b));
 }
 #else
 LMP_INLINE vf vf_sqrt(vf a) {

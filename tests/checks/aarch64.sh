@@ -17,7 +17,7 @@ nm "$built/liblampion.a" 2>/dev/null | grep -q ' [DR] lmp_kernels_vector$' || {
 }
 
 for name in kernels batch; do
-    aarch64-linux-gnu-gcc -std=c11 -O2 -ffp-contract=off -static -Itests/aarch64 -Iinclude -I. \
+    aarch64-linux-gnu-gcc -std=c11 -O2 -ffp-contract=off -static -Itests/cross -Iinclude -I. \
         tests/kernels/$name.c tests/oracle/*.c "$built/liblampion.a" -lm -o "$WORK/$name"
     qemu-aarch64 "$WORK/$name"
 done
