@@ -47,8 +47,8 @@ static void hang_in_court(court_plan *court, int number, int count) {
     const float t = ((float)number + 0.5f) / (float)count;
     const float z = (court->half_length - 1.5f) * (1.0f - 2.0f * t);
     const float x = (float)(number % 3 - 1) * 2.2f + random_between(random, -0.6f, 0.6f);
-    const lmp_vec3 center =
-        vec(x, random_between(random, 4.6f, 8.4f), z + random_between(random, -0.3f, 0.3f));
+    const float along = z + random_between(random, -0.3f, 0.3f);
+    const lmp_vec3 center = vec(x, random_between(random, 4.6f, 8.4f), along);
     const float radius = random_between(random, 0.24f, 0.38f), r = HALF_WIDTH - 0.1f;
     put_lantern(court, center, radius, CORNICE + sqrtf(r * r - x * x));
     add_light(court, center, radius, 230.0f, 0.85f);
@@ -61,9 +61,10 @@ static void hang_in_aisle(court_plan *court, int number) {
     const storey_plan *s = bay & 1 ? &atrium_upper : &atrium_lower;
     const float side = bay & 2 ? 1.0f : -1.0f;
     const float z = BAY * ((float)(bay / 4) - 0.5f * (float)(court->bays - 1));
-    const lmp_vec3 center = vec(side * (HALF_WIDTH + 1.6f + random_between(random, -0.2f, 0.2f)),
-                                s->springing - random_between(random, 0.2f, 0.9f),
-                                z + random_between(random, -0.3f, 0.3f));
+    const float along = z + random_between(random, -0.3f, 0.3f);
+    const float below = random_between(random, 0.2f, 0.9f);
+    const float out = HALF_WIDTH + 1.6f + random_between(random, -0.2f, 0.2f);
+    const lmp_vec3 center = vec(side * out, s->springing - below, along);
     const float radius = random_between(random, 0.17f, 0.26f);
     put_lantern(court, center, radius, s->springing + atrium_vault_rise(s));
     add_light(court, center, radius, 190.0f, 0.25f);
