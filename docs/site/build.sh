@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 out=$1
 home=README.md
-guide="docs/getting-started.md docs/method.md docs/cookbook.md docs/cookbook-shell.md docs/gallery.md docs/viewer.md docs/troubleshooting.md docs/glossary.md"
+guide="docs/getting-started.md docs/web.md docs/method.md docs/cookbook.md docs/cookbook-shell.md docs/gallery.md docs/viewer.md docs/troubleshooting.md docs/glossary.md"
 use="docs/engine.md docs/three.md docs/scenes.md docs/lights.md docs/materials.md docs/ggx.md docs/shading.md docs/shadows.md docs/preintegration.md docs/sequences.md docs/reference.md docs/formats.md docs/migrating.md docs/migrating-engines.md docs/security.md"
 accuracy="docs/accuracy.md docs/benchmarks.md docs/performance-notes.md docs/preintegration-notes.md"
 project="docs/design.md docs/extending.md CONTRIBUTING.md CHANGELOG.md"
@@ -96,7 +96,7 @@ copy_linked() {
     done
 }
 
-rm -rf "$out"
+find "$out" -mindepth 1 -maxdepth 1 ! -name demo -exec rm -rf {} + 2>/dev/null || true # that is of ./dev web
 mkdir -p "$out"
 make_navigation >"$work/navigation"
 for source in $home $API_SOURCES CONTRIBUTING.md CHANGELOG.md docs/*.md; do

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* cmocka.h - what the tests of the kernels use of cmocka, which Debian has for the machine's own
  * architecture alone. A failed assertion says where and ends the program. */
-#ifndef LAMPION_AARCH64_CMOCKA_H
-#define LAMPION_AARCH64_CMOCKA_H
+#ifndef LAMPION_CROSS_CMOCKA_H
+#define LAMPION_CROSS_CMOCKA_H
 
 #include <stdio.h>
 #include <stdlib.h>

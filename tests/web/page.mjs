@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// page.mjs FOLDER PROGRAM WORK: the demo in FOLDER as a visitor has it, opened from disk: what it draws against
+// PROGRAM's image, lights dragged by mouse and finger, another size, a lost GPU, a dropped file, a phone.
+import { strict as assert } from 'node:assert';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { openBrowser } from './browser.mjs';
+
+const [folder, program, work] = process.argv.slice(2);
+const edges = 0.04; // of a small image's pixels show other triangles
+
+const browser = await openBrowser(`${work}/profile`);
+const { evaluate, until, tell } = browser;
+
+async function open(hash) {
+    await browser.open(`file://${folder}/index.html#${hash}`);
+    await until('globalThis.lampion?.ready || document.getElementById("message")?.className === "wrong"');
+    assert.equal(await evaluate('document.getElementById("message").textContent'), '');
+}
+const pixels = `(lampion.draw(), createImageBitmap(document.getElementById("view")))`;
+
+// The fraction of the page's pixels that differ by more than two levels from what PROGRAM renders.
+async function rendered(...options) {
+    const exposure = await evaluate('lampion.exposure');
+    execFileSync(program, ['render', 'builtin:atrium', '--samples', '1', '--exposure', `${exposure}`, '--animate', 'orbit',
+        '--frames', '0-0', ...options, '-o', `${work}/wanted.png`]);
+    const image = readFileSync(`${work}/wanted_0000.png`).toString('base64');
+    return evaluate(`(async () => {
+        const read = (bitmap) => {
+            const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+            context.drawImage(bitmap, 0, 0);
+            return context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+        };
+        const shown = read(await ${pixels});
+        const wanted = read(await createImageBitmap(await (await fetch('data:image/png;base64,${image}')).blob()));
+        if (shown.length !== wanted.length)
+            return 1;
+        let count = 0;
+        for (let i = 0; i < shown.length; i += 4)
+            count += Math.max(...[0, 1, 2].map((c) => Math.abs(shown[i + c] - wanted[i + c]))) > 2 ? 1 : 0;
+        return count / (shown.length / 4);
+    })()`);
+}
+
+async function screenshot(name) {
+    const { data } = await tell('Page.captureScreenshot');
+    writeFileSync(`${work}/${name}.png`, Buffer.from(data, 'base64'));
+}
+
+// A light that is seen, and where on the page that is.
+const findLight = () => evaluate(`Array.from({ length: 30 }, (none, i) => i).find((i) => {
+    const [x, y] = lampion.project(i);
+    return x > 40 && x < innerWidth - 80 && y > 20 && y < innerHeight / 2 && lampion.pick([x, y]) === i;
+})`);
+const whereIs = (i) => evaluate(`lampion.project(${i})`);
+const lightAt = async (i) => JSON.stringify(await evaluate(`lampion.lightAt(${i})`));
+
+async function draw() {
+    await browser.size(1280, 720);
+    await open('time=0&scale=1&closed');
+    const size = ['--size', '1280x720'];
+    const same = await rendered(...size, '--bands', '8');
+    console.log(`${(100 * same).toFixed(2)} % of the pixels differ by more than 2 levels; a frame takes ${
+        (await evaluate('lampion.frameTime')).toFixed(0)} ms`);
+    assert.ok(same <= 0.01, 'the page draws what lampion render does');
+    await screenshot('desktop');
+}
+
+async function choose() {
+    await browser.size(320, 180);
+    await open('time=0&scale=1&closed&lights=100&bands=5&method=coefficients&window=none');
+    const size = ['--size', '320x180', '--random-lights', '100', '--seed', '1'];
+    const hundred = await rendered(...size, '--bands', '5', '--window', 'none');
+    assert.ok(hundred <= edges, `100 lights by coefficients: ${hundred}`);
+    assert.ok(await rendered(...size, '--bands', '6', '--window', 'none') > 2 * edges, 'another number of bands is seen');
+    await open('time=0&scale=1&closed&bands=100&method=preintegrated');
+    const many = await rendered('--size', '320x180', '--bands', '100', '--method', 'preintegrated');
+    assert.ok(many <= edges, `100 bands: ${many}`);
+    await open('time=0&scale=1&closed&split=0.5');
+    const split = await rendered('--size', '320x180', '--bands', '8');
+    assert.ok(split > 2 * edges && split < 0.5, `half of the image has 100 bands (${split} differs)`);
+}
+
+async function drag() {
+    await open('time=0&scale=1&closed');
+    const light = await findLight(), before = await lightAt(light), from = await whereIs(light);
+    const to = [from[0] + 40, from[1] + 30];
+    const mouse = (type, [x, y]) => tell('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: 1, clickCount: 1 });
+    await mouse('mousePressed', from);
+    await mouse('mouseMoved', to);
+    await mouse('mouseReleased', to);
+    await evaluate('lampion.draw()');
+    assert.notEqual(await lightAt(light), before, 'a light follows the mouse');
+    const at = await whereIs(light);
+    assert.ok(Math.hypot(at[0] - to[0], at[1] - to[1]) < 1.5, `to where the mouse is: ${at}, not ${to}`);
+    assert.ok(await rendered('--size', '320x180', '--bands', '8') > 2 * edges, 'and its light with it');
+}
+
+async function resize() {
+    await browser.size(200, 150);
+    await until('lampion.draw(), document.getElementById("view").width === 200');
+    assert.equal(await evaluate('document.getElementById("view").height'), 150);
+}
+
+async function lose() {
+    await browser.size(200, 150);
+    await open('time=0&scale=1&closed');
+    await evaluate('globalThis.loss = lampion.gl.getExtension("WEBGL_lose_context"), loss.loseContext()');
+    await until('!lampion.gl');
+    await evaluate('loss.restoreContext()');
+    await until('lampion.gl');
+    const same = await rendered('--size', '200x150', '--bands', '8');
+    assert.ok(same <= edges, `the same image after the GPU was lost: ${same} differs`);
+}
+
+async function drop() {
+    const file = async (name, bytes) => {
+        writeFileSync(`${work}/${name}`, bytes);
+        const { root } = await tell('DOM.getDocument');
+        const { nodeId } = await tell('DOM.querySelector', { nodeId: root.nodeId, selector: '#file' });
+        await tell('DOM.setFileInputFiles', { nodeId, files: [`${work}/${name}`] });
+    };
+    const positions = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer);
+    const gltf = {
+        asset: { version: '2.0' }, scenes: [{ nodes: [0] }], scene: 0, nodes: [{ mesh: 0 }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+        buffers: [{ byteLength: 36, uri: `data:application/octet-stream;base64,${positions.toString('base64')}` }],
+        bufferViews: [{ buffer: 0, byteLength: 36 }],
+        accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 0] }],
+    };
+    await file('triangle.gltf', JSON.stringify(gltf));
+    await until('lampion.state.scene === "triangle.gltf"');
+    gltf.accessors[0].count = 4;
+    await file('broken.gltf', JSON.stringify(gltf));
+    await until('/^broken.gltf: .*accessor 0/.test(document.getElementById("message").textContent)');
+}
+
+async function phone() {
+    await browser.size(390, 844, true);
+    await open('time=0&scale=0.3');
+    assert.ok(await evaluate('document.documentElement.scrollWidth <= 390'), 'the page is no wider than a phone');
+    const touch = (type, points) => tell('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y]) => ({ x, y })) });
+    const light = await findLight(), before = await lightAt(light), from = await whereIs(light);
+    await touch('touchStart', [from]);
+    await touch('touchMove', [[from[0] + 20, from[1] + 60]]);
+    await touch('touchEnd', []);
+    await evaluate('lampion.draw()');
+    assert.notEqual(await lightAt(light), before, 'a light follows the finger');
+    await screenshot('phone');
+}
+
+let status = 0;
+try {
+    for (const step of [draw, choose, drag, resize, lose, drop, phone]) {
+        console.time(step.name);
+        await step();
+        console.timeEnd(step.name);
+    }
+    assert.deepEqual(browser.complaints.filter((line) => !/CONTEXT_LOST/.test(line)), []);
+} catch (error) {
+    console.log(error.message, ...browser.complaints);
+    status = 1;
+}
+await browser.close();
+process.exit(status);

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: MIT */
+/* demo.c - what the page asks of the library and of the program's scenes. It draws by WebGL itself,
+ * with the program's own shaders: arrays here are laid out as these read them. */
+#include "app/animation/animation.h"
+#include "app/gpu/shelves.h"
+#include "app/image/tone.h"
+#include "app/sandbox/sandbox.h"
+#include "app/scene/builtin.h"
+#include "app/scene/emission.h"
+#include "app/scene/gltf.h"
+#include "shaders/shared.h"
+
+#include <emscripten/emscripten.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPORT EMSCRIPTEN_KEEPALIVE
+
+static struct {
+    cli_error error;
+    scene world;
+    animation *path;
+    scene_light moved[SCENE_LIGHTS_MAX];
+    shared_lights lights;
+    shared_material *materials;
+    shared_reflector *reflectors;
+} demo;
+
+static const char *outcome(bool ok) {
+    return ok ? NULL : demo.error.text;
+}
+
+/* A page reads the one file that is dropped on it. */
+int sandbox_open(const char *name, int *number, cli_error *error) {
+    *number = -1;
+    cli_fail(error, "scene", "refers to \"%.200s\", which does not exist", name);
+    return -1;
+}
+
+/* --- scenes -------------------------------------------------------------------------------------
+ */
+
+static void fill_material(const scene_material *from, size_t number, shared_material *to) {
+    const scene_texture_use *uses[SHARED_MAPS] = {
+        &from->base_color_map, &from->metallic_roughness_map, &from->normal_map,
+        &from->emission_map,   &from->occlusion_map,          &from->specular_map
+    };
+    memcpy(to->base_color, from->base_color, sizeof from->base_color);
+    memcpy(to->emission, from->emission, sizeof from->emission);
+    to->emission[3] = (float)(SHARED_KIND_SURFACE + number);
+    to->factors[0] = from->metallic;
+    to->factors[1] = from->roughness;
+    to->factors[2] = from->normal_scale;
+    to->factors[3] = from->alpha_cutoff;
+    for (int i = 0; i < SHARED_MAPS; i++) {
+        (i < 4 ? to->maps : to->more)[i % 4] = uses[i]->texture < 0 ? 0 : 1;
+        memcpy(to->matrix[i], uses[i]->matrix, sizeof uses[i]->matrix);
+        memcpy(to->offset[i], uses[i]->offset, sizeof uses[i]->offset);
+        to->offset[i][2] = (float)uses[i]->set;
+    }
+    to->vertex[0] = from->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
+    to->vertex[1] = from->occlusion;
+    to->vertex[2] = from->flags & SCENE_ALPHA_BLEND ? 1.0f : 0.0f;
+}
+
+static bool fill_materials(void) {
+    const scene *w = &demo.world;
+    demo.materials = calloc(w->material_count + 1, sizeof *demo.materials);
+    demo.reflectors = calloc(w->material_count + 1, sizeof *demo.reflectors);
+    if (!demo.materials || !demo.reflectors)
+        return cli_fail(&demo.error, w->origin, "does not fit into memory");
+    for (size_t i = 0; i < w->material_count; i++) {
+        const lmp_dielectric d = scene_dielectric(&w->materials[i]);
+        fill_material(&w->materials[i], i, &demo.materials[i]);
+        demo.reflectors[i] = (shared_reflector) { { d.f0.r, d.f0.g, d.f0.b, d.f90 }, { -1 } };
+    }
+    return true;
+}
+
+static void close_scene(void) {
+    animation_close(demo.path);
+    demo.path = NULL;
+    free(demo.materials);
+    free(demo.reflectors);
+    demo.materials = NULL;
+    demo.reflectors = NULL;
+    scene_free(&demo.world);
+}
+
+/* Packs what has been built and makes it the scene. */
+static bool take(scene_builder *builder, const char *name) {
+    void *block = NULL;
+    size_t size = 0;
+    close_scene();
+    if (!builder_pack(builder, &block, &size))
+        return cli_fail(&demo.error, name, "does not fit into memory");
+    if (!blob_validate(block, size, false, name, &demo.error) ||
+        !blob_open(block, size, name, &demo.world, &demo.error)) {
+        free(block);
+        return false;
+    }
+    return fill_materials() && animation_open("orbit", &demo.world, &demo.path, &demo.error);
+}
+
+/* These return NULL, or what is wrong. */
+EXPORT const char *demo_open_builtin(const char *name) {
+    scene_builder builder = { 0 };
+    const bool ok = builtin_make(name, &builder, &demo.error) && take(&builder, "builtin");
+    builder_free(&builder);
+    return outcome(ok);
+}
+
+EXPORT const char *demo_open_file(const void *data, size_t size) {
+    static const char name[] = "file";
+    source_set sources = { .subject = name, .folder = "/", .sandboxed = true };
+    scene_builder builder = { 0 };
+    gltf document;
+    bool ok = gltf_open(data, size, &sources, &builder, &document, &demo.error) &&
+              gltf_load(&document, &demo.error) &&
+              gltf_add_meshes(&document, &builder, &demo.error) &&
+              gltf_add_materials(&document, &builder, &demo.error) &&
+              gltf_add_views(&document, &builder, &demo.error);
+    gltf_close(&document);
+    sources_free(&sources);
+    if (ok && builder_count(&builder, BLOB_INDICES) == 0)
+        ok = cli_fail(&demo.error, name, "has no triangles");
+    ok = ok && take(&builder, name);
+    builder_free(&builder);
+    return outcome(ok);
+}
+
+typedef struct demo_draw {
+    uint32_t first_index, index_count, material, flags;
+    int32_t maps[SHARED_MAPS]; /* textures, or -1 */
+} demo_draw;
+
+EXPORT size_t demo_draw_count(void) {
+    return demo.world.mesh_count;
+}
+
+EXPORT const demo_draw *demo_draw_at(size_t i) {
+    static demo_draw draw;
+    const scene_mesh *mesh = &demo.world.meshes[i];
+    const scene_material *m = &demo.world.materials[mesh->material];
+    draw = (demo_draw) { mesh->first_index,
+                         mesh->index_count,
+                         mesh->material,
+                         m->flags,
+                         { m->base_color_map.texture, m->metallic_roughness_map.texture,
+                           m->normal_map.texture, m->emission_map.texture, m->occlusion_map.texture,
+                           m->specular_map.texture } };
+    return &draw;
+}
+
+/* Pointers and counts, as the page's library.js names them. */
+EXPORT const uintptr_t *demo_arrays(void) {
+    static uintptr_t arrays[10];
+    const scene *w = &demo.world;
+    const uintptr_t values[10] = { (uintptr_t)w->vertices,     w->vertex_count,
+                                   (uintptr_t)w->indices,      w->index_count,
+                                   (uintptr_t)demo.materials,  w->material_count,
+                                   (uintptr_t)demo.reflectors, (uintptr_t)&demo.lights,
+                                   (uintptr_t)&w->minimum[0],  (uintptr_t)&w->maximum[0] };
+    memcpy(arrays, values, sizeof values);
+    return arrays;
+}
+
+/* Width, height, 1 of colors, wrapping in both directions, and the texels. */
+EXPORT const uintptr_t *demo_texture(size_t i) {
+    static uintptr_t texture[6];
+    const scene_texture *t = &demo.world.textures[i];
+    const uintptr_t values[6] = { t->width,  t->height,
+                                  t->srgb,   t->wrap_u,
+                                  t->wrap_v, (uintptr_t)(demo.world.texels + t->first_byte) };
+    memcpy(texture, values, sizeof values);
+    return texture;
+}
+
+EXPORT size_t demo_texture_count(void) {
+    return demo.world.texture_count;
+}
+
+/* Eye, target, up, and the field of view. */
+EXPORT const float *demo_camera(float aspect) {
+    static float camera[10];
+    const scene_camera c = scene_default_camera(&demo.world, aspect);
+    memcpy(camera, c.eye, sizeof c.eye);
+    memcpy(camera + 3, c.target, sizeof c.target);
+    memcpy(camera + 6, c.up, sizeof c.up);
+    camera[9] = c.fov;
+    return camera;
+}
+
+/* --- lights -------------------------------------------------------------------------------------
+ */
+
+/* So many others, in place of what there is. */
+EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
+    scene_clear_lights(&demo.world);
+    return outcome(scene_add_random_lights(&demo.world, count, seed, &demo.error));
+}
+
+/* Puts them where they are after so many seconds; returns how many there are. Of a file's other
+ * kinds only spheres shine here. */
+EXPORT size_t demo_move_lights(double seconds) {
+    size_t count = 0;
+    animation_move_all(demo.path, &demo.world, seconds, demo.moved);
+    for (size_t i = 0; i < demo.world.light_count; i++) {
+        const lmp_light *e = &demo.moved[i].emitter;
+        if (e->kind != LMP_LIGHT_SPHERE)
+            continue;
+        const bool drawn = scene_light_is_drawn(&demo.moved[i]);
+        demo.lights.lights[count++] =
+            (shared_light) { { e->position.x, e->position.y, e->position.z, e->radius },
+                             { e->radiance.r, e->radiance.g, e->radiance.b,
+                               (float)(drawn ? SHARED_LIGHT_DRAWN : SHARED_LIGHT_HIDDEN) },
+                             { 0 } };
+    }
+    return count;
+}
+
+EXPORT void demo_drag_light(size_t i, float x, float y, float z) {
+    lmp_vec3 *position = &demo.world.lights[i].emitter.position;
+    *position = (lmp_vec3) { position->x + x, position->y + y, position->z + z };
+}
+
+/* --- numbers ------------------------------------------------------------------------------------
+ */
+
+EXPORT const float *demo_ggx_texels(void) {
+    static float texels[LMP_GGX_TEXELS * 4];
+    lmp_lobe_ggx_texels(texels);
+    return texels;
+}
+
+EXPORT float demo_exposure(int width, int height, float *rgb) {
+    return image_auto_exposure(&(image) { .width = width, .height = height, .rgb = rgb });
+}
+
+/* A preintegrated lobe as the shader reads it: the block's floats, then the height of the texture
+ * of pairs, and the pairs. */
+typedef struct demo_lobe {
+    shared_preintegrated_lobe block;
+    uint32_t height;
+    float *pairs;
+} demo_lobe;
+
+enum { LOBE_WIDTH = 2048 };
+
+static float *lay_out(const lmp_preintegrated_lobe_info *info, demo_lobe *to) {
+    gpu_shelves shelves = { .width = LOBE_WIDTH };
+    for (uint32_t i = 0; i < info->cell_count; i++) {
+        const lmp_preintegrated_lobe_cell *cell = &info->cells[i];
+        const gpu_corner corner = gpu_shelves_put(&shelves, (int)cell->columns, (int)cell->rows);
+        float *const block = to->block.cells[i];
+        block[0] = cell->scale;
+        block[1] = cell->offset;
+        block[2] = (float)corner.x;
+        block[3] = (float)corner.y;
+    }
+    to->height = (uint32_t)shelves.bottom;
+    float *const pairs = calloc((size_t)shelves.bottom * LOBE_WIDTH, 2 * sizeof *pairs);
+    for (uint32_t i = 0; pairs && i < info->cell_count; i++) {
+        const lmp_preintegrated_lobe_cell *cell = &info->cells[i];
+        const size_t x = (size_t)to->block.cells[i][2], y = (size_t)to->block.cells[i][3];
+        const int16_t *from = info->coefficients + 2 * (size_t)cell->first;
+        for (size_t row = 0; row < cell->rows; row++)
+            for (size_t k = 0; k < 2 * (size_t)cell->columns; k++)
+                pairs[2 * ((y + row) * LOBE_WIDTH + x) + k] = (float)*from++ / 32767.0f;
+    }
+    return pairs;
+}
+
+/* NULL if it cannot be made. The last one is gone. */
+EXPORT const demo_lobe *demo_make_lobe(int bands, int window) {
+    static demo_lobe made;
+    const lmp_preintegrated_lobe_desc desc = { .bands = bands, .window = (lmp_window)window };
+    lmp_preintegrated_lobe *lobe;
+    free(made.pairs);
+    memset(&made, 0, sizeof made);
+    if (lmp_preintegrated_lobe_create(NULL, &desc, &lobe) != LMP_OK)
+        return NULL;
+    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
+    if (info.cell_count <= SHARED_PREINTEGRATED_LOBE_CELLS &&
+        (made.pairs = lay_out(&info, &made))) {
+        const float shape[4] = { info.width2, (float)info.cell_count, 1.0f / LOBE_WIDTH,
+                                 1.0f / (float)made.height };
+        memcpy(made.block.shape, shape, sizeof shape);
+        memcpy(made.block.remap, info.remap, LMP_PREINTEGRATED_LOBE_REMAP_COUNT * sizeof(float));
+    }
+    lmp_preintegrated_lobe_destroy(lobe);
+    return made.pairs ? &made : NULL;
+}
+
+/* --- what the kernels cost ----------------------------------------------------------------------
+ */
+
+enum { POINTS = 256 };
+
+/* Shades vertices of the scene under all its lights by the library's kernels, with vectors or
+ * without; returns how many points times lights that were. The page looks at the clock. */
+EXPORT size_t demo_shade(int bands, int vectors) {
+    static lmp_surface surfaces[POINTS];
+    static lmp_light lights[SCENE_LIGHTS_MAX];
+    static float rgb[3 * POINTS];
+    const lmp_material clay = { .diffuse = { 0.5f, 0.5f, 0.5f },
+                                .specular = { 0.04f, 0.04f, 0.04f },
+                                .exponent = 30 };
+    const lmp_shade_settings settings = { .bands = bands, .window = LMP_WINDOW_HANNING };
+    const scene *w = &demo.world;
+    for (size_t i = 0; i < POINTS; i++) {
+        const scene_vertex *v = &w->vertices[i * (w->vertex_count - 1) / POINTS];
+        const lmp_vec3 normal = { v->normal[0], v->normal[1], v->normal[2] };
+        surfaces[i] =
+            (lmp_surface) { .position = { v->position[0], v->position[1], v->position[2] },
+                            .normal = normal,
+                            .view = normal };
+    }
+    for (size_t i = 0; i < w->light_count; i++)
+        lights[i] = w->lights[i].emitter;
+    const size_t stride = sizeof *surfaces;
+    const lmp_surfaces all = {
+        .position = { &surfaces->position.x, &surfaces->position.y, &surfaces->position.z, stride },
+        .normal = { &surfaces->normal.x, &surfaces->normal.y, &surfaces->normal.z, stride },
+        .view = { &surfaces->view.x, &surfaces->view.y, &surfaces->view.z, stride },
+        .material = &clay
+    };
+    lmp_cpu_mask(vectors ? LMP_CPU_ALL : LMP_CPU_SCALAR);
+    lmp_shade_n(&settings, &all, POINTS, lights, w->light_count, 0, rgb);
+    return POINTS * w->light_count;
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Lampion's C library and scenes as WebAssembly (demo.c).
+import bytes from 'demo.wasm';
+
+const FLOATS = { frame: 64, material: 72, light: 12, reflector: 8, vertex: 16 };
+
+// A page has no files: whatever asks for them, for a clock or for memory's growth is told -1.
+const nothing = new Proxy({}, { get: () => () => -1 });
+
+export async function loadLibrary() {
+    const { instance } = await WebAssembly.instantiate(bytes, { env: nothing, wasi_snapshot_preview1: nothing });
+    const c = instance.exports;
+    c._initialize();
+    const memory = () => c.memory.buffer;
+    const floats = (at, count) => new Float32Array(memory(), at, count);
+    const words = (at, count) => new Uint32Array(memory(), at, count);
+    const text = (at) => {
+        const all = new Uint8Array(memory(), at);
+        return new TextDecoder().decode(all.subarray(0, all.indexOf(0)));
+    };
+    // runs with a copy of an array in C's memory
+    const lend = (array, run) => {
+        const at = c.malloc(array.byteLength);
+        new Uint8Array(memory(), at, array.byteLength).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
+        const result = run(at);
+        c.free(at);
+        return result;
+    };
+    const check = (error) => {
+        if (error)
+            throw new Error(text(error));
+    };
+    return {
+        openBuiltin: (name) => lend(new TextEncoder().encode(`${name}\0`), (at) => check(c.demo_open_builtin(at))),
+        openFile: (data) => lend(data, (at) => check(c.demo_open_file(at, data.byteLength))),
+        // views of C's memory, valid until the next call that allocates
+        scene() {
+            const [vertices, vertexCount, indices, indexCount, materials, materialCount, reflectors, , minimum, maximum] =
+                words(c.demo_arrays(), 10);
+            return {
+                vertices: floats(vertices, FLOATS.vertex * vertexCount), indices: words(indices, indexCount),
+                materials: floats(materials, FLOATS.material * materialCount), materialCount,
+                reflectors: floats(reflectors, FLOATS.reflector * materialCount),
+                minimum: floats(minimum, 3).slice(), maximum: floats(maximum, 3).slice(),
+                draws: Array.from({ length: c.demo_draw_count() }, (none, i) => {
+                    const [first, count, material, flags, ...maps] = words(c.demo_draw_at(i), 10);
+                    return { first, count, material, flags, maps: maps.map((map) => map | 0) };
+                }),
+                textures: Array.from({ length: c.demo_texture_count() }, (none, i) => {
+                    const [width, height, srgb, wrapU, wrapV, at] = words(c.demo_texture(i), 6);
+                    return { width, height, srgb, wrapU, wrapV, texels: new Uint8Array(memory(), at, 4 * width * height) };
+                }),
+            };
+        },
+        camera(aspect) {
+            const all = floats(c.demo_camera(aspect), 10).slice();
+            return { eye: [...all.subarray(0, 3)], target: [...all.subarray(3, 6)], up: [...all.subarray(6, 9)], fov: all[9] };
+        },
+        scatterLights: (count, seed) => check(c.demo_scatter_lights(count, seed)),
+        // the lights as the shaders read them: center, radius, radiance, kind, cone
+        lights(seconds) {
+            const count = c.demo_move_lights(seconds);
+            return floats(words(c.demo_arrays(), 10)[7], FLOATS.light * count);
+        },
+        dragLight: (i, [x, y, z]) => c.demo_drag_light(i, x, y, z),
+        ggxTexels: () => floats(c.demo_ggx_texels(), 4 * 5152),
+        exposure: (width, height, rgb) => lend(rgb, (at) => c.demo_exposure(width, height, at)),
+        // a preintegrated lobe: its numbers, and its texture of pairs
+        lobe(bands, window) {
+            const at = c.demo_make_lobe(bands, window);
+            if (!at)
+                throw new Error(`a preintegrated lobe of ${bands} bands does not fit`);
+            const cells = 4 + 4 * 128, remap = 321;
+            const [height, pairs] = words(at + 4 * (cells + remap), 2);
+            return {
+                shape: floats(at, 4).slice(), cells: floats(at + 16, cells - 4), remap: floats(at + 4 * cells, remap),
+                width: 2048, height, pairs: floats(pairs, 2 * 2048 * height),
+            };
+        },
+        // nanoseconds a point and light at so many bands; the least of some runs
+        cost(bands, vectors) {
+            let least = Infinity;
+            for (let i = 0; i < 5; i++) {
+                const start = performance.now();
+                let pairs = 0, spent;
+                do {
+                    pairs += c.demo_shade(bands, vectors);
+                    spent = performance.now() - start;
+                } while (spent < 3);
+                least = Math.min(least, 1e6 * spent / pairs);
+            }
+            c.demo_shade(1, true);
+            return least;
+        },
+    };
+}

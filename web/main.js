@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// The page: what is chosen in the panel or said after # in the address (docs/web.md), and hands on the scene.
+import { dragged, makeCamera, pick } from './camera.js';
+import { loadLibrary } from './library.js';
+import { makeRenderer, methods } from './renderer.js';
+
+const element = (id) => document.getElementById(id);
+const canvas = element('view'), asked = new URLSearchParams(location.hash.slice(1));
+const state = {
+    scene: asked.get('scene') ?? 'atrium', lights: Number(asked.get('lights') ?? 30), bands: Number(asked.get('bands') ?? 8),
+    method: asked.get('method') ?? 'zonal', window: asked.get('window') ?? 'hanning', split: asked.has('split'),
+    moving: !asked.has('time'), scale: asked.get('scale') ?? 'auto', divider: Number(asked.get('split') || 0.5),
+};
+let seconds = Number(asked.get('time') ?? 0), exposure = Number(asked.get('exposure') ?? 0);
+let library, renderer = null, camera, lights, autoScale = 1;
+
+function tell(message, wrong = false) {
+    element('message').textContent = message;
+    element('message').className = wrong ? 'wrong' : '';
+}
+
+// --- the scene ---
+
+function frameScene() {
+    const { minimum, maximum } = library.scene();
+    camera = makeCamera(library.camera(innerWidth / innerHeight), minimum, maximum);
+}
+
+function openBuiltin() {
+    library.openBuiltin(state.scene);
+    scatterLights();
+    renderer.setScene(library.scene());
+    frameScene();
+}
+
+// The atrium's own lanterns are the first 30.
+function scatterLights() {
+    if (state.scene !== 'atrium' || state.lights !== 30)
+        library.scatterLights(Math.min(state.lights, renderer.lightsMost), 1);
+    exposure = Number(asked.get('exposure') ?? 0);
+}
+
+async function openFile(file) {
+    tell(`Reading ${file.name} …`);
+    const data = new Uint8Array(await file.arrayBuffer());
+    try {
+        library.openFile(data);
+        state.scene = file.name;
+        tell('');
+    } catch (error) {
+        tell(`${file.name}: ${error.message.replace(/^file: /, '')}`, true);
+        library.openBuiltin(state.scene === 'balls' ? 'balls' : 'atrium');
+    }
+    scatterLights();
+    renderer.setScene(library.scene());
+    frameScene();
+    showState();
+}
+
+// --- frames ---
+
+function fit() {
+    const scale = state.scale === 'auto' ? autoScale : Number(state.scale);
+    const ratio = scale * Math.min(devicePixelRatio, 2);
+    canvas.width = Math.max(1, Math.round(innerWidth * ratio));
+    canvas.height = Math.max(1, Math.round(innerHeight * ratio));
+}
+
+// Milliseconds from one frame to the next; of software rendering that is what a frame takes.
+let mean = 0, told = 0, slow = 0;
+function measure(spent, now) {
+    mean = mean ? 0.8 * mean + 0.2 * spent : spent;
+    if (now - told > 300) {
+        element('frame').value = `${mean.toFixed(mean < 100 ? 1 : 0)} ms · ${canvas.width}×${canvas.height}`;
+        told = now;
+    }
+    // a step at a time, after some frames that were slow
+    slow = spent > 50 ? slow + 1 : 0;
+    if (slow >= 4 && autoScale > 0.3) {
+        autoScale *= 0.7;
+        slow = 0;
+    }
+}
+
+function draw() {
+    fit();
+    lights = library.lights(seconds);
+    const { method, bands, window } = state, settings = { method, bands, window };
+    exposure ||= renderer.exposure(camera, lights, settings);
+    const other = { method: 'preintegrated', bands: 100, window };
+    renderer.draw(camera, lights, settings, other, state.split ? state.divider : 1, exposure);
+}
+
+// What is shown stays until something changes, which takes some frames to be measured: a still page
+// costs nothing.
+let due = 2, last = 0;
+function frame(now) {
+    const drawing = renderer && (state.moving || due > 0);
+    if (drawing) {
+        if (last) {
+            measure(now - last, now);
+            seconds += state.moving && !held ? Math.min(now - last, 100) / 1000 : 0;
+        }
+        due--;
+        draw();
+    }
+    last = drawing ? now : 0;
+    requestAnimationFrame(frame);
+}
+
+// --- hands ---
+
+const pointers = new Map();
+let held = null; // the light that is dragged
+const rayAt = ({ clientX, clientY }) =>
+    camera.ray(2 * clientX / innerWidth - 1, 2 * clientY / innerHeight - 1, innerWidth / innerHeight);
+
+canvas.addEventListener('pointerdown', (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, event);
+    const ray = rayAt(event), light = pointers.size === 1 ? pick(lights, ray, event.pointerType === 'touch' ? 2 : 1.3) : -1;
+    held = light < 0 ? null : { light, ray };
+});
+canvas.addEventListener('pointermove', (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before)
+        return;
+    pointers.set(event.pointerId, event);
+    due = 2;
+    if (held) {
+        const ray = rayAt(event), { light } = held;
+        library.dragLight(light, dragged(lights.subarray(12 * light, 12 * light + 3), held.ray, ray));
+        lights = library.lights(seconds);
+        held.ray = ray;
+    } else if (pointers.size === 1) {
+        camera.look((before.clientX - event.clientX) / innerHeight, (event.clientY - before.clientY) / innerHeight);
+    } else {
+        const other = [...pointers.values()].find(({ pointerId }) => pointerId !== event.pointerId);
+        const apart = (one) => Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY);
+        camera.move((apart(event) - apart(before)) / innerHeight);
+    }
+});
+for (const name of ['pointerup', 'pointercancel'])
+    canvas.addEventListener(name, (event) => {
+        pointers.delete(event.pointerId);
+        held = null;
+    });
+canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    due = 2;
+    camera.move(-event.deltaY / 2000);
+}, { passive: false });
+addEventListener('resize', () => { due = 2; });
+addEventListener('dragover', (event) => event.preventDefault());
+addEventListener('drop', (event) => {
+    event.preventDefault();
+    if (event.dataTransfer.files.length)
+        openFile(event.dataTransfer.files[0]);
+});
+
+// --- the panel ---
+
+function showState() {
+    due = 2;
+    for (const id of ['scene', 'lights', 'bands', 'method', 'window', 'scale'])
+        element(id).value = state[id];
+    for (const id of ['split', 'moving'])
+        element(id).checked = state[id];
+    for (const id of ['lights', 'bands'])
+        element(id).nextElementSibling.value = state[id];
+    element('bands').max = Math.min(methods[state.method].bands, 100);
+    const divider = element('divider');
+    divider.hidden = !state.split;
+    divider.style.left = `${100 * state.divider}%`;
+    element('left').textContent = `${state.bands} bands`;
+    element('right').textContent = '100 bands';
+}
+
+let costTimer = 0;
+function tellCost() {
+    clearTimeout(costTimer);
+    costTimer = setTimeout(() => {
+        const [vector, scalar] = [true, false].map((vectors) => library.cost(state.bands, vectors));
+        element('cost').textContent = `The C library in WebAssembly, ${state.bands} bands: ${vector.toFixed(1)} ns ` +
+            `for a point and light with SIMD, ${scalar.toFixed(1)} without.`;
+    }, 400);
+}
+
+function change(id, value) {
+    state[id] = value;
+    if (id === 'method')
+        state.bands = Math.min(state.bands, methods[value].bands);
+    if (id === 'scene')
+        openBuiltin();
+    if (id === 'lights')
+        scatterLights();
+    showState();
+    if (['bands', 'method', 'lights'].includes(id))
+        tellCost();
+}
+
+function watchPanel() {
+    for (const id of ['lights', 'bands'])
+        element(id).addEventListener('input', (event) => change(id, Number(event.target.value)));
+    for (const id of ['scene', 'method', 'window', 'scale'])
+        element(id).addEventListener('change', (event) => change(id, event.target.value));
+    for (const id of ['split', 'moving'])
+        element(id).addEventListener('change', (event) => change(id, event.target.checked));
+    element('file').addEventListener('change', (event) => event.target.files.length && openFile(event.target.files[0]));
+    const divider = element('divider');
+    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
+    divider.addEventListener('pointermove', (event) => {
+        if (divider.hasPointerCapture(event.pointerId))
+            change('divider', Math.max(0.02, Math.min(0.98, event.clientX / innerWidth)));
+    });
+}
+
+// --- the beginning ---
+
+function startRenderer() {
+    renderer = makeRenderer(canvas, library);
+    element('lights').max = Math.min(1000, renderer.lightsMost);
+}
+
+canvas.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault();
+    renderer = null;
+    tell('The GPU was lost …');
+});
+canvas.addEventListener('webglcontextrestored', () => {
+    startRenderer();
+    renderer.setScene(library.scene());
+    due = 2;
+    tell('');
+});
+
+async function begin() {
+    library = await loadLibrary();
+    startRenderer();
+    openBuiltin();
+    element('panel').open = !asked.has('closed') && innerWidth > 600;
+    watchPanel();
+    showState();
+    tell('');
+    tellCost();
+    requestAnimationFrame(frame);
+}
+begin().catch((error) => tell(error.message, true));
+
+// for the console, and for tests
+globalThis.lampion = {
+    draw, state, lightAt: (i) => [...lights.subarray(12 * i, 12 * i + 4)],
+    project: (i) => camera.project([...lights.subarray(12 * i, 12 * i + 3)], innerWidth, innerHeight),
+    pick: ([clientX, clientY]) => pick(lights, rayAt({ clientX, clientY }), 1),
+    get exposure() { return exposure; },
+    get frameTime() { return mean; },
+    get ready() { return mean > 0 && (state.moving || due <= 0); },
+    get gl() { return renderer?.gl; },
+};

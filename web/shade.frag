@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+/* shade.frag - shade.comp and tone.frag in one pass, for WebGL 2: a pixel of the G-buffer, shaded by
+ * SHADE and shown, or with RADIANCE given as it is. A page has no storage blocks: tables are textures. */
+#include "gbuffer.glsl"
+#include "shared.h"
+#include "camera.glsl"
+#include "light.glsl"
+#include "tone.h"
+
+uniform sampler2D ggx_texels;
+#define LMP_GGX_TEXEL(i) texelFetch(ggx_texels, ivec2((i) % 32, (i) / 32), 0)
+#include "ggx.glsl"
+#include "lampion.glsl"
+#ifdef SHADE_COEFFICIENTS
+#include "coefficients.glsl"
+#endif
+#ifdef SHADE_PREINTEGRATED
+uniform sampler2D lobe_pairs, lobe_cells, lobe_remap;
+uniform vec4 lobe_shape;
+#define LMP_PREINTEGRATED_LOBE_PAIR(p)  textureLod(lobe_pairs, (p) * lobe_shape.zw, 0.0).rg
+#define LMP_PREINTEGRATED_LOBE_CELL(i)  texelFetch(lobe_cells, ivec2(i, 0), 0)
+#define LMP_PREINTEGRATED_LOBE_REMAP(i) texelFetch(lobe_remap, ivec2(i, 0), 0).r
+#define LMP_PREINTEGRATED_LOBE_SHAPE    lobe_shape
+#include "preintegrated_lookup.h"
+#include "preintegrated_lobe.glsl"
+#endif
+
+uniform sampler2D base_metallic, normals, roughness_kind, emissions, layers, depths;
+uniform sampler2D reflectors; /* F0 and F90 of the materials' dielectrics */
+uniform vec2 pixels;          /* of the G-buffer, to one of the target */
+uniform float exposure;
+out vec4 color;
+
+vec3 shade_surface(ivec2 at, int kind) {
+    camera_ray ray = camera_ray_through((vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0);
+    vec4 base = texelFetch(base_metallic, at, 0);
+    vec4 reflector = texelFetch(reflectors, ivec2(kind - SHARED_KIND_SURFACE, 0), 0) *
+                     texelFetch(layers, at, 0).g;
+    lmp_surface surface;
+    surface.position = ray.from + ray.along * camera_distance(texelFetch(depths, at, 0).r);
+    surface.normal = gbuffer_decode_normal(texelFetch(normals, at, 0).rg);
+    surface.view = -normalize(ray.along);
+    lmp_metallic_roughness material = lmp_metallic_roughness(
+        gbuffer_decode_color(base.rgb), base.a, texelFetch(roughness_kind, at, 0).r);
+    lmp_lobes lobes =
+        lmp_lobes_of(surface, material, lmp_dielectric(reflector.rgb, reflector.a));
+    return SHADE(surface, lobes) + texelFetch(emissions, at, 0).rgb;
+}
+
+float transfer(float x) {
+    x = clamp(x, 0.0, 1.0);
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+}
+
+void main() {
+    /* the G-buffer's rows run from the top, the page's from the bottom */
+    ivec2 at = ivec2(gl_FragCoord.xy * pixels);
+    at.y = int(size_lights.y) - 1 - at.y;
+    int kind = gbuffer_decode_kind(texelFetch(roughness_kind, at, 0).g);
+    vec3 radiance = vec3(0.0);
+    if (kind == SHARED_KIND_LIGHT)
+        radiance = lights[gbuffer_decode_light(texelFetch(normals, at, 0).r)].radiance.rgb;
+    else if (kind != SHARED_KIND_NONE)
+        radiance = shade_surface(at, kind);
+#ifdef RADIANCE
+    color = vec4(radiance, 1.0);
+#else
+    vec3 x = clamp(radiance * exposure, 0.0, SHARED_TONE_MAX);
+    color = vec4(transfer(tone_filmic(0, x.r, x.g, x.b)), transfer(tone_filmic(1, x.r, x.g, x.b)),
+                 transfer(tone_filmic(2, x.r, x.g, x.b)), 1.0);
+#endif
+}

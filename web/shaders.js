@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The program's own shaders in GLSL ES 3.00, which has no #include and no numbers for what passes from
+// stage to stage.
+import camera from '../shaders/camera.glsl';
+import coefficients from '../shaders/coefficients.glsl';
+import gbuffer from '../shaders/gbuffer.glsl';
+import ggx from '../shaders/ggx.glsl';
+import lampion from '../shaders/lampion.glsl';
+import light from '../shaders/light.glsl';
+import lightFragment from '../shaders/light.frag';
+import lightVertex from '../shaders/light.vert';
+import lobe from '../shaders/preintegrated_lobe.glsl';
+import lookup from '../shaders/preintegrated_lookup.h';
+import screen from '../shaders/screen.vert';
+import shared from '../shaders/shared.h';
+import surfaceFragment from '../shaders/surface.frag';
+import surfaceVertex from '../shaders/surface.vert';
+import tone from '../shaders/tone.h';
+import shade from './shade.frag';
+
+const files = {
+    'camera.glsl': camera, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
+    'lampion.glsl': lampion, 'light.glsl': light, 'preintegrated_lobe.glsl': lobe,
+    'preintegrated_lookup.h': lookup, 'shared.h': shared, 'tone.h': tone,
+};
+export const stages = {
+    surface: [surfaceVertex, surfaceFragment], light: [lightVertex, lightFragment], shade: [screen, shade],
+};
+
+function expand(text) {
+    return text.replace(/^#include "(.*)"$/gm, (line, name) => expand(files[name]));
+}
+
+function translate(text, fragment) {
+    return expand(text)
+        .replace(/layout\(std140, binding = point\)/g, 'layout(std140)')
+        .replace(/layout\(binding = \w+\) /g, '')
+        .replace(fragment ? /layout\(location = \d+\) (flat )?in /g : /layout\(location = \d+\) (flat )?out /g,
+            (match, flat) => `${flat ?? ''}${fragment ? 'in' : 'out'} `)
+        .replace(/\bgl_PrimitiveID\b/g, '0');
+}
+
+function compile(gl, type, text) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    return shader;
+}
+
+// A program of a pair of stages, `defines` before each. Blocks are bound where shared.h says.
+export function makeProgram(gl, [vertex, fragment], defines, lightsMost) {
+    const head = `#version 300 es
+precision highp float; precision highp int; precision highp sampler2D;
+#define LAMPION_SHADER
+${defines}\n`;
+    const limit = (text) => text.replace(/#define SHARED_LIGHTS_MAX +\d+/, `#define SHARED_LIGHTS_MAX ${lightsMost}`);
+    const program = gl.createProgram();
+    const shaders = [compile(gl, gl.VERTEX_SHADER, head + limit(translate(vertex, false))),
+        compile(gl, gl.FRAGMENT_SHADER, head + limit(translate(fragment, true)))];
+    for (const shader of shaders)
+        gl.attachShader(program, shader);
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+        throw new Error(`a shader does not compile: ${shaders.map((s) => gl.getShaderInfoLog(s)).join('')}${
+            gl.getProgramInfoLog(program)}`);
+    for (const [point, name] of ['frame_block', 'lights_block', 'material_block'].entries()) {
+        const index = gl.getUniformBlockIndex(program, name);
+        if (index !== gl.INVALID_INDEX)
+            gl.uniformBlockBinding(program, index, point);
+    }
+    const uniforms = {};
+    for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
+        const { name } = gl.getActiveUniform(program, i);
+        uniforms[name] = gl.getUniformLocation(program, name);
+    }
+    return { program, uniforms };
+}
