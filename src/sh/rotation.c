@@ -189,8 +189,13 @@ void lmp_sh_rotation_from_matrix(int bands, const float rotation[9], float *matr
 void lmp_sh_rotate_z(int bands, float angle, const float *sh, float *rotated) {
     assert(lmp_is_bands(bands));
     assert(isfinite(angle) && lmp_are_same_or_apart(sh, rotated, LMP_SH_COUNT(bands)));
+    const double step_c = cos((double)angle), step_s = sin((double)angle);
+    double wide_c = 1, wide_s = 0; /* of m angles */
     for (int m = 0; m < bands; m++) {
-        const float c = (float)cos(m * (double)angle), s = (float)sin(m * (double)angle);
+        const float c = (float)wide_c, s = (float)wide_s;
+        const double next_c = wide_c * step_c - wide_s * step_s;
+        wide_s = wide_c * step_s + wide_s * step_c;
+        wide_c = next_c;
         for (int l = m; l < bands; l++) {
             const float plus = sh[LMP_SH_INDEX(l, m)], minus = sh[LMP_SH_INDEX(l, -m)];
             /* -m first: at m = 0 both are one coefficient, which stays */

@@ -214,6 +214,38 @@ static void slopes_of_the_basis_are_those_of_one_direction(void **test) {
             assert_memory_equal(&out[VALUES * COUNT + v * plane + i], &slopes[v], sizeof(float));
 }
 
+/* A cube map, a panorama of rows that no lanes fit, and irradiance of what both give. */
+static void project_images(float *sh, lmp_rgb *irradiance) {
+    enum { SIZE = 37, CHANNELS = 3 };
+    lmp_cubemap cube = { .size = SIZE, .channels = CHANNELS };
+    const lmp_latlong panorama = {
+        .pixels = other, .width = 301, .height = 29, .channels = CHANNELS
+    };
+    for (int face = 0; face < 6; face++)
+        cube.faces[face] = other + face * SIZE * SIZE * CHANNELS;
+    lmp_sh_project_cubemap(BANDS, &cube, sh);
+    lmp_sh_project_latlong(BANDS, &panorama, sh + CHANNELS * VALUES);
+    lmp_probe_irradiance_n(BANDS, sh, lmp_vec3_array_of(axes), COUNT, irradiance);
+}
+
+static void images_have_the_same_bits_by_every_mask(void **test) {
+    (void)test;
+    static float expected[6 * VALUES], actual[6 * VALUES];
+    static lmp_rgb expected_rgb[COUNT], actual_rgb[COUNT];
+    for (size_t i = 0; i < sizeof other / sizeof *other; i++)
+        other[i] = (float)check_random();
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+        lmp_cpu_mask(flag);
+        project_images(flag == LMP_CPU_SCALAR ? expected : actual,
+                       flag == LMP_CPU_SCALAR ? expected_rgb : actual_rgb);
+        if (flag == LMP_CPU_SCALAR)
+            continue;
+        assert_memory_equal(expected, actual, sizeof expected);
+        assert_memory_equal(expected_rgb, actual_rgb, sizeof expected_rgb);
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+}
+
 static void the_mask_chooses_the_kernels(void **test) {
     (void)test;
     const unsigned all = lmp_cpu_flags();
@@ -238,6 +270,7 @@ int main(void) {
         cmocka_unit_test(lobes_respond_as_one_by_one),
         cmocka_unit_test(basis_zonal_rotation_and_dot_are_the_scalar_ones),
         cmocka_unit_test(slopes_of_the_basis_are_those_of_one_direction),
+        cmocka_unit_test(images_have_the_same_bits_by_every_mask),
         cmocka_unit_test(the_mask_chooses_the_kernels),
     };
     return cmocka_run_group_tests(tests, fill, NULL);
