@@ -3,6 +3,7 @@
 #include "app/animation/animation.h"
 #include "app/command/command.h"
 #include "app/override/override.h"
+#include "app/shadow/shadow.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,6 +19,7 @@ typedef struct view_arguments {
     int tone;
     const char *from;
     cli_list materials;
+    shadow_options shadow; /* on, or not */
 } view_arguments;
 
 /* NAME=MATERIAL into the settings; whether the scene has it is found out when it is drawn. */
@@ -52,6 +54,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         o->camera_wanted = true;
         s->width = a->size[0];
         s->height = a->size[1];
+        s->shadows = a->shadow.on && !a->shadow.off;
         s->divider = 0.5f;
         s->shading[0] = (view_shading) { (method_kind)a->method, a->bands, (lmp_window)a->window };
         s->shading[1] = s->shading[0];
@@ -101,6 +104,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "method", 0, CLI_CHOICE, &a.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
         { "window", 0, CLI_CHOICE, &a.window, "WINDOW", "damps the ringing of few bands", 0, 0,
           method_window_names(), NULL },
+        SHADOW_SWITCH_ROWS(a.shadow),
         SCENE_LIGHTS_OPTION_ROWS(o->lights),
         ENVIRONMENT_OPTION_ROWS(o->environment),
         SCENE_CAMERA_OPTION_ROWS(o->camera),

@@ -11,7 +11,7 @@
 typedef struct filter_pass {
     shadow_planes *planes;
     int first, count, step;
-    bool narrow; /* no farther than penumbras are wide */
+    float narrowing; /* how much less far than penumbras are wide; 0: however far */
 } filter_pass;
 
 /* Neighbors this far off the plane of a pixel, in distances to it and in pixels' widths, and of
@@ -51,7 +51,7 @@ static void weigh(const filter_pass *pass, const span *at, float kernel, float *
     const float *restrict footprint = p->footprint + at->row;
     const float *restrict hidden = pass->planes->values[SHADOW_HIDDEN] + at->row;
     const float *restrict width = pass->planes->values[SHADOW_HIDDEN_WIDTH] + at->row;
-    const float limit = pass->narrow ? 1 : 0;
+    const float limit = pass->narrowing;
 #pragma omp simd
     for (int x = at->begin; x < at->end; x++) {
         const float dx = qx[x] - px[x], dy = qy[x] - py[x], dz = qz[x] - pz[x];
@@ -125,12 +125,15 @@ static bool run_pass(const filter_pass *pass) {
     return ok;
 }
 
-bool shadow_filter(shadow_planes *planes) {
+/* Of a mean of n, blur that falls as the fourth root falls as the root of n, and so does variance.
+ */
+bool shadow_filter(shadow_planes *planes, int sample) {
     enum { WIDTH_PASSES = 3, PASSES = 4 };
+    const float narrowing = sqrtf((float)(sample + 1));
     bool ok = true;
     for (int i = 0; i < WIDTH_PASSES && ok; i++)
-        ok = run_pass(&(filter_pass) { planes, SHADOW_HIDDEN, 2, 1 << i, false });
+        ok = run_pass(&(filter_pass) { planes, SHADOW_HIDDEN, 2, 1 << i, 0 });
     for (int i = 0; i < PASSES && ok; i++)
-        ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_HIDDEN, 1 << i, true });
+        ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_HIDDEN, 1 << i, narrowing });
     return ok;
 }

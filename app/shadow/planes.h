@@ -29,8 +29,9 @@ typedef struct shadow_planes {
 bool shadow_planes_resize(shadow_planes *planes, int width, int height);
 void shadow_planes_free(shadow_planes *planes);
 
-/* Mixes the values of neighbors on one surface, as far as penumbras are wide. False without memory.
- */
-bool shadow_filter(shadow_planes *planes);
+/* Mixes the values of neighbors on one surface, as far as penumbras are wide; less for samples
+ * 1, 2, … of a pixel, so that neither noise nor blur is left of the mean of many. False without
+ * memory. */
+bool shadow_filter(shadow_planes *planes, int sample);
 
 #endif

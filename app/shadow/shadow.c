@@ -32,13 +32,20 @@ shadow *shadow_create(const scene *world, const environment *surroundings,
         s->scene = world;
         s->settings = *settings;
         s->sources = malloc(SHADOW_SOURCES(SCENE_LIGHTS_MAX) * sizeof *s->sources);
-        if (s->sources && reference_environment_create(surroundings, &s->around) &&
-            (s->bvh = trace_create(world)))
-            return s;
+        s->bvh = s->sources ? trace_create(world) : NULL;
     }
+    if (s && s->bvh && shadow_surround(s, surroundings, error))
+        return s;
     shadow_destroy(s);
     fail_memory(world->origin, error);
     return NULL;
+}
+
+bool shadow_surround(shadow *s, const environment *surroundings, cli_error *error) {
+    reference_environment_free(&s->around);
+    memset(&s->around, 0, sizeof s->around);
+    return reference_environment_create(surroundings, &s->around) ||
+           fail_memory(s->scene->origin, error);
 }
 
 void shadow_destroy(shadow *s) {
@@ -129,7 +136,7 @@ bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer
               send_rays(s, &job, gbuffer);
     const double sent = timing_now();
     if (!s->settings.raw)
-        ok = ok && shadow_filter(&s->planes);
+        ok = ok && shadow_filter(&s->planes, gpu_gbuffer_sample(gbuffer));
     if (ok)
         apply(s, gbuffer, rgba);
     s->statistics.rays_milliseconds = 1e3 * (sent - start);

@@ -24,15 +24,17 @@ typedef struct shadow_options {
     {                                                                                              \
         .settings = {.rays = SHADOW_RAYS_DEFAULT }                                                 \
     }
-#define SHADOW_OPTION_ROWS(variable)                                                               \
+#define SHADOW_SWITCH_ROWS(variable)                                                               \
     { .name = "shadows",                                                                           \
       .kind = CLI_FLAG,                                                                            \
       .target = &(variable).on,                                                                    \
       .help = "let surfaces hide lights, by rays on the CPU whatever the device" },                \
-        { .name = "no-shadows",                                                                    \
-          .kind = CLI_FLAG,                                                                        \
-          .target = &(variable).off,                                                               \
-          .help = "let no surface hide a light, which is the default" },                           \
+    {                                                                                              \
+        .name = "no-shadows", .kind = CLI_FLAG, .target = &(variable).off,                         \
+        .help = "let no surface hide a light, which is the default"                                \
+    }
+#define SHADOW_OPTION_ROWS(variable)                                                               \
+    SHADOW_SWITCH_ROWS(variable),                                                                  \
         { .name = "no-shadow-filter",                                                              \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.raw,                                                      \
@@ -55,6 +57,9 @@ typedef struct shadow shadow;
 shadow *shadow_create(const scene *scene, const environment *surroundings,
                       const shadow_settings *settings, cli_error *error);
 void shadow_destroy(shadow *shadow);
+
+/* Another environment, or NULL. False without memory: then there is none. */
+bool shadow_surround(shadow *shadow, const environment *surroundings, cli_error *error);
 
 /* gpu_frame.shadow, `user` a shadow. */
 bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,

@@ -3,6 +3,7 @@
 #include "app/bake/bake.h"
 #include "app/override/override.h"
 #include "app/shade/shade.h"
+#include "app/shadow/shadow.h"
 #include "app/view/draft.h"
 
 #include <stdlib.h>
@@ -38,6 +39,7 @@ struct view_compositor {
     scene draft; /* without vertices: the scene itself serves */
     gpu_screen *screen;
     side sides[2];
+    shadow *shadows;
     environment around;
     char around_name[VIEW_PATH_SIZE]; /* what it was made of */
     float around_numbers[2];
@@ -78,6 +80,7 @@ void view_compositor_destroy(view_compositor *s) {
     close_side(&s->sides[1]);
     for (int i = 0; i < LOBES_KEPT; i++)
         lmp_preintegrated_lobe_destroy(s->lobes[i].lobe);
+    shadow_destroy(s->shadows);
     environment_free(&s->around);
     gpu_screen_destroy(s->screen);
     view_draft_free(&s->draft);
@@ -176,6 +179,8 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
         if (is_preintegrated(shading) && !find_lobe(s, shading))
             return "integrating the lobes …";
     }
+    if (settings->shadows && !s->shadows)
+        return "sorting the triangles for shadows …";
     return NULL;
 }
 
@@ -186,11 +191,12 @@ static bool has_draft(const view_compositor *s) {
     return s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
 }
 
-/* Of a draft, by whether the view is that of the draft before. */
+/* Of a draft, by whether the view is that of the draft before. Triangles that stand for many would
+ * hide light from each other. */
 static quality choose_quality(view_compositor *s, const view_settings *settings) {
     const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
     s->camera = settings->camera;
-    return rests || !has_draft(s) ? RESTING : MOVING;
+    return rests || settings->shadows || !has_draft(s) ? RESTING : MOVING;
 }
 
 static bool open_side(view_compositor *s, side *own, quality fineness, cli_error *error) {
@@ -226,10 +232,23 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
         s->around_name[0] = '\0';
         if (!environment_open(&options, s->world, &s->around, error))
             return false;
+        if (s->shadows && !shadow_surround(s->shadows, &s->around, error))
+            return false;
         memcpy(s->around_name, settings->environment, sizeof s->around_name);
         memcpy(s->around_numbers, numbers, sizeof numbers);
     }
     return environment_project(&s->around, bands, error);
+}
+
+static bool settle_shadows(view_compositor *s, const view_settings *settings, gpu_host_pass *pass,
+                           cli_error *error) {
+    static const shadow_settings plain = { .rays = SHADOW_RAYS_DEFAULT };
+    if (!settings->shadows)
+        return true;
+    if (!s->shadows)
+        s->shadows = shadow_create(s->world, &s->around, &plain, error);
+    *pass = (gpu_host_pass) { shadow_frame, s->shadows };
+    return s->shadows;
 }
 
 /* How to draw a side: how many samples come from what samples counts. */
@@ -276,7 +295,8 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         device_kind device;
         if (!open_side(s, own, fineness, error) ||
             !settle_materials(s, own, settings, shading, error) ||
-            !fill_frame(s, settings, shading, divisor, &frame, &device, error))
+            !fill_frame(s, settings, shading, divisor, &frame, &device, error) ||
+            !settle_shadows(s, settings, &frame.shadow, error))
             return false;
         gpu_renderer *renderer = own->renderers[fineness];
         frame.keep_geometry = fineness == RESTING && s->context.software;
@@ -288,6 +308,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         statistics->times.gbuffer += times.gbuffer;
         statistics->times.shade += times.shade;
         statistics->times.transfer += times.transfer;
+        statistics->times.shadow += times.shadow;
         statistics->times.total += times.total;
         statistics->width = frame.width;
         statistics->height = frame.height;

@@ -31,6 +31,7 @@ static bool take_back(viewer *v, const cli_error *error) {
     memcpy(v->state.now.materials, v->good->materials, sizeof v->good->materials);
     v->state.now.material_count = v->good->material_count;
     v->state.now.split = v->good->split;
+    v->state.now.shadows = v->good->shadows;
     v->state.now.camera = v->good->camera;
     v->state.now.width = width;
     v->state.now.height = height;

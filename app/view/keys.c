@@ -68,6 +68,12 @@ static void split(view_state *s, int kind) {
     }
 }
 
+static void toggle_shadows(view_state *s, int unused) {
+    (void)unused;
+    s->now.shadows = !s->now.shadows;
+    view_say(s, s->now.shadows ? "Shadows" : "No shadows");
+}
+
 static void swap_sides(view_state *s, int unused) {
     (void)unused;
     const view_shading first = s->now.shading[0];
@@ -214,6 +220,7 @@ const view_key view_keys[] = {
     { "0", "0", "exposure to suit the image", expose, 0 },
     { "u", "U", "tone curve", change_tone, 1 },
     { "U", NULL, NULL, change_tone, -1 },
+    { "z", "Z", "shadows on, off", toggle_shadows, 0 },
     { "t", "T", "material of the object pointed at", change_material, 1 },
     { "T", NULL, NULL, change_material, -1 },
     { NULL, "drop a file", "its material: .binary .bsdf .lmpt", NULL, 0 },

@@ -71,6 +71,8 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     add_row(rows, &count, "Geometry", "%.1f ms", t->gbuffer);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
             device_table[v->statistics.device].text);
+    if (t->shadow > 0)
+        add_row(rows, &count, "Shadows", "%.1f ms", t->shadow);
     if (t->transfer > 0)
         add_row(rows, &count, "Transfer", "%.1f ms", t->transfer);
     add_row(rows, &count, "Window", "%.1f ms", 1e3 * v->show_seconds);

@@ -78,6 +78,7 @@ cJSON *view_settings_to_json(const view_settings *s) {
     cJSON_AddNumberToObject(root, "width", s->width);
     cJSON_AddNumberToObject(root, "height", s->height);
     cJSON_AddNumberToObject(root, "samples", s->samples);
+    cJSON_AddBoolToObject(root, "shadows", s->shadows);
     file_json_add_floats(root, "exposure", &s->exposure, 1);
     cJSON_AddStringToObject(root, "tone", image_tones[s->tone].name);
     file_json_add_floats(root, "background", s->background, 3);
@@ -155,6 +156,13 @@ static bool read_up(const cJSON *root, int *up) {
 static bool read_tone(const cJSON *root, int *tone) {
     *tone = 0;
     return !file_json_member(root, "tone") || read_choice(root, "tone", image_tone_names(), tone);
+}
+
+/* Screenshots of before there were shadows have none. */
+static bool read_shadows(const cJSON *root, bool *shadows) {
+    const cJSON *item = file_json_member(root, "shadows");
+    *shadows = cJSON_IsTrue(item);
+    return !item || cJSON_IsBool(item);
 }
 
 static bool read_camera(const cJSON *root, scene_camera *camera) {
@@ -244,6 +252,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
                         : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"
+                        : !read_shadows(root, &s->shadows)                             ? "shadows"
                         : !read_float(root, "exposure", 1e-30, 1e30, &s->exposure)     ? "exposure"
                         : !read_tone(root, &s->tone)                                   ? "tone"
                         : !read_floats(root, "background", 0, 1e30, s->background) ? "background"

@@ -22,7 +22,8 @@ typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
     int up; /* as in scene_options */
     int width, height;
-    int samples;    /* a pixel */
+    int samples; /* a pixel */
+    bool shadows;
     float exposure; /* a factor on radiance */
     int tone;       /* a row of image_tones */
     float background[3];

@@ -90,6 +90,7 @@ bool view_write_state(viewer *v, cli_error *error) {
     cJSON_AddNumberToObject(ui, "show_ms", 1e3 * v->show_seconds);
     cJSON_AddNumberToObject(ui, "gbuffer_ms", v->statistics.times.gbuffer);
     cJSON_AddNumberToObject(ui, "shade_ms", v->statistics.times.shade);
+    cJSON_AddNumberToObject(ui, "shadow_ms", v->statistics.times.shadow);
     cJSON_AddNumberToObject(ui, "transfer_ms", v->statistics.times.transfer);
     char *text = cJSON_Print(root);
     cJSON_Delete(root);

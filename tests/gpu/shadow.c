@@ -1,167 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* Shadows by rays and a ratio, held to the ground truth. */
-#include "app/shadow/shadow.h"
+#include "tests/gpu/shadow.h"
 #include "app/reference/reference.h"
-#include "app/scene/shape.h"
-#include "app/scene/vector.h"
-#include "app/shade/shade.h"
-#include "tests/gpu/device.h"
-#include "tests/oracle/check.h"
 #include "tests/oracle/kinds.h"
 
-#include <math.h>
 #include <omp.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BANDS = 20 };
-
-/* --- the scene ----------------------------------------------------------------------------------
- */
-
-static void add_material(scene_builder *builder, const char *name, float gray) {
-    scene_material *material = builder_material(builder, name);
-    assert_non_null(material);
-    for (int c = 0; c < 3; c++)
-        material->base_color[c] = gray;
-    material->metallic = 0;
-    material->roughness = 1;
-}
-
-/* A texture of 8 x 8 holes and bars. */
-static void add_screen(scene_builder *builder) {
-    enum { SIZE = 32 };
-    scene_material *material = builder_material(builder, "screen");
-    scene_texture *texture = builder_append(builder, BLOB_TEXTURES, 1);
-    unsigned char *texels = builder_append(builder, BLOB_TEXELS, 4 * SIZE * SIZE);
-    assert_true(material && texture && texels);
-    material->metallic = 0;
-    material->flags = SCENE_ALPHA_MASK | SCENE_DOUBLE_SIDED;
-    material->alpha_cutoff = 0.5f;
-    material->base_color_map =
-        (scene_texture_use) { .texture = 0, .matrix = { 1, 0, 0, 1 }, .offset = { 0, 0 } };
-    *texture = (scene_texture) { .name = "holes", .width = SIZE, .height = SIZE };
-    for (int i = 0; i < SIZE * SIZE; i++) {
-        memset(texels + 4 * i, 200, 3);
-        texels[4 * i + 3] = i % SIZE % 4 < 2 || i / SIZE % 4 < 2 ? 255 : 0;
-    }
-}
-
-/* A pierced screen that stands on the floor; it is a mesh of its own. */
-static void stand_screen(scene_builder *builder) {
-    static const float at[4][2] = { { -1, 0 }, { 0.6f, 0 }, { 0.6f, 1.2f }, { -1, 1.2f } };
-    const uint32_t first = (uint32_t)builder_count(builder, BLOB_VERTICES);
-    const size_t first_index = builder_count(builder, BLOB_INDICES);
-    scene_vertex *corners = builder_append(builder, BLOB_VERTICES, 4);
-    uint32_t *indices = builder_append(builder, BLOB_INDICES, 6);
-    assert_true(corners && indices);
-    for (int i = 0; i < 4; i++) {
-        corners[i] = (scene_vertex) { .position = { at[i][0], at[i][1], -0.8f },
-                                      .normal = { 0, 0, 1 },
-                                      .uv = { { at[i][0], -at[i][1] } },
-                                      .tangent = { 1, 0, 0, 1 } };
-    }
-    for (uint32_t i = 0; i < 6; i++)
-        indices[i] = first + (uint32_t[]) { 0, 1, 2, 0, 2, 3 }[i];
-    builder_mesh(builder, "screen", 2, first_index);
-}
-
-static void open_scene(scene_builder *builder, scene *world) {
-    cli_error error = { "" };
-    void *block;
-    size_t size;
-    assert_true(builder_pack(builder, &block, &size));
-    builder_free(builder);
-    expect(blob_validate(block, size, false, "held", &error), &error);
-    expect(blob_open(block, size, "held", world, &error), &error);
-    world->origin = "held";
-}
-
-/* A floor with a box, three thin poles and the screen on it, before a wall. */
-static void make_scene(scene *world) {
-    scene_builder builder = { .out_of_memory = false };
-    add_material(&builder, "floor", 0.8f);
-    add_material(&builder, "things", 0.6f);
-    add_screen(&builder);
-    scene_shaper shaper = { .builder = &builder };
-    shape_quad(&shaper, vec(-3, 0, 3), vec(3, 0, 3), vec(3, 0, -3), vec(-3, 0, -3));
-    shape_quad(&shaper, vec(-3, 0, -2), vec(3, 0, -2), vec(3, 3, -2), vec(-3, 3, -2));
-    shaper.material = 1;
-    shape_box(&shaper, vec(0.9f, 0, -0.6f), vec(1.5f, 0.7f, 0));
-    for (int i = 0; i < 3; i++) {
-        const float x = 0.4f * (float)i - 0.9f;
-        shape_box(&shaper, vec(x, 0, 0.5f), vec(x + 0.03f, 1.1f, 0.53f));
-    }
-    shaper_finish(&shaper);
-    stand_screen(&builder);
-    open_scene(&builder, world);
-}
-
-/* A ball of 32 segments and 16 rings. */
-static void make_ball(scene *world) {
-    enum { RINGS = 16 };
-    scene_builder builder = { .out_of_memory = false };
-    shape_point profile[RINGS + 1];
-    add_material(&builder, "ball", 0.8f);
-    scene_shaper shaper = { .builder = &builder };
-    for (int i = 0; i <= RINGS; i++) {
-        const float angle = PI * (float)i / RINGS;
-        profile[i] = (shape_point) { i % RINGS ? sinf(angle) : 0, -cosf(angle) };
-    }
-    shape_revolve(&shaper, &(shape_revolution) { .profile = profile,
-                                                 .point_count = RINGS + 1,
-                                                 .origin = { 0.1f, 0.5f, 0 },
-                                                 .axis = 'y',
-                                                 .segments = 32 });
-    shaper_finish(&shaper);
-    open_scene(&builder, world);
-}
-
-static const scene_camera camera = {
-    .eye = { 0.3f, 1.6f, 4 }, .target = { 0.1f, 0.5f, 0 }, .up = { 0, 1, 0 }, .fov = 0.8f
-};
-
-typedef struct stage {
-    scene world;
-    gpu_renderer *renderer;
-    gpu_frame frame;
-} stage;
-
-static void open_scene_stage(stage *s, void (*make)(scene *world)) {
-    make(&s->world);
-    s->renderer = open_renderer(&s->world);
-    s->frame = frame_of(&s->world, WIDTH, HEIGHT);
-    s->frame.camera = camera;
-    s->frame.bands = BANDS;
-    s->frame.host = shade_frame;
-}
-
-static void open_stage(stage *s) {
-    open_scene_stage(s, make_scene);
-}
-
-static void set_lights(stage *s, const lmp_light *lights, int count) {
-    for (int i = 0; i < count; i++)
-        s->world.lights[i] = (scene_light) { .emitter = lights[i], .hidden = 1 };
-    s->world.light_count = s->frame.light_count = (size_t)count;
-    s->frame.lights = s->world.lights;
-}
-
-static void close_stage(stage *s) {
-    gpu_renderer_destroy(s->renderer);
-    scene_free(&s->world);
-}
-
-static image draw_shadows(stage *s, const environment *around, const shadow_settings *settings) {
-    cli_error error = { "" };
-    shadow *all = shadow_create(&s->world, around, settings, &error);
-    expect(all != NULL, &error);
-    s->frame.shadow = (gpu_host_pass) { shadow_frame, all };
-    image pixels = render_image(s->renderer, &s->frame);
-    s->frame.shadow = (gpu_host_pass) { NULL, NULL };
-    shadow_destroy(all);
-    return pixels;
-}
 
 /* --- the ground truth ---------------------------------------------------------------------------
  */
@@ -283,45 +126,6 @@ static void the_mean_ratio_is_the_truth_of_an_environment(void **state) {
     environment_free(&e);
 }
 
-/* --- the filter ---------------------------------------------------------------------------------
- */
-
-static double relative_error(const image *drawn, const image *true_image) {
-    const int count = 3 * drawn->width * drawn->height;
-    double sum = 0;
-    for (int i = 0; i < count; i++) {
-        const double t = (double)true_image->rgb[i], d = (double)drawn->rgb[i] - t;
-        sum += d * d / (t * t + 1e-4);
-    }
-    return sum / count;
-}
-
-static void the_filter_takes_nine_tenths_of_the_error(void **state) {
-    (void)state;
-    stage s;
-    lmp_light lanterns[24];
-    open_stage(&s);
-    for (int i = 0; i < 24; i++)
-        lanterns[i] =
-            (lmp_light) { .position = { (float)(i % 6) * 0.9f - 2.2f, 1.5f + 0.3f * (float)(i % 4),
-                                        2.6f - (float)(i / 6) },
-                          .radius = 0.25f,
-                          .radiance = { 1, 1, 1 } };
-    set_lights(&s, lanterns, 24);
-    s.frame.width *= 4;
-    s.frame.height *= 4;
-    image many = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 512, .seed = 9, .raw = true });
-    image raw = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2, .raw = true });
-    image filtered = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2 });
-    const double before = relative_error(&raw, &many), after = relative_error(&filtered, &many);
-    print_message("relative error %.4f unfiltered, %.4f filtered\n", before, after);
-    assert_true(after * 10 <= before);
-    image_free(&many);
-    image_free(&raw);
-    image_free(&filtered);
-    close_stage(&s);
-}
-
 /* --- limits -------------------------------------------------------------------------------------
  */
 
@@ -361,6 +165,26 @@ static void both_devices_have_the_same_shadows(void **state) {
     image_free(&cpu);
     image_free(&gpu);
     close_stage(&s);
+}
+
+/* A ball of 32 segments and 16 rings. */
+static void make_ball(scene *world) {
+    enum { RINGS = 16 };
+    scene_builder builder = { .out_of_memory = false };
+    shape_point profile[RINGS + 1];
+    add_material(&builder, "ball", 0.8f);
+    scene_shaper shaper = { .builder = &builder };
+    for (int i = 0; i <= RINGS; i++) {
+        const float angle = PI * (float)i / RINGS;
+        profile[i] = (shape_point) { i % RINGS ? sinf(angle) : 0, -cosf(angle) };
+    }
+    shape_revolve(&shaper, &(shape_revolution) { .profile = profile,
+                                                 .point_count = RINGS + 1,
+                                                 .origin = { 0.1f, 0.5f, 0 },
+                                                 .axis = 'y',
+                                                 .segments = 32 });
+    shaper_finish(&shaper);
+    open_scene(&builder, world);
 }
 
 /* Where its normals face the light it is lit, and not the other way round. */
@@ -436,7 +260,6 @@ int main(void) {
         cmocka_unit_test(the_mean_ratio_is_the_truth_of_every_kind_of_light),
         cmocka_unit_test(the_mean_ratio_is_the_truth_of_spheres_near_and_far),
         cmocka_unit_test(the_mean_ratio_is_the_truth_of_an_environment),
-        cmocka_unit_test(the_filter_takes_nine_tenths_of_the_error),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(both_devices_have_the_same_shadows),
         cmocka_unit_test(a_coarse_ball_does_not_shade_itself),

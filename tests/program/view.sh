@@ -207,6 +207,22 @@ diff -r one two || fail "two runs of a script differ"
 "$PROGRAM" render --from one/dropped.png -o again.png
 cmp one/dropped.png again.png || fail "an image with a dropped material is repeated otherwise"
 
+# shadows of a roof over the floor: a key, the option, and the image once more without a window
+printf '%s\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nf 7 8 9 10\n' "$room" >roof.obj
+echo '{ "lights": [ { "position": [0.5, 3, 0], "radius": 0.3, "radiance": 40 } ] }' >over.json
+printf '0 shot lit.png\n0.1 key z\n0.4 shot shaded.png\n0.5 key z\n0.8 shot unshaded.png\n1 key Ctrl+Q\n' >shade.txt
+printf '0.3 shot option.png\n0.5 key Ctrl+Q\n' >option.txt
+roof="roof.obj --lights over.json --exposure 1 --eye 0,2.5,5 --target 0,0,0 --size 160x90 --samples 3"
+"$PROGRAM" view $roof --script shade.txt || fail "the script with shadows ends in $?"
+"$PROGRAM" view $roof --shadows --script option.txt || fail "a view with shadows ends in $?"
+"$PROGRAM" render --from shaded.png -o repeated.png
+cmp -s lit.png shaded.png && fail "the roof has no shadow"
+cmp shaded.png option.png || fail "the key and --shadows differ"
+cmp shaded.png repeated.png || fail "an image with shadows is repeated otherwise"
+"$PROGRAM" render --from unshaded.png -o repeated.png
+"$PROGRAM" view $roof --shadows --no-shadows --script shade.txt || fail "--no-shadows ends in $?"
+cmp unshaded.png repeated.png || fail "shadows do not go"
+
 # refusals
 refused() {
     status=0

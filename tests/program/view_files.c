@@ -58,6 +58,13 @@ static void damaged_settings_are_refused(void **unused) {
         cJSON_SetNumberValue(item, before);
     }
     assert_true(view_settings_from_json(root, "shot", &read, &error));
+    cJSON *shadows = cJSON_DetachItemFromObject(root, "shadows");
+    assert_true(view_settings_from_json(root, "shot", &read, &error));
+    cJSON_Delete(shadows);
+    cJSON_AddNumberToObject(root, "shadows", 1);
+    assert_false(view_settings_from_json(root, "shot", &read, &error));
+    assert_non_null(strstr(error.text, "shadows"));
+    cJSON_DeleteItemFromObject(root, "shadows");
     static const char *const parts[] = { "scene", "camera", "looks", "lights", "materials" };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         cJSON *item = cJSON_DetachItemFromObject(root, parts[i]);
