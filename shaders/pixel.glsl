@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* pixel.glsl - a pixel of the G-buffer as a surface and a material of lampion.glsl. */
 #include "camera.glsl"
+#include "coat.glsl"
 
 layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_metallic_texture;
 layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D roughness_kind_texture;
@@ -8,6 +9,10 @@ layout(binding = SHARED_NORMAL) uniform sampler2D normal_texture;
 layout(binding = SHARED_EMISSION) uniform sampler2D emission_texture;
 layout(binding = SHARED_DEPTH) uniform sampler2D depth_texture;
 layout(binding = SHARED_LAYERS) uniform sampler2D layers_texture;
+#ifdef PIXEL_LAYERED
+layout(binding = SHARED_COAT) uniform sampler2D coat_texture;
+layout(binding = SHARED_TINT) uniform sampler2D tint_texture;
+#endif
 layout(std430, binding = SHARED_REFLECTORS) readonly restrict buffer reflectors_block {
     shared_reflector reflectors[];
 };
@@ -18,6 +23,8 @@ struct pixel {
     lmp_dielectric dielectric;
     vec2 layers;
     int table; /* instead of the material, or -1 */
+    lmp_coat coat;
+    vec3 coat_normal, tint;
 };
 
 int pixel_kind(ivec2 at) {
@@ -54,8 +61,19 @@ pixel pixel_read(ivec2 at) {
     int number = gbuffer_decode_kind(roughness_kind.g) - SHARED_KIND_SURFACE;
     shared_reflector reflector = reflectors[max(number, 0)];
     p.layers = texelFetch(layers_texture, at, 0).rg;
-    p.dielectric =
-        lmp_dielectric(reflector.dielectric.rgb * p.layers.y, reflector.dielectric.a * p.layers.y);
+    p.coat = lmp_coat(0.0, 0.0);
+    p.coat_normal = p.surface.normal;
+    p.tint = vec3(1.0);
+#ifdef PIXEL_LAYERED
+    if (reflector.table.y > 0.0 && reflector.table.x < 0.0) {
+        vec4 coat = texelFetch(coat_texture, at, 0);
+        p.coat = lmp_coat(coat.z, coat.w);
+        p.coat_normal = gbuffer_decode_normal(coat.xy);
+        p.tint = gbuffer_decode_color(texelFetch(tint_texture, at, 0).rgb);
+    }
+#endif
+    float weight = reflector.dielectric.a * p.layers.y;
+    p.dielectric = lmp_dielectric(min(reflector.dielectric.rgb * p.tint, 1.0) * weight, weight);
     p.table = int(reflector.table.x);
     return p;
 }

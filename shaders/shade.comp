@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* One thread a pixel: G-buffer in, radiance out. SHADE is the method; all have one signature. */
+/* One thread a pixel: G-buffer in, radiance out. SHADE is the method; all have one signature.
+ * PIXEL_LAYERED: some materials have a coat. */
 #include "gbuffer.glsl"
 #include "shared.h"
 
@@ -63,13 +64,32 @@ vec3 shade_by_table(lmp_surface surface, int table) {
 }
 #endif
 
+/* By lobes: of a coated pixel first what is under the coat, then the coat. */
+vec3 shade_by_lobes(pixel p) {
+    lmp_lobes lobes = pixel_lobes(p);
+#ifdef PIXEL_LAYERED
+    lmp_surface over = lmp_surface(p.surface.position, p.coat_normal, p.surface.view);
+    vec3 sum = vec3(0.0);
+    for (int layer = 0; layer < (p.coat.weight > 0.0 ? 2 : 1); layer++) {
+        if (layer == 1) {
+            sum *= 1.0 - lmp_coated(p.coat, over.normal, over.view);
+            p.surface = over;
+            lobes = lmp_lobes_of(over, p.coat);
+        }
+        sum += SHADE(p.surface, lobes) + environment_shade(p.surface, lobes) * p.layers.x;
+    }
+    return sum;
+#else
+    return SHADE(p.surface, lobes) + environment_shade(p.surface, lobes) * p.layers.x;
+#endif
+}
+
 vec3 shade_surface(pixel p) {
 #if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
     if (p.table >= 0)
         return shade_by_table(p.surface, p.table);
 #endif
-    lmp_lobes lobes = pixel_lobes(p);
-    return SHADE(p.surface, lobes) + environment_shade(p.surface, lobes) * p.layers.x;
+    return shade_by_lobes(p);
 }
 
 layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;

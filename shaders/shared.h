@@ -34,18 +34,30 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_NORMAL             2
 #define SHARED_EMISSION           3
 #define SHARED_DEPTH              4
-#define SHARED_LAYERS             10 /* of the G-buffer; of materials the occlusion map */
-#define SHARED_OCCLUSION          10
-#define SHARED_SPECULAR           11
-#define SHARED_MAPS               6
+#define SHARED_LAYERS             10 /* of the G-buffer */
+#define SHARED_COAT               11
+#define SHARED_TINT               12
+#define SHARED_OCCLUSION          10 /* of materials, from here on one after another */
+#define SHARED_MAPS               10
 #define SHARED_HDR                5
+
+/* Maps by their index in the block: as scene_material has them. */
+#define SHARED_MAP_OCCLUSION      4
+#define SHARED_MAP_SPECULAR       5
+#define SHARED_MAP_SPECULAR_COLOR 6
+#define SHARED_MAP_COAT           7
+#define SHARED_MAP_COAT_ROUGHNESS 8
+#define SHARED_MAP_COAT_NORMAL    9
 
 /* Fragment outputs, in the order of the G-buffer's attachments (22 bytes a pixel, and depth):
  *   0  RGBA16          root of the base color, metallic
  *   1  RG16            octahedral normal; of a light, its index in r
  *   2  RG16            roughness, kind
- *   3  R11F_G11F_B10F  emitted radiance
+ *   3  R11F_G11F_B10F  emitted radiance, as seen through a coat
  *   4  RG8             how much of the ambient light comes, a factor on the dielectric's reflection
+ * and, of a scene that has such layers, written and read for materials with one alone (12 bytes):
+ *   5  RGBA16          of a coat: octahedral normal, weight, roughness
+ *   6  RGBA8           root of a factor on the dielectric's F0
  * The root keeps dark colors: of 0.0005 to 7e-4, of brighter ones to less. Every device squares it
  * alike. */
 #define SHARED_KIND_NONE     0
@@ -60,8 +72,8 @@ struct shared_reflector {
 #else
 typedef struct shared_reflector {
 #endif
-    vec4 dielectric; /* F0, F90 */
-    vec4 table;      /* x: the number of its table, or -1 */
+    vec4 dielectric; /* F0, not held to 1, and what weighs it, which is F90 */
+    vec4 table;      /* x: the number of its table, or -1; y: 1 if it is layered */
 #ifdef LAMPION_SHADER
 };
 #else
@@ -140,7 +152,8 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 maps;     /* base color, metallic-roughness, normal, emission */
     vec4 vertex;   /* x: 1 where the vertices' colors count; y: strength of the occlusion map; z: 1
                       where alpha blends */
-    vec4 more;     /* maps: occlusion, specular */
+    vec4 coat;     /* weight, roughness, normal scale */
+    vec4 more[2];  /* maps: those after the first four */
     vec4 matrix[SHARED_MAPS];
     vec4 offset[SHARED_MAPS];
 }
@@ -158,6 +171,8 @@ typedef struct shared_pixel {
     vec4 base_color;
     vec4 emission;
     vec4 layers; /* as in the G-buffer */
+    vec4 coat;   /* normal, weight */
+    vec4 tint;   /* factor on F0; roughness of the coat */
 #ifdef LAMPION_SHADER
 };
 #else
@@ -176,10 +191,10 @@ static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
 static_assert(sizeof(shared_frame) == 192, "std140");
 static_assert(sizeof(shared_light) == 48, "std140");
 static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
-static_assert(offsetof(shared_material, matrix) == 96, "std140");
-static_assert(offsetof(shared_material, offset) == 192, "std140");
-static_assert(sizeof(shared_material) == 288, "std140");
-static_assert(sizeof(shared_pixel) == 96, "std430");
+static_assert(offsetof(shared_material, matrix) == 128, "std140");
+static_assert(offsetof(shared_material, offset) == 288, "std140");
+static_assert(sizeof(shared_material) == 448, "std140");
+static_assert(sizeof(shared_pixel) == 128, "std430");
 static_assert(sizeof(shared_reflector) == 32, "std430");
 #endif
 

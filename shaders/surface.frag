@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials into the G-buffer. SURFACE_MASKED: discard by alpha (a variant, for discarding costs
  * the early depth test): by the cutoff, or of what blends as many samples as let pass what is
- * behind. */
+ * behind. SURFACE_LAYERED: of materials with a coat or a tint. */
 #include "gbuffer.glsl"
 #include "shared.h"
+#ifdef SURFACE_LAYERED
+#include "camera.glsl"
+#include "coat.glsl"
+#endif
 
 layout(location = 0) in vec3 world_normal;
 layout(location = 1) in vec4 world_uv;
@@ -15,17 +19,23 @@ layout(location = 1) out vec2 out_normal;
 layout(location = 2) out vec2 out_roughness_kind;
 layout(location = 3) out vec3 out_emission;
 layout(location = 4) out vec2 out_layers;
+#ifdef SURFACE_LAYERED
+layout(location = 5) out vec4 out_coat;
+layout(location = 6) out vec4 out_tint;
+#endif
 
 layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_color_map;
 layout(binding = SHARED_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_map;
 layout(binding = SHARED_NORMAL) uniform sampler2D normal_map;
 layout(binding = SHARED_EMISSION) uniform sampler2D emission_map;
 layout(binding = SHARED_OCCLUSION) uniform sampler2D occlusion_map;
-layout(binding = SHARED_SPECULAR) uniform sampler2D specular_map;
-
-/* Maps by their index in the block. */
-#define MAP_OCCLUSION 4
-#define MAP_SPECULAR  5
+layout(binding = SHARED_OCCLUSION + 1) uniform sampler2D specular_map;
+#ifdef SURFACE_LAYERED
+layout(binding = SHARED_OCCLUSION + 2) uniform sampler2D specular_color_map;
+layout(binding = SHARED_OCCLUSION + 3) uniform sampler2D coat_map;
+layout(binding = SHARED_OCCLUSION + 4) uniform sampler2D coat_roughness_map;
+layout(binding = SHARED_OCCLUSION + 5) uniform sampler2D coat_normal_map;
+#endif
 
 vec2 map_uv(int map) {
     vec2 uv = offset[map].z > 0.0 ? world_uv.zw : world_uv.xy;
@@ -69,6 +79,40 @@ float blend_threshold() {
 }
 #endif
 
+bool has_map(int map) {
+    return more[map / 4 - 1][map % 4] > 0.0;
+}
+
+/* A texel of a map of normals around n. */
+vec3 bend(vec3 n, vec3 texel, float scale) {
+    vec3 along = texel * 2.0 - 1.0;
+    vec3 t = world_tangent.xyz * inversesqrt(max(dot(world_tangent.xyz, world_tangent.xyz), 1e-20));
+    vec3 b = cross(n, t) * world_tangent.w;
+    vec3 bent = t * (along.x * scale) + b * (along.y * scale) + n * along.z;
+    return bent * inversesqrt(max(dot(bent, bent), 1e-20));
+}
+
+#ifdef SURFACE_LAYERED
+void write_layers() {
+    vec3 n = normalize(world_normal);
+    if (has_map(SHARED_MAP_COAT_NORMAL))
+        n = bend(n, texture(coat_normal_map, map_uv(SHARED_MAP_COAT_NORMAL)).xyz, coat.z);
+    vec2 over = coat.xy;
+    if (has_map(SHARED_MAP_COAT))
+        over.x *= texture(coat_map, map_uv(SHARED_MAP_COAT)).r;
+    if (has_map(SHARED_MAP_COAT_ROUGHNESS))
+        over.y *= texture(coat_roughness_map, map_uv(SHARED_MAP_COAT_ROUGHNESS)).g;
+    vec3 tint = vec3(1.0);
+    if (has_map(SHARED_MAP_SPECULAR_COLOR))
+        tint = texture(specular_color_map, map_uv(SHARED_MAP_SPECULAR_COLOR)).rgb;
+    vec2 at = gl_FragCoord.xy / size_lights.xy * 2.0 - 1.0 + jitter.xy;
+    vec3 away = normalize(camera_ray_through(at).along);
+    out_emission *= 1.0 - lmp_coated(lmp_coat(over.x, over.y), n, away);
+    out_coat = vec4(gbuffer_encode_normal(gl_FrontFacing ? n : -n), over);
+    out_tint = vec4(gbuffer_encode_color(tint), 0.0);
+}
+#endif
+
 void main() {
     vec4 base = base_color * world_color;
     if (maps.x > 0.0)
@@ -87,13 +131,8 @@ void main() {
 
     /* Both sides are lit: the back of a sheet has the opposite normal. */
     vec3 n = normalize(world_normal);
-    if (maps.z > 0.0) {
-        vec3 texel = texture(normal_map, map_uv(SHARED_NORMAL)).xyz * 2.0 - 1.0;
-        vec3 t = world_tangent.xyz * inversesqrt(max(dot(world_tangent.xyz, world_tangent.xyz), 1e-20));
-        vec3 b = cross(n, t) * world_tangent.w;
-        vec3 bent = t * (texel.x * factors.z) + b * (texel.y * factors.z) + n * texel.z;
-        n = bent * inversesqrt(max(dot(bent, bent), 1e-20));
-    }
+    if (maps.z > 0.0)
+        n = bend(n, texture(normal_map, map_uv(SHARED_NORMAL)).xyz, factors.z);
     if (!gl_FrontFacing)
         n = -n;
 
@@ -102,14 +141,17 @@ void main() {
         emitted *= texture(emission_map, map_uv(SHARED_EMISSION)).rgb;
 
     vec2 layers = vec2(1.0);
-    if (more.x > 0.0)
-        layers.x += vertex.y * (texture(occlusion_map, map_uv(MAP_OCCLUSION)).r - 1.0);
-    if (more.y > 0.0)
-        layers.y = texture(specular_map, map_uv(MAP_SPECULAR)).a;
+    if (has_map(SHARED_MAP_OCCLUSION))
+        layers.x += vertex.y * (texture(occlusion_map, map_uv(SHARED_MAP_OCCLUSION)).r - 1.0);
+    if (has_map(SHARED_MAP_SPECULAR))
+        layers.y = texture(specular_map, map_uv(SHARED_MAP_SPECULAR)).a;
 
     out_base_metallic = vec4(gbuffer_encode_color(base.rgb), metallic);
     out_normal = gbuffer_encode_normal(n);
     out_roughness_kind = vec2(roughness, gbuffer_encode_kind(int(emission.w)));
     out_emission = emitted;
     out_layers = layers;
+#ifdef SURFACE_LAYERED
+    write_layers();
+#endif
 }

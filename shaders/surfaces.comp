@@ -31,5 +31,7 @@ void main() {
                                                     : environment_seen(-p.surface.view),
                       0.0);
     o.layers = vec4(p.layers, 0.0, 0.0);
+    o.coat = vec4(p.coat_normal, p.coat.weight);
+    o.tint = vec4(p.tint, p.coat.roughness);
     pixels[(at.y - first_row) * int(size_lights.x) + at.x] = o;
 }

@@ -10,7 +10,7 @@
 /* --- reading ------------------------------------------------------------------------------------
  */
 
-static bool allocate(gpu_gbuffer *g, int width, int height, cli_error *error) {
+static bool allocate(gpu_gbuffer *g, int width, int height, bool layered, cli_error *error) {
     const size_t count = (size_t)width * (size_t)height;
     gpu_gbuffer_free(g);
     g->depth = malloc(count * sizeof *g->depth);
@@ -20,8 +20,12 @@ static bool allocate(gpu_gbuffer *g, int width, int height, cli_error *error) {
     g->emission = malloc(count * sizeof *g->emission);
     g->layers = malloc(count * sizeof *g->layers);
     g->rgba = malloc(count * sizeof *g->rgba);
+    if (layered) {
+        g->coat = malloc(count * sizeof *g->coat);
+        g->tint = malloc(count * sizeof *g->tint);
+    }
     if (!g->depth || !g->base_metallic || !g->normal || !g->roughness_kind || !g->emission ||
-        !g->layers || !g->rgba) {
+        !g->layers || !g->rgba || (layered && (!g->coat || !g->tint))) {
         gpu_gbuffer_free(g);
         return cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
     }
@@ -37,6 +41,8 @@ void gpu_gbuffer_free(gpu_gbuffer *g) {
     free(g->roughness_kind);
     free(g->emission);
     free(g->layers);
+    free(g->coat);
+    free(g->tint);
     free(g->rgba);
     memset(g, 0, sizeof *g);
 }
@@ -45,7 +51,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
                       gpu_gbuffer *g, cli_error *error) {
     const size_t count = (size_t)r->width * (size_t)r->height;
     if ((g->width != r->width || g->height != r->height) &&
-        !allocate(g, r->width, r->height, error))
+        !allocate(g, r->width, r->height, r->mesh.layered, error))
         return false;
     const struct {
         GLuint texture;
@@ -62,9 +68,11 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
         { r->attachments[3], GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, sizeof *g->emission,
           g->emission },
         { r->attachments[4], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->layers, g->layers },
+        { r->attachments[5], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->coat, g->coat },
+        { r->attachments[6], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->tint, g->tint },
     };
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
+    for (size_t i = 0; i < sizeof planes / sizeof *planes && planes[i].to; i++) {
         if (count * planes[i].size > INT32_MAX)
             return cli_fail(error, NULL, "an image of %d x %d is too large to read back", r->width,
                             r->height);
@@ -86,12 +94,12 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
 bool gpu_row_create(int width, gpu_row *row) {
     const size_t count = (size_t)width;
     memset(row, 0, sizeof *row);
-    float *memory = malloc(count * (sizeof *row->material + 13 * sizeof(float) + 1));
+    float *memory = malloc(count * (sizeof *row->material + 16 * sizeof(float) + 1));
     if (!memory)
         return false;
     row->material = (lmp_material *)(void *)memory;
     memory = (float *)(void *)(row->material + count);
-    float **planes[] = { row->position, row->normal, row->view, row->emission };
+    float **planes[] = { row->position, row->normal, row->view, row->coat_normal, row->emission };
     for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
         for (int c = 0; c < 3; c++, memory += count)
             planes[i][c] = memory;
@@ -172,22 +180,22 @@ static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
 }
 
 /* Octahedral: where z < 0 the triangles are folded outwards. */
+static inline void decode_normal(uint16_t u, uint16_t v, size_t i, float *const n[3]) {
+    const float p = (float)u * (2 / 65535.0f) - 1, q = (float)v * (2 / 65535.0f) - 1;
+    const float z = 1 - fabsf(p) - fabsf(q), fold = (fabsf(z) - z) * 0.5f;
+    const float w = p - copysignf(fold, p), h = q - copysignf(fold, q);
+    const float scale = 1 / sqrtf(w * w + h * h + z * z);
+    n[0][i] = w * scale;
+    n[1][i] = h * scale;
+    n[2][i] = z * scale;
+}
+
 static void decode_normals(const gpu_gbuffer *g, int y, const gpu_row *row) {
     const gpu_pair16 *restrict normal = g->normal + (size_t)y * (size_t)g->width;
-    float *restrict nx = row->normal[0], *restrict ny = row->normal[1];
-    float *restrict nz = row->normal[2];
-    const int width = g->width;
+    const size_t width = (size_t)g->width;
 #pragma omp simd
-    for (int i = 0; i < width; i++) {
-        const float p = (float)normal[i].u * (2 / 65535.0f) - 1;
-        const float q = (float)normal[i].v * (2 / 65535.0f) - 1;
-        const float z = 1 - fabsf(p) - fabsf(q), fold = (fabsf(z) - z) * 0.5f;
-        const float w = p - copysignf(fold, p), h = q - copysignf(fold, q);
-        const float scale = 1 / sqrtf(w * w + h * h + z * z);
-        nx[i] = w * scale;
-        ny[i] = h * scale;
-        nz[i] = z * scale;
-    }
+    for (size_t i = 0; i < width; i++)
+        decode_normal(normal[i].u, normal[i].v, i, row->normal);
 }
 
 static float unit(uint16_t stored) {
@@ -198,17 +206,39 @@ static float squared(uint16_t stored) {
     return unit(stored) * unit(stored);
 }
 
+static lmp_rgb tint_of(const gpu_gbuffer *g, size_t pixel) {
+    const uint8_t *root = g->tint[pixel];
+    return (lmp_rgb) { (float)(root[0] * root[0]) / 65025, (float)(root[1] * root[1]) / 65025,
+                       (float)(root[2] * root[2]) / 65025 };
+}
+
 /* Of a surface. */
 static lmp_material material_of(const gpu_gbuffer *g, size_t pixel) {
     const gpu_base16 *base = &g->base_metallic[pixel];
     const gpu_pair16 *of = &g->roughness_kind[pixel];
-    lmp_material material =
-        gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v, (float)g->layers[pixel].v / 255);
+    const bool layered = gpu_mesh_is_layered(g->mesh, of->v);
+    const lmp_rgb tint = layered ? tint_of(g, pixel) : (lmp_rgb) { 1, 1, 1 };
+    lmp_material material = gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v,
+                                              (float)g->layers[pixel].v / 255, tint);
+    if (layered)
+        material.coat = (lmp_coat) { unit(g->coat[pixel].weight), unit(g->coat[pixel].roughness) };
     material.base_color =
         (lmp_rgb) { squared(base->root[0]), squared(base->root[1]), squared(base->root[2]) };
     material.metallic = unit(base->metallic);
     material.roughness = unit(of->u);
     return material;
+}
+
+static void decode_coat_normal(const gpu_gbuffer *g, size_t pixel, size_t x, const gpu_row *row) {
+    if (row->material[x].coat.weight > 0)
+        decode_normal(g->coat[pixel].u, g->coat[pixel].v, x, row->coat_normal);
+    else
+        for (int c = 0; c < 3; c++)
+            row->coat_normal[c][x] = row->normal[c][x];
+}
+
+bool gpu_gbuffer_is_layered(const gpu_gbuffer *g) {
+    return g->coat;
 }
 
 int gpu_gbuffer_sample(const gpu_gbuffer *g) {
@@ -233,5 +263,7 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
             continue;
         row->material[x] = material_of(g, pixel);
         row->ambient[x] = (float)g->layers[pixel].u / 255;
+        if (g->coat)
+            decode_coat_normal(g, pixel, x, row);
     }
 }

@@ -194,6 +194,7 @@ bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *erro
 typedef struct gpu_row {
     unsigned char *kind; /* gpu_kind */
     float *position[3], *normal[3], *view[3];
+    float *coat_normal[3]; /* where the G-buffer is layered */
     float *emission[3], *ambient;
     lmp_material *material;
 } gpu_row;
@@ -205,6 +206,9 @@ void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
 
 /* What the surface of a pixel emits; the pixels are in rows. */
 lmp_rgb gpu_gbuffer_emission(const gpu_gbuffer *gbuffer, size_t pixel);
+
+/* Whether some materials of the scene have a coat. */
+bool gpu_gbuffer_is_layered(const gpu_gbuffer *gbuffer);
 
 /* Which of the frame's samples it is, from 0. */
 int gpu_gbuffer_sample(const gpu_gbuffer *gbuffer);

@@ -36,9 +36,9 @@ typedef struct gpu_draw {
 
 typedef struct gpu_material {
     GLuint maps[SHARED_MAPS]; /* GL textures, 0 = none */
-    bool double_sided, masked;
-    lmp_dielectric dielectric;
-    int table; /* of gpu_set_tables, instead of all that, or -1 */
+    bool double_sided, masked, layered;
+    float f0[3], f90; /* as in scene_material */
+    int table;        /* of gpu_set_tables, instead of all that, or -1 */
 } gpu_material;
 
 typedef struct gpu_mesh {
@@ -49,7 +49,13 @@ typedef struct gpu_mesh {
     gpu_material *materials;
     GLuint *textures;
     GLsizei texture_count;
+    bool layered; /* some material is */
 } gpu_mesh;
+
+/* The variants of surface.frag. */
+typedef struct gpu_surfaces {
+    GLuint opaque, masked, layered, layered_masked;
+} gpu_surfaces;
 
 bool gpu_mesh_create(const gpu_context *context, const scene *scene, gpu_mesh *mesh,
                      cli_error *error);
@@ -58,19 +64,23 @@ void gpu_mesh_destroy(gpu_mesh *mesh);
 /* Has a material shaded by a table, or with -1 by itself. */
 void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table);
 
-/* What the renderer is told of a pixel of material number `kind` - SHARED_KIND_SURFACE, by a factor
- * on its dielectric's reflection; the rest of it is the pixel's own. */
+/* What the renderer is told of a pixel of material number `kind` - SHARED_KIND_SURFACE, by factors
+ * on its dielectric's reflection and F0; the rest of it is the pixel's own. */
 lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
-                               const lmp_preintegrated_brdf *const *brdfs, int kind,
-                               float specular);
+                               const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
+                               lmp_rgb tint);
 
-/* Draws what the frustum of clip_from_world may hold, with the two variants of surface.frag. */
-void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked);
+/* Whether such a pixel has more in the attachments of layers. */
+bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind);
+
+/* Draws what the frustum of clip_from_world may hold. */
+void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_surfaces *programs);
 
 /* --- what follows shares the renderer -----------------------------------------------------------
  */
 
-enum { GPU_ATTACHMENTS = 5, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
+/* Of all attachments (shared.h), those that only layered materials have come last. */
+enum { GPU_ATTACHMENTS = 7, GPU_ATTACHMENTS_PLAIN = 5, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
 
 /* A compiled shading pass. */
 typedef struct gpu_variant {
@@ -138,6 +148,10 @@ typedef struct gpu_base16 {
     uint16_t root[3], metallic;
 } gpu_base16;
 
+typedef struct gpu_coat16 {
+    uint16_t u, v, weight, roughness;
+} gpu_coat16;
+
 /* The attachments as they are stored (shared.h), and what decoding them needs. */
 struct gpu_gbuffer {
     int width, height, sample;
@@ -146,6 +160,8 @@ struct gpu_gbuffer {
     gpu_pair16 *normal, *roughness_kind;
     uint32_t *emission;
     gpu_pair8 *layers;
+    gpu_coat16 *coat; /* and tint: NULL where no material is layered */
+    uint8_t (*tint)[4];
     const gpu_mesh *mesh;
     vec4 *rgba; /* for what the host makes of it */
     shared_frame block;
@@ -173,8 +189,9 @@ size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
 struct gpu_renderer {
     gpu_context context;
     gpu_mesh mesh;
-    GLuint surface, surface_masked, light, surfaces, resolve; /* programs */
-    GLuint tones[IMAGE_TONES_MAX];                            /* of the rows of image_tones */
+    gpu_surfaces surface; /* programs, as those after it */
+    GLuint light, surfaces, resolve;
+    GLuint tones[IMAGE_TONES_MAX]; /* of the rows of image_tones */
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, ggx_block, empty_array;
@@ -212,6 +229,9 @@ struct gpu_renderer {
 /* Of the G-buffer's attachments, and of its depth. */
 extern const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1];
 GLuint gpu_target_create(GLenum format, int width, int height);
+
+/* Those that the scene needs: the first ones. */
+int gpu_attachment_count(const gpu_renderer *renderer);
 
 /* All targets of frames of this size, in place of those before. */
 bool gpu_targets_create(gpu_renderer *renderer, int width, int height, cli_error *error);

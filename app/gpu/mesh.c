@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/gpu/internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,10 +54,6 @@ static bool create_texture(const gpu_context *context, const scene *world,
 
 static void fill_material(const scene_material *source, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
-    const scene_texture_use *uses[SHARED_MAPS] = {
-        &source->base_color_map, &source->metallic_roughness_map, &source->normal_map,
-        &source->emission_map,   &source->occlusion_map,          &source->specular_map
-    };
     memset(block, 0, sizeof *block);
     memcpy(block->base_color, source->base_color, sizeof source->base_color);
     memcpy(block->emission, source->emission, sizeof source->emission);
@@ -66,20 +63,28 @@ static void fill_material(const scene_material *source, size_t number, const gpu
     block->factors[2] = source->normal_scale;
     block->factors[3] = source->alpha_cutoff;
     for (int i = 0; i < SHARED_MAPS; i++) {
-        material->maps[i] = uses[i]->texture < 0 ? 0 : mesh->textures[uses[i]->texture];
-        (i < 4 ? block->maps : block->more)[i % 4] = material->maps[i] ? 1 : 0;
-        memcpy(block->matrix[i], uses[i]->matrix, sizeof uses[i]->matrix);
-        memcpy(block->offset[i], uses[i]->offset, sizeof uses[i]->offset);
-        block->offset[i][2] = (float)uses[i]->set;
+        const scene_texture_use *use = &source->maps[i];
+        material->maps[i] = use->texture < 0 ? 0 : mesh->textures[use->texture];
+        (i < 4 ? block->maps : block->more[i / 4 - 1])[i % 4] = material->maps[i] ? 1 : 0;
+        memcpy(block->matrix[i], use->matrix, sizeof use->matrix);
+        memcpy(block->offset[i], use->offset, sizeof use->offset);
+        block->offset[i][2] = (float)use->set;
     }
     block->vertex[0] = source->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
     block->vertex[1] = source->occlusion;
-    material->dielectric = scene_dielectric(source);
+    block->coat[0] = source->coat;
+    block->coat[1] = source->coat_roughness;
+    block->coat[2] = source->coat_normal_scale;
+    memcpy(material->f0, source->f0, sizeof material->f0);
+    material->f90 = source->f90;
+    material->layered = scene_is_layered(source);
     material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     block->vertex[2] = source->flags & SCENE_ALPHA_BLEND ? 1.0f : 0.0f;
     material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
 }
+
+static_assert(SHARED_MAPS == SCENE_MAPS, "a block has all maps of a material");
 
 static bool create_materials(const scene *world, gpu_mesh *mesh) {
     GLint alignment = 1;
@@ -95,6 +100,7 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
     for (size_t i = 0; i < world->material_count; i++) {
         shared_material block;
         fill_material(&world->materials[i], i, mesh, &mesh->materials[i], &block);
+        mesh->layered = mesh->layered || mesh->materials[i].layered;
         memcpy(blocks + i * stride, &block, sizeof block);
     }
     glCreateBuffers(1, &mesh->material_blocks);
@@ -110,8 +116,9 @@ static bool create_reflectors(const scene *world, gpu_mesh *mesh) {
     if (!all)
         return false;
     for (size_t i = 0; i < world->material_count; i++) {
-        const lmp_dielectric d = mesh->materials[i].dielectric;
-        all[i] = (shared_reflector) { { d.f0.r, d.f0.g, d.f0.b, d.f90 }, { -1 } };
+        const gpu_material *m = &mesh->materials[i];
+        all[i] = (shared_reflector) { { m->f0[0], m->f0[1], m->f0[2], m->f90 },
+                                      { -1, m->layered ? 1 : 0 } };
     }
     glCreateBuffers(1, &mesh->reflectors);
     glNamedBufferStorage(mesh->reflectors, (GLsizeiptr)((world->material_count + 1) * sizeof *all),
@@ -129,21 +136,26 @@ void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table) {
         sizeof value, &value);
 }
 
+bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind) {
+    const gpu_material *material = &mesh->materials[kind - SHARED_KIND_SURFACE];
+    return material->layered && material->table < 0;
+}
+
 lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
-                               const lmp_preintegrated_brdf *const *brdfs, int kind,
-                               float specular) {
+                               const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
+                               lmp_rgb tint) {
     const gpu_material *from = &mesh->materials[kind - SHARED_KIND_SURFACE];
     if (from->table >= 0)
         return (lmp_material) { .kind = LMP_MATERIAL_TABLE,
                                 .table = tables[from->table],
                                 .preintegrated = brdfs[from->table] };
-    lmp_material material = { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                              .dielectric = from->dielectric };
-    material.dielectric.f0.r *= specular;
-    material.dielectric.f0.g *= specular;
-    material.dielectric.f0.b *= specular;
-    material.dielectric.f90 *= specular;
-    return material;
+    const float weight = from->f90 * specular;
+    return (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                            .dielectric = { true,
+                                            { fminf(from->f0[0] * tint.r, 1) * weight,
+                                              fminf(from->f0[1] * tint.g, 1) * weight,
+                                              fminf(from->f0[2] * tint.b, 1) * weight },
+                                            weight } };
 }
 
 /* --- triangles ----------------------------------------------------------------------------------
@@ -254,7 +266,20 @@ static bool may_be_seen(const mat4 m, const gpu_draw *draw) {
     return true;
 }
 
-void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaque, GLuint masked) {
+static GLuint program_of(const gpu_surfaces *programs, const gpu_material *material) {
+    if (material->layered)
+        return material->masked ? programs->layered_masked : programs->layered;
+    return material->masked ? programs->masked : programs->opaque;
+}
+
+/* Only what is layered writes to the attachments of layers. */
+static void choose_attachments(bool layered) {
+    const GLboolean write = layered ? GL_TRUE : GL_FALSE;
+    for (GLuint i = GPU_ATTACHMENTS_PLAIN; i < GPU_ATTACHMENTS; i++)
+        glColorMaski(i, write, write, write, write);
+}
+
+void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_surfaces *programs) {
     glBindVertexArray(mesh->vertex_array);
     GLuint program = 0, current = ~0u;
     for (size_t i = 0; i < mesh->draw_count; i++) {
@@ -264,8 +289,10 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaq
         const gpu_material *material = &mesh->materials[draw->material];
         if (current != draw->material) {
             current = draw->material;
-            if (program != (material->masked ? masked : opaque))
-                glUseProgram(program = material->masked ? masked : opaque);
+            if (program != program_of(programs, material)) {
+                glUseProgram(program = program_of(programs, material));
+                choose_attachments(material->layered);
+            }
             glBindBufferRange(GL_UNIFORM_BUFFER, SHARED_MATERIAL, mesh->material_blocks,
                               (GLintptr)draw->material * mesh->material_stride,
                               sizeof(shared_material));
@@ -279,4 +306,5 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, GLuint opaq
         glDrawElements(GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT,
                        (const void *)(4 * (uintptr_t)draw->first_index));
     }
+    choose_attachments(false);
 }

@@ -8,6 +8,8 @@
 static void copy_geometry(const gpu_renderer *r, bool back) {
     for (int i = 0; i <= GPU_ATTACHMENTS; i++) {
         const GLuint own = i < GPU_ATTACHMENTS ? r->attachments[i] : r->depth;
+        if (!own)
+            continue;
         glCopyImageSubData(back ? r->kept[i] : own, GL_TEXTURE_2D, 0, 0, 0, 0,
                            back ? own : r->kept[i], GL_TEXTURE_2D, 0, 0, 0, 0, r->width, r->height,
                            1);
@@ -21,15 +23,15 @@ static void draw_geometry(gpu_renderer *r, const gpu_frame *frame, const shared_
         copy_geometry(r, true);
         return;
     }
-    for (int i = 0; i < GPU_ATTACHMENTS; i++)
+    for (int i = 0; i < GPU_ATTACHMENTS_PLAIN; i++)
         glClearNamedFramebufferfv(r->framebuffer, GL_COLOR, i, zero);
     glClearNamedFramebufferfv(r->framebuffer, GL_DEPTH, 0, zero);
-    gpu_mesh_draw(&r->mesh, block->clip_from_world, r->surface, r->surface_masked);
+    gpu_mesh_draw(&r->mesh, block->clip_from_world, &r->surface);
     if (!frame->keep_geometry)
         return;
-    for (int i = 0; i <= GPU_ATTACHMENTS && !r->kept[0]; i++)
-        r->kept[GPU_ATTACHMENTS - i] =
-            gpu_target_create(gpu_target_formats[GPU_ATTACHMENTS - i], r->width, r->height);
+    for (int i = GPU_ATTACHMENTS; i >= 0 && !r->kept[0]; i--)
+        if (i == GPU_ATTACHMENTS || r->attachments[i])
+            r->kept[i] = gpu_target_create(gpu_target_formats[i], r->width, r->height);
     memcpy(r->kept_view, block->clip_from_world, sizeof r->kept_view);
     copy_geometry(r, false);
 }
@@ -59,10 +61,11 @@ void gpu_draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_fram
 }
 
 void gpu_bind_gbuffer(const gpu_renderer *r) {
-    static const GLuint units[GPU_ATTACHMENTS] = { SHARED_BASE_COLOR, SHARED_NORMAL,
-                                                   SHARED_METALLIC_ROUGHNESS, SHARED_EMISSION,
-                                                   SHARED_LAYERS };
-    for (int i = 0; i < GPU_ATTACHMENTS; i++)
+    static const GLuint units[GPU_ATTACHMENTS] = {
+        SHARED_BASE_COLOR, SHARED_NORMAL, SHARED_METALLIC_ROUGHNESS, SHARED_EMISSION, SHARED_LAYERS,
+        SHARED_COAT,       SHARED_TINT
+    };
+    for (int i = 0; i < gpu_attachment_count(r); i++)
         glBindTextureUnit(units[i], r->attachments[i]);
     glBindTextureUnit(SHARED_DEPTH, r->depth);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_GGX, r->ggx_block);

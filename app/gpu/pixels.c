@@ -21,13 +21,17 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
             .kind = kind < SHARED_KIND_SURFACE ? (gpu_kind)kind : GPU_KIND_SURFACE,
             .surface = { .position = as_vec3(from[i].position_kind),
                          .normal = as_vec3(from[i].normal_metallic),
-                         .view = as_vec3(from[i].view_roughness) },
+                         .view = as_vec3(from[i].view_roughness),
+                         .coat_normal = as_vec3(from[i].coat) },
             .emission = as_rgb(from[i].emission),
             .ambient = from[i].layers[0],
         };
         if (kind < SHARED_KIND_SURFACE)
             continue;
-        to[i].material = gpu_mesh_material(&r->mesh, r->tables, r->brdfs, kind, from[i].layers[1]);
+        to[i].material = gpu_mesh_material(&r->mesh, r->tables, r->brdfs, kind, from[i].layers[1],
+                                           as_rgb(from[i].tint));
+        if (gpu_mesh_is_layered(&r->mesh, kind))
+            to[i].material.coat = (lmp_coat) { from[i].coat[3], from[i].tint[3] };
         to[i].material.base_color = as_rgb(from[i].base_color);
         to[i].material.metallic = from[i].normal_metallic[3];
         to[i].material.roughness = from[i].view_roughness[3];

@@ -26,18 +26,28 @@ static bool create_tones(gpu_renderer *r, cli_error *error) {
     return true;
 }
 
+static bool create_surface(bool layered, gpu_surfaces *surface, cli_error *error) {
+    const gpu_stage stages[] = { { GL_VERTEX_SHADER, "surface.vert" },
+                                 { GL_FRAGMENT_SHADER, "surface.frag" } };
+    return (surface->opaque = gpu_program(stages, 2, "", error)) &&
+           (surface->masked = gpu_program(stages, 2, "#define SURFACE_MASKED\n", error)) &&
+           (!layered ||
+            ((surface->layered = gpu_program(stages, 2, "#define SURFACE_LAYERED\n", error)) &&
+             (surface->layered_masked = gpu_program(
+                  stages, 2, "#define SURFACE_LAYERED\n#define SURFACE_MASKED\n", error))));
+}
+
 static bool create_programs(gpu_renderer *r, cli_error *error) {
-    const gpu_stage surface[] = { { GL_VERTEX_SHADER, "surface.vert" },
-                                  { GL_FRAGMENT_SHADER, "surface.frag" } };
     const gpu_stage light[] = { { GL_VERTEX_SHADER, "light.vert" },
                                 { GL_FRAGMENT_SHADER, "light.frag" } };
     const gpu_stage surfaces[] = { { GL_COMPUTE_SHADER, "surfaces.comp" } };
     const gpu_stage resolve[] = { { GL_COMPUTE_SHADER, "resolve.comp" } };
-    return (r->surface = gpu_program(surface, 2, "", error)) &&
-           (r->surface_masked = gpu_program(surface, 2, "#define SURFACE_MASKED\n", error)) &&
+    const char *const defines =
+        r->mesh.layered ? "#define LMP_BANDS 1\n#define PIXEL_LAYERED\n" : "#define LMP_BANDS 1\n";
+    return create_surface(r->mesh.layered, &r->surface, error) &&
            (r->light = gpu_program(light, 2, "", error)) && create_tones(r, error) &&
            (r->resolve = gpu_program(resolve, 1, "", error)) &&
-           (r->surfaces = gpu_program(surfaces, 1, "#define LMP_BANDS 1\n", error));
+           (r->surfaces = gpu_program(surfaces, 1, defines, error));
 }
 
 /* The table of lmp_lobe_ggx, for ggx.glsl. */
@@ -58,7 +68,7 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
         return NULL;
     }
     r->context = *context;
-    if (!create_programs(r, error) || !gpu_mesh_create(context, world, &r->mesh, error)) {
+    if (!gpu_mesh_create(context, world, &r->mesh, error) || !create_programs(r, error)) {
         gpu_renderer_destroy(r);
         return NULL;
     }
@@ -85,7 +95,10 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     gpu_mesh_destroy(&r->mesh);
     for (int i = 0; i < r->variant_count; i++)
         glDeleteProgram(r->variants[i].program);
-    const GLuint programs[] = { r->surface, r->surface_masked, r->light, r->surfaces, r->resolve };
+    const GLuint programs[] = { r->surface.opaque,  r->surface.masked,
+                                r->surface.layered, r->surface.layered_masked,
+                                r->light,           r->surfaces,
+                                r->resolve };
     for (size_t i = 0; i < sizeof programs / sizeof programs[0]; i++)
         if (programs[i])
             glDeleteProgram(programs[i]);

@@ -16,7 +16,12 @@ GLuint gpu_target_create(GLenum format, int width, int height) {
 /* Of the G-buffer's attachments, and of its depth. */
 const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1] = { GL_RGBA16, GL_RG16,
                                                          GL_RG16,   GL_R11F_G11F_B10F,
-                                                         GL_RG8,    GL_DEPTH_COMPONENT32F };
+                                                         GL_RG8,    GL_RGBA16,
+                                                         GL_RGBA8,  GL_DEPTH_COMPONENT32F };
+
+int gpu_attachment_count(const gpu_renderer *r) {
+    return r->mesh.layered ? GPU_ATTACHMENTS : GPU_ATTACHMENTS_PLAIN;
+}
 
 void gpu_forget_geometry(gpu_renderer *r) {
     glDeleteTextures(GPU_ATTACHMENTS + 1, r->kept);
@@ -38,9 +43,8 @@ void gpu_targets_delete(gpu_renderer *r) {
 }
 
 bool gpu_targets_create(gpu_renderer *r, int width, int height, cli_error *error) {
-    static const GLenum buffers[GPU_ATTACHMENTS] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                                     GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3,
-                                                     GL_COLOR_ATTACHMENT4 };
+    const int attachments = gpu_attachment_count(r);
+    GLenum buffers[GPU_ATTACHMENTS];
     if (r->width == width && r->height == height)
         return true;
     if (width < 1 || height < 1 || width > r->context.size_max || height > r->context.size_max)
@@ -48,11 +52,12 @@ bool gpu_targets_create(gpu_renderer *r, int width, int height, cli_error *error
                         width, height, r->context.device, r->context.size_max);
     gpu_targets_delete(r);
     glCreateFramebuffers(1, &r->framebuffer);
-    for (int i = 0; i < GPU_ATTACHMENTS; i++) {
+    for (int i = 0; i < attachments; i++) {
+        buffers[i] = GL_COLOR_ATTACHMENT0 + (GLenum)i;
         r->attachments[i] = gpu_target_create(gpu_target_formats[i], width, height);
         glNamedFramebufferTexture(r->framebuffer, buffers[i], r->attachments[i], 0);
     }
-    glNamedFramebufferDrawBuffers(r->framebuffer, GPU_ATTACHMENTS, buffers);
+    glNamedFramebufferDrawBuffers(r->framebuffer, attachments, buffers);
     r->depth = gpu_target_create(gpu_target_formats[GPU_ATTACHMENTS], width, height);
     glNamedFramebufferTexture(r->framebuffer, GL_DEPTH_ATTACHMENT, r->depth, 0);
     r->hdr = gpu_target_create(GL_RGBA32F, width, height);

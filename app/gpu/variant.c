@@ -33,7 +33,7 @@ static void print_weights(const gpu_variant *v, char *text, size_t size) {
             (size_t)snprintf(text + used, size - used, "%s%.9f", l ? ", " : "", (double)weights[l]);
 }
 
-static GLuint compile_variant(const gpu_variant *v, cli_error *error) {
+static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *error) {
     static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
                                                  "#define TABLE_FULL 1\n" };
     const method_row *row = &method_table[v->method];
@@ -41,9 +41,10 @@ static GLuint compile_variant(const gpu_variant *v, cli_error *error) {
     print_weights(v, weights, sizeof weights);
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
-             "%s%s",
+             "%s%s%s",
              row->defines, row->function, v->bands, weights, table_defines[v->tables],
-             v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "");
+             v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "",
+             layered ? "#define PIXEL_LAYERED\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };
     const gpu_stage screen[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                  { GL_FRAGMENT_SHADER, row->shader } };
@@ -70,7 +71,7 @@ GLuint gpu_variant_find(gpu_renderer *r, const gpu_frame *frame, cli_error *erro
             v->tables == wanted.tables && v->preintegrated_brdfs == wanted.preintegrated_brdfs)
             return v->program;
     }
-    wanted.program = compile_variant(&wanted, error);
+    wanted.program = compile_variant(&wanted, r->mesh.layered, error);
     if (!wanted.program)
         return 0;
     if (r->variant_count == GPU_VARIANTS)

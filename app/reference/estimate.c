@@ -60,7 +60,7 @@ static double lobe_fraction(const reference_lobe *lobe, bool truncated,
     const double part = cap->solid_angle / (cap->solid_angle + width);
     if (truncated || part < 0.02)
         return 0;
-    if (lobe->alpha > 0)
+    if (lobe->ggx)
         return fmin(part, 0.9);
     return part > 0.98 ? 1 : part;
 }
@@ -71,7 +71,7 @@ static double divide(const reference_surface *surface, const reference_source *c
                      double by_lobe[REFERENCE_LOBES], bool *any) {
     double by_source = 0;
     *any = false;
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
+    for (int k = 0; k < surface->lobe_count; k++) {
         const reference_lobe *lobe = &surface->lobes[k];
         const double strength = mean_of_product(lobe->weight, cap->color);
         const double fraction = lobe_fraction(lobe, surface->band_limited, cap);
@@ -86,14 +86,24 @@ static double divide(const reference_surface *surface, const reference_source *c
     return by_source;
 }
 
+/* GGX, and the coat over it. */
+static void reflect_layers(const reference_surface *surface, reference_vec w, double reflected[3]) {
+    double over[3] = { 0 };
+    reference_ggx_at(surface->ggx, w, reflected);
+    if (surface->coat)
+        reference_ggx_at(surface->coat, w, over);
+    for (int c = 0; c < 3; c++)
+        reflected[c] = surface->under * reflected[c] + over[c];
+}
+
 /* What the surface reflects from `w`; returns the density of w over the plan's lobes. */
 static double reflect(const plan *p, reference_vec w, double reflected[3]) {
     double density = 0;
     reflected[0] = reflected[1] = reflected[2] = 0;
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
+    for (int k = 0; k < p->surface->lobe_count; k++) {
         const reference_lobe *lobe = &p->surface->lobes[k];
-        const double at = lobe->alpha > 0 ? reference_ggx_density(p->surface->ggx, w)
-                                          : reference_lobe_at(lobe, reference_dot(lobe->axis, w));
+        const double at = lobe->ggx ? reference_ggx_density(lobe->ggx, w)
+                                    : reference_lobe_at(lobe, reference_dot(lobe->axis, w));
         density += p->by_lobe[k] * at;
         for (int c = 0; c < 3; c++)
             reflected[c] += lobe->weight[c] * at;
@@ -101,7 +111,7 @@ static double reflect(const plan *p, reference_vec w, double reflected[3]) {
     if (p->surface->tabulated)
         reference_tabulated_at(p->surface->tabulated, w, reflected);
     else if (p->surface->ggx)
-        reference_ggx_at(p->surface->ggx, w, reflected);
+        reflect_layers(p->surface, w, reflected);
     return density;
 }
 
@@ -141,7 +151,7 @@ static double add_candidate(const reference_source *source, const scene_light *l
 /* Half of the samples of a lobe and the environment are the lobe's; of a truncated series, of which
  * there is nothing to sample, none. */
 static void add_environment(const reference_environment *e, plan *p) {
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
+    for (int k = 0; k < p->surface->lobe_count; k++) {
         const double strength = mean_of_product(p->surface->lobes[k].weight, e->mean);
         const double part = p->surface->band_limited ? 0 : 0.5;
         p->by_environment += strength * (1 - part);
@@ -173,7 +183,7 @@ static void plan_series(const reference_estimator *estimator, const reference_su
                 reference_series_of_source(&sources[k], &surface->limit, c->series);
         }
     }
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
+    for (int k = 0; k < surface->lobe_count; k++) {
         const double *weight = surface->lobes[k].weight;
         p->by_lobe[k] = weight[0] + weight[1] + weight[2];
         total += p->by_lobe[k];
@@ -232,11 +242,11 @@ static reference_vec draw(const reference_estimator *estimator, const plan *p, c
                           int *sampled) {
     double way = u[0];
     *sampled = -1;
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
+    for (int k = 0; k < p->surface->lobe_count; k++) {
         if (way < p->by_lobe[k]) {
             const reference_lobe *lobe = &p->surface->lobes[k];
-            if (lobe->alpha > 0)
-                return reference_ggx_draw(p->surface->ggx, u[1], u[2]);
+            if (lobe->ggx)
+                return reference_ggx_draw(lobe->ggx, u[1], u[2]);
             const double cosine = pow(1 - u[1], 1 / (lobe->exponent + 1));
             return reference_around(lobe->axis, cosine, sqrt((1 - cosine) * (1 + cosine)), u[2]);
         }

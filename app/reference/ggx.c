@@ -27,6 +27,15 @@ void reference_ggx_set(reference_ggx *ggx, const double base[3], double metallic
     ggx->view[2] = fmin(cosine, 1);
 }
 
+void reference_coat_set(reference_ggx *coat, double weight, double roughness, reference_vec normal,
+                        reference_vec view) {
+    const double grazing = 1 - fmin(fabs(reference_dot(normal, view)), 1);
+    const double part = weight * (0.04 + (1 - 0.04) * pow(grazing, 5));
+    const double black[3] = { 0, 0, 0 };
+    const reference_dielectric even = { { part, part, part }, part };
+    reference_ggx_set(coat, black, 0, roughness, &even, normal, view);
+}
+
 /* GGX's distribution of normals at a cosine with the surface's. */
 static double distribution(double alpha, double cosine) {
     const double a2 = alpha * alpha, d = cosine * cosine * (a2 - 1) + 1;

@@ -28,6 +28,10 @@ void reference_ggx_set(reference_ggx *ggx, const double base[3], double metallic
                        const reference_dielectric *dielectric, reference_vec normal,
                        reference_vec view);
 
+/* A clear coat (KHR_materials_clearcoat): GGX whose Fresnel term is that of the view, f90. */
+void reference_coat_set(reference_ggx *coat, double weight, double roughness, reference_vec normal,
+                        reference_vec view);
+
 /* f_r cos(theta) of light from w. */
 void reference_ggx_at(const reference_ggx *ggx, reference_vec w, double rgb[3]);
 

@@ -31,10 +31,12 @@ void reference_surface_set(reference_surface *surface, const reference_band_limi
         specular->weight[c] = material->specular[c];
     }
     diffuse->bands = specular->bands = 0;
-    diffuse->alpha = specular->alpha = 0;
+    diffuse->ggx = specular->ggx = NULL;
+    surface->lobe_count = 2;
     surface->band_limited = limit->bands > 0;
     surface->tabulated = NULL;
-    surface->ggx = NULL;
+    surface->ggx = surface->coat = NULL;
+    surface->under = 1;
     if (limit->bands) {
         limit_lobe(diffuse, limit);
         limit_lobe(specular, limit);
@@ -50,19 +52,38 @@ static void set_guide(reference_surface *surface, const reference_material *guid
 }
 
 /* The solid angle of such a Phong lobe is about that of GGX's. */
+static double guide_exponent(const reference_ggx *ggx) {
+    return fmax(0.5 / (ggx->alpha * ggx->alpha) - 1, 0);
+}
+
 void reference_surface_shine(reference_surface *surface, const reference_band_limit *limit,
                              const reference_ggx *ggx, reference_vec normal, reference_vec view) {
-    const double grazing = pow(1 - ggx->view[2], 5), width = 2 * ggx->alpha * ggx->alpha;
-    reference_material guide = { .exponent = fmax(1 / width - 1, 0) };
+    const double grazing = pow(1 - ggx->view[2], 5);
+    reference_material guide = { .exponent = guide_exponent(ggx) };
     for (int c = 0; c < 3; c++) {
         guide.diffuse[c] = ggx->diffuse[c];
         guide.specular[c] = ggx->f0[c] + (ggx->f90 - ggx->f0[c]) * grazing;
     }
     set_guide(surface, &guide, normal, view);
-    surface->lobes[1].alpha = ggx->alpha;
+    surface->lobes[1].ggx = ggx;
     surface->ggx = ggx;
     surface->limit = *limit;
     surface->band_limited = limit->bands > 0;
+}
+
+void reference_surface_coat(reference_surface *surface, const reference_ggx *coat,
+                            reference_vec normal, reference_vec view) {
+    reference_lobe *over = &surface->lobes[surface->lobe_count++];
+    *over = (reference_lobe) { .axis = reference_mirror(view, normal),
+                               .exponent = guide_exponent(coat),
+                               .ggx = coat };
+    surface->coat = coat;
+    surface->under = 1 - coat->f90;
+    for (int c = 0; c < 3; c++) {
+        over->weight[c] = coat->f90;
+        surface->lobes[0].weight[c] *= surface->under;
+        surface->lobes[1].weight[c] *= surface->under;
+    }
 }
 
 /* Neither too wide nor too narrow for most materials; the samples are weighted for it. */
@@ -77,8 +98,8 @@ void reference_surface_measure(reference_surface *surface, const reference_tabul
 }
 
 double reference_lobe_at(const reference_lobe *lobe, double cosine) {
-    if (lobe->alpha > 0)
-        return reference_ggx_near(lobe->alpha, cosine);
+    if (lobe->ggx)
+        return reference_ggx_near(lobe->ggx->alpha, cosine);
     if (lobe->bands > 0)
         return reference_series_at(lobe->bands, lobe->series, cosine);
     const double e = lobe->exponent, scale = (e + 1) / (2 * REFERENCE_PI);

@@ -20,22 +20,25 @@ typedef struct reference_lobe {
     reference_vec axis;
     double weight[3];
     double exponent;
-    double alpha;                 /* > 0: as GGX's, seen from the mirror direction; a guide only */
+    const reference_ggx *ggx;     /* of which it is a guide only; or NULL */
     int bands;                    /* of series; 0 = whole */
     double series[LMP_BANDS_MAX]; /* factors of P_l(q·w) */
 } reference_lobe;
 
 /* What a surface is to the integrator. */
-#define REFERENCE_LOBES 2
+#define REFERENCE_LOBES 3
 typedef struct reference_surface {
     reference_vec position;
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
-    reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular */
+    reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular, of a coat */
+    int lobe_count;
     double occluded;   /* the part of the environment's light that an occlusion map keeps off */
     bool band_limited; /* they, or the tabulated material, are a truncated series */
     /* One of these reflects instead of the lobes, which then only guide the samples; or none. */
     const reference_tabulated *tabulated;
     const reference_ggx *ggx;
+    const reference_ggx *coat;  /* over ggx, which has what it leaves; or NULL */
+    double under;               /* the part of the light that the coat leaves */
     reference_band_limit limit; /* of ggx: a series is made of the lights */
 } reference_surface;
 
@@ -47,6 +50,10 @@ void reference_surface_set(reference_surface *surface, const reference_band_limi
 /* Makes the surface reflect as `ggx`, or as it in the bands of the limit. */
 void reference_surface_shine(reference_surface *surface, const reference_band_limit *limit,
                              const reference_ggx *ggx, reference_vec normal, reference_vec view);
+
+/* Puts a coat over it (reference_coat_set); `view` as before. */
+void reference_surface_coat(reference_surface *surface, const reference_ggx *coat,
+                            reference_vec normal, reference_vec view);
 
 /* Makes the surface reflect as `tabulated`, oriented already. */
 void reference_surface_measure(reference_surface *surface, const reference_tabulated *tabulated,

@@ -93,7 +93,7 @@ static double lobe_over_cap(const reference_lobe *lobe, const reference_source *
 
 static void add_source(const reference_surface *surface, const reference_source *source,
                        double radiance[3]) {
-    for (int k = 0; k < REFERENCE_LOBES; k++) {
+    for (int k = 0; k < surface->lobe_count; k++) {
         const reference_lobe *lobe = &surface->lobes[k];
         const double reflected =
             source->solid_angle > 0

@@ -70,12 +70,11 @@ static void sample(const frame *f, const scene_texture_use *use, const reference
 }
 
 static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
-                                   const scene_material *material) {
+                                   const scene_texture_use *map, double scale) {
     double texel[4];
-    if (material->normal_map.texture < 0)
+    if (map->texture < 0)
         return hit->normal;
-    sample(f, &material->normal_map, hit, texel);
-    const double scale = (double)material->normal_scale;
+    sample(f, map, hit, texel);
     const reference_vec bitangent =
         reference_scale(hit->handedness, reference_cross(hit->normal, hit->tangent));
     const reference_vec normal =
@@ -87,21 +86,37 @@ static reference_vec mapped_normal(const frame *f, const reference_hit *hit,
 
 static reference_dielectric dielectric_of(const frame *f, const reference_hit *hit,
                                           const scene_material *material) {
-    const lmp_dielectric all_over = scene_dielectric(material);
-    double weight[4];
+    double weight[4], tint[4];
     sample(f, &material->specular_map, hit, weight);
-    return (reference_dielectric) { { (double)all_over.f0.r * weight[3],
-                                      (double)all_over.f0.g * weight[3],
-                                      (double)all_over.f0.b * weight[3] },
-                                    (double)all_over.f90 * weight[3] };
+    sample(f, &material->specular_color_map, hit, tint);
+    reference_dielectric d = { .f90 = (double)material->f90 * weight[3] };
+    for (int c = 0; c < 3; c++)
+        d.f0[c] = fmin((double)material->f0[c] * tint[c], 1) * d.f90;
+    return d;
 }
 
 /* What a thread needs of its own. */
 typedef struct worker {
     reference_estimator estimator;
     reference_tabulated tabulated;
-    reference_ggx ggx;
+    reference_ggx ggx, coat;
 } worker;
+
+/* The light that the surface emits is seen through its coat. */
+static void coat_surface(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
+                         reference_surface *surface, double emission[3]) {
+    const scene_material *material = &f->scene->materials[hit->material];
+    double weight[4], rough[4];
+    sample(f, &material->coat_map, hit, weight);
+    sample(f, &material->coat_roughness_map, hit, rough);
+    const reference_vec normal =
+        mapped_normal(f, hit, &material->coat_normal_map, (double)material->coat_normal_scale);
+    reference_coat_set(&own->coat, weight[0] * (double)material->coat,
+                       rough[1] * (double)material->coat_roughness, normal, view);
+    reference_surface_coat(surface, &own->coat, normal, view);
+    for (int c = 0; c < 3; c++)
+        emission[c] *= surface->under;
+}
 
 /* Fills the surface and the light it emits itself. */
 static void describe(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
@@ -117,7 +132,8 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     }
     sample(f, &material->occlusion_map, hit, shade);
     surface->occluded = (double)material->occlusion * (1 - shade[0]);
-    const reference_vec normal = mapped_normal(f, hit, material);
+    const reference_vec normal =
+        mapped_normal(f, hit, &material->normal_map, (double)material->normal_scale);
     const reference_dielectric dielectric = dielectric_of(f, hit, material);
     reference_ggx_set(&own->ggx, base, rough[2] * (double)material->metallic,
                       rough[1] * (double)material->roughness, &dielectric, normal, view);
@@ -129,6 +145,8 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     if (source && (source->brdf || source->coefficients)) {
         reference_tabulated_orient(&own->tabulated, source, normal, hit->tangent, view);
         reference_surface_measure(surface, &own->tabulated, normal, view);
+    } else if (material->coat > 0) {
+        coat_surface(f, own, hit, view, surface, emission);
     }
 }
 

@@ -140,10 +140,10 @@ static bool use_fits(const scene_texture_use *use, uint64_t texture_count) {
 }
 
 static bool maps_fit(const scene_material *m, uint64_t texture_count) {
-    return use_fits(&m->base_color_map, texture_count) &&
-           use_fits(&m->metallic_roughness_map, texture_count) &&
-           use_fits(&m->normal_map, texture_count) && use_fits(&m->emission_map, texture_count) &&
-           use_fits(&m->occlusion_map, texture_count) && use_fits(&m->specular_map, texture_count);
+    for (int i = 0; i < SCENE_MAPS; i++)
+        if (!use_fits(&m->maps[i], texture_count))
+            return false;
+    return true;
 }
 
 /* 0 … 1, all of them. */
@@ -159,10 +159,13 @@ static bool materials_fit(const blob_header *header) {
     const uint64_t texture_count = header->sections[BLOB_TEXTURES].count;
     for (uint64_t i = 0; i < header->sections[BLOB_MATERIALS].count; i++) {
         const scene_material *m = &materials[i];
-        const float numbers[] = { m->metallic, m->roughness, m->normal_scale, m->alpha_cutoff };
-        const float parts[] = { m->f0[0], m->f0[1], m->f0[2], m->f90, m->occlusion };
-        if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 4) ||
-            !all_finite(m->emission, 3) || !all_parts(parts, 5) || !maps_fit(m, texture_count))
+        const float numbers[] = {
+            m->metallic, m->roughness, m->normal_scale, m->alpha_cutoff,
+            m->f0[0],    m->f0[1],     m->f0[2],        m->coat_normal_scale
+        };
+        const float parts[] = { m->f90, m->occlusion, m->coat, m->coat_roughness };
+        if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 8) ||
+            !all_finite(m->emission, 3) || !all_parts(parts, 4) || !maps_fit(m, texture_count))
             return false;
     }
     const scene_texture *textures = blob_items(header, BLOB_TEXTURES);

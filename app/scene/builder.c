@@ -50,21 +50,7 @@ scene_material *builder_material(scene_builder *builder, const char *name) {
     scene_material *material = builder_append(builder, BLOB_MATERIALS, 1);
     if (!material)
         return NULL;
-    const scene_texture_use none = { .texture = -1, .matrix = { 1.0f, 0.0f, 0.0f, 1.0f } };
-    *material = (scene_material) {
-        .base_color = { 1.0f, 1.0f, 1.0f, 1.0f },
-        .metallic = 0.0f,
-        .roughness = 1.0f,
-        .normal_scale = 1.0f,
-        .alpha_cutoff = 0.5f,
-        .base_color_map = none,
-        .metallic_roughness_map = none,
-        .normal_map = none,
-        .emission_map = none,
-        .occlusion_map = none,
-        .specular_map = none,
-        .occlusion = 1.0f,
-    };
+    *material = scene_material_plain();
     scene_clean_name(material->name, name);
     return material;
 }

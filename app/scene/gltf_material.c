@@ -114,34 +114,57 @@ static long set_of(const cJSON *info) {
     return (long)gltf_number(transform, "texCoord", own);
 }
 
+/* The maps of a material in the order of scene_material. */
+typedef struct gltf_map {
+    const char *name;
+    const char *holder; /* an extension, or a member; NULL: the material itself */
+    bool srgb;
+} gltf_map;
+
+static const gltf_map maps[SCENE_MAPS] = {
+    { "baseColorTexture", "pbrMetallicRoughness", true },
+    { "metallicRoughnessTexture", "pbrMetallicRoughness", false },
+    { "normalTexture", NULL, false },
+    { "emissiveTexture", NULL, true },
+    { "occlusionTexture", NULL, false },
+    { "specularTexture", "KHR_materials_specular", false },
+    { "specularColorTexture", "KHR_materials_specular", true },
+    { "clearcoatTexture", "KHR_materials_clearcoat", false },
+    { "clearcoatRoughnessTexture", "KHR_materials_clearcoat", false },
+    { "clearcoatNormalTexture", "KHR_materials_clearcoat", false },
+};
+
+static const cJSON *map_info(const cJSON *material, const gltf_map *map) {
+    const cJSON *holder = map->holder ? gltf_member(material, map->holder) : material;
+    if (!holder)
+        holder = gltf_extension(material, map->holder);
+    return gltf_member(holder, map->name);
+}
+
+static void add_set(const cJSON *info, long sets[2]) {
+    const long set = info ? set_of(info) : -1;
+    if (set < 0 || set == sets[0] || set == sets[1])
+        return;
+    if (sets[0] < 0)
+        sets[0] = set;
+    else if (sets[1] < 0)
+        sets[1] = set;
+}
+
+/* The normal map's first: tangents are made of it. */
 void gltf_material_sets(const cJSON *material, long sets[2]) {
-    const cJSON *pbr = gltf_member(material, "pbrMetallicRoughness");
-    const cJSON *infos[] = { gltf_member(material, "normalTexture"),
-                             gltf_member(pbr, "baseColorTexture"),
-                             gltf_member(pbr, "metallicRoughnessTexture"),
-                             gltf_member(material, "emissiveTexture"),
-                             gltf_member(material, "occlusionTexture"),
-                             gltf_member(gltf_extension(material, "KHR_materials_specular"),
-                                         "specularTexture") };
     sets[0] = sets[1] = -1;
-    for (size_t i = 0; i < sizeof infos / sizeof *infos; i++) {
-        const long set = infos[i] ? set_of(infos[i]) : -1;
-        if (set < 0 || set == sets[0] || set == sets[1])
-            continue;
-        if (sets[0] < 0)
-            sets[0] = set;
-        else if (sets[1] < 0)
-            sets[1] = set;
-    }
+    add_set(gltf_member(material, "normalTexture"), sets);
+    for (size_t i = 0; i < SCENE_MAPS; i++)
+        add_set(map_info(material, &maps[i]), sets);
 }
 
 /* --- materials ----------------------------------------------------------------------------------
  */
 
-static bool read_texture(texture_pool *pool, const cJSON *holder, const char *name, uint32_t srgb,
-                         const long sets[2], scene_texture_use *use) {
+static bool read_map(texture_pool *pool, const cJSON *info, bool srgb, const long sets[2],
+                     scene_texture_use *use) {
     const gltf *document = pool->document;
-    const cJSON *info = gltf_member(holder, name);
     if (!info)
         return true;
     const cJSON *entry = gltf_item(document, GLTF_TEXTURES, (size_t)gltf_index(info, "index"));
@@ -165,30 +188,34 @@ static float clamp_unit(double x) {
 }
 
 /* KHR_materials_ior and KHR_materials_specular. */
-static void set_dielectric(const cJSON *entry, scene_material *material) {
+static void read_dielectric(const cJSON *entry, scene_material *material) {
     const cJSON *ior = gltf_extension(entry, "KHR_materials_ior");
     const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
+    const double most = 1e6; /* far more than any F0 can be reached with */
+    const double n = fmin(gltf_number(ior, "ior", 1.5), most), root = (n - 1.0) / (n + 1.0);
     double color[3] = { 1.0, 1.0, 1.0 };
-    if (!ior && !specular)
-        return;
     gltf_numbers(specular, "specularColorFactor", 3, color);
-    const float most = 1e6f; /* far more than any F0 can be reached with */
-    const lmp_rgb tint = { fminf((float)color[0], most), fminf((float)color[1], most),
-                           fminf((float)color[2], most) };
-    const lmp_dielectric d =
-        lmp_material_dielectric(fminf((float)gltf_number(ior, "ior", 1.5), most),
-                                clamp_unit(gltf_number(specular, "specularFactor", 1.0)), tint);
-    memcpy(material->f0, &d.f0, sizeof material->f0);
-    material->f90 = d.f90;
-    material->flags |= SCENE_DIELECTRIC;
+    for (int k = 0; k < 3; k++)
+        material->f0[k] = (float)(root * root * fmin(color[k], most));
+    material->f90 = clamp_unit(gltf_number(specular, "specularFactor", 1.0));
+}
+
+static void read_coat(const cJSON *entry, scene_material *material) {
+    const cJSON *coat = gltf_extension(entry, "KHR_materials_clearcoat");
+    material->coat = clamp_unit(gltf_number(coat, "clearcoatFactor", 0.0));
+    material->coat_roughness = clamp_unit(gltf_number(coat, "clearcoatRoughnessFactor", 0.0));
+    material->coat_normal_scale =
+        (float)gltf_number(gltf_member(coat, "clearcoatNormalTexture"), "scale", 1.0);
 }
 
 /* What reflects nothing and glows by its base color; alpha stays where it was. */
 static void make_unlit(scene_material *material) {
     material->flags |= SCENE_UNLIT;
     material->emission_map = material->base_color_map;
-    material->metallic_roughness_map.texture = material->normal_map.texture = -1;
-    material->occlusion_map.texture = material->specular_map.texture = -1;
+    for (int i = 1; i < SCENE_MAPS; i++)
+        if (&material->maps[i] != &material->emission_map)
+            material->maps[i].texture = -1;
+    material->coat = 0.0f;
     material->metallic = material->roughness = 1.0f;
     for (int k = 0; k < 3; k++) {
         material->emission[k] = material->base_color[k];
@@ -223,20 +250,13 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
         material->flags |= SCENE_ALPHA_BLEND;
     material->occlusion =
         clamp_unit(gltf_number(gltf_member(entry, "occlusionTexture"), "strength", 1.0));
-    set_dielectric(entry, material);
-    const cJSON *specular = gltf_extension(entry, "KHR_materials_specular");
-    if (gltf_member(specular, "specularColorTexture"))
-        builder_left_out(pool->builder, "map of specular colors", "material", 1);
+    read_dielectric(entry, material);
+    read_coat(entry, material);
     long sets[2];
     gltf_material_sets(entry, sets);
-    if (!read_texture(pool, pbr, "baseColorTexture", 1, sets, &material->base_color_map) ||
-        !read_texture(pool, pbr, "metallicRoughnessTexture", 0, sets,
-                      &material->metallic_roughness_map) ||
-        !read_texture(pool, entry, "normalTexture", 0, sets, &material->normal_map) ||
-        !read_texture(pool, entry, "emissiveTexture", 1, sets, &material->emission_map) ||
-        !read_texture(pool, entry, "occlusionTexture", 0, sets, &material->occlusion_map) ||
-        !read_texture(pool, specular, "specularTexture", 0, sets, &material->specular_map))
-        return false;
+    for (size_t i = 0; i < SCENE_MAPS; i++)
+        if (!read_map(pool, map_info(entry, &maps[i]), maps[i].srgb, sets, &material->maps[i]))
+            return false;
     if (gltf_extension(entry, "KHR_materials_unlit"))
         make_unlit(material);
     return true;

@@ -163,6 +163,16 @@ static const gltf_object specular = {
                            END },
     NULL,
 };
+static const gltf_object clearcoat = {
+    "material",
+    (const gltf_field[]) { { "clearcoatFactor", UNIT },
+                           { "clearcoatTexture", OBJECT(texture_info) },
+                           { "clearcoatRoughnessFactor", UNIT },
+                           { "clearcoatRoughnessTexture", OBJECT(texture_info) },
+                           { "clearcoatNormalTexture", OBJECT(normal_texture) },
+                           END },
+    NULL,
+};
 static const gltf_object ior = {
     "material",
     (const gltf_field[]) { { "ior", NOT_NEGATIVE }, END },
@@ -181,7 +191,8 @@ static const gltf_object material = {
                            { "doubleSided", FLAG },
                            NAME,
                            END },
-    (const gltf_field[]) { { "KHR_materials_emissive_strength", OBJECT(emissive_strength) },
+    (const gltf_field[]) { { "KHR_materials_clearcoat", OBJECT(clearcoat) },
+                           { "KHR_materials_emissive_strength", OBJECT(emissive_strength) },
                            { "KHR_materials_ior", OBJECT(ior) },
                            { "KHR_materials_specular", OBJECT(specular) },
                            { "KHR_materials_unlit", OBJECT(unlit) },

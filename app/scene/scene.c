@@ -15,10 +15,25 @@ void scene_left_out_text(const scene_left_out *item, char *text, size_t size) {
         snprintf(text, size, "%u %s%s", item->count, item->noun, ending);
 }
 
-lmp_dielectric scene_dielectric(const scene_material *m) {
-    if (m->flags & SCENE_DIELECTRIC)
-        return (lmp_dielectric) { true, { m->f0[0], m->f0[1], m->f0[2] }, m->f90 };
-    return (lmp_dielectric) { true, { 0.04f, 0.04f, 0.04f }, 1.0f };
+scene_material scene_material_plain(void) {
+    const scene_texture_use none = { .texture = -1, .matrix = { 1.0f, 0.0f, 0.0f, 1.0f } };
+    scene_material material = {
+        .base_color = { 1.0f, 1.0f, 1.0f, 1.0f },
+        .roughness = 1.0f,
+        .normal_scale = 1.0f,
+        .alpha_cutoff = 0.5f,
+        .f0 = { 0.04f, 0.04f, 0.04f },
+        .f90 = 1.0f,
+        .occlusion = 1.0f,
+        .coat_normal_scale = 1.0f,
+    };
+    for (int i = 0; i < SCENE_MAPS; i++)
+        material.maps[i] = none;
+    return material;
+}
+
+bool scene_is_layered(const scene_material *m) {
+    return m->coat > 0 || m->specular_color_map.texture >= 0;
 }
 
 void scene_free(scene *s) {

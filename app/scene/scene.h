@@ -34,8 +34,7 @@ typedef enum scene_flags {
     SCENE_ALPHA_MASK = 2,    /* discard where alpha < alpha_cutoff */
     SCENE_VERTEX_COLORS = 4, /* the base color is multiplied by that of the vertices */
     SCENE_UNLIT = 8,         /* its emission is what one sees, and no light to others */
-    SCENE_DIELECTRIC = 16,   /* f0 and f90 count */
-    SCENE_ALPHA_BLEND = 32,  /* by alpha, it hides what is behind it */
+    SCENE_ALPHA_BLEND = 16,  /* by alpha, it hides what is behind it */
 } scene_flags;
 
 /* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */
@@ -46,18 +45,28 @@ typedef struct scene_texture_use {
     uint32_t set; /* of coordinates: 0 or 1 */
 } scene_texture_use;
 
-/* glTF metallic-roughness. */
+/* glTF metallic-roughness, and what lies over it. */
+#define SCENE_MAPS 10
 typedef struct scene_material {
     char name[SCENE_NAME_SIZE];
     float base_color[4]; /* linear, with alpha */
     float metallic, roughness, normal_scale, alpha_cutoff;
     float emission[3]; /* radiance, linear */
-    float f0[3], f90;  /* of the dielectric, 0 … 1; without SCENE_DIELECTRIC 0.04 and 1 */
+    float f0[3];       /* of the dielectric, held to 1, times f90 */
+    float f90;         /* 0 … 1 */
     float occlusion;   /* strength of the occlusion map */
-    uint32_t flags;    /* scene_flags */
-    scene_texture_use base_color_map, metallic_roughness_map, normal_map, emission_map;
-    scene_texture_use occlusion_map; /* r: how much of the ambient light comes */
-    scene_texture_use specular_map;  /* a: a factor on f0 and f90 */
+    float coat, coat_roughness, coat_normal_scale;
+    uint32_t flags; /* scene_flags */
+    union {
+        struct {
+            scene_texture_use base_color_map, metallic_roughness_map, normal_map, emission_map;
+            scene_texture_use occlusion_map;      /* r: how much of the ambient light comes */
+            scene_texture_use specular_map;       /* a: a factor on f90 */
+            scene_texture_use specular_color_map; /* a factor on f0 */
+            scene_texture_use coat_map, coat_roughness_map, coat_normal_map;
+        };
+        scene_texture_use maps[SCENE_MAPS];
+    };
 } scene_material;
 
 typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR } scene_wrap;
@@ -89,7 +98,7 @@ typedef struct scene_motion {
 
 #define SCENE_LEFT_OUT_MAX 64
 
-/* What a file has and nothing here shows: "clearcoat" of 2 of noun "material"; without `what`, the
+/* What a file has and nothing here shows: "sheen" of 2 of noun "material"; without `what`, the
  * nouns themselves. */
 typedef struct scene_left_out {
     char what[SCENE_NAME_SIZE], noun[SCENE_NAME_SIZE];
@@ -153,14 +162,17 @@ void scene_free(scene *scene);
         .help = "refuse a scene of which something would be left out"                              \
     }
 
-/* One thing that is left out, as "clearcoat (2 materials)" or "1 skin". */
+/* One thing that is left out, as "sheen (2 materials)" or "1 skin". */
 void scene_left_out_text(const scene_left_out *item, char *text, size_t size);
 
 /* And with them their motions. */
 void scene_clear_lights(scene *scene);
 
-/* Its dielectric, whole. */
-lmp_dielectric scene_dielectric(const scene_material *material);
+/* White and matte, without maps: what a material is unless a file says more. */
+scene_material scene_material_plain(void);
+
+/* Whether the material has more than glTF's core: a coat, or a map that tints f0. */
+bool scene_is_layered(const scene_material *material);
 
 /* Adds the lights of a JSON file (docs/lights.md); none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);

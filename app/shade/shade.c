@@ -9,6 +9,7 @@ typedef struct shading {
     const lmp_light *lights;
     size_t light_count;
     const environment *environment; /* or NULL */
+    bool layered;
 } shading;
 
 static lmp_vec3_array from(const lmp_vec3_array *planes, size_t first) {
@@ -29,12 +30,14 @@ static void add_environment(const shading *s, const lmp_surfaces *all, const flo
     const lmp_environment light = { s->environment->sh, s->environment->bands };
     for (size_t first = 0; first < count; first += RUN) {
         const size_t some = count - first < RUN ? count - first : RUN;
-        const lmp_surfaces run = {
+        lmp_surfaces run = {
             .normal = from(&all->normal, first),
             .view = from(&all->view, first),
             .material = all->material + first,
             .material_stride = all->material_stride,
         };
+        if (s->layered)
+            run.coat_normal = from(&all->coat_normal, first);
         lmp_rgb reflected[RUN];
         lmp_shade_environment_n(&s->settings, &run, some, &light, 0, &reflected->r);
         for (size_t i = 0; i < some; i++) {
@@ -49,13 +52,15 @@ static void add_environment(const shading *s, const lmp_surfaces *all, const flo
 /* Neighbors in a row, from `first` on. */
 static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t count,
                       float *rgba) {
-    const lmp_surfaces surfaces = {
+    lmp_surfaces surfaces = {
         .position = vectors(row->position, first),
         .normal = vectors(row->normal, first),
         .view = vectors(row->view, first),
         .material = row->material + first,
         .material_stride = sizeof *row->material,
     };
+    if (s->layered)
+        surfaces.coat_normal = vectors(row->coat_normal, first);
     lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float), rgba);
     if (s->environment)
         add_environment(s, &surfaces, row->ambient + first, count, rgba);
@@ -88,7 +93,8 @@ bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba
                           .lobe = frame->lobes },
                         lights,
                         frame->light_count,
-                        gpu_gbuffer_environment(gbuffer) };
+                        gpu_gbuffer_environment(gbuffer),
+                        gpu_gbuffer_is_layered(gbuffer) };
     bool ok = lights;
     for (size_t i = 0; ok && i < frame->light_count; i++)
         lights[i] = frame->lights[i].emitter;

@@ -42,14 +42,7 @@ static void lay_sheet(int i) {
                                      .material = (uint32_t)i,
                                      .minimum = { 10 * (float)i - 1, -1, 0 },
                                      .maximum = { 10 * (float)i + 1, 1, 0 } };
-    scene_material *m = &sheet.materials[i];
-    *m = (scene_material) { .base_color = { 1, 1, 1, 1 }, .roughness = 1, .normal_scale = 1 };
-    scene_texture_use *uses[6] = {
-        &m->base_color_map, &m->metallic_roughness_map, &m->normal_map,
-        &m->emission_map,   &m->occlusion_map,          &m->specular_map
-    };
-    for (int k = 0; k < 6; k++)
-        *uses[k] = (scene_texture_use) { .texture = -1, .matrix = { 1, 0, 0, 1 } };
+    sheet.materials[i] = scene_material_plain();
 }
 
 /* Texture 0: left half opaque red, right half transparent green (2x2 texels); texture 1: a normal

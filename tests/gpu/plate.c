@@ -29,14 +29,7 @@ static void lay_plate(plate *p, double view, double ratio) {
     const float sine = (float)sin(view), cosine = (float)cos(view), size = 60;
     *p = (plate) {
         .mesh = { .index_count = 6, .minimum = { -size, 0, -size }, .maximum = { size, 0, size } },
-        .material = { .base_color = { 1, 1, 1, 1 },
-                      .normal_scale = 1,
-                      .base_color_map = { .texture = -1 },
-                      .metallic_roughness_map = { .texture = -1 },
-                      .normal_map = { .texture = -1 },
-                      .emission_map = { .texture = -1 },
-                      .occlusion_map = { .texture = -1 },
-                      .specular_map = { .texture = -1 } },
+        .material = scene_material_plain(),
         .light = { .emitter = { .position = { 6 * sine, 6 * cosine, 0 },
                                 .radius = 6 * (float)ratio,
                                 .radiance = { 1, 1, 1 } },

@@ -33,7 +33,12 @@ GLSL
         cat shaders/ggx.glsl
         material="lmp_metallic_roughness(vec3(0.5), 0.5, 0.4)"
     fi
-    cat shaders/lampion.glsl shaders/coefficients.glsl shaders/preintegrated_lookup.h
+    cat shaders/lampion.glsl
+    if [ $(($2 % 2)) = 1 ]; then
+        cat shaders/coat.glsl
+        material="lmp_lobes_of(surface, lmp_coat(1.0, 0.4))"
+    fi
+    cat shaders/coefficients.glsl shaders/preintegrated_lookup.h
     cat <<'GLSL'
 layout(binding = 1) uniform highp sampler2D user_pairs;
 layout(std430, binding = 2) readonly buffer lobe_block { vec4 user_shape; vec4 user_cells[64]; float user_remap[LMP_LOOKUP_REMAP_COUNT]; };

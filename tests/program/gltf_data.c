@@ -205,8 +205,8 @@ static void what_is_left_out_is_named(void **state) {
     static const struct {
         const char *from, *to, *named;
     } cases[] = {
-        { "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_clearcoat\":{}}",
-          "clearcoat (1 material)" },
+        { "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_transmission\":{}}",
+          "transmission (1 material)" },
         { "\"mode\":4", "\"mode\":1", "points and lines (1 primitive)" },
         { "\"source\":0,", "\"extensions\":{\"EXT_texture_webp\":{\"source\":0}},",
           "EXT_texture_webp (1 texture)" },

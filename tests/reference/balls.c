@@ -51,17 +51,12 @@ static void lay_ball(int i) {
                                      .material = (uint32_t)i,
                                      .minimum = { x - 0.5f, y - 0.5f, -0.5f },
                                      .maximum = { x + 0.5f, y + 0.5f, 0.5f } };
-    balls.materials[i] =
-        (scene_material) { .base_color = { 0.9f, 0.6f, 0.2f, 1 },
-                           .metallic = (float)(i / SIDE) / (SIDE - 1),
-                           .roughness = 0.25f + 0.75f * (float)(i % SIDE) / (SIDE - 1),
-                           .normal_scale = 1,
-                           .base_color_map = { .texture = -1 },
-                           .metallic_roughness_map = { .texture = -1 },
-                           .normal_map = { .texture = -1 },
-                           .emission_map = { .texture = -1 },
-                           .occlusion_map = { .texture = -1 },
-                           .specular_map = { .texture = -1 } };
+    static const float color[3] = { 0.9f, 0.6f, 0.2f };
+    scene_material *material = &balls.materials[i];
+    *material = scene_material_plain();
+    memcpy(material->base_color, color, sizeof color);
+    material->metallic = (float)(i / SIDE) / (SIDE - 1);
+    material->roughness = 0.25f + 0.75f * (float)(i % SIDE) / (SIDE - 1);
 }
 
 static void lay_balls(void) {

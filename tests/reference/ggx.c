@@ -88,6 +88,38 @@ static void reflection_is_that_of_the_specification(void **state) {
     CHECK_WITHIN(noise, 0.1);
 }
 
+/* GGX over GGX: the coat's part, and of what is under it the rest. */
+static void a_coated_surface_is_estimated_without_bias(void **state) {
+    (void)state;
+    const double views[] = { 0, 0.7, 1.2 }, weights[] = { 1, 0.5 };
+    for (int v = 0; v < 3; v++)
+        for (int k = 0; k < 6; k++) {
+            const reference_vec view = direction(views[v], REFERENCE_PI);
+            const scene_light light =
+                sphere(direction(views[v] + check_random_between(-0.3, 0.3), 0.1), 0.3);
+            const reference_ggx ggx = ggx_of(0.7, 0.5, &common, 0.5, views[v]);
+            const double weight = weights[k % 2], rough = 0.2 + 0.1 * k;
+            const double part = weight * (0.04 + 0.96 * pow(1 - cos(views[v]), 5));
+            const oracle_gltf over = { rough * rough, views[v], 1, 1, 0 };
+            const lmp_vec3 p = light.emitter.position;
+            const double middle[3] = { (double)p.x / 10, (double)p.y / 10, (double)p.z / 10 };
+            const double truth = (1 - part) * exact(0.7, 0.5, &common, 0.5, views[v], &light, 0.3) +
+                                 part * oracle_gltf_cap(&over, middle, 0.3);
+            reference_surface surface = { .position = origin, .ray_origin = origin };
+            reference_ggx coat;
+            reference_estimator estimator;
+            reference_surface_shine(&surface, &whole, &ggx, up, view);
+            reference_coat_set(&coat, weight, rough, up, view);
+            reference_surface_coat(&surface, &coat, up, view);
+            assert_true(reference_estimator_create(&estimator, &light, 1));
+            const reference_result r =
+                reference_estimate(&estimator, &surface, &(reference_stop) { .samples = 8192 }, 7);
+            reference_estimator_free(&estimator);
+            CHECK_WITHIN(fabs(r.mean[0] - truth), 5 * r.standard_error[0] + 1e-5);
+            CHECK_WITHIN(r.standard_error[0], 0.05 * truth + 1e-4);
+        }
+}
+
 /* What a white metal reflects in all: the mean over its own samples is at most 1. */
 static void samples_follow_the_specular_part(void **state) {
     (void)state;
@@ -135,7 +167,7 @@ static void the_lights_series_does_what_the_lobes_would(void **state) {
                 const double z = 1 - 2 * (i + 0.5) / rings, azimuth = 2 * REFERENCE_PI * k / steps;
                 const reference_vec w = direction(acos(z), azimuth);
                 double reflected = 0;
-                for (int lobe = 0; lobe < REFERENCE_LOBES; lobe++) {
+                for (int lobe = 0; lobe < free_of_bands.lobe_count; lobe++) {
                     const reference_lobe *l = &free_of_bands.lobes[lobe];
                     reflected += l->weight[0] * reference_lobe_at(l, reference_dot(l->axis, w));
                 }
@@ -188,6 +220,7 @@ static void visible_lights_give_the_same_series(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reflection_is_that_of_the_specification),
+        cmocka_unit_test(a_coated_surface_is_estimated_without_bias),
         cmocka_unit_test(samples_follow_the_specular_part),
         cmocka_unit_test(the_lights_series_does_what_the_lobes_would),
         cmocka_unit_test(many_bands_come_near_the_whole),

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* What lies over and around a material of glTF: occlusion maps, KHR_materials_specular and _ior. */
+/* What lies over and around a material of glTF: occlusion maps, KHR_materials_specular, _ior and
+ * _clearcoat. */
 #include "tests/reference/sheet.h"
 
 #include "tests/oracle/check.h"
@@ -8,10 +9,11 @@
 
 /* At normal incidence, of a surface so smooth that F0 is all that counts, under a white sky: each
  * device within what lobes leave of GGX, and the ground truth within its noise. */
-static void check_reflected(const char *material, const double expected[2][3]) {
+static void check_reflected(const char *material, double expected[2][3]) {
     sheet s;
     image images[SHEET_IMAGES], noise;
     sheet_open(&s, material);
+    s.world.light_count = 0; /* what glows is one */
     sheet_draw(&s, true, 1, images, &noise);
     for (int half = 0; half < 2; half++)
         for (int c = 0; c < 3; c++) {
@@ -29,7 +31,7 @@ static void check_reflected(const char *material, const double expected[2][3]) {
 static void a_dielectric_reflects_by_its_index_color_and_weight(void **state) {
     (void)state;
     const double f0 = 0.5 / 9;
-    const double expected[2][3] = { { 0.4 * f0, 0.2 * f0, 0 }, { f0, 0.5 * f0, 0 } };
+    double expected[2][3] = { { 0.4 * f0, 0.2 * f0, 0 }, { f0, 0.5 * f0, 0 } };
     check_reflected("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1],"
                     "\"metallicFactor\":0,\"roughnessFactor\":0.05},"
                     "\"extensions\":{\"KHR_materials_ior\":{\"ior\":2},\"KHR_materials_specular\":"
@@ -41,7 +43,7 @@ static void a_dielectric_reflects_by_its_index_color_and_weight(void **state) {
 /* Without a layer nothing is held back from a white base, and a metal does not heed it. */
 static void what_a_layer_lacks_passes_to_the_base_and_metals_have_none(void **state) {
     (void)state;
-    const double white[2][3] = { { 1, 1, 1 }, { 1, 1, 1 } };
+    double white[2][3] = { { 1, 1, 1 }, { 1, 1, 1 } };
     check_reflected("{\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.05},"
                     "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0}}}",
                     white);
@@ -54,7 +56,7 @@ static void what_a_layer_lacks_passes_to_the_base_and_metals_have_none(void **st
 /* The map's red is 0.2 and 1; a strength of 0.5 keeps off half of what it would. */
 static void occlusion_keeps_off_the_light_of_the_environment(void **state) {
     (void)state;
-    const double expected[2][3] = { { 0.6, 0.6, 0.6 }, { 1, 1, 1 } };
+    double expected[2][3] = { { 0.6, 0.6, 0.6 }, { 1, 1, 1 } };
     check_reflected("{\"pbrMetallicRoughness\":{\"metallicFactor\":1,\"roughnessFactor\":0.05},"
                     "\"occlusionTexture\":{\"index\":0,\"strength\":0.5}}",
                     expected);
@@ -108,16 +110,75 @@ static void what_blends_shows_what_is_behind(void **state) {
     sheet_close(&s);
 }
 
-/* What is not read is said. */
-static void a_map_of_specular_colors_is_left_out(void **state) {
+/* Base black: an index of 2 reflects 1/9 of the map's color, which is sRGB. */
+static void a_map_of_specular_colors_tints_the_dielectric(void **state) {
+    (void)state;
+    const double red = pow((0.2 + 0.055) / 1.055, 2.4), green = pow((0.4 + 0.055) / 1.055, 2.4);
+    double expected[2][3] = { { red / 9, green / 9, 1 / 9.0 }, { 1 / 9.0, 1 / 9.0, 1 / 9.0 } };
+    check_reflected("{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1],"
+                    "\"metallicFactor\":0,\"roughnessFactor\":0.05},"
+                    "\"extensions\":{\"KHR_materials_ior\":{\"ior\":2},"
+                    "\"KHR_materials_specular\":{\"specularColorTexture\":{\"index\":0}}}}",
+                    expected);
+}
+
+/* What is under a coat of black GGX is the light that the surface emits. */
+#define COATED(coat)                                                                               \
+    "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1],\"metallicFactor\":0},"              \
+    "\"emissiveFactor\":[1,0.5,0],\"extensions\":{\"KHR_materials_specular\":"                     \
+    "{\"specularFactor\":0},\"KHR_materials_clearcoat\":{" coat "}}}"
+
+static void fill_coated(double left, double right, double expected[2][3]) {
+    const double emitted[3] = { 1, 0.5, 0 };
+    for (int half = 0; half < 2; half++)
+        for (int c = 0; c < 3; c++)
+            expected[half][c] = emitted[c] + (half ? right : left) * (1 - emitted[c]);
+}
+
+/* The map's red is 0.2 and 1: so much of 0.04 is reflected along the normal. */
+static void a_coat_reflects_by_its_weight_and_dims_what_is_under_it(void **state) {
+    (void)state;
+    double expected[2][3];
+    fill_coated(0.04 * 0.9 * 0.2, 0.04 * 0.9, expected);
+    check_reflected(COATED("\"clearcoatFactor\":0.9,\"clearcoatTexture\":{\"index\":0},"
+                           "\"clearcoatRoughnessFactor\":0.05"),
+                    expected);
+}
+
+/* A coat that the map bends is seen at other angles: (-0.6, -0.2, 1) and (1, 1, 1). */
+static void a_coat_has_a_normal_of_its_own(void **state) {
+    (void)state;
+    double expected[2][3];
+    fill_coated(0.04 + 0.96 * pow(1 - 1 / sqrt(1.4), 5), 0.04 + 0.96 * pow(1 - 1 / sqrt(3), 5),
+                expected);
+    check_reflected(COATED("\"clearcoatFactor\":1,\"clearcoatNormalTexture\":{\"index\":0},"
+                           "\"clearcoatRoughnessFactor\":0.05"),
+                    expected);
+}
+
+/* Of a light in the mirror direction a rough coat gives less by its map's green, 0.4 and 1, of its
+ * roughness, as both devices and the ground truth have it. */
+static void a_coat_has_a_roughness_of_its_own(void **state) {
     (void)state;
     sheet s;
-    char text[2 * SCENE_NAME_SIZE + 32];
-    sheet_open(&s, "{\"extensions\":{\"KHR_materials_specular\":{"
-                   "\"specularColorTexture\":{\"index\":0}}}}");
-    assert_int_equal(s.world.left_out_count, 1);
-    scene_left_out_text(s.world.left_out, text, sizeof text);
-    assert_string_equal(text, "map of specular colors (1 material)");
+    image images[SHEET_IMAGES], noise;
+    sheet_open(&s, COATED("\"clearcoatFactor\":1,\"clearcoatRoughnessFactor\":1,"
+                          "\"clearcoatRoughnessTexture\":{\"index\":0}"));
+    s.world.lights[0] = (scene_light) { .emitter = { .kind = LMP_LIGHT_CAP,
+                                                     .direction = { 0, 0, 1 },
+                                                     .angle = 0.5f,
+                                                     .radiance = { 30, 30, 30 } } };
+    s.world.light_count = 1;
+    sheet_draw(&s, false, 1, images, &noise);
+    for (int half = 0; half < 2; half++) {
+        const double truth = sheet_at(&images[SHEET_REFERENCE], half, 2);
+        const double bound = 0.05 * truth + 5 * sheet_at(&noise, half, 2);
+        CHECK_WITHIN(fabs(sheet_at(&images[SHEET_GPU], half, 2) - truth), bound);
+        CHECK_WITHIN(fabs(sheet_at(&images[SHEET_CPU], half, 2) - truth), bound);
+    }
+    assert_true(sheet_at(&images[SHEET_REFERENCE], 0, 2) >
+                1.5 * sheet_at(&images[SHEET_REFERENCE], 1, 2));
+    sheet_free(images, &noise);
     sheet_close(&s);
 }
 
@@ -128,7 +189,10 @@ int main(void) {
         cmocka_unit_test(occlusion_keeps_off_the_light_of_the_environment),
         cmocka_unit_test(occlusion_leaves_lights_alone),
         cmocka_unit_test(what_blends_shows_what_is_behind),
-        cmocka_unit_test(a_map_of_specular_colors_is_left_out),
+        cmocka_unit_test(a_map_of_specular_colors_tints_the_dielectric),
+        cmocka_unit_test(a_coat_reflects_by_its_weight_and_dims_what_is_under_it),
+        cmocka_unit_test(a_coat_has_a_normal_of_its_own),
+        cmocka_unit_test(a_coat_has_a_roughness_of_its_own),
     };
     return cmocka_run_group_tests(tests, sheet_folder, folder_remove);
 }

@@ -26,16 +26,7 @@ static void build(fixture *s) {
     static const uint32_t counter_clockwise[6] = { 0, 1, 2, 0, 2, 3 };
     *s = (fixture) {
         .mesh = { .index_count = 6 },
-        .material = { .base_color = { 0.5f, 0.25f, 1, 1 },
-                      .metallic = 0.5f,
-                      .roughness = 0.6f,
-                      .normal_scale = 1,
-                      .base_color_map = { .texture = -1, .matrix = { 1, 0, 0, 1 } },
-                      .metallic_roughness_map = { .texture = -1 },
-                      .normal_map = { .texture = -1 },
-                      .emission_map = { .texture = -1 },
-                      .occlusion_map = { .texture = -1 },
-                      .specular_map = { .texture = -1 } },
+        .material = scene_material_plain(),
         .lights = { { .emitter = { .position = { 1, 3, -1 },
                                    .radius = 0.5f,
                                    .radiance = { 10, 20, 30 } } },
@@ -48,6 +39,10 @@ static void build(fixture *s) {
                       .samples = 256,
                       .seed = 5 },
     };
+    const float color[3] = { 0.5f, 0.25f, 1 };
+    memcpy(s->material.base_color, color, sizeof color);
+    s->material.metallic = 0.5f;
+    s->material.roughness = 0.6f;
     for (int i = 0; i < 4; i++) {
         const float x = i == 0 || i == 3 ? -1 : 1, z = i < 2 ? 1 : -1;
         s->vertices[i] = (scene_vertex) { .position = { 10 * x, 0, 10 * z },

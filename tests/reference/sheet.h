@@ -68,8 +68,8 @@ static inline void sheet_open(sheet *s, const char *material) {
     sheet_expect(scene_load(in_folder("sheet.gltf"), &(scene_options) { .no_cache = true },
                             &s->world, &error),
                  &error);
-    sheet_expect(image_create(&s->sky.light, 16, 8, &error), &error);
-    for (int i = 0; i < 3 * 16 * 8; i++)
+    sheet_expect(image_create(&s->sky.light, 64, 32, &error), &error);
+    for (int i = 0; i < 3 * 64 * 32; i++)
         s->sky.light.rgb[i] = 1;
     sheet_expect(environment_project(&s->sky, LMP_SHADE_BANDS_DEFAULT, &error), &error);
     sheet_expect(gpu_context_create("software", &s->context, &error), &error);
