@@ -137,6 +137,24 @@ static void spherical_lights_have_sloans_coefficients(void **state) {
     }
 }
 
+/* A sphere that contains the point counts as a hemisphere there; here it grows, to 2 sqrt(pi) at
+ * its center. */
+static void spheres_around_a_point_are_hemispheres_there(void **state) {
+    (void)state;
+    const double root = sqrt(ORACLE_PI), zonal[3] = { root, 0.5 * sqrt(3) * root, 0 };
+    const lmp_light hemisphere = { .kind = LMP_LIGHT_CAP,
+                                   .direction = { 0, 0, 1 },
+                                   .angle = (float)ORACLE_PI / 2,
+                                   .radiance = { 1, 1, 1 } };
+    const lmp_light sphere = { .radius = 1, .radiance = { 1, 1, 1 } };
+    float sh[3 * COUNT];
+    lmp_light_project(3, &hemisphere, 1, (lmp_vec3) { 0, 0, 0 }, sh);
+    for (int l = 0; l < 3; l++)
+        CHECK_WITHIN(fabs((double)sh[l * l + l] - zonal[l]), 1e-6);
+    lmp_light_project(3, &sphere, 1, (lmp_vec3) { 0, 0, 0 }, sh);
+    CHECK_WITHIN(fabs((double)sh[0] - 2 * root), 1e-6);
+}
+
 /* XMSHEvalConeLight: its irradiance is its color times pi, with the radiance color / sin². */
 static void cones_bring_pi(void **state) {
     (void)state;
@@ -179,6 +197,7 @@ int main(void) {
         cmocka_unit_test(projects_cube_maps),
         cmocka_unit_test(normalizes_directional_lights),
         cmocka_unit_test(spherical_lights_have_sloans_coefficients),
+        cmocka_unit_test(spheres_around_a_point_are_hemispheres_there),
         cmocka_unit_test(cones_bring_pi),
         cmocka_unit_test(hemispheres_are_a_gradient),
     };
