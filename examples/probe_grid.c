@@ -24,7 +24,7 @@ static void move(lmp_light *lights, float seconds) {
 /* All lights into all probes, in one call. */
 static void update(const lmp_light *lights) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, LIGHTS, lmp_vec3_array_of(positions), PROBES,
+    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, LIGHTS, lmp_vec3_array_of(positions), PROBES,
                             LMP_SH_INTERLEAVED, 0, &probes[0][0][0]);
 }
 

@@ -67,7 +67,8 @@ static void run(const batch_input *b, batch_output *out) {
     lmp_sh_rotation(b->bands, (lmp_quat) { 0.5f, -0.5f, 0.1f, 0.7f }, matrices);
     lmp_sh_rotate_n(b->bands, matrices, b->sh, b->count, b->layout, 0, out->rotated);
     lmp_sphere_project_all(b->bands, &spheres, 1, points, b->count, b->layout, 0, out->projected);
-    lmp_sphere_accumulate_n(b->bands, &spheres, LIGHTS, points, b->count, b->layout, 0, out->sum);
+    lmp_sphere_accumulate_n(NULL, b->bands, &spheres, LIGHTS, points, b->count, b->layout, 0,
+                            out->sum);
     lmp_lobe_response_n(b->bands, b->lambda, normals, &spheres, LIGHTS, points, b->count, b->layout,
                         0, out->response);
     lmp_shade_n(&b->settings, &surfaces, b->count, b->lights, LIGHTS, 0, &out->shaded[0].r);

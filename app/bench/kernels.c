@@ -54,9 +54,15 @@ static void run_zonal(const bench_batch *b) {
 static void run_project(const bench_batch *b) {
     lmp_sphere_project_n(b->bands, &b->spheres, b->points, b->count, b->layout, b->stride, b->out);
 }
+/* A thread's own. */
+static lmp_scratch scratch_of_thread(void) {
+    static _Thread_local _Alignas(LMP_SCRATCH_ALIGNMENT) char memory[LMP_SCRATCH_SIZE];
+    return (lmp_scratch) { memory, sizeof memory };
+}
 static void run_accumulate(const bench_batch *b) {
-    lmp_sphere_accumulate_n(b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count, b->layout,
-                            b->stride, b->out);
+    const lmp_scratch scratch = scratch_of_thread();
+    lmp_sphere_accumulate_n(&scratch, b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count,
+                            b->layout, b->stride, b->out);
 }
 /* The calls an engine makes for one light and one point, a call an element. */
 static void run_one_light(const bench_batch *b) {
@@ -70,7 +76,7 @@ static void run_points_alone(const bench_batch *b, size_t lights) {
     const lmp_vec3_array *p = &b->points;
     for (size_t i = 0; i < b->count; i++) {
         const lmp_vec3 point = { p->x[i], p->y[i], p->z[i] };
-        lmp_sphere_accumulate_n(b->bands, &b->spheres, lights, lmp_vec3_array_same(&point), 1,
+        lmp_sphere_accumulate_n(NULL, b->bands, &b->spheres, lights, lmp_vec3_array_same(&point), 1,
                                 LMP_SH_INTERLEAVED, 0, b->out + 3 * i * LMP_SH_COUNT(b->bands));
     }
 }
@@ -81,11 +87,12 @@ static void run_one_point_few(const bench_batch *b) {
     run_points_alone(b, BENCH_LIGHTS_FEW);
 }
 static void run_gradient(const bench_batch *b) {
+    const lmp_scratch scratch = scratch_of_thread();
     const size_t n = LMP_SH_COUNT(b->bands);
     const size_t stride = b->layout == LMP_SH_PLANAR ? b->stride : 0;
     float *slopes = b->out + 3 * n * (stride ? stride / sizeof(float) : b->count);
-    lmp_sphere_accumulate_gradient_n(b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count,
-                                     b->layout, stride, b->out, stride, slopes);
+    lmp_sphere_accumulate_gradient_n(&scratch, b->bands, &b->spheres, BENCH_LIGHTS, b->points,
+                                     b->count, b->layout, stride, b->out, stride, slopes);
 }
 static void run_lobe(const bench_batch *b) {
     lmp_lobe_response_n(b->bands, b->lambda, b->axes, &b->spheres, BENCH_LIGHTS, b->points,

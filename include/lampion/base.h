@@ -2,9 +2,9 @@
 /* lampion/base.h - what every other header needs: version, results, vectors, the host.
  *
  * Conventions of the whole library
- *   - A function `lmp_<topic>_<verb>` lives in `<topic>.h`. Arguments have one order: the host or
- *     the object; how (bands, desc or settings, numbers); what is read; what is written. An array
- *     is followed by its count, a result preceded by its layout and stride.
+ *   - A function `lmp_<topic>_<verb>` lives in `<topic>.h`. Arguments have one order: the host, the
+ *     scratch or the object; how (bands, desc or settings, numbers); what is read; what is written.
+ * An array is followed by its count, a result preceded by its layout and stride.
  *   - Strides are in bytes, from one element to the next, and multiples of sizeof(float). 0 repeats
  *     the same element where that is of use (lmp_vec3_array, lmp_float_array, materials); elsewhere
  *     (coefficients, images, results) it means tight.
@@ -22,7 +22,7 @@
  *   - Every function is re-entrant; the library starts no thread and keeps no state but the table
  *     of kernels. Split the points among your own threads.
  *   - No function needs more than 64 KB of stack, at any number of bands, where the compiler
- *     optimized the library: fibers will do.
+ *     optimized the library: fibers will do. What gains by more borrows it: lmp_scratch.
  *
  * lampion DOES NOT read files, compute visibility, or call a graphics API. */
 #ifndef LAMPION_BASE_H
@@ -134,6 +134,16 @@ typedef struct lmp_host {
     bool (*cancelled)(void *user);
     void *user; /* passed to every hook */
 } lmp_host;
+
+/* Memory that the caller lends for one call, for stacks are small: a function that has one as its
+ * first argument is faster with it and gives the same bits. NULL, or one all 0, lends none. What it
+ * contains means nothing before and after; calls at the same time need memory of their own. */
+#define LMP_SCRATCH_ALIGNMENT 64
+#define LMP_SCRATCH_SIZE      393216 /* bytes from which on more make no difference */
+typedef struct lmp_scratch {
+    void *memory; /* aligned to LMP_SCRATCH_ALIGNMENT */
+    size_t size;  /* any; less than the 64 KB of a stack do not help */
+} lmp_scratch;
 
 /* The version the library was built as: major << 16 | minor << 8 | patch. */
 LMP_API uint32_t lmp_version(void);

@@ -174,18 +174,19 @@ LMP_API void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_
 
 /* lmp_light_project of the same spheres at many points: 3 * LMP_SH_COUNT(bands) values an element,
  * red, then green, then blue. Spheres are added in their order: the bits of a point do not depend
- * on the other points of the call. */
-LMP_API void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
+ * on the other points of the call. Scratch (base.h) pays from 16 bands on. */
+LMP_API void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands,
+                                     const lmp_spheres *spheres, size_t sphere_count,
                                      lmp_vec3_array points, size_t point_count,
                                      lmp_sh_layout layout, size_t stride, float *sh);
 
 /* The same, and the derivatives by the point's position, as lmp_sphere_project_gradient: gradient
  * receives 9 * LMP_SH_COUNT(bands) values an element, d/dx of red, green, blue, then d/dy, d/dz. */
-LMP_API void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres,
-                                              size_t sphere_count, lmp_vec3_array points,
-                                              size_t point_count, lmp_sh_layout layout,
-                                              size_t stride, float *sh, size_t gradient_stride,
-                                              float *gradient);
+LMP_API void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
+                                              const lmp_spheres *spheres, size_t sphere_count,
+                                              lmp_vec3_array points, size_t point_count,
+                                              lmp_sh_layout layout, size_t stride, float *sh,
+                                              size_t gradient_stride, float *gradient);
 
 /* --- units ------------------------------------------------------------------------------------ */
 

@@ -13,6 +13,11 @@ static inline bool lmp_is_bands(int bands) {
     return bands >= 1 && bands <= LMP_BANDS_MAX;
 }
 
+static inline bool lmp_is_scratch(const lmp_scratch *scratch) {
+    return !scratch || scratch->size == 0 ||
+           (scratch->memory && (uintptr_t)scratch->memory % LMP_SCRATCH_ALIGNMENT == 0);
+}
+
 static inline bool lmp_is_finite(lmp_vec3 v) {
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* accumulate.h - many RGB lights into each of many points: lanes are points, lights are broadcast.
  *
- * The sums lie in memory by columns m, a tile of them at a time: no function of the library may
- * need more than 64 KB of stack, and a tile that stays in the first cache costs least. Lights go
+ * The sums lie in memory by columns m, a tile of them at a time: as many as the stack has room for,
+ * of which no function of the library may need more than 64 KB, or what the caller lends. Lights go
  * two at a time, so that a sum is loaded and stored once for both and neither waits for its own
  * recurrences; each is still added on its own, in order. Where a tile leaves the first lights is
  * kept for the next one; the others begin anew. */
@@ -15,9 +15,8 @@
 /* Registers of a call's stack, 55 KiB: lights kept, bands of the lights of a pass, sums. */
 #define ACCUMULATE_STACK (LMP_LANES > 4 ? 14080 / LMP_LANES : 3520)
 
-/* Lights a pass, and lights kept. */
+/* Lights a pass. */
 #define ACCUMULATE_LIGHTS 2
-#define ACCUMULATE_KEPT   32
 
 /* Registers of the bands of a pass at least, 8 KiB: values on their way out wait there, too. */
 #define ACCUMULATE_WAITING (LMP_LANES > 4 ? 2048 / LMP_LANES : 512)
@@ -86,7 +85,7 @@ typedef struct accumulate_light {
     vf c, s;
 } accumulate_light;
 
-/* The lights of a call, and how its stack is divided. */
+/* The lights of a call, and how its memory is divided. */
 typedef struct accumulate_work {
     int bands, most; /* pairs of a tile */
     const lmp_kernel_lights *lights;
@@ -330,18 +329,35 @@ static inline int accumulate_waits(int bands, int left, int each, int width) {
     return waiting < ACCUMULATE_WAITING ? ACCUMULATE_WAITING : waiting;
 }
 
-/* Lights are kept where there are tiles for them. */
-static inline void accumulate_divide(accumulate_work *work, vf *stack) {
+/* Registers of memory: the stack's, or of what is lent, if that is more, the first LMP_SCRATCH_SIZE
+ * bytes. */
+typedef struct accumulate_memory {
+    vf *at;
+    int count;
+} accumulate_memory;
+
+static inline accumulate_memory accumulate_lent(const lmp_scratch *scratch, vf *stack) {
+    const size_t size = scratch ? scratch->size : 0;
+    const size_t lent = (size < LMP_SCRATCH_SIZE ? size : LMP_SCRATCH_SIZE) / sizeof *stack;
+    if (lent <= ACCUMULATE_STACK)
+        return (accumulate_memory) { stack, ACCUMULATE_STACK };
+    return (accumulate_memory) { scratch->memory, (int)lent };
+}
+
+/* Lights are kept where there are tiles for them, in a third of the memory at most. */
+static inline void accumulate_divide(accumulate_work *work, accumulate_memory memory) {
     const int bands = work->bands;
-    int left = ACCUMULATE_STACK;
+    int left = memory.count;
     if (3 * bands * (bands + 1) > left - ACCUMULATE_WAITING) {
-        const size_t count = work->lights->count;
-        work->kept = (accumulate_light *)(void *)stack;
-        work->kept_count = count < ACCUMULATE_KEPT ? count : ACCUMULATE_KEPT;
-        left -= (int)(work->kept_count * (sizeof *work->kept / sizeof *stack));
+        const size_t each = sizeof *work->kept / sizeof *memory.at, count = work->lights->count;
+        const size_t passes = (size_t)memory.count / 3 / each / ACCUMULATE_LIGHTS;
+        const size_t most = passes * ACCUMULATE_LIGHTS;
+        work->kept = (accumulate_light *)(void *)memory.at;
+        work->kept_count = count < most ? count : most;
+        left -= (int)(work->kept_count * each);
     }
     const int waiting = accumulate_waits(bands, left, ACCUMULATE_LIGHTS, 6);
-    work->waiting = stack + ACCUMULATE_STACK - left;
+    work->waiting = memory.at + memory.count - left;
     work->sums = work->waiting + waiting;
     work->most = (left - waiting) / 6;
 }
@@ -363,14 +379,15 @@ LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const v
 }
 
 /* The sums of the lights at the points from `element` on, a block of them. */
-static LMP_NOINLINE void accumulate_block(int bands, const lmp_kernel_lights *lights,
+static LMP_NOINLINE void accumulate_block(const lmp_scratch *scratch, int bands,
+                                          const lmp_kernel_lights *lights,
                                           const lmp_kernel_vec3 *points, const lmp_kernel_out *out,
                                           size_t element, size_t live) {
     const vf point[3] = { vf_load(points->x + element), vf_load(points->y + element),
                           vf_load(points->z + element) };
     vf stack[ACCUMULATE_STACK];
     accumulate_work work = { .bands = bands, .lights = lights };
-    accumulate_divide(&work, stack);
+    accumulate_divide(&work, accumulate_lent(scratch, stack));
     if (bands <= LMP_TABLE_MONIC_BANDS)
         accumulate_tiles(&work, 1, point, out, element, live);
     else

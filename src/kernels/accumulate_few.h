@@ -127,13 +127,13 @@ static LMP_NOINLINE void accumulate_few(int bands, const lmp_kernel_lights *ligh
         }
 }
 
-static void kernel_accumulate(int bands, const lmp_kernel_lights *lights,
-                              const lmp_kernel_vec3 *points, size_t count,
-                              const lmp_kernel_out *out) {
+static void kernel_accumulate(const lmp_scratch *scratch, int bands,
+                              const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
+                              size_t count, const lmp_kernel_out *out) {
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const size_t live = layout_live(count, e);
         if (!few_pays(bands, lights->count, live)) {
-            accumulate_block(bands, lights, points, out, e, live);
+            accumulate_block(scratch, bands, lights, points, out, e, live);
             continue;
         }
         for (size_t i = e; i < e + live; i++) {

@@ -177,17 +177,17 @@ LMP_INLINE void gradient_lights(accumulate_tile tile, int at_once, const lmp_ker
     }
 }
 
-static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
+static void kernel_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                             const lmp_kernel_vec3 *points, float cos_min, size_t count,
                             const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-
     const accumulate_sets values = { 12, 0, 3 }, slopes = { 12, 3, 9 };
     vf stack[ACCUMULATE_STACK];
     const int each = ACCUMULATE_LIGHTS * (int)(sizeof(gradient_band) / sizeof *stack);
-    const int waiting = accumulate_waits(bands, ACCUMULATE_STACK, each, GRADIENT_WIDTH);
-    const int most = (ACCUMULATE_STACK - waiting) / GRADIENT_WIDTH;
-    gradient_band *band = (gradient_band *)(void *)stack;
-    vf *sums = stack + waiting;
+    const accumulate_memory memory = accumulate_lent(scratch, stack);
+    const int waiting = accumulate_waits(bands, memory.count, each, GRADIENT_WIDTH);
+    const int most = (memory.count - waiting) / GRADIENT_WIDTH;
+    gradient_band *band = (gradient_band *)(void *)memory.at;
+    vf *sums = memory.at + waiting;
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const vf point[3] = { vf_load(points->x + e), vf_load(points->y + e),
                               vf_load(points->z + e) };
@@ -200,8 +200,8 @@ static void kernel_gradient(int bands, const lmp_kernel_lights *lights,
                 gradient_lights(tile, ACCUMULATE_LIGHTS, lights, i, point, cos_min, band, sums);
             for (; i < lights->count; i++)
                 gradient_lights(tile, 1, lights, i, point, cos_min, band, sums);
-            accumulate_put(bands, tile, 0, values, sums, stack, out, e, live);
-            accumulate_put(bands, tile, 0, slopes, sums, stack, gradient, e, live);
+            accumulate_put(bands, tile, 0, values, sums, memory.at, out, e, live);
+            accumulate_put(bands, tile, 0, slopes, sums, memory.at, gradient, e, live);
         }
     }
 }

@@ -156,13 +156,13 @@ typedef struct lmp_kernels {
     void (*project)(int bands, const lmp_kernel_pairs *pairs, size_t count,
                     const lmp_kernel_out *out);
     /* 3 bands^2 values: the red, green and blue coefficients of the sum of the lights. */
-    void (*accumulate)(int bands, const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                       size_t count, const lmp_kernel_out *out);
+    void (*accumulate)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
+                       const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out);
     /* The same, and 9 bands^2 values: their derivatives by x, then y, then z; |cos a| is held at
      * cos_min and up, for they are infinite on the sphere's surface. */
-    void (*gradient)(int bands, const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                     float cos_min, size_t count, const lmp_kernel_out *out,
-                     const lmp_kernel_out *gradient);
+    void (*gradient)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
+                     const lmp_kernel_vec3 *points, float cos_min, size_t count,
+                     const lmp_kernel_out *out, const lmp_kernel_out *gradient);
     /* 3 values: the response of a lobe around each point's axis to the lights. */
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,

@@ -92,10 +92,10 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
     }
 }
 
-void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
-                             lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
-                             size_t stride, float *sh) {
-    assert(lmp_is_bands(bands));
+void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands, const lmp_spheres *spheres,
+                             size_t sphere_count, lmp_vec3_array points, size_t point_count,
+                             lmp_sh_layout layout, size_t stride, float *sh) {
+    assert(lmp_is_bands(bands) && lmp_is_scratch(scratch));
     assert(lmp_is_layout(layout, stride, 3 * LMP_SH_COUNT(bands), point_count));
     assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
     const lmp_kernels *kernels = lmp_kernels_get();
@@ -107,15 +107,16 @@ void lmp_sphere_accumulate_n(int bands, const lmp_spheres *spheres, size_t spher
         const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, &planes);
         const lmp_kernel_out out = lmp_batch_out(sh, 3 * LMP_SH_COUNT(bands), point_count,
                                                  layout == LMP_SH_PLANAR, stride, first);
-        kernels->accumulate(bands, &lights, &vectors, n, &out);
+        kernels->accumulate(scratch, bands, &lights, &vectors, n, &out);
     }
 }
 
-void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres, size_t sphere_count,
+void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
+                                      const lmp_spheres *spheres, size_t sphere_count,
                                       lmp_vec3_array points, size_t point_count,
                                       lmp_sh_layout layout, size_t stride, float *sh,
                                       size_t gradient_stride, float *gradient) {
-    assert(lmp_is_bands(bands));
+    assert(lmp_is_bands(bands) && lmp_is_scratch(scratch));
     assert(lmp_is_layout(layout, stride, 3 * LMP_SH_COUNT(bands), point_count));
     assert(lmp_is_layout(layout, gradient_stride, 9 * LMP_SH_COUNT(bands), point_count));
     assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
@@ -131,6 +132,6 @@ void lmp_sphere_accumulate_gradient_n(int bands, const lmp_spheres *spheres, siz
             lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
         const lmp_kernel_out slopes =
             lmp_batch_out(gradient, 9 * values, point_count, planar, gradient_stride, first);
-        kernels->gradient(bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
+        kernels->gradient(scratch, bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
     }
 }

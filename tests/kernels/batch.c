@@ -78,11 +78,11 @@ static void all_pairs_are_every_sphere_at_every_point(void **test) {
 static void a_split_of_the_points_changes_no_bit(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points), COUNT,
+    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, 5, lmp_vec3_array_of(points), COUNT,
                             LMP_SH_INTERLEAVED, 0, out);
     for (size_t first = 0, n = 1; first < COUNT; first += n, n = n * 2 + 1) {
         const size_t part = first + n < COUNT ? n : COUNT - first;
-        lmp_sphere_accumulate_n(BANDS, &spheres, 5, lmp_vec3_array_of(points + first), part,
+        lmp_sphere_accumulate_n(NULL, BANDS, &spheres, 5, lmp_vec3_array_of(points + first), part,
                                 LMP_SH_INTERLEAVED, 0, other + first * 3 * VALUES);
     }
     assert_memory_equal(out, other, COUNT * 3 * VALUES * sizeof(float));
@@ -93,10 +93,10 @@ static void check_alone(int bands, int light_count, int point, int count, lmp_sh
     static float among[17 * 3 * 35 * 35], alone[3 * 35 * 35];
     const lmp_spheres spheres = lmp_spheres_of(lights);
     const size_t values = 3 * LMP_SH_COUNT(bands);
-    lmp_sphere_accumulate_n(bands, &spheres, (size_t)light_count, lmp_vec3_array_of(points),
+    lmp_sphere_accumulate_n(NULL, bands, &spheres, (size_t)light_count, lmp_vec3_array_of(points),
                             (size_t)count, LMP_SH_INTERLEAVED, 0, among);
-    lmp_sphere_accumulate_n(bands, &spheres, (size_t)light_count, lmp_vec3_array_of(points + point),
-                            1, layout, 0, alone);
+    lmp_sphere_accumulate_n(NULL, bands, &spheres, (size_t)light_count,
+                            lmp_vec3_array_of(points + point), 1, layout, 0, alone);
     assert_memory_equal(alone, among + (size_t)point * values, values * sizeof(float));
 }
 
@@ -119,15 +119,15 @@ static void a_point_alone_gets_the_bits_of_a_batch(void **test) {
 static void accumulate_is_the_sum_of_the_lights(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, 11, lmp_vec3_array_of(points), COUNT,
+    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, 11, lmp_vec3_array_of(points), COUNT,
                             LMP_SH_INTERLEAVED, 0, out);
     for (int i = 0; i < COUNT; i += 17) {
         float sh[3 * VALUES];
         lmp_light_project(BANDS, lights, 11, points[i], sh);
         check_same(sh, out + i * 3 * VALUES, 3 * VALUES);
     }
-    lmp_sphere_accumulate_n(BANDS, &spheres, 0, lmp_vec3_array_of(points), 3, LMP_SH_INTERLEAVED, 0,
-                            out);
+    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, 0, lmp_vec3_array_of(points), 3,
+                            LMP_SH_INTERLEAVED, 0, out);
     for (int i = 0; i < 3 * 3 * VALUES; i++)
         assert_true(out[i] == 0);
 }
@@ -135,7 +135,7 @@ static void accumulate_is_the_sum_of_the_lights(void **test) {
 static void gradients_are_those_of_one_light(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights + 3);
-    lmp_sphere_accumulate_gradient_n(BANDS, &spheres, 1, lmp_vec3_array_of(points), COUNT,
+    lmp_sphere_accumulate_gradient_n(NULL, BANDS, &spheres, 1, lmp_vec3_array_of(points), COUNT,
                                      LMP_SH_INTERLEAVED, 0, out, 0, other);
     for (int i = 0; i < COUNT; i += 13) {
         float sh[VALUES], gradient[3 * VALUES];
@@ -145,6 +145,39 @@ static void gradients_are_those_of_one_light(void **test) {
         for (int axis = 0; axis < 3; axis++) /* red is 1 */
             check_same(gradient + axis * VALUES, other + (i * 9 + axis * 3) * VALUES, VALUES);
     }
+}
+
+/* Sums of lights, then their derivatives. */
+static void sum_all(const lmp_scratch *scratch, int bands, lmp_sh_layout layout, float *sums) {
+    enum { POINTS = 17, LIGHTS = 40 };
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    const lmp_vec3_array at = lmp_vec3_array_of(points);
+    float *slopes = sums + POINTS * 3 * LMP_SH_COUNT(bands);
+    lmp_sphere_accumulate_gradient_n(scratch, bands, &spheres, LIGHTS, at, POINTS, layout, 0, sums,
+                                     0, slopes);
+    lmp_sphere_accumulate_n(scratch, bands, &spheres, LIGHTS, at, POINTS, layout, 0, sums);
+}
+
+static void scratch_changes_no_bit_and_is_not_overrun(void **test) {
+    enum { MOST = LMP_SCRATCH_SIZE + 4096, PAINT = 0xa5 };
+    static _Alignas(LMP_SCRATCH_ALIGNMENT) unsigned char memory[MOST];
+    static const size_t sizes[] = { 0, 100, 60000, 131076, LMP_SCRATCH_SIZE, MOST };
+    static const int bands[] = { 6, 17, 35 };
+    (void)test;
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= lmp_cpu_flags(); flag *= 2)
+        for (int i = 0; i < 12 * 3 && lmp_cpu_mask(flag) == flag; i++) {
+            const lmp_sh_layout layout = i % 2 ? LMP_SH_PLANAR : LMP_SH_INTERLEAVED;
+            const lmp_scratch scratch = { memory, sizes[i / 2 % 6] };
+            const int n = bands[i / 12];
+            memset(memory, PAINT, sizeof memory);
+            sum_all(NULL, n, layout, out);
+            sum_all(&scratch, n, layout, other);
+            assert_memory_equal(out, other, 17 * 12 * LMP_SH_COUNT(n) * sizeof(float));
+            for (size_t k = scratch.size < LMP_SCRATCH_SIZE ? scratch.size : LMP_SCRATCH_SIZE;
+                 k < MOST; k++)
+                assert_int_equal(memory[k], PAINT);
+        }
+    lmp_cpu_mask(LMP_CPU_ALL);
 }
 
 static void lobes_respond_as_one_by_one(void **test) {
@@ -266,6 +299,7 @@ int main(void) {
         cmocka_unit_test(a_split_of_the_points_changes_no_bit),
         cmocka_unit_test(a_point_alone_gets_the_bits_of_a_batch),
         cmocka_unit_test(accumulate_is_the_sum_of_the_lights),
+        cmocka_unit_test(scratch_changes_no_bit_and_is_not_overrun),
         cmocka_unit_test(gradients_are_those_of_one_light),
         cmocka_unit_test(lobes_respond_as_one_by_one),
         cmocka_unit_test(basis_zonal_rotation_and_dot_are_the_scalar_ones),

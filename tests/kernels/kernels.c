@@ -175,17 +175,17 @@ static void wrong_project(int bands, const lmp_kernel_pairs *pairs, size_t count
     honest.project(bands, pairs, count, out);
     spoil(out);
 }
-static void wrong_accumulate(int bands, const lmp_kernel_lights *lights,
+static void wrong_accumulate(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                              const lmp_kernel_vec3 *points, size_t count,
                              const lmp_kernel_out *out) {
-    honest.accumulate(bands, lights, points, count, out);
+    honest.accumulate(scratch, bands, lights, points, count, out);
     spoil(out);
 }
 /* Its derivatives follow the values (run). */
-static void wrong_gradient(int bands, const lmp_kernel_lights *lights,
+static void wrong_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                            const lmp_kernel_vec3 *points, float cos_min, size_t count,
                            const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    honest.gradient(bands, lights, points, cos_min, count, out, gradient);
+    honest.gradient(scratch, bands, lights, points, cos_min, count, out, gradient);
     spoil(out);
 }
 static void wrong_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *axes,

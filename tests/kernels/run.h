@@ -299,10 +299,10 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         k->project(bands, &pairs, count, out);
         break;
     case ACCUMULATE:
-        k->accumulate(bands, &lights, &point, count, out);
+        k->accumulate(NULL, bands, &lights, &point, count, out);
         break;
     case GRADIENT:
-        k->gradient(bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
+        k->gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
         break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);

@@ -49,6 +49,14 @@ static void shaded_n(lmp_vec3 position, size_t stride) {
     lmp_shade_n(NULL, &surfaces, 2, NULL, 0, stride, a);
 }
 
+static void summed(size_t offset) {
+    static _Alignas(LMP_SCRATCH_ALIGNMENT) char memory[2 * LMP_SCRATCH_ALIGNMENT];
+    const lmp_scratch scratch = { memory + offset, LMP_SCRATCH_ALIGNMENT };
+    const lmp_spheres none = { .radius = { 0 } };
+    lmp_sphere_accumulate_n(&scratch, BANDS, &none, 0, lmp_vec3_array_same(&at), 1,
+                            LMP_SH_INTERLEAVED, 0, a);
+}
+
 static void cap_of(lmp_light light) {
     lmp_cap cap;
     lmp_light_cap(&light, at, &cap);
@@ -105,6 +113,7 @@ static void create_half_a_host(void) {
     X(cones, cap_of((lmp_light) { LMP_LIGHT_SPOT, .direction = up, .inner = 1, .outer = 1 }), cap_of((lmp_light) { LMP_LIGHT_SPOT, .direction = up, .inner = 1, .outer = 0.5f })) \
     X(radiance, cap_of((lmp_light) { .radiance = { 1, 1, 1 } }), cap_of((lmp_light) { .radiance = { 1, INFINITY, 1 } })) \
     X(nowhere_gradient, lmp_sphere_project_gradient(BANDS, at, 1, at, a, b), lmp_sphere_project_gradient(BANDS, at, 0, at, a, b)) \
+    X(scratch, summed(0), summed(sizeof(float))) \
     X(power, lmp_sphere_power_from_radiance(1, 1), lmp_sphere_power_from_radiance(1, 0)) \
     X(phong, lmp_lobe_phong(BANDS, 0, a), lmp_lobe_phong(BANDS, -1, a)) \
     X(vmf, lmp_lobe_vmf(BANDS, 1, a), lmp_lobe_vmf(BANDS, 0, a)) \

@@ -171,8 +171,9 @@ static void a_count_of_0_needs_no_arrays(void **state) {
         lmp_sphere_zonal_n(BANDS, no_floats, no_floats, 0, layout, 0, NULL);
         lmp_sphere_project_n(BANDS, &no_spheres, none, 0, layout, 0, NULL);
         lmp_sphere_project_all(BANDS, &no_spheres, 0, none, 0, layout, 0, NULL);
-        lmp_sphere_accumulate_n(BANDS, &no_spheres, 0, none, 0, layout, 0, NULL);
-        lmp_sphere_accumulate_gradient_n(BANDS, &no_spheres, 0, none, 0, layout, 0, NULL, 0, NULL);
+        lmp_sphere_accumulate_n(NULL, BANDS, &no_spheres, 0, none, 0, layout, 0, NULL);
+        lmp_sphere_accumulate_gradient_n(NULL, BANDS, &no_spheres, 0, none, 0, layout, 0, NULL, 0,
+                                         NULL);
         lmp_lobe_response_n(BANDS, factors, none, &no_spheres, 0, none, 0, layout, 0, NULL);
     }
     lmp_probe_irradiance_n(BANDS, sh, none, 0, NULL);
@@ -220,14 +221,14 @@ static void project_all(lmp_sh_layout layout, size_t stride, float *out) {
 
 static void accumulate(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_n(BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT, layout, stride,
-                            out);
+    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT, layout,
+                            stride, out);
 }
 
 static void gradient(lmp_sh_layout layout, size_t stride, float *out) {
     const lmp_spheres spheres = lmp_spheres_of(lights);
-    lmp_sphere_accumulate_gradient_n(BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT, layout,
-                                     0, other, stride, out);
+    lmp_sphere_accumulate_gradient_n(NULL, BANDS, &spheres, 3, lmp_vec3_array_of(points), COUNT,
+                                     layout, 0, other, stride, out);
 }
 
 static void respond(lmp_sh_layout layout, size_t stride, float *out) {
