@@ -28,7 +28,7 @@ export function makeCamera({ eye, target, up, fov }, minimum, maximum) {
         frame(width, height, lightCount) {
             const { forward, right, down, half } = axes(width / height), wide = half * width / height;
             const rows = [right.map((x) => x / wide ** 2), down.map((x) => x / half ** 2), forward.map((x) => -x), forward];
-            const constants = [0, 0, 2 * near, 0], block = new Float32Array(64);
+            const constants = [0, 0, 2 * near, 0], block = new Float32Array(48);
             for (let row = 0; row < 4; row++)
                 [...rows[row], constants[row] - dot(rows[row], eye)].forEach((x, column) => { block[4 * column + row] = x; });
             block.set([...eye, near, ...forward, 0, ...right, 0, ...down, 0], 16);

@@ -131,7 +131,7 @@ EXPORT const char *demo_open_file(const void *data, size_t size) {
 }
 
 typedef struct demo_draw {
-    uint32_t first_index, index_count, material, flags;
+    uint32_t first_index, index_count, material, masked, double_sided;
     int32_t maps[SHARED_MAPS]; /* textures, or -1 */
 } demo_draw;
 
@@ -146,24 +146,30 @@ EXPORT const demo_draw *demo_draw_at(size_t i) {
     draw = (demo_draw) { mesh->first_index,
                          mesh->index_count,
                          mesh->material,
-                         m->flags,
+                         m->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND),
+                         m->flags & SCENE_DOUBLE_SIDED,
                          { m->base_color_map.texture, m->metallic_roughness_map.texture,
                            m->normal_map.texture, m->emission_map.texture, m->occlusion_map.texture,
                            m->specular_map.texture } };
     return &draw;
 }
 
-/* Pointers and counts, as the page's library.js names them. */
+/* Pointers, counts and sizes, in the order of library.js. */
 EXPORT const uintptr_t *demo_arrays(void) {
-    static uintptr_t arrays[10];
+    static uintptr_t arrays[9];
     const scene *w = &demo.world;
-    const uintptr_t values[10] = { (uintptr_t)w->vertices,     w->vertex_count,
-                                   (uintptr_t)w->indices,      w->index_count,
-                                   (uintptr_t)demo.materials,  w->material_count,
-                                   (uintptr_t)demo.reflectors, (uintptr_t)&demo.lights,
-                                   (uintptr_t)&w->minimum[0],  (uintptr_t)&w->maximum[0] };
+    const uintptr_t values[] = {
+        (uintptr_t)w->vertices, w->vertex_count,           (uintptr_t)w->indices,
+        w->index_count,         (uintptr_t)demo.materials, (uintptr_t)demo.reflectors,
+        w->material_count,      (uintptr_t)w->minimum,     (uintptr_t)w->maximum,
+    };
+    static_assert(sizeof arrays == sizeof values, "as many");
     memcpy(arrays, values, sizeof values);
     return arrays;
+}
+
+EXPORT size_t demo_material_size(void) {
+    return sizeof(shared_material);
 }
 
 /* Width, height, 1 of colors, wrapping in both directions, and the texels. */
@@ -199,6 +205,10 @@ EXPORT const float *demo_camera(float aspect) {
 EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
     scene_clear_lights(&demo.world);
     return outcome(scene_add_random_lights(&demo.world, count, seed, &demo.error));
+}
+
+EXPORT const shared_light *demo_lights(void) {
+    return demo.lights.lights;
 }
 
 /* Puts them where they are after so many seconds; returns how many there are. Of a file's other

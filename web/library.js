@@ -2,7 +2,7 @@
 // Lampion's C library and scenes as WebAssembly (demo.c).
 import bytes from 'demo.wasm';
 
-const FLOATS = { frame: 64, material: 72, light: 12, reflector: 8, vertex: 16 };
+const VERTEX = 16, LIGHT = 12, REFLECTOR = 8; // floats
 
 // A page has no files: whatever asks for them, for a clock or for memory's growth is told -1.
 const nothing = new Proxy({}, { get: () => () => -1 });
@@ -35,16 +35,17 @@ export async function loadLibrary() {
         openFile: (data) => lend(data, (at) => check(c.demo_open_file(at, data.byteLength))),
         // views of C's memory, valid until the next call that allocates
         scene() {
-            const [vertices, vertexCount, indices, indexCount, materials, materialCount, reflectors, , minimum, maximum] =
-                words(c.demo_arrays(), 10);
+            const [vertices, vertexCount, indices, indexCount, materials, reflectors, materialCount, minimum, maximum] =
+                words(c.demo_arrays(), 9);
+            const materialSize = c.demo_material_size();
             return {
-                vertices: floats(vertices, FLOATS.vertex * vertexCount), indices: words(indices, indexCount),
-                materials: floats(materials, FLOATS.material * materialCount), materialCount,
-                reflectors: floats(reflectors, FLOATS.reflector * materialCount),
-                minimum: floats(minimum, 3).slice(), maximum: floats(maximum, 3).slice(),
+                vertices: floats(vertices, VERTEX * vertexCount), indices: words(indices, indexCount), materialCount, materialSize,
+                materials: new Uint8Array(memory(), materials, materialSize * materialCount),
+                reflectors: floats(reflectors, REFLECTOR * materialCount),
+                minimum: [...floats(minimum, 3)], maximum: [...floats(maximum, 3)],
                 draws: Array.from({ length: c.demo_draw_count() }, (none, i) => {
-                    const [first, count, material, flags, ...maps] = words(c.demo_draw_at(i), 10);
-                    return { first, count, material, flags, maps: maps.map((map) => map | 0) };
+                    const [first, count, material, masked, doubleSided, ...maps] = words(c.demo_draw_at(i), 11);
+                    return { first, count, material, masked, doubleSided, maps: maps.map((map) => map | 0) };
                 }),
                 textures: Array.from({ length: c.demo_texture_count() }, (none, i) => {
                     const [width, height, srgb, wrapU, wrapV, at] = words(c.demo_texture(i), 6);
@@ -60,7 +61,7 @@ export async function loadLibrary() {
         // the lights as the shaders read them: center, radius, radiance, kind, cone
         lights(seconds) {
             const count = c.demo_move_lights(seconds);
-            return floats(words(c.demo_arrays(), 10)[7], FLOATS.light * count);
+            return floats(c.demo_lights(), LIGHT * count);
         },
         dragLight: (i, [x, y, z]) => c.demo_drag_light(i, x, y, z),
         ggxTexels: () => floats(c.demo_ggx_texels(), 4 * 5152),

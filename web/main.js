@@ -168,7 +168,7 @@ function showState() {
         element(id).checked = state[id];
     for (const id of ['lights', 'bands'])
         element(id).nextElementSibling.value = state[id];
-    element('bands').max = Math.min(methods[state.method].bands, 100);
+    element('bands').max = methods[state.method].bands;
     const divider = element('divider');
     divider.hidden = !state.split;
     divider.style.left = `${100 * state.divider}%`;
