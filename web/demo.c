@@ -2,13 +2,13 @@
 /* demo.c - what the page asks of the library and of the program's scenes. It draws by WebGL itself,
  * with the program's own shaders: arrays here are laid out as these read them. */
 #include "app/animation/animation.h"
+#include "app/gpu/block.h"
 #include "app/gpu/shelves.h"
 #include "app/image/tone.h"
 #include "app/sandbox/sandbox.h"
 #include "app/scene/builtin.h"
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
-#include "shaders/shared.h"
 
 #include <emscripten/emscripten.h>
 #include <math.h>
@@ -41,29 +41,6 @@ int sandbox_open(const char *name, int *number, cli_error *error) {
 /* --- scenes -------------------------------------------------------------------------------------
  */
 
-static void fill_material(const scene_material *from, size_t number, shared_material *to) {
-    const scene_texture_use *uses[SHARED_MAPS] = {
-        &from->base_color_map, &from->metallic_roughness_map, &from->normal_map,
-        &from->emission_map,   &from->occlusion_map,          &from->specular_map
-    };
-    memcpy(to->base_color, from->base_color, sizeof from->base_color);
-    memcpy(to->emission, from->emission, sizeof from->emission);
-    to->emission[3] = (float)(SHARED_KIND_SURFACE + number);
-    to->factors[0] = from->metallic;
-    to->factors[1] = from->roughness;
-    to->factors[2] = from->normal_scale;
-    to->factors[3] = from->alpha_cutoff;
-    for (int i = 0; i < SHARED_MAPS; i++) {
-        (i < 4 ? to->maps : to->more)[i % 4] = uses[i]->texture < 0 ? 0 : 1;
-        memcpy(to->matrix[i], uses[i]->matrix, sizeof uses[i]->matrix);
-        memcpy(to->offset[i], uses[i]->offset, sizeof uses[i]->offset);
-        to->offset[i][2] = (float)uses[i]->set;
-    }
-    to->vertex[0] = from->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
-    to->vertex[1] = from->occlusion;
-    to->vertex[2] = from->flags & SCENE_ALPHA_BLEND ? 1.0f : 0.0f;
-}
-
 static bool fill_materials(void) {
     const scene *w = &demo.world;
     demo.materials = calloc(w->material_count + 1, sizeof *demo.materials);
@@ -71,9 +48,8 @@ static bool fill_materials(void) {
     if (!demo.materials || !demo.reflectors)
         return cli_fail(&demo.error, w->origin, "does not fit into memory");
     for (size_t i = 0; i < w->material_count; i++) {
-        const lmp_dielectric d = scene_dielectric(&w->materials[i]);
-        fill_material(&w->materials[i], i, &demo.materials[i]);
-        demo.reflectors[i] = (shared_reflector) { { d.f0.r, d.f0.g, d.f0.b, d.f90 }, { -1 } };
+        gpu_fill_material(&w->materials[i], i, &demo.materials[i]);
+        demo.reflectors[i] = gpu_reflector(&w->materials[i]);
     }
     return true;
 }
@@ -143,14 +119,13 @@ EXPORT const demo_draw *demo_draw_at(size_t i) {
     static demo_draw draw;
     const scene_mesh *mesh = &demo.world.meshes[i];
     const scene_material *m = &demo.world.materials[mesh->material];
-    draw = (demo_draw) { mesh->first_index,
-                         mesh->index_count,
-                         mesh->material,
-                         m->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND),
-                         m->flags & SCENE_DOUBLE_SIDED,
-                         { m->base_color_map.texture, m->metallic_roughness_map.texture,
-                           m->normal_map.texture, m->emission_map.texture, m->occlusion_map.texture,
-                           m->specular_map.texture } };
+    draw = (demo_draw) { .first_index = mesh->first_index,
+                         .index_count = mesh->index_count,
+                         .material = mesh->material,
+                         .masked = m->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND),
+                         .double_sided = m->flags & SCENE_DOUBLE_SIDED };
+    for (int k = 0; k < SHARED_MAPS; k++)
+        draw.maps[k] = m->maps[k].texture;
     return &draw;
 }
 

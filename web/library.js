@@ -44,7 +44,7 @@ export async function loadLibrary() {
                 reflectors: floats(reflectors, REFLECTOR * materialCount),
                 minimum: [...floats(minimum, 3)], maximum: [...floats(maximum, 3)],
                 draws: Array.from({ length: c.demo_draw_count() }, (none, i) => {
-                    const [first, count, material, masked, doubleSided, ...maps] = words(c.demo_draw_at(i), 11);
+                    const [first, count, material, masked, doubleSided, ...maps] = words(c.demo_draw_at(i), 15);
                     return { first, count, material, masked, doubleSided, maps: maps.map((map) => map | 0) };
                 }),
                 textures: Array.from({ length: c.demo_texture_count() }, (none, i) => {

@@ -34,8 +34,8 @@ out vec4 color;
 vec3 shade_surface(ivec2 at, int kind) {
     camera_ray ray = camera_ray_through((vec2(at) + 0.5) / size_lights.xy * 2.0 - 1.0);
     vec4 base = texelFetch(base_metallic, at, 0);
-    vec4 reflector = texelFetch(reflectors, ivec2(kind - SHARED_KIND_SURFACE, 0), 0) *
-                     texelFetch(layers, at, 0).g;
+    vec4 reflector = texelFetch(reflectors, ivec2(kind - SHARED_KIND_SURFACE, 0), 0);
+    float weight = reflector.a * texelFetch(layers, at, 0).g;
     lmp_surface surface;
     surface.position = ray.from + ray.along * camera_distance(texelFetch(depths, at, 0).r);
     surface.normal = gbuffer_decode_normal(texelFetch(normals, at, 0).rg);
@@ -43,7 +43,7 @@ vec3 shade_surface(ivec2 at, int kind) {
     lmp_metallic_roughness material = lmp_metallic_roughness(
         gbuffer_decode_color(base.rgb), base.a, texelFetch(roughness_kind, at, 0).r);
     lmp_lobes lobes =
-        lmp_lobes_of(surface, material, lmp_dielectric(reflector.rgb, reflector.a));
+        lmp_lobes_of(surface, material, lmp_dielectric(min(reflector.rgb, 1.0) * weight, weight));
     return SHADE(surface, lobes) + texelFetch(emissions, at, 0).rgb;
 }
 

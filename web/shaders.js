@@ -2,6 +2,7 @@
 // The program's own shaders in GLSL ES 3.00, which has no #include and no numbers for what passes from
 // stage to stage.
 import camera from '../shaders/camera.glsl';
+import coat from '../shaders/coat.glsl';
 import coefficients from '../shaders/coefficients.glsl';
 import gbuffer from '../shaders/gbuffer.glsl';
 import ggx from '../shaders/ggx.glsl';
@@ -19,7 +20,7 @@ import tone from '../shaders/tone.h';
 import shade from './shade.frag';
 
 const files = {
-    'camera.glsl': camera, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
+    'camera.glsl': camera, 'coat.glsl': coat, 'coefficients.glsl': coefficients, 'gbuffer.glsl': gbuffer, 'ggx.glsl': ggx,
     'lampion.glsl': lampion, 'light.glsl': light, 'preintegrated_lobe.glsl': lobe,
     'preintegrated_lookup.h': lookup, 'shared.h': shared, 'tone.h': tone,
 };
@@ -34,7 +35,7 @@ function expand(text) {
 function translate(text, fragment) {
     return expand(text)
         .replace(/layout\(std140, binding = point\)/g, 'layout(std140)')
-        .replace(/layout\(binding = \w+\) /g, '')
+        .replace(/layout\(binding = \w+( \+ \d)?\) /g, '')
         .replace(fragment ? /layout\(location = \d+\) (flat )?in /g : /layout\(location = \d+\) (flat )?out /g,
             (match, flat) => `${flat ?? ''}${fragment ? 'in' : 'out'} `)
         .replace(/\bgl_PrimitiveID\b/g, '0');

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/gpu/block.h"
 #include "app/gpu/internal.h"
 
 #include <math.h>
@@ -54,37 +55,17 @@ static bool create_texture(const gpu_context *context, const scene *world,
 
 static void fill_material(const scene_material *source, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
-    memset(block, 0, sizeof *block);
-    memcpy(block->base_color, source->base_color, sizeof source->base_color);
-    memcpy(block->emission, source->emission, sizeof source->emission);
-    block->emission[3] = (float)(SHARED_KIND_SURFACE + number);
-    block->factors[0] = source->metallic;
-    block->factors[1] = source->roughness;
-    block->factors[2] = source->normal_scale;
-    block->factors[3] = source->alpha_cutoff;
-    for (int i = 0; i < SHARED_MAPS; i++) {
-        const scene_texture_use *use = &source->maps[i];
-        material->maps[i] = use->texture < 0 ? 0 : mesh->textures[use->texture];
-        (i < 4 ? block->maps : block->more[i / 4 - 1])[i % 4] = material->maps[i] ? 1 : 0;
-        memcpy(block->matrix[i], use->matrix, sizeof use->matrix);
-        memcpy(block->offset[i], use->offset, sizeof use->offset);
-        block->offset[i][2] = (float)use->set;
-    }
-    block->vertex[0] = source->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
-    block->vertex[1] = source->occlusion;
-    block->coat[0] = source->coat;
-    block->coat[1] = source->coat_roughness;
-    block->coat[2] = source->coat_normal_scale;
+    gpu_fill_material(source, number, block);
+    for (int i = 0; i < SHARED_MAPS; i++)
+        material->maps[i] =
+            source->maps[i].texture < 0 ? 0 : mesh->textures[source->maps[i].texture];
     memcpy(material->f0, source->f0, sizeof material->f0);
     material->f90 = source->f90;
     material->layered = scene_is_layered(source);
     material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
-    block->vertex[2] = source->flags & SCENE_ALPHA_BLEND ? 1.0f : 0.0f;
     material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
 }
-
-static_assert(SHARED_MAPS == SCENE_MAPS, "a block has all maps of a material");
 
 static bool create_materials(const scene *world, gpu_mesh *mesh) {
     GLint alignment = 1;
@@ -115,11 +96,8 @@ static bool create_reflectors(const scene *world, gpu_mesh *mesh) {
     shared_reflector *all = calloc(world->material_count + 1, sizeof *all);
     if (!all)
         return false;
-    for (size_t i = 0; i < world->material_count; i++) {
-        const gpu_material *m = &mesh->materials[i];
-        all[i] = (shared_reflector) { { m->f0[0], m->f0[1], m->f0[2], m->f90 },
-                                      { -1, m->layered ? 1 : 0 } };
-    }
+    for (size_t i = 0; i < world->material_count; i++)
+        all[i] = gpu_reflector(&world->materials[i]);
     glCreateBuffers(1, &mesh->reflectors);
     glNamedBufferStorage(mesh->reflectors, (GLsizeiptr)((world->material_count + 1) * sizeof *all),
                          all, GL_DYNAMIC_STORAGE_BIT);

@@ -23,6 +23,7 @@ export async function openBrowser(profile) {
                 listeners.forEach((listener) => listener(message));
         }
     });
+    browser.on('exit', () => waiting.forEach(({ reject }) => reject(new Error('the browser is gone'))));
     const send = (method, params = {}, sessionId = undefined) => new Promise((resolve, reject) => {
         waiting.set(++number, { resolve, reject });
         to.write(`${JSON.stringify({ id: number, method, params, sessionId })}\0`);
