@@ -5,8 +5,7 @@
  * A probe is what sh.h and light.h make: coefficients of incoming radiance at a point, of one
  * channel or as three planes, red, green, blue, of LMP_SH_COUNT(bands) values.
  *
- * A release build asserts none of what is asked (base.h); lmp_probe_fit alone returns a result
- * in every build. A normal that is not unit gives the polynomial's value there. */
+ * A release build asserts nothing (base.h); lmp_probe_fit returns a result in every build. */
 #ifndef LAMPION_PROBE_H
 #define LAMPION_PROBE_H
 
@@ -113,9 +112,11 @@ typedef struct lmp_probe_convention {
 LMP_API void lmp_probe_convert(int bands, const lmp_probe_convention *from,
                                const lmp_probe_convention *to, const float *sh, float *converted);
 
-/* Which sign and normalization turn `ours` into `theirs`, coefficients of one function in the same
- * axes: true, and *convention receives them, if all agree within `tolerance` times the largest;
- * among several the first in the order of the enumerations (a function of one band tells little).
+/* Which convention turns `ours`, in this library's, into `theirs`, coefficients of the same
+ * function: true, and *convention receives it, if all agree within `tolerance` times the largest.
+ * Of several the first: its own axes, then the order of the enumerations. Others differ by a
+ * symmetry of the function, or are equal. Other axes are tried up to LMP_PROBE_AXES_BANDS_MAX
+ * bands.
  *
  * tolerance >= 0; ours and theirs hold LMP_SH_COUNT(bands) values */
 LMP_API bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,

@@ -110,17 +110,44 @@ static bool agrees(int bands, const lmp_probe_convention *convention, const floa
     return true;
 }
 
+/* Sign and normalization that turn coefficients in axes that agree into theirs. */
+static bool recognize_basis(int bands, const float *ours, const float *theirs, float tolerance,
+                            lmp_probe_convention *guess) {
+    for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)
+        for (int norm = 0; norm <= LMP_PROBE_SN3D; norm++) {
+            guess->sign = (lmp_probe_sign)sign;
+            guess->normalization = (lmp_probe_normalization)norm;
+            if (agrees(bands, guess, ours, theirs, tolerance))
+                return true;
+        }
+    return false;
+}
+
+/* Axes number 0 … 47, the library's own first. */
+static lmp_probe_convention axes_number(int number) {
+    static const signed char orders[6][3] = { { 1, 2, 3 }, { 1, 3, 2 }, { 2, 1, 3 },
+                                              { 2, 3, 1 }, { 3, 1, 2 }, { 3, 2, 1 } };
+    lmp_probe_convention convention = { 0 };
+    for (int i = 0; i < 3; i++) {
+        const signed char axis = orders[number / 8][i];
+        convention.axes[i] = (signed char)(number >> i & 1 ? -axis : axis);
+    }
+    return convention;
+}
+
 bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                          lmp_probe_convention *convention) {
     assert(lmp_is_bands(bands) && tolerance >= 0);
-    for (int sign = 0; sign <= LMP_PROBE_SIGN_POSITIVE; sign++)
-        for (int norm = 0; norm <= LMP_PROBE_SN3D; norm++) {
-            const lmp_probe_convention guess = { .sign = (lmp_probe_sign)sign,
-                                                 .normalization = (lmp_probe_normalization)norm };
-            if (agrees(bands, &guess, ours, theirs, tolerance)) {
-                *convention = guess;
-                return true;
-            }
-        }
-    return false;
+    const lmp_probe_convention own = { 0 };
+    float moved[LMP_SH_COUNT(LMP_PROBE_AXES_BANDS_MAX)];
+    lmp_probe_convention guess = own;
+    bool found = recognize_basis(bands, ours, theirs, tolerance, &guess);
+    for (int i = 1; !found && i < 48 && bands <= LMP_PROBE_AXES_BANDS_MAX; i++) {
+        guess = axes_number(i);
+        lmp_probe_convert(bands, &own, &guess, ours, moved);
+        found = recognize_basis(bands, moved, theirs, tolerance, &guess);
+    }
+    if (found)
+        *convention = guess;
+    return found;
 }

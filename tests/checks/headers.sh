@@ -27,9 +27,14 @@ int main() {
     const lmp_vec3 point{ 0, 0, 0 };
     const lmp_material material{};
     const lmp_host host{};
+    lmp_cubemap cube{};
+    lmp_latlong panorama{};
+    lmp_probe_convention convention{};
+    lmp_probe_samples samples{};
     const lmp_spheres spheres = lmp_spheres_of(&light);
     sh[LMP_SH_INDEX(2, -1)] = half[LMP_SH_HALF_INDEX(2, 1)] = matrices[0] = 0;
-    return material.kind != LMP_MATERIAL_LOBES || host.user || spheres.radius.stride == 0 ||
+    return cube.size || panorama.width || convention.axes[0] || samples.count ||
+           material.kind != LMP_MATERIAL_LOBES || host.user || spheres.radius.stride == 0 ||
            lmp_vec3_array_of(&point).stride == 0 || sh[0] > half[0];
 }
 END

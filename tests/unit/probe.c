@@ -214,6 +214,31 @@ static void conventions_are_recognized(void **state) {
         }
 }
 
+/* Whatever is found converts: other signs are also a rotation by pi around z. */
+static void axes_are_recognized(void **state) {
+    (void)state;
+    static const signed char axes[][3] = {
+        { 1, 3, -2 }, { -3, 1, 2 }, { 1, 2, -3 }, { -1, -2, -3 }
+    };
+    float ours[25], theirs[25], again[25];
+    double expected[25];
+    randomize(ours, 25);
+    for (int i = 0; i < 24; i++) {
+        lmp_probe_convention made = { (lmp_probe_sign)(i % 2),
+                                      (lmp_probe_normalization)(i / 2 % 3),
+                                      { 0, 0, 0 } };
+        lmp_probe_convention found = { 0 };
+        memcpy(made.axes, axes[i / 6], sizeof made.axes);
+        lmp_probe_convert(5, &(lmp_probe_convention) { 0 }, &made, ours, theirs);
+        assert_true(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
+        assert_int_equal(found.normalization, made.normalization);
+        lmp_probe_convert(5, &(lmp_probe_convention) { 0 }, &found, ours, again);
+        for (int k = 0; k < 25; k++)
+            expected[k] = (double)theirs[k];
+        CHECK_WITHIN(check_error(25, expected, again), 1e-5);
+    }
+}
+
 /* --- from samples -------------------------------------------------------------------------------
  */
 
@@ -387,6 +412,7 @@ int main(void) {
         cmocka_unit_test(ambix_encodes_sources_in_its_own_axes),
         cmocka_unit_test(axes_may_be_any_of_48),
         cmocka_unit_test(conventions_are_recognized),
+        cmocka_unit_test(axes_are_recognized),
         cmocka_unit_test(samples_of_a_series_give_it_back),
         cmocka_unit_test(a_weight_of_two_is_a_sample_twice),
         cmocka_unit_test(much_smoothness_leaves_the_mean),
