@@ -27,6 +27,9 @@ may_include() {
     app/device) echo app/cli app/device ;;
     app/method) echo app/cli app/device app/method base shade sh ;;
     app/bake) echo app/cli app/file app/bake LIBRARY ;;
+    # it judges all of them: nothing but itself
+    ruler) echo ruler ;;
+    app/ruler) echo app/cli app/file app/ruler ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
     app/sandbox) echo app/cli app/sandbox ;;
@@ -48,7 +51,7 @@ may_include() {
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/shadow app/override app/view LIBRARY ;;
     app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
     app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/gpu app/bake app/shade app/override app/bench LIBRARY ;;
-    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/shade app/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/gpu app/device app/material app/view \
+    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/shade app/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/gpu app/device app/material app/view \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }
@@ -57,6 +60,7 @@ module_of() {
     case $1 in
     src/*/* | include/lampion/*) echo "$1" | sed 's,^src/\([^/]*\)/.*,\1,; s,^include/lampion/\(.*\)\.h,\1,' ;;
     app/*/*) echo "$1" | sed 's,^\(app/[^/]*\)/.*,\1,' ;;
+    ruler/*) echo ruler ;;
     esac
 }
 
@@ -67,6 +71,7 @@ module_included() {
     '"app/'*) echo "$1" | sed 's,"\(app/[^/]*\)/.*,\1,' ;;
     '"shaders/preintegrated_lookup.h"') echo lookup ;;
     '"shaders/'*) echo shaders ;;
+    '"ruler/'*) echo ruler ;;
     '"'*) echo "unrooted" ;;
     '<lampion/'*) echo "$1" | sed 's,<lampion/\(.*\)\.h>,\1,' ;;
     esac
@@ -75,7 +80,7 @@ module_included() {
 # violations ROOT: prints a line for each include that breaks the order.
 violations() (
     cd "$1"
-    for file in src/*/*.[ch] include/lampion/*.h app/*/*.[ch]; do
+    for file in src/*/*.[ch] include/lampion/*.h app/*/*.[ch] ruler/*.[ch]; do
         [ -f "$file" ] || continue
         module=$(module_of "$file")
         allowed=$(may_include "$module")
@@ -89,7 +94,7 @@ violations() (
                 esac
                 continue
             fi
-            case $file in app/*) continue ;; esac
+            case $file in app/* | ruler/*) continue ;; esac
             name=${include#<}
             case $module:$name in kernels:*intrin.h\> | kernels:cpuid.h\> | kernels:arm_* | kernels:wasm_*) continue ;; esac
             case " $(echo $standard) " in
@@ -116,6 +121,8 @@ plant() {
     rm "$WORK/$1"
 }
 plant src/sh/planted.c '"src/light/light.h"'
+plant ruler/planted.c '"src/light/light.h"'
+plant ruler/planted.c '<lampion/light.h>'
 plant src/base/planted.c '<stdio.h>'
 plant src/light/planted.h '"planted.h"'
 plant include/lampion/sh.h '<lampion/light.h>'
