@@ -8,6 +8,7 @@
 #define LAMPION_GPU_H
 
 #include "app/environment/environment.h"
+#include "app/file/embedded.h"
 #include "app/image/image.h"
 #include "app/method/method.h"
 #include "app/scene/scene.h"
@@ -219,9 +220,6 @@ const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer);
 /* --- sources -----------------------------------------------------------------------------------
  */
 
-typedef struct embedded_file {
-    const char *name, *text;
-} embedded_file;
 extern const embedded_file gpu_sources[]; /* the files of shaders/, ended by a NULL name */
 
 #endif
