@@ -5,13 +5,13 @@
 
 static const float pi = 3.14159265f;
 
-size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
+size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
                             size_t count, shade_chunk *chunk) {
     size_t others = 0;
     chunk->count = 0;
     for (size_t i = 0; i < count; i++) {
         const lmp_material *material = lmp_material_at(surfaces, left[i]);
-        const shade_source source = lmp_shade_source(material, method);
+        const shade_source source = lmp_shade_source(material, preintegrated);
         const int phong_count =
             lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, left[i]),
                                   lmp_vec3_element(&surfaces->view, left[i]));

@@ -25,7 +25,7 @@ typedef struct shade_chunk {
 } shade_chunk;
 
 /* Moves from `left` what is like its first; returns how many stay. */
-size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, lmp_shade_method method, size_t *left,
+size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
                             size_t count, shade_chunk *chunk);
 
 /* Of the surfaces taken all that a kernel reads; nothing is accumulated yet. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* environment.c - what surfaces reflect of ambient light from far away: a lobe of factors lambda_l
  * around an axis q accumulates Σ_l lambda_l Σ_m L_lm Y_lm(q). */
-#include "src/shade/planes.h"
+#include "src/shade/method.h"
 
 static const float pi = 3.14159265f;
 
@@ -16,7 +16,7 @@ typedef struct environment_method {
 
 static lmp_shade_settings settings_of(const lmp_shade_settings *settings) {
     lmp_shade_settings resolved = lmp_shade_resolve(settings);
-    if (resolved.method == LMP_SHADE_PREINTEGRATED && resolved.lobe) {
+    if (lmp_shade_method_of(resolved.method)->preintegrated && resolved.lobe) {
         const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(resolved.lobe);
         resolved.bands = info.bands;
         resolved.window = info.window;
@@ -133,8 +133,8 @@ void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
                 if (lobes > 0)
                     chunk.at[chunk.count++] = i;
                 else
-                    shade_one(surfaces, i, environment,
-                              lmp_shade_source(material, LMP_SHADE_ZONAL).table, stride, rgb);
+                    shade_one(surfaces, i, environment, lmp_shade_source(material, false).table,
+                              stride, rgb);
             }
             if (chunk.count > 0)
                 shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);

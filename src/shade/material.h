@@ -36,19 +36,18 @@ typedef struct shade_lobes {
     shade_lobe lobe[SHADE_LOBES_MAX];
 } shade_lobes;
 
-/* What a surface is shaded from under one method: a table, a preintegrated BRDF, or, if both are
- * NULL, lobes. */
+/* What a surface is shaded from: a table, a preintegrated BRDF, or, if both are NULL, lobes. Of a
+ * material that has both, a method that reads what is preintegrated takes that. */
 typedef struct shade_source {
     const lmp_brdf_table *table;
     const lmp_preintegrated_brdf *preintegrated;
 } shade_source;
 
-static inline shade_source lmp_shade_source(const lmp_material *material, lmp_shade_method method) {
+static inline shade_source lmp_shade_source(const lmp_material *material, bool preintegrated) {
     shade_source source = { NULL, NULL };
     if (material->kind == LMP_MATERIAL_PREINTEGRATED)
         source.preintegrated = material->preintegrated;
-    else if (material->kind == LMP_MATERIAL_TABLE && method == LMP_SHADE_PREINTEGRATED &&
-             material->preintegrated)
+    else if (material->kind == LMP_MATERIAL_TABLE && preintegrated && material->preintegrated)
         source.preintegrated = material->preintegrated;
     else if (material->kind == LMP_MATERIAL_TABLE)
         source.table = material->table;
@@ -143,8 +142,7 @@ void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,
                      const lmp_surface *surface, shade_lobes *lobes);
 
-/* One surface whose source is not preintegrated, by any method but LMP_SHADE_PREINTEGRATED for
- * lobes; clamped to 0. */
+/* One surface whose source is not preintegrated, nor its lobes (method.h); clamped to 0. */
 lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *material,
                       const lmp_surface *surface, const lmp_light *lights, size_t count);
 
@@ -161,6 +159,8 @@ void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
                                       float *rgb);
 
 /* Not clamped. */
+lmp_rgb lmp_shade_lobes_zonal(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,
+                              size_t count);
 lmp_rgb lmp_shade_lobes_coefficients(const shade_lobes *lobes, lmp_vec3 point,
                                      const lmp_light *lights, size_t count);
 lmp_rgb lmp_shade_table(const lmp_brdf_table *table, const lmp_surface *surface,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* One surface: what shading means. */
-#include "src/shade/material.h"
+#include "src/shade/method.h"
 
 /* The kernels' own: batches of one. */
 static lmp_rgb shade_batch_of_one(const lmp_shade_settings *settings, const lmp_material *material,
@@ -15,8 +15,9 @@ static lmp_rgb shade_batch_of_one(const lmp_shade_settings *settings, const lmp_
 static lmp_rgb shade_uncoated(const lmp_shade_settings *settings, const lmp_material *material,
                               const lmp_surface *surface, const lmp_light *lights, size_t count) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
-    const shade_source source = lmp_shade_source(material, resolved.method);
-    if (source.preintegrated || (!source.table && resolved.method == LMP_SHADE_PREINTEGRATED))
+    const shade_method *method = lmp_shade_method_of(resolved.method);
+    const shade_source source = lmp_shade_source(material, method->preintegrated);
+    if (source.preintegrated || (!source.table && !method->lobes_of_one))
         return shade_batch_of_one(settings, material, surface, lights, count);
     return lmp_shade_sum(&resolved, material, surface, lights, count);
 }

@@ -1,50 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* One surface by the sums that define shading: a table's coefficients, or lobes. */
-#include "src/light/cap.h"
-#include "src/lobe/response.h"
-#include "src/shade/material.h"
-
-#include <math.h>
+#include "src/shade/method.h"
 
 static lmp_rgb clamped(lmp_rgb color) {
     return (lmp_rgb) { lmp_shade_clamped(color.r), lmp_shade_clamped(color.g),
                        lmp_shade_clamped(color.b) };
 }
 
-/* By the addition theorem. */
-static lmp_rgb shade_zonal(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,
-                           size_t count) {
-    const int bands = lobes->bands;
-    float weights[SHADE_LOBES_MAX][LMP_BANDS_MAX], r[LMP_BANDS_MAX];
-    lmp_rgb accumulated[SHADE_LOBES_MAX] = { { 0, 0, 0 } }, color = { 0, 0, 0 };
-    for (int k = 0; k < lobes->count; k++)
-        lmp_lobe_weights(bands, lobes->lobe[k].lambda, weights[k]);
-    for (size_t i = 0; i < count; i++) {
-        lmp_cap cap;
-        lmp_light_cap(&lights[i], point, &cap);
-        lmp_cap_polynomials(bands, cap.one_minus_cos, r);
-        for (int k = 0; k < lobes->count; k++) {
-            const shade_lobe *lobe = &lobes->lobe[k];
-            lmp_lobe_add(&cap, lmp_lobe_sum(bands, weights[k], r, lobe->axis, cap.axis),
-                         lobe->lambda[0], &accumulated[k]);
-        }
-    }
-    for (int k = 0; k < lobes->count; k++) {
-        color.r += lobes->lobe[k].weight.r * accumulated[k].r;
-        color.g += lobes->lobe[k].weight.g * accumulated[k].g;
-        color.b += lobes->lobe[k].weight.b * accumulated[k].b;
-    }
-    return color;
-}
-
 lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *material,
                       const lmp_surface *surface, const lmp_light *lights, size_t count) {
-    const shade_source source = lmp_shade_source(material, resolved->method);
+    const shade_method *method = lmp_shade_method_of(resolved->method);
+    const shade_source source = lmp_shade_source(material, method->preintegrated);
     if (source.table)
         return clamped(lmp_shade_table(source.table, surface, lights, count));
     shade_lobes lobes;
     lmp_shade_lobes(resolved, material, surface, &lobes);
-    if (resolved->method == LMP_SHADE_COEFFICIENTS)
-        return clamped(lmp_shade_lobes_coefficients(&lobes, surface->position, lights, count));
-    return clamped(shade_zonal(&lobes, surface->position, lights, count));
+    return clamped(method->lobes_of_one(&lobes, surface->position, lights, count));
 }

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/shade/method.h"
+
+static const float pi = 3.14159265f;
+
+/* --- by bands --------------------------------------------------------------------------------- */
+
+static void prepare_zonal(const lmp_shade_settings *settings, shade_prepared *prepared) {
+    lmp_sh_window(settings->bands, settings->window, settings->window_size, prepared->window);
+    lmp_lobe_diffuse(settings->bands, prepared->diffuse);
+    for (int l = 0; l < settings->bands; l++)
+        prepared->diffuse[l] /= pi;
+}
+
+static void add_zonal(const shade_prepared *prepared, const shade_chunk *chunk,
+                      const lmp_kernel_light *lights, size_t count) {
+    lmp_kernels_get()->shade_zonal(prepared->settings->bands, prepared->window, prepared->diffuse,
+                                   &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
+}
+
+/* --- from preintegrated lobes ------------------------------------------------------------------
+ */
+
+static void prepare_preintegrated(const lmp_shade_settings *settings, shade_prepared *prepared) {
+    lmp_preintegrated_lobe_position position;
+    if (!settings->lobe)
+        return;
+    prepared->info = lmp_preintegrated_lobe_describe(settings->lobe);
+    lmp_preintegrated_lobe_lookup(&prepared->info, 1, &position);
+    for (int i = 0; i < LMP_KERNEL_LANES_MAX; i++) {
+        prepared->diffuse_first[i] = position.first;
+        prepared->diffuse_columns[i] = position.columns;
+        prepared->diffuse_numbers[0][i] = position.fraction;
+        prepared->diffuse_numbers[1][i] = position.density;
+        prepared->diffuse_numbers[2][i] = position.lobe_angle;
+    }
+    prepared->diffuse_position =
+        (lmp_kernel_lobe_positions) { prepared->diffuse_first, prepared->diffuse_columns,
+                                      prepared->diffuse_numbers[0], prepared->diffuse_numbers[1],
+                                      prepared->diffuse_numbers[2] };
+}
+
+/* Where each surface's lobe lies. */
+typedef struct chunk_positions {
+    uint32_t first[LMP_BATCH], columns[LMP_BATCH];
+    lmp_batch_plane fraction, density, lobe_angle;
+} chunk_positions;
+
+static lmp_kernel_lobe_positions find_positions(const lmp_preintegrated_lobe_info *info,
+                                                const shade_lobe_planes *lobe, size_t count,
+                                                chunk_positions *positions) {
+    lmp_preintegrated_lobe_position position = { 0 };
+    float exponent = -1;
+    for (size_t i = 0; i < LMP_BATCH; i++) {
+        /* Past the last surface, its position again: a kernel reads whole vectors. */
+        const float e = lobe->exponent.at[i < count ? i : count - 1];
+        if (e < exponent || e > exponent)
+            lmp_preintegrated_lobe_lookup(info, e, &position);
+        exponent = e;
+        positions->first[i] = position.first;
+        positions->columns[i] = position.columns;
+        positions->fraction.at[i] = position.fraction;
+        positions->density.at[i] = position.density;
+        positions->lobe_angle.at[i] = position.lobe_angle;
+        if (i >= count && i % LMP_KERNEL_LANES_MAX == LMP_KERNEL_LANES_MAX - 1)
+            break;
+    }
+    return (lmp_kernel_lobe_positions) { positions->first, positions->columns,
+                                         positions->fraction.at, positions->density.at,
+                                         positions->lobe_angle.at };
+}
+
+static void add_preintegrated(const shade_prepared *prepared, const shade_chunk *chunk,
+                              const lmp_kernel_light *lights, size_t count) {
+    chunk_positions positions[LMP_KERNEL_LOBES_MAX];
+    lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
+    const lmp_kernel_preintegrated_lobe lobe = { prepared->info.coefficients };
+    for (int k = 0; k < chunk->phong_count; k++)
+        specular[k] =
+            find_positions(&prepared->info, &chunk->planes.lobe[k], chunk->count, &positions[k]);
+    lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &prepared->diffuse_position, specular,
+                                                &chunk->surfaces, lights, count, chunk->count,
+                                                &chunk->sums);
+}
+
+/* --- the table -------------------------------------------------------------------------------- */
+
+static const shade_method methods[LMP_SHADE_METHODS] = {
+    [LMP_SHADE_ZONAL] = { .lobes_of_one = lmp_shade_lobes_zonal,
+                          .prepare = prepare_zonal,
+                          .lobes_of_chunk = add_zonal },
+    [LMP_SHADE_COEFFICIENTS] = { .lobes_of_one = lmp_shade_lobes_coefficients },
+    [LMP_SHADE_PREINTEGRATED] = { .preintegrated = true,
+                                  .prepare = prepare_preintegrated,
+                                  .lobes_of_chunk = add_preintegrated },
+};
+
+const shade_method *lmp_shade_method_of(lmp_shade_method name) {
+    return &methods[name];
+}

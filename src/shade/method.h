@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT */
+/* method.h - the shading methods, a row each: what else depends on the method reads its row. */
+#ifndef LAMPION_SHADE_METHOD_H
+#define LAMPION_SHADE_METHOD_H
+
+#include "src/preintegrated/lobe_eval.h"
+#include "src/shade/chunk.h"
+
+/* What is the same for all surfaces of a call. */
+typedef struct shade_prepared {
+    const struct shade_method *method;
+    const lmp_shade_settings *settings;
+    float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
+    lmp_preintegrated_lobe_info info;
+    uint32_t diffuse_first[LMP_KERNEL_LANES_MAX], diffuse_columns[LMP_KERNEL_LANES_MAX];
+    float diffuse_numbers[3][LMP_KERNEL_LANES_MAX];
+    lmp_kernel_lobe_positions diffuse_position;
+} shade_prepared;
+
+typedef struct shade_method {
+    /* It reads the settings' preintegrated lobe, and of a tabulated material, where there is one,
+     * the preintegrated BRDF. */
+    bool preintegrated;
+    /* What the lobes of one surface reflect, not clamped; NULL: they are a chunk of one. */
+    lmp_rgb (*lobes_of_one)(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,
+                            size_t count);
+    /* Adds what the lobes of a chunk accumulate; NULL: surface by surface. */
+    void (*lobes_of_chunk)(const shade_prepared *prepared, const shade_chunk *chunk,
+                           const lmp_kernel_light *lights, size_t count);
+    void (*prepare)(const lmp_shade_settings *settings, shade_prepared *prepared); /* or NULL */
+} shade_method;
+
+const shade_method *lmp_shade_method_of(lmp_shade_method name);
+
+#endif
