@@ -125,13 +125,14 @@ static bool run_pass(const filter_pass *pass) {
     return ok;
 }
 
-/* Of a mean of n, blur that falls as the fourth root falls as the root of n, and so does variance.
+/* Widths are known as far as values are mixed: else what lies just beyond an edge would cross it.
+ * Of a mean of n, blur that falls as the fourth root falls as the root of n, and so does variance.
  */
 bool shadow_filter(shadow_planes *planes, int sample) {
-    enum { WIDTH_PASSES = 3, PASSES = 4 };
+    enum { PASSES = 4 };
     const float narrowing = sqrtf((float)(sample + 1));
     bool ok = true;
-    for (int i = 0; i < WIDTH_PASSES && ok; i++)
+    for (int i = 0; i < PASSES && ok; i++)
         ok = run_pass(&(filter_pass) { planes, SHADOW_HIDDEN, 2, 1 << i, 0 });
     for (int i = 0; i < PASSES && ok; i++)
         ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_HIDDEN, 1 << i, narrowing });

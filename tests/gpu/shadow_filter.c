@@ -62,10 +62,100 @@ static void many_filtered_samples_come_to_the_truth(void **state) {
     close_stage(&s);
 }
 
+/* A roof above a floor. */
+static void make_roof(scene *world) {
+    scene_builder builder = { .out_of_memory = false };
+    add_material(&builder, "floor", 0.8f);
+    scene_shaper shaper = { .builder = &builder };
+    shape_quad(&shaper, vec(-3, 0, 3), vec(3, 0, 3), vec(3, 0, -3), vec(-3, 0, -3));
+    shape_quad(&shaper, vec(-0.4f, 1.5f, 0.4f), vec(0.4f, 1.5f, 0.4f), vec(0.4f, 1.5f, -0.4f),
+               vec(-0.4f, 1.5f, -0.4f));
+    shaper_finish(&shaper);
+    open_scene(&builder, world);
+}
+
+/* Twice as wide and high, under one light. */
+static void open_roof(stage *s, const lmp_light *light) {
+    open_scene_stage(s, make_roof);
+    s->frame.width *= 2;
+    s->frame.height *= 2;
+    set_lights(s, light, 1);
+}
+
+/* The mean variance of the pixels from one seed to another. */
+static double noise_of(stage *s, bool raw) {
+    enum { SEEDS = 4, VALUES = 12 * PIXELS };
+    static double sums[VALUES], squares[VALUES];
+    double variance = 0;
+    memset(sums, 0, sizeof sums);
+    memset(squares, 0, sizeof squares);
+    for (uint32_t seed = 0; seed < SEEDS; seed++) {
+        image drawn =
+            draw_shadows(s, NULL, &(shadow_settings) { .rays = 2, .seed = seed, .raw = raw });
+        for (int i = 0; i < VALUES; i++) {
+            const double value = (double)drawn.rgb[i];
+            sums[i] += value;
+            squares[i] += value * value;
+        }
+        image_free(&drawn);
+    }
+    for (int i = 0; i < VALUES; i++)
+        variance += (squares[i] - sums[i] * sums[i] / SEEDS) / VALUES;
+    return variance;
+}
+
+/* The roof is nearer to the light than to the floor. */
+static void wide_penumbras_are_mixed_widely(void **state) {
+    (void)state;
+    stage s;
+    open_roof(&s,
+              &(lmp_light) { .position = { 0, 2, 0 }, .radius = 0.3f, .radiance = { 9, 9, 9 } });
+    const double raw = noise_of(&s, true), filtered = noise_of(&s, false);
+    print_message("variance %.2e unfiltered, %.2e filtered\n", raw, filtered);
+    assert_true(filtered * 400 <= raw);
+    close_stage(&s);
+}
+
+/* A pixel is as bright as one of its neighbors should be, within a fiftieth of the light. */
+static void edges_of_a_small_far_light_stay_within_a_pixel(void **state) {
+    (void)state;
+    stage s;
+    open_roof(&s, &(lmp_light) { .position = { 40, 90, 20 },
+                                 .radius = 0.1f,
+                                 .radiance = { 1e6f, 1e6f, 1e6f } });
+    const int width = s.frame.width, height = s.frame.height;
+    image all = render_image(s.renderer, &s.frame);
+    image exact = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 64, .raw = true });
+    image drawn = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2 });
+    int edges = 0, wrong = 0;
+    for (int y = 1; y + 1 < height; y++)
+        for (int x = 1; x + 1 < width; x++) {
+            const float value = drawn.rgb[3 * (y * width + x)];
+            const float bound = 0.02f * all.rgb[3 * (y * width + x)];
+            float least = INFINITY, most = 0;
+            for (int k = 0; k < 9; k++) {
+                const int neighbor = 3 * ((y + k / 3 - 1) * width + x + k % 3 - 1);
+                least = fminf(least, exact.rgb[neighbor]);
+                most = fmaxf(most, exact.rgb[neighbor]);
+            }
+            edges += least < 0.5f * most;
+            wrong += !(value >= least - bound && value <= most + bound);
+        }
+    print_message("%d pixels at edges, %d pixels off\n", edges, wrong);
+    assert_in_range(edges, 50, width * height);
+    assert_int_equal(wrong, 0);
+    image_free(&all);
+    image_free(&exact);
+    image_free(&drawn);
+    close_stage(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_filter_takes_nine_tenths_of_the_error),
         cmocka_unit_test(many_filtered_samples_come_to_the_truth),
+        cmocka_unit_test(wide_penumbras_are_mixed_widely),
+        cmocka_unit_test(edges_of_a_small_far_light_stay_within_a_pixel),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

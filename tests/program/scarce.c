@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* An allocator to load before the C library's (LD_PRELOAD): request number LAMPION_REFUSE of those
- * that the program itself makes is refused, and with LAMPION_REQUESTS their number is written to
- * that file at the end. Libraries have all they want: what they do without it is not for us to
- * mend. */
+ * that the program itself makes, or the library whose name has LAMPION_REFUSE_TO in it, is refused;
+ * with LAMPION_REQUESTS their number is written to that file at the end. All others have what they
+ * want. */
 #define _GNU_SOURCE /* dl_iterate_phdr */
 #include <errno.h>
 #include <link.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 
 void *__libc_malloc(size_t size);
@@ -16,19 +17,21 @@ void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *memory, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static uintptr_t program_start, program_end;
+static uintptr_t code_start, code_end;
 static long refused;
 static atomic_long *requests; /* of the program and of its children */
 
-static int find_program(struct dl_phdr_info *info, size_t size, void *user) {
+/* The first that is listed is the program. */
+static int find_code(struct dl_phdr_info *info, size_t size, void *library) {
     (void)size;
-    (void)user;
+    if (library && !strstr(info->dlpi_name, library))
+        return 0;
     for (int i = 0; i < info->dlpi_phnum; i++)
         if (info->dlpi_phdr[i].p_type == PT_LOAD && (info->dlpi_phdr[i].p_flags & PF_X)) {
-            program_start = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
-            program_end = program_start + info->dlpi_phdr[i].p_memsz;
+            code_start = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
+            code_end = code_start + info->dlpi_phdr[i].p_memsz;
         }
-    return 1; /* the first is the program */
+    return 1;
 }
 
 __attribute__((constructor)) static void begin(void) {
@@ -38,7 +41,7 @@ __attribute__((constructor)) static void begin(void) {
         mmap(NULL, sizeof *requests, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared != MAP_FAILED)
         requests = shared;
-    dl_iterate_phdr(find_program, NULL);
+    dl_iterate_phdr(find_code, getenv("LAMPION_REFUSE_TO"));
 }
 
 __attribute__((destructor)) static void end(void) {
@@ -52,7 +55,7 @@ __attribute__((destructor)) static void end(void) {
 
 static int refuses(const void *caller) {
     const uintptr_t address = (uintptr_t)caller;
-    if (!requests || address < program_start || address >= program_end ||
+    if (!requests || address < code_start || address >= code_end ||
         atomic_fetch_add(requests, 1) + 1 != refused)
         return 0;
     errno = ENOMEM;
@@ -75,4 +78,9 @@ void *realloc(void *memory, size_t size) {
 
 void *aligned_alloc(size_t alignment, size_t size) {
     return FROM_CALLER(__libc_memalign(alignment, size));
+}
+
+int posix_memalign(void **memory, size_t alignment, size_t size) {
+    *memory = FROM_CALLER(__libc_memalign(alignment, size));
+    return *memory ? 0 : ENOMEM;
 }
