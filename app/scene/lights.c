@@ -15,6 +15,7 @@
 #define RANDOM_IRRADIANCE    12.0f
 #define RANDOM_MARGIN        0.08f /* kept free at the sides of a building's bounds */
 #define RANDOM_AROUND        0.35f /* added to the bounds of what is none, but below */
+#define RANDOM_SEEN          0.07f /* radius over distance from the camera, at most */
 #define RANDOM_ATTEMPTS      64    /* to find room for a light */
 #define RANDOM_WARM_FRACTION 0.5f
 
@@ -70,9 +71,11 @@ static lmp_vec3 position_in(const random_box *box, uint64_t *random) {
     return vec_load(position);
 }
 
-/* Draws positions anew for those of the lights that are in something; where there is no room, they
- * are above everything. Each has a stream of its own, so that none changes for another. */
+/* Draws positions anew for those of the lights that are in something or fill the view; where there
+ * is no room, they are above everything. Each has a stream of its own, so that none changes for
+ * another. */
 static bool make_room(scene *s, size_t first, const random_box *box, uint64_t seed) {
+    const lmp_vec3 eye = vec_load(scene_default_camera(s, 1.5f).eye);
     size_t count = s->light_count - first;
     space_ball *balls = malloc((count + 1) * sizeof *balls);
     for (size_t i = 0; balls && i < count; i++)
@@ -89,7 +92,7 @@ static bool make_room(scene *s, size_t first, const random_box *box, uint64_t se
             const space_ball ball = balls[i];
             lmp_vec3 *position = &s->lights[ball.number].emitter.position;
             uint64_t random = seed ^ ((uint64_t)ball.number << 32 | attempt);
-            if (ball.fits)
+            if (ball.fits && ball.radius < RANDOM_SEEN * vec_length(vec_sub(ball.center, eye)))
                 continue;
             *position = position_in(box, &random);
             if (attempt < RANDOM_ATTEMPTS)

@@ -200,13 +200,31 @@ static void what_is_no_json_is_refused(void **state) {
 /* --- what is left out ---------------------------------------------------------------------------
  */
 
+#define MATERIAL(name)                                                                             \
+    {                                                                                              \
+        "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_" name "\":{}}",                  \
+            name " (1 material)"                                                                   \
+    }
+
 static void what_is_left_out_is_named(void **state) {
     (void)state;
     static const struct {
         const char *from, *to, *named;
     } cases[] = {
-        { "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_transmission\":{}}",
-          "transmission (1 material)" },
+        MATERIAL("transmission"),
+        MATERIAL("sheen"),
+        MATERIAL("anisotropy"),
+        MATERIAL("volume"),
+        MATERIAL("iridescence"),
+        MATERIAL("dispersion"),
+        { "\"scale\":[1,1,1]", "\"scale\":[1,1,1],\"extensions\":{\"MSFT_lod\":{}}",
+          "MSFT_lod (1 node)" },
+        { "\"mode\":4,", "\"mode\":4,\"extensions\":{\"KHR_materials_variants\":{}},",
+          "variants (1 mesh)" },
+        { "\"mode\":4,", "\"mode\":4,\"extensions\":{\"KHR_draco_mesh_compression\":{}},",
+          "KHR_draco_mesh_compression (1 mesh)" },
+        { "\"source\":0,", "\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}},",
+          "KHR_texture_basisu (1 texture)" },
         { "\"mode\":4", "\"mode\":1", "points and lines (1 primitive)" },
         { "\"source\":0,", "\"extensions\":{\"EXT_texture_webp\":{\"source\":0}},",
           "EXT_texture_webp (1 texture)" },

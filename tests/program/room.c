@@ -89,6 +89,25 @@ static void random_lights_are_never_in_anything(void **state) {
     }
 }
 
+/* Of 1000, seen from the camera that shows the scene, none covers more than a few degrees. */
+static void random_lights_do_not_fill_the_view(void **state) {
+    (void)state;
+    for (int inwards = 0; inwards < 2; inwards++) {
+        scene s = load_cube(inwards);
+        cli_error error;
+        assert_true(scene_add_random_lights(&s, 1000, 7, &error));
+        const scene_camera camera = scene_default_camera(&s, 1.5f);
+        for (size_t i = 0; i < s.light_count; i++) {
+            const lmp_light *light = &s.lights[i].emitter;
+            const lmp_vec3 p = light->position;
+            const double x = (double)(p.x - camera.eye[0]), y = (double)(p.y - camera.eye[1]);
+            const double z = (double)(p.z - camera.eye[2]);
+            assert_true((double)light->radius < 0.0701 * sqrt(x * x + y * y + z * z));
+        }
+        scene_free(&s);
+    }
+}
+
 /* A triangle in y = 0: to its plane, its side, its corner. */
 static void balls_are_measured_to_planes_sides_and_corners(void **state) {
     (void)state;
@@ -126,6 +145,7 @@ int main(void) {
         cmocka_unit_test(a_room_is_a_building_and_a_block_is_none),
         cmocka_unit_test(the_camera_stands_inside_a_room_and_outside_a_block),
         cmocka_unit_test(random_lights_are_never_in_anything),
+        cmocka_unit_test(random_lights_do_not_fill_the_view),
         cmocka_unit_test(balls_are_measured_to_planes_sides_and_corners),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
