@@ -8,11 +8,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define COLUMNS 7
-#define HEADER  "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z"
+#define COLUMNS 8 /* the last is optional */
+#define HEADER  "light_x,light_y,light_z,radius,recv_x,recv_y,recv_z[,visibility]"
 
 static const char *const column_names[COLUMNS] = { "light_x", "light_y", "light_z", "radius",
-                                                   "recv_x",  "recv_y",  "recv_z" };
+                                                   "recv_x",  "recv_y",  "recv_z",  "visibility" };
 
 typedef enum project_format { FORMAT_TEXT, FORMAT_CSV, FORMAT_JSON } project_format;
 static const char *const format_names[] = { "text", "csv", "json", NULL };
@@ -27,6 +27,7 @@ typedef struct project_options {
 /* One row of the table: a light and the point that sees it. */
 typedef struct project_row {
     float center[3], radius, point[3];
+    float visibility; /* what part of the light comes */
 } project_row;
 
 /* Rows go to the batch kernels some at a time, on every core. */
@@ -47,7 +48,7 @@ static void project_rows(const project_row *rows, size_t count, int bands, float
         float *sh = coefficients + first * stride;
         lmp_sphere_project_n(bands, &spheres, points, some, LMP_SH_INTERLEAVED, 0, sh);
         for (size_t k = 0; k < some * stride; k++)
-            sh[k] *= radiance;
+            sh[k] *= radiance * row[k / stride].visibility;
     }
 }
 
@@ -96,7 +97,8 @@ static int project_one(const project_options *o) {
     float sh[LMP_SH_COUNT(LMP_BANDS_MAX)];
     const project_row row = { { o->light[0], o->light[1], o->light[2] },
                               o->radius,
-                              { o->point[0], o->point[1], o->point[2] } };
+                              { o->point[0], o->point[1], o->point[2] },
+                              1 };
     project_rows(&row, 1, o->bands, o->radiance, sh);
     if (o->format == FORMAT_TEXT) {
         print_text(sh, o->bands);
@@ -142,9 +144,10 @@ static void block_free(block *b) {
 
 /* Reads up to b->room rows; CSV_ROW while there may be more. */
 static csv_result block_read(block *b, csv_reader *reader, size_t *count, cli_error *error) {
+    const int columns = COLUMNS - !reader->more;
     for (*count = 0; *count < b->room; (*count)++) {
-        float v[COLUMNS];
-        const csv_result result = csv_read_row(reader, column_names, COLUMNS, v, error);
+        float v[COLUMNS] = { [COLUMNS - 1] = 1 };
+        const csv_result result = csv_read_row(reader, column_names, columns, v, error);
         if (result != CSV_ROW)
             return result;
         for (int i = 0; i < COLUMNS; i++)
@@ -153,7 +156,10 @@ static csv_result block_read(block *b, csv_reader *reader, size_t *count, cli_er
                                       column_names[i], (double)v[i], (double)LMP_LENGTH_MAX);
         if (v[3] < 0.0f)
             return csv_line_error(reader, error, "radius: %g is negative", (double)v[3]);
-        b->rows[*count] = (project_row) { { v[0], v[1], v[2] }, v[3], { v[4], v[5], v[6] } };
+        if (!(v[7] >= 0.0f && v[7] <= 1.0f))
+            return csv_line_error(reader, error, "visibility: %g is out of range (0 to 1)",
+                                  (double)v[7]);
+        b->rows[*count] = (project_row) { { v[0], v[1], v[2] }, v[3], { v[4], v[5], v[6] }, v[7] };
     }
     return CSV_ROW;
 }

@@ -14,12 +14,14 @@
 typedef struct csv_reader {
     FILE *stream;
     const char *name;   /* for messages */
+    bool more;          /* the header has its optional end */
     size_t line_number; /* of the line read last, from 1 */
     size_t begin, end;  /* of what is unread in buffer */
     char buffer[CSV_LINE_MAX];
 } csv_reader;
 
-/* Opens a table ("-": standard input) whose first line must be `header`. */
+/* Opens a table ("-": standard input) whose first line must be `header`, in which an end in
+ * brackets is optional: "a,b[,c]". */
 bool csv_open(csv_reader *reader, const char *path, const char *header, cli_error *error);
 /* The same from an open stream, which the reader then owns; header NULL: there is none. */
 bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const char *header,

@@ -71,11 +71,22 @@ bool csv_open(csv_reader *reader, const char *path, const char *header, cli_erro
     return csv_open_stream(reader, stream, standard ? "standard input" : path, header, error);
 }
 
+/* "a,b[,c]" is a,b or, with *more, a,b,c. */
+static bool is_header(const char *line, const char *header, bool *more) {
+    const size_t first = strcspn(header, "["), length = strlen(line);
+    const char *end = header + first + (header[first] == '[');
+    const size_t rest = strcspn(end, "]");
+    *more = length > first;
+    return strncmp(line, header, first) == 0 &&
+           (length == first || (length == first + rest && strncmp(line + first, end, rest) == 0));
+}
+
 bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const char *header,
                      cli_error *error) {
     reader->stream = stream;
     reader->name = name;
     reader->line_number = reader->begin = reader->end = 0;
+    reader->more = false;
     if (!header)
         return true;
     char *line;
@@ -86,7 +97,7 @@ bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const c
     if (result == CSV_ROW) {
         if (strncmp(line, BYTE_ORDER_MARK, strlen(BYTE_ORDER_MARK)) == 0)
             line += strlen(BYTE_ORDER_MARK);
-        if (strcmp(line, header) == 0)
+        if (is_header(line, header, &reader->more))
             return true;
         csv_line_error(reader, error, "the header must be %s", header);
     }

@@ -37,6 +37,14 @@ tail -n 1 "$WORK/table" | cmp - "$WORK/text" || fail "text is not the table's ro
     cmp - "$WORK/text" || fail "json is not the table's row"
 [ "$(head -n 1 "$WORK/table")" = "$(seq -s, -f 'c_%g' 0 15)" ] || fail "the header of the table"
 
+# what part of a light comes: half of it, none, and all as without the column
+printf '%s,visibility\n1,2.5,-3,0.75,0.25,0,1,0.5\n1,2.5,-3,0.75,0.25,0,1,0\n1,2.5,-3,0.75,0.25,0,1,1\n' $header |
+    "$PROGRAM" project --batch - --bands 4 --radiance 5 >"$WORK/visible"
+sed -n 2p "$WORK/visible" | cmp - "$WORK/text" || fail "half of twice the light"
+[ "$(sed -n 3p "$WORK/visible" | tr -d ,0-)" = "" ] || fail "none of the light"
+"$PROGRAM" project "$@" --radiance 5 --format csv | tail -n 1 >"$WORK/all"
+tail -n 1 "$WORK/visible" | cmp - "$WORK/all" || fail "all of the light"
+
 # every instruction set prints the same
 for mask in 1 2 4 8; do
     "$PROGRAM" project "$@" --format csv --cpu-mask $mask | cmp - "$WORK/table" || fail "mask $mask"
@@ -72,7 +80,7 @@ refuse 2 "lampion project: --radius: -1 is out of range (0 to 1e+17)$see" --radi
 refuse 2 "lampion project: --batch prints csv only$see" --batch x --format json
 refuse 2 "lampion project: --batch takes lights and points from its table alone$see" --batch x --point 0,0,0
 refuse 2 "lampion project: \"x\" is not an option$see" x
-refuse 1 "lampion: standard input: is empty (its first line must be $header)" --batch -
+refuse 1 "lampion: standard input: is empty (its first line must be $header[,visibility])" --batch -
 refuse 1 "lampion: $WORK/nothing: No such file or directory" --batch "$WORK/nothing"
 printf '%s\n1,2,3,-0.5,0,0,0\n' $header >"$WORK/negative"
 refuse 1 "lampion: $WORK/negative: line 2: radius: -0.5 is negative" --batch "$WORK/negative"
@@ -80,5 +88,7 @@ printf '%s\n1,2,3,1,0,0,0\n0,2e17,0,1,0,0,0\n' $header >"$WORK/far"
 refuse 1 "lampion: $WORK/far: line 3: light_y: 2e+17 is out of range (up to 1e+17)" --batch "$WORK/far"
 printf '%s\n1,2,3,1,0,0,0\n1,2,3,1,0,0,0,9\n' $header >"$WORK/wide"
 refuse 1 "lampion: $WORK/wide: line 3: has 8 columns, not 7" --batch "$WORK/wide"
+printf '%s,visibility\n1,2,3,1,0,0,0,1.5\n' $header >"$WORK/visibility"
+refuse 1 "lampion: $WORK/visibility: line 2: visibility: 1.5 is out of range (0 to 1)" --batch "$WORK/visibility"
 printf '%s,c_0\n1,2,3,1,0,0,0,9\n' $header >"$WORK/header"
-refuse 1 "lampion: $WORK/header: line 1: the header must be $header" --batch "$WORK/header"
+refuse 1 "lampion: $WORK/header: line 1: the header must be $header[,visibility]" --batch "$WORK/header"
