@@ -22,7 +22,7 @@ scene_material scene_material_plain(void) {
         .roughness = 1.0f,
         .normal_scale = 1.0f,
         .alpha_cutoff = 0.5f,
-        .f0 = { 0.04f, 0.04f, 0.04f },
+        .f0 = { LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0 },
         .f90 = 1.0f,
         .occlusion = 1.0f,
         .coat_normal_scale = 1.0f,

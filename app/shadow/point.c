@@ -85,7 +85,9 @@ static float resolved(const lmp_shade_settings *settings) {
     return alpha * alpha;
 }
 
-static const lmp_dielectric plain = { true, { 0.04f, 0.04f, 0.04f }, 1 };
+static const lmp_dielectric plain = { true,
+                                      { LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0 },
+                                      1 };
 
 static void set_material(const lmp_material *m, float least, int i, shadow_points *p) {
     const lmp_dielectric *given = m->dielectric.given ? &m->dielectric : &plain;

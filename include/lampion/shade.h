@@ -14,7 +14,7 @@
  * Of glTF's metallic-roughness (glTF 2.0, appendix B) the specular part is the lobes of
  * lmp_lobe_ggx with F0 = mix(f0, base_color, metallic) and F90 = mix(f90, 1, metallic), and the
  * albedo of the diffuse one base_color (1 - metallic) (1 - max(f0) diffuse_f0 - f90 diffuse_f90),
- * where f0 and f90 are the dielectric's, 0.04 and 1 unless it says more.
+ * where f0 and f90 are the dielectric's, LMP_DIELECTRIC_F0 and 1 unless it says more.
  *
  * The sum over all lights is then clamped at 0, channel by channel, for a truncated series rings.
  * A coat reflects by GGX around a normal of its own, its weight w (0.04 + 0.96 (1 - |v·n|)^5), and
@@ -40,8 +40,9 @@ typedef enum lmp_material_kind {
 } lmp_material_kind;
 
 /* How the dielectric of metallic-roughness reflects, as KHR_materials_specular and
- * KHR_materials_ior have it: along the normal and at grazing angles. Zero-initialized: 0.04 and 1.
- */
+ * KHR_materials_ior have it: along the normal and at grazing angles. Zero-initialized:
+ * LMP_DIELECTRIC_F0, of an index of refraction of 1.5, and 1. */
+#define LMP_DIELECTRIC_F0 0.04f
 typedef struct lmp_dielectric {
     bool given; /* false: the others are ignored */
     lmp_rgb f0; /* 0 … 1 */

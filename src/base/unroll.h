@@ -19,28 +19,25 @@
 #define LMP_ROLLED _Pragma("GCC unroll 1")
 #endif
 
-/* Calls body(bands, …); few bands, which engines ask for one light at a time, as a constant. */
+/* Cases of a switch over bands: of one number, and of those that engines ask for one light at a
+ * time. */
+#define LMP_CASE(bands, body, ...)                                                                 \
+    case bands:                                                                                    \
+        body(bands, __VA_ARGS__);                                                                  \
+        break;
 #define LMP_FEW_BANDS 6
+#define LMP_FEW_CASES(body, ...)                                                                   \
+    LMP_CASE(1, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(2, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(3, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(4, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(5, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(6, body, __VA_ARGS__)
+
+/* Calls body(bands, …); few bands as a constant. */
 #define LMP_STRAIGHT(bands, body, ...)                                                             \
     switch (bands) {                                                                               \
-    case 1:                                                                                        \
-        body(1, __VA_ARGS__);                                                                      \
-        break;                                                                                     \
-    case 2:                                                                                        \
-        body(2, __VA_ARGS__);                                                                      \
-        break;                                                                                     \
-    case 3:                                                                                        \
-        body(3, __VA_ARGS__);                                                                      \
-        break;                                                                                     \
-    case 4:                                                                                        \
-        body(4, __VA_ARGS__);                                                                      \
-        break;                                                                                     \
-    case 5:                                                                                        \
-        body(5, __VA_ARGS__);                                                                      \
-        break;                                                                                     \
-    case 6:                                                                                        \
-        body(6, __VA_ARGS__);                                                                      \
-        break;                                                                                     \
+        LMP_FEW_CASES(body, __VA_ARGS__)                                                           \
     default:                                                                                       \
         body(bands, __VA_ARGS__);                                                                  \
     }

@@ -256,36 +256,11 @@ LMP_INLINE void basis_put_straight(int bands, const vf axis[3], const vf *radial
 /* Calls body(BANDS, 1, …) with BANDS a constant from 1 to 10, else body(bands, 0, …). */
 #define BASIS_SPECIALISE(bands, body, ...)                                                         \
     switch (bands) {                                                                               \
-    case 1:                                                                                        \
-        body(1, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 2:                                                                                        \
-        body(2, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 3:                                                                                        \
-        body(3, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 4:                                                                                        \
-        body(4, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 5:                                                                                        \
-        body(5, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 6:                                                                                        \
-        body(6, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 7:                                                                                        \
-        body(7, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 8:                                                                                        \
-        body(8, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 9:                                                                                        \
-        body(9, 1, __VA_ARGS__);                                                                   \
-        break;                                                                                     \
-    case 10:                                                                                       \
-        body(10, 1, __VA_ARGS__);                                                                  \
-        break;                                                                                     \
+        LMP_FEW_CASES(body, 1, __VA_ARGS__)                                                        \
+        LMP_CASE(7, body, 1, __VA_ARGS__)                                                          \
+        LMP_CASE(8, body, 1, __VA_ARGS__)                                                          \
+        LMP_CASE(9, body, 1, __VA_ARGS__)                                                          \
+        LMP_CASE(10, body, 1, __VA_ARGS__)                                                         \
     default:                                                                                       \
         body(bands, 0, __VA_ARGS__);                                                               \
     }

@@ -92,11 +92,15 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
     }
 }
 
-void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands, const lmp_spheres *spheres,
-                             size_t sphere_count, lmp_vec3_array points, size_t point_count,
-                             lmp_sh_layout layout, size_t stride, float *sh) {
+/* Gradients too, where there is one. */
+static void accumulate_all(const lmp_scratch *scratch, int bands, const lmp_spheres *spheres,
+                           size_t sphere_count, lmp_vec3_array points, size_t point_count,
+                           lmp_sh_layout layout, size_t stride, float *sh, size_t gradient_stride,
+                           float *gradient) {
+    const size_t values = LMP_SH_COUNT(bands);
+    const int planar = layout == LMP_SH_PLANAR;
     assert(lmp_is_bands(bands) && lmp_is_scratch(scratch));
-    assert(lmp_is_layout(layout, stride, 3 * LMP_SH_COUNT(bands), point_count));
+    assert(lmp_is_layout(layout, stride, 3 * values, point_count));
     assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
     const lmp_kernels *kernels = lmp_kernels_get();
     const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
@@ -105,10 +109,23 @@ void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands, const lmp_sp
     for (size_t first = 0; first < point_count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(point_count, first);
         const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, &planes);
-        const lmp_kernel_out out = lmp_batch_out(sh, 3 * LMP_SH_COUNT(bands), point_count,
-                                                 layout == LMP_SH_PLANAR, stride, first);
-        kernels->accumulate(scratch, bands, &lights, &vectors, n, &out);
+        const lmp_kernel_out out =
+            lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
+        if (!gradient) {
+            kernels->accumulate(scratch, bands, &lights, &vectors, n, &out);
+            continue;
+        }
+        const lmp_kernel_out slopes =
+            lmp_batch_out(gradient, 9 * values, point_count, planar, gradient_stride, first);
+        kernels->gradient(scratch, bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
     }
+}
+
+void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands, const lmp_spheres *spheres,
+                             size_t sphere_count, lmp_vec3_array points, size_t point_count,
+                             lmp_sh_layout layout, size_t stride, float *sh) {
+    accumulate_all(scratch, bands, spheres, sphere_count, points, point_count, layout, stride, sh,
+                   0, NULL);
 }
 
 void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
@@ -116,22 +133,7 @@ void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
                                       lmp_vec3_array points, size_t point_count,
                                       lmp_sh_layout layout, size_t stride, float *sh,
                                       size_t gradient_stride, float *gradient) {
-    assert(lmp_is_bands(bands) && lmp_is_scratch(scratch));
-    assert(lmp_is_layout(layout, stride, 3 * LMP_SH_COUNT(bands), point_count));
     assert(lmp_is_layout(layout, gradient_stride, 9 * LMP_SH_COUNT(bands), point_count));
-    assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
-    const lmp_kernels *kernels = lmp_kernels_get();
-    const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
-                                       sphere_count };
-    const int planar = layout == LMP_SH_PLANAR;
-    lmp_batch_vec3 planes;
-    for (size_t first = 0; first < point_count; first += LMP_BATCH) {
-        const size_t n = lmp_batch_count(point_count, first), values = LMP_SH_COUNT(bands);
-        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, &planes);
-        const lmp_kernel_out out =
-            lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
-        const lmp_kernel_out slopes =
-            lmp_batch_out(gradient, 9 * values, point_count, planar, gradient_stride, first);
-        kernels->gradient(scratch, bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
-    }
+    accumulate_all(scratch, bands, spheres, sphere_count, points, point_count, layout, stride, sh,
+                   gradient_stride, gradient);
 }

@@ -4,28 +4,12 @@
 
 #include <lampion/sh.h>
 
-void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
-                   size_t stride, float *sh) {
-    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
-    assert(lmp_are_unit(directions, count));
-    const lmp_kernels *kernels = lmp_kernels_get();
-    lmp_batch_vec3 planes;
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        const size_t n = lmp_batch_count(count, first);
-        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&directions, first, n, &planes);
-        const lmp_kernel_out out =
-            lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
-        kernels->eval(bands, &vectors, n, &out);
-    }
-}
-
-void lmp_sh_eval_gradient_n(int bands, lmp_vec3_array directions, size_t count,
-                            lmp_sh_layout layout, size_t stride, float *sh, size_t gradient_stride,
-                            float *gradient) {
+/* Gradients too, where there is one. */
+static void eval_all(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
+                     size_t stride, float *sh, size_t gradient_stride, float *gradient) {
     const size_t values = LMP_SH_COUNT(bands);
     const int planar = layout == LMP_SH_PLANAR;
     assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, values, count));
-    assert(lmp_is_layout(layout, gradient_stride, 3 * values, count));
     assert(lmp_are_unit(directions, count));
     const lmp_kernels *kernels = lmp_kernels_get();
     lmp_batch_vec3 planes;
@@ -33,10 +17,26 @@ void lmp_sh_eval_gradient_n(int bands, lmp_vec3_array directions, size_t count,
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_vec3 vectors = lmp_batch_vectors(&directions, first, n, &planes);
         const lmp_kernel_out out = lmp_batch_out(sh, values, count, planar, stride, first);
+        if (!gradient) {
+            kernels->eval(bands, &vectors, n, &out);
+            continue;
+        }
         const lmp_kernel_out slopes =
             lmp_batch_out(gradient, 3 * values, count, planar, gradient_stride, first);
         kernels->eval_gradient(bands, &vectors, n, &out, &slopes);
     }
+}
+
+void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
+                   size_t stride, float *sh) {
+    eval_all(bands, directions, count, layout, stride, sh, 0, NULL);
+}
+
+void lmp_sh_eval_gradient_n(int bands, lmp_vec3_array directions, size_t count,
+                            lmp_sh_layout layout, size_t stride, float *sh, size_t gradient_stride,
+                            float *gradient) {
+    assert(lmp_is_layout(layout, gradient_stride, 3 * LMP_SH_COUNT(bands), count));
+    eval_all(bands, directions, count, layout, stride, sh, gradient_stride, gradient);
 }
 
 static lmp_kernel_in batch_in(int bands, const float *at, size_t count, lmp_sh_layout layout,

@@ -44,7 +44,9 @@ static float largest(lmp_rgb color) {
 }
 
 shade_layers lmp_shade_layers(const lmp_material *material) {
-    static const lmp_dielectric common = { true, { 0.04f, 0.04f, 0.04f }, 1 };
+    static const lmp_dielectric common = {
+        true, { LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0 }, 1
+    };
     const lmp_dielectric *layer = material->dielectric.given ? &material->dielectric : &common;
     const float metal = saturate(material->metallic), dielectric = 1 - metal;
     const lmp_rgb base = material->base_color, f0 = times(layer->f0, dielectric);

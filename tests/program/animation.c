@@ -2,7 +2,7 @@
 /* Paths of lights: functions of time, closed, and as the files say. */
 #include "app/animation/animation.h"
 
-#include "tests/oracle/check.h"
+#include "tests/program/load.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,14 +12,6 @@
 
 #define CHECK_NEAR(expected, actual, bound)                                                        \
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
-
-static scene load(const char *name) {
-    scene loaded;
-    cli_error error = { 0 };
-    if (!scene_load(name, &(scene_options) { .no_cache = true }, &loaded, &error))
-        fail_msg("%s", error.text);
-    return loaded;
-}
 
 static animation *open_path(const char *name, const scene *s) {
     animation *path = NULL;

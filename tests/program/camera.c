@@ -3,6 +3,7 @@
 #include "app/scene/scene.h"
 
 #include "tests/program/folder.h"
+#include "tests/program/load.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,14 +13,6 @@
 
 #define CHECK_NEAR(expected, actual, bound)                                                        \
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
-
-static scene load(const char *name) {
-    scene loaded;
-    cli_error error = { 0 };
-    if (!scene_load(name, &(scene_options) { .no_cache = true }, &loaded, &error))
-        fail_msg("%s", error.text);
-    return loaded;
-}
 
 static void cameras_out_of_reach_are_refused(void **state) {
     (void)state;

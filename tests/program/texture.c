@@ -3,6 +3,7 @@
  */
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
+#include "tests/program/load.h"
 
 /* A PNG of one white pixel. */
 static const unsigned char pixel_png[] = {
@@ -12,14 +13,6 @@ static const unsigned char pixel_png[] = {
     0x9c, 0x63, 0xf8, 0x0f, 0x04, 0x00, 0x09, 0xfb, 0x03, 0xfd, 0xfb, 0x5e, 0x6b, 0x2b,
     0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82
 };
-
-static scene load(const char *name) {
-    scene world;
-    cli_error error;
-    if (!scene_load(in_folder(name), &(scene_options) { .no_cache = true }, &world, &error))
-        fail_msg("%s", error.text);
-    return world;
-}
 
 /* Base colors by three images of one file and four samplers, two of them alike, and one of the
  * images as metallic and roughness, which is another color space. */
@@ -44,7 +37,7 @@ static void a_gltf_stores_an_image_once(void **state) {
         "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
         "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
-    scene world = load("scene.gltf");
+    scene world = load(in_folder("scene.gltf"));
     assert_int_equal(world.texel_bytes, 4);
     assert_int_equal(world.texture_count, 4); /* repeat, clamp, mirror, repeat and linear */
     static const int expected[] = { 0, 2, 0, 3, 0 };
@@ -61,7 +54,7 @@ static void an_obj_stores_an_image_once(void **state) {
                                    "usemtl c\nf 1/1 2/1 3/1\n");
     folder_write_text("scene.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd -clamp on a.png\n"
                                    "newmtl c\nmap_Kd ./A.PNG\n");
-    scene world = load("scene.obj");
+    scene world = load(in_folder("scene.obj"));
     assert_int_equal(world.texel_bytes, 4);
     assert_int_equal(world.texture_count, 2);
     scene_free(&world);
