@@ -127,13 +127,20 @@ static void measure_rows(const bench_options *o, bench_inputs *in, const bench_k
     }
 }
 
+/* What reads a table costs the same at any bands; products of many have an object of their own. */
+static bool measured_at(const bench_options *o, const bench_kernel *kernel, int bands) {
+    if (kernel->paper == bench_paper_product)
+        return bands <= LMP_SH_FEW_BANDS;
+    return kernel->table == BENCH_TABLE_NONE || o->bands || bands == BENCH_TABLE_BANDS;
+}
+
 static bool measure_kernels(const bench_options *o, bench_inputs *in) {
     const int *bands = o->bands ? &o->bands : bands_timed;
     bool first = true, ok = true;
     for (int k = 0; k < BENCH_KERNELS; k++)
         for (int n = 0; wanted(o, k) && n < (o->bands ? 1 : BANDS_TIMED); n++) {
             const bench_kernel *kernel = &bench_kernels[k];
-            if (kernel->table >= BENCH_TABLE_LOBES && !o->bands && bands[n] != BENCH_TABLE_BANDS)
+            if (!measured_at(o, kernel, bands[n]))
                 continue;
             ok = ok && bench_tables_create(kernel->table, bands[n], in);
             for (int layout = kernel->shades ? LMP_SH_INTERLEAVED : LMP_SH_PLANAR;

@@ -100,7 +100,6 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     b.vectors = in->vectors;
     b.out = in->out;
     b.lights = in->lights;
-    b.product = in->product;
     b.lobe = in->lobes;
     b.surfaces = (lmp_surfaces) { .position = b.points,
                                   .normal = planes_of(in->normal),
@@ -121,11 +120,9 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
  */
 
 void bench_tables_free(bench_inputs *in) {
-    lmp_sh_product_destroy(in->product);
     lmp_preintegrated_lobe_destroy(in->lobes);
     lmp_preintegrated_brdf_destroy(in->preintegrated);
     lmp_brdf_table_destroy(in->table);
-    in->product = NULL;
     in->lobes = NULL;
     in->preintegrated = NULL;
     in->table = NULL;
@@ -147,8 +144,6 @@ static bool brdf_create(int bands, bench_inputs *in) {
 
 bool bench_tables_create(bench_table table, int bands, bench_inputs *in) {
     const lmp_preintegrated_lobe_desc desc = { .bands = bands };
-    if (table == BENCH_TABLE_PRODUCT)
-        return lmp_sh_product_create(NULL, bands, &in->product) == LMP_OK;
     return table == BENCH_TABLE_NONE ||
            (lmp_preintegrated_lobe_create(NULL, &desc, &in->lobes) == LMP_OK &&
             (table == BENCH_TABLE_LOBES || brdf_create(bands, in)));

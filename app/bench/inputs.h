@@ -17,7 +17,6 @@ typedef struct bench_inputs {
     float *out, *vectors, *matrices;
     lmp_light lights[BENCH_LIGHTS];
     /* What the kernels that read a table read now. */
-    lmp_sh_product *product;
     lmp_preintegrated_lobe *lobes;
     lmp_brdf_table *table;
     lmp_preintegrated_brdf *preintegrated;

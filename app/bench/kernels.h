@@ -11,8 +11,9 @@
 enum {
     BENCH_LIGHTS = 32,
     BENCH_LIGHTS_FEW = 8,
-    BENCH_CUBE = 40,      /* a face's side */
-    BENCH_PANORAMA = 120, /* its width, twice its height */
+    BENCH_CUBE = 20, /* a face's side */
+    BENCH_PANORAMA_WIDTH = 80,
+    BENCH_PANORAMA_HEIGHT = 30,
     BENCH_ELEMENTS_MAX = 480,
     BENCH_OUTPUT_FLOATS = 6144
 };
@@ -25,7 +26,6 @@ typedef struct bench_batch {
     lmp_vec3_array axes, points;
     lmp_spheres spheres;
     const float *distances, *lambda, *matrices, *vectors;
-    const lmp_sh_product *product;
     lmp_surfaces surfaces;
     const lmp_light *lights;
     const lmp_preintegrated_lobe *lobe; /* of the kernels that read one */
@@ -34,12 +34,7 @@ typedef struct bench_batch {
 
 /* What a kernel reads. The bands of lobes and BRDFs do not concern the cost: 10, unless others are
  * asked for. */
-typedef enum bench_table {
-    BENCH_TABLE_NONE,
-    BENCH_TABLE_PRODUCT,
-    BENCH_TABLE_LOBES,
-    BENCH_TABLE_BRDF
-} bench_table;
+typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_BRDF } bench_table;
 enum { BENCH_TABLE_BANDS = 10 };
 
 /* One light an element, or as many as `lights`; of images as many texels. */

@@ -73,7 +73,7 @@ void bench_paper_cubemap(const bench_batch *b, size_t i) {
 }
 void bench_paper_panorama(const bench_batch *b, size_t i) {
     (void)i;
-    paper_texels(b, BENCH_PANORAMA * BENCH_PANORAMA / 2 / BENCH_ELEMENTS_MAX);
+    paper_texels(b, BENCH_PANORAMA_WIDTH * BENCH_PANORAMA_HEIGHT / BENCH_ELEMENTS_MAX);
 }
 /* Eq. 5 of the product of Eq. 6's values. */
 static float paper_square(lmp_vec3 direction, void *user) {
