@@ -20,11 +20,6 @@ lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings) {
     return resolved;
 }
 
-static lmp_vec3 mirrored(lmp_vec3 n, lmp_vec3 v) {
-    const float twice = 2 * (n.x * v.x + n.y * v.y + n.z * v.z);
-    return (lmp_vec3) { twice * n.x - v.x, twice * n.y - v.y, twice * n.z - v.z };
-}
-
 static lmp_rgb times(lmp_rgb color, float factor) {
     return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
 }
@@ -57,12 +52,6 @@ shade_layers lmp_shade_layers(const lmp_material *material) {
                             layer->f90 };
 }
 
-int lmp_shade_phong_count(const lmp_material *material, lmp_vec3 n, lmp_vec3 v) {
-    if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
-        return lmp_lobe_ggx_count(n.x * v.x + n.y * v.y + n.z * v.z, material->roughness);
-    return material->kind == LMP_MATERIAL_LOBES;
-}
-
 static void reflect_metallic_roughness(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,
                                        shade_reflection *reflection) {
     const shade_layers layers = lmp_shade_layers(material);
@@ -90,7 +79,7 @@ void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec
     reflection->diffuse = material->diffuse;
     reflection->count = 1;
     reflection->lobe[0] =
-        (shade_phong) { mirrored(normal, view), material->exponent, material->specular };
+        (shade_phong) { lmp_shade_mirrored(normal, view), material->exponent, material->specular };
 }
 
 void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *material,

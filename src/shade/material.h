@@ -5,6 +5,7 @@
 #define LAMPION_SHADE_MATERIAL_H
 
 #include "src/base/precondition.h"
+#include "src/lobe/ggx.h"
 
 #include <lampion/shade.h>
 
@@ -131,8 +132,18 @@ static inline float lmp_shade_passed(const shade_layers *layers, float diffuse_f
     return 1 - layers->layer_f0 * (1 - diffuse_f90) - layers->layer_f90 * diffuse_f90;
 }
 
+/* Where a mirror reflects to: the axis of a material's own Phong lobe. */
+static inline lmp_vec3 lmp_shade_mirrored(lmp_vec3 n, lmp_vec3 v) {
+    const float twice = 2 * (n.x * v.x + n.y * v.y + n.z * v.z);
+    return (lmp_vec3) { twice * n.x - v.x, twice * n.y - v.y, twice * n.z - v.z };
+}
+
 /* How many Phong lobes a surface needs; 0 of a material that has none. */
-int lmp_shade_phong_count(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view);
+static inline int lmp_shade_phong_count(const lmp_material *material, lmp_vec3 n, lmp_vec3 v) {
+    if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
+        return lmp_lobe_ggx_count(n.x * v.x + n.y * v.y + n.z * v.z, material->roughness);
+    return material->kind == LMP_MATERIAL_LOBES;
+}
 
 /* For a material of a kind that has lobes. */
 void lmp_shade_reflection(const lmp_material *material, lmp_vec3 normal, lmp_vec3 view,

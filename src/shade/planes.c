@@ -22,18 +22,18 @@ static lmp_vec3 from_planes(const lmp_batch_vec3 *planes, size_t i) {
     return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
 }
 
+/* Of a material that has one lobe, its own. */
 static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t count,
                        const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
                        shade_planes *planes) {
     shade_lobe_planes *lobe = &planes->lobe[0];
     for (size_t i = 0; i < count; i++) {
-        shade_reflection r;
-        lmp_shade_reflection(lmp_material_at(surfaces, at[i]), from_planes(normal, i),
-                             from_planes(view, i), &r);
-        store_vector(r.diffuse.r, r.diffuse.g, r.diffuse.b, &planes->diffuse, i);
-        store_vector(r.lobe[0].axis.x, r.lobe[0].axis.y, r.lobe[0].axis.z, &lobe->axis, i);
-        store_vector(r.lobe[0].weight.r, r.lobe[0].weight.g, r.lobe[0].weight.b, &lobe->weight, i);
-        lobe->exponent.at[i] = r.lobe[0].exponent;
+        const lmp_material *m = lmp_material_at(surfaces, at[i]);
+        const lmp_vec3 axis = lmp_shade_mirrored(from_planes(normal, i), from_planes(view, i));
+        store_vector(m->diffuse.r, m->diffuse.g, m->diffuse.b, &planes->diffuse, i);
+        store_vector(axis.x, axis.y, axis.z, &lobe->axis, i);
+        store_vector(m->specular.r, m->specular.g, m->specular.b, &lobe->weight, i);
+        lobe->exponent.at[i] = m->exponent;
     }
 }
 
