@@ -64,18 +64,20 @@ static void close_scene(void) {
     scene_free(&demo.world);
 }
 
-/* Packs what has been built and makes it the scene. */
+/* Packs what has been built and makes it the scene; what is wrong with it leaves the one before. */
 static bool take(scene_builder *builder, const char *name) {
     void *block = NULL;
     size_t size = 0;
-    close_scene();
+    scene world;
     if (!builder_pack(builder, &block, &size))
         return cli_fail(&demo.error, name, "does not fit into memory");
     if (!blob_validate(block, size, false, name, &demo.error) ||
-        !blob_open(block, size, name, &demo.world, &demo.error)) {
+        !blob_open(block, size, name, &world, &demo.error)) {
         free(block);
         return false;
     }
+    close_scene();
+    demo.world = world;
     return fill_materials() && animation_open("orbit", &demo.world, &demo.path, &demo.error);
 }
 

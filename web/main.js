@@ -40,17 +40,19 @@ function scatterLights() {
     exposure = Number(asked.get('exposure') ?? 0);
 }
 
+// What is no scene leaves the one that is shown.
 async function openFile(file) {
     tell(`Reading ${file.name} …`);
     const data = new Uint8Array(await file.arrayBuffer());
     try {
         library.openFile(data);
-        state.scene = file.name;
-        tell('');
     } catch (error) {
         tell(`${file.name}: ${error.message.replace(/^file: /, '')}`, true);
-        library.openBuiltin(state.scene === 'balls' ? 'balls' : 'atrium');
+        return;
     }
+    tell('');
+    state.scene = file.name;
+    Object.assign(element('dropped'), { hidden: false, textContent: file.name, value: file.name });
     scatterLights();
     renderer.setScene(library.scene());
     frameScene();

@@ -23,6 +23,8 @@ export async function openBrowser(profile) {
                 listeners.forEach((listener) => listener(message));
         }
     });
+    for (const pipe of [to, from])
+        pipe.on('error', () => {}); // its end is told by the exit
     browser.on('exit', () => waiting.forEach(({ reject }) => reject(new Error('the browser is gone'))));
     const send = (method, params = {}, sessionId = undefined) => new Promise((resolve, reject) => {
         waiting.set(++number, { resolve, reject });

@@ -133,6 +133,7 @@ async function drop() {
     gltf.accessors[0].count = 4;
     await file('broken.gltf', JSON.stringify(gltf));
     await until('/^broken.gltf: .*accessor 0/.test(document.getElementById("message").textContent)');
+    assert.equal(await evaluate('lampion.draw(), document.getElementById("scene").value'), 'triangle.gltf');
 }
 
 async function phone() {
