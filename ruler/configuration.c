@@ -123,7 +123,7 @@ static const corner corners[] = {
     { RULER_SPHERE, 1, 4500, 0, 4500 },       /* tiny, in the mirror direction */
     { RULER_SPHERE, 100, 0, 0, 0 },           /* all along the normal */
     { RULER_SPHERE, 300, 8900, 0, 8900 },     /* grazing, cut by the horizon */
-    { RULER_SPHERE, 500, 9000, 0, 6000 },     /* half below the horizon */
+    { RULER_SPHERE, 500, 9000, 0, 5500 },     /* half below the horizon */
     { RULER_SPHERE, 500, 11900, 0, 8000 },    /* a degree above it */
     { RULER_SPHERE, 500, 12100, 0, 4500 },    /* wholly below it */
     { RULER_SPHERE, 999, 1000, 18000, 3000 }, /* nearly touching, behind the viewer */

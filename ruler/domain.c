@@ -25,7 +25,7 @@ static int sign_of(const ruler_angle *angle) {
     if (angle->exact)
         return (angle->hundredths > 0) - (angle->hundredths < 0);
     if (arb_contains_zero(angle->radians)) {
-        fprintf(stderr, "ruler: a light's rim touches the pole or the horizon\n");
+        fprintf(stderr, "ruler: a light's rim touches the pole or the horizon: choose another\n");
         exit(1);
     }
     return arb_is_positive(angle->radians) ? 1 : -1;

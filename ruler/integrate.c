@@ -68,7 +68,7 @@ static void set_ring(work *w, const acb_t u) {
     ruler_ring_set(&w->ring, w->lobe, w->domain, w->value);
 }
 
-/* |f| at most, INFINITY where it is not proven analytic. */
+/* |f| at most, HUGE_VAL where it is not proven analytic. */
 static double largest(work *w, const patch *at, int direction, double rho) {
     mag_t bound;
     mag_init(bound);
@@ -94,13 +94,13 @@ typedef struct rule {
 #define POINTS_UNKNOWN 1000000
 static rule choose_rule(work *w, const patch *at, int direction) {
     static const double ellipses[] = { ELLIPSE_MIN, 3, 4.5, 7, 12, 25, 80, 1000 };
-    rule best = { POINTS_UNKNOWN, INFINITY };
+    rule best = { POINTS_UNKNOWN, HUGE_VAL };
     const double area = (at->side[0].high - at->side[0].low) * (at->side[1].high - at->side[1].low);
     if (direction == 1 && ruler_lobe_is_zonal(w->lobe))
         return (rule) { 1, 0 };
     for (size_t k = 0; k < sizeof ellipses / sizeof *ellipses; k++) {
         const double rho = ellipses[k], most = largest(w, at, direction, rho);
-        if (!(most < INFINITY))
+        if (!(most < HUGE_VAL))
             break;
         const double factor = SLACK * area / 2 * (64.0 / 15) * most / (1 - 1 / (rho * rho));
         const double ratio = factor / (at->tolerance / 2);
@@ -154,7 +154,7 @@ static bool must_halve(work *w, const patch *at, int direction) {
     patch line = *at;
     interval *const other = &line.side[!direction];
     other->low = other->high = (other->low + other->high) / 2;
-    return !(largest(w, &line, direction, ELLIPSE_MIN) < INFINITY);
+    return !(largest(w, &line, direction, ELLIPSE_MIN) < HUGE_VAL);
 }
 
 /* The direction to halve: the one that takes more points; of two that no number is known for, one

@@ -177,7 +177,7 @@ static void set_peak(ruler_ring *ring, const ruler_lobe *lobe, const acb_t theta
 static void set_factors(ruler_ring *ring, const ruler_lobe *lobe, const acb_t theta,
                         const acb_t sine, const acb_t cosine) {
     if (ruler_lobe_is_zonal(lobe)) {
-        acb_pow_ui(ring->zonal, cosine, (ulong)lobe->exponent, P);
+        acb_pow_si(ring->zonal, cosine, lobe->exponent, P);
         acb_mul_arb(ring->zonal, ring->zonal, lobe->scale, P);
         return;
     }
@@ -328,10 +328,10 @@ void ruler_lobe_at(arb_t value, const ruler_lobe *lobe, const arb_t theta, const
     acb_sin_cos(sine, cosine, at, P);
     set_factors(&ring, lobe, at, sine, cosine);
     if (ruler_lobe_is_zonal(lobe))
-        arb_set(value, acb_realref(ring.zonal));
+        acb_get_real(value, ring.zonal);
     else {
         set_ggx_value(at, &ring, lobe, azimuth);
-        arb_set(value, acb_realref(at));
+        acb_get_real(value, at);
     }
     ruler_ring_clear(&ring);
     acb_clear(at);

@@ -87,7 +87,7 @@ static double code_error(const ruler_table *table, const band_values *values,
 
 static void lobes_are_their_truncated_series(void **state) {
     (void)state;
-    static const double bounds[LMP_SHADE_METHODS] = { 1e-3, 1e-3, 0.01 };
+    static const double bounds[LMP_SHADE_METHODS] = { 1e-5, 1e-4, 0.005 };
     ruler_table table = open_table();
     band_values *const values = calloc((size_t)table.count, sizeof *values);
     assert_non_null(values);
@@ -121,15 +121,21 @@ static double method_error(const ruler_table *table, const shading *s, ruler_mat
 
 static void methods_are_as_near_the_truth_as_the_page_says(void **state) {
     (void)state;
+    static const double bounds[BAND_COUNTS][RULER_MATERIALS] = {
+        { 0.45, 20, 10, 10 }, { 0.3, 30, 10, 10 }, { 0.15, 40, 10, 10 },
+        { 0.07, 50, 10, 10 }, { 0.015, 30, 5, 5 },
+    };
     ruler_table table = open_table();
     for (int method = 0; method < LMP_SHADE_METHODS; method++)
         for (int k = 0; k < BAND_COUNTS; k++) {
             const int step = method == LMP_SHADE_COEFFICIENTS ? check_count(7, 1) : 1;
             const shading s = shading_of((lmp_shade_method)method, band_counts[k], LMP_WINDOW_NONE);
             print_message("%-13s %3d bands:", method_names[method], band_counts[k]);
-            for (int m = 0; m < RULER_MATERIALS; m++)
-                print_message(" %s %.3g", ruler_material_names[m],
-                              method_error(&table, &s, (ruler_material)m, step));
+            for (int m = 0; m < RULER_MATERIALS; m++) {
+                const double rms = method_error(&table, &s, (ruler_material)m, step);
+                print_message(" %s %.3g", ruler_material_names[m], rms);
+                CHECK_WITHIN(rms, bounds[k][m]);
+            }
             print_message("\n");
             lmp_preintegrated_lobe_destroy(s.lobe);
         }
