@@ -9,6 +9,7 @@
  *   brdf.h           measured and parametric BRDFs, their files and tables
  *   preintegrated.h  lobes and BRDFs integrated beforehand
  *   shade.h          the light that surfaces reflect: where most programs begin
+ *   field.h          thousands of lights on a grid
  *   cpu.h            instruction sets */
 #ifndef LAMPION_LAMPION_H
 #define LAMPION_LAMPION_H
@@ -16,6 +17,7 @@
 #include <lampion/base.h>
 #include <lampion/brdf.h>
 #include <lampion/cpu.h>
+#include <lampion/field.h>
 #include <lampion/light.h>
 #include <lampion/lobe.h>
 #include <lampion/preintegrated.h>

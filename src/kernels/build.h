@@ -3,6 +3,7 @@
  * CMake its instruction set. */
 #include "src/kernels/accumulate_few.h"
 #include "src/kernels/eval_gradient.h"
+#include "src/kernels/field.h"
 #include "src/kernels/gradient.h"
 #include "src/kernels/image.h"
 #include "src/kernels/lobe.h"
@@ -39,8 +40,11 @@ const lmp_kernels LMP_KERNELS = {
     .project = kernel_project,
     .accumulate = kernel_accumulate,
     .gradient = kernel_gradient,
+    .fading_gradient = kernel_fading_gradient,
+    .interpolate = kernel_interpolate,
     .lobe = kernel_lobe,
     .shade_zonal = kernel_shade_zonal,
+    .shade_field = kernel_shade_field,
     .shade_preintegrated_lobe = kernel_shade_preintegrated_lobe,
     .shade_preintegrated_brdf = kernel_shade_preintegrated_brdf,
 };

@@ -14,6 +14,7 @@
 #define LAMPION_KERNELS_GRADIENT_H
 
 #include "src/kernels/accumulate.h"
+#include "src/kernels/fade.h"
 
 /* Planes of one (l, m): value, d/dx, d/dy, d/dz, each red, green, blue; of +m, then of -m. */
 #define GRADIENT_WIDTH 24
@@ -161,12 +162,36 @@ LMP_INLINE vf *gradient_column_add(accumulate_tile tile, int m, int at_once,
     return sums;
 }
 
-/* Adds `at_once` lights to the sums of a tile. */
+/* Lights as they fade: grad (f L) = f grad L - f' L w. */
+LMP_INLINE void gradient_fade(accumulate_tile tile, int at_once, const lmp_kernel_lights *lights,
+                              size_t first, const vf point[3], float per_reach,
+                              gradient_band *bands) {
+    LMP_UNROLL for (int k = 0; k < at_once; k++) {
+        const size_t i = first + (size_t)k;
+        const lmp_vec3_array *center = &lights->center;
+        const vf x = lights_at(center->x, center->stride, i) - point[0];
+        const vf y = lights_at(center->y, center->stride, i) - point[1];
+        const vf z = lights_at(center->z, center->stride, i) - point[2];
+        const fade_lanes fade =
+            fade_at(vf_sqrt(x * x + y * y + z * z),
+                    lights_at(lights->radius.at, lights->radius.stride, i), per_reach);
+        LMP_ROLLED for (int l = tile.low; l < tile.high; l++) {
+            gradient_band *band = &bands[at_once * (l - tile.low) + k];
+            band->along = fade.value * band->along - fade.slope * band->value;
+            band->across = fade.value * band->across;
+            band->value = fade.value * band->value;
+        }
+    }
+}
+
+/* Adds `at_once` lights to the sums of a tile; they fade if per_reach is above 0. */
 LMP_INLINE void gradient_lights(accumulate_tile tile, int at_once, const lmp_kernel_lights *lights,
-                                size_t first, const vf point[3], float cos_min,
+                                size_t first, const vf point[3], float cos_min, float per_reach,
                                 gradient_band *bands, vf *sums) {
     gradient_light light[ACCUMULATE_LIGHTS];
     gradient_prepare(tile, at_once, lights, first, point, cos_min, light, bands);
+    if (per_reach > 0)
+        gradient_fade(tile, at_once, lights, first, point, per_reach, bands);
     gradient_column(tile, tile.first, at_once, light, bands);
     for (int m = tile.first; m < tile.end; m++) {
         LMP_UNROLL for (int k = 0; k < at_once; k++) if (m > tile.first)
@@ -177,9 +202,10 @@ LMP_INLINE void gradient_lights(accumulate_tile tile, int at_once, const lmp_ker
     }
 }
 
-static void kernel_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
-                            const lmp_kernel_vec3 *points, float cos_min, size_t count,
-                            const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
+static void kernel_fading_gradient(const lmp_scratch *scratch, int bands,
+                                   const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
+                                   float cos_min, float per_reach, size_t count,
+                                   const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
     const accumulate_sets values = { 12, 0, 3 }, slopes = { 12, 3, 9 };
     vf stack[ACCUMULATE_STACK];
     const int each = ACCUMULATE_LIGHTS * (int)(sizeof(gradient_band) / sizeof *stack);
@@ -197,13 +223,20 @@ static void kernel_gradient(const lmp_scratch *scratch, int bands, const lmp_ker
             size_t i = 0;
             memset(sums, 0, accumulate_pairs(tile) * GRADIENT_WIDTH * sizeof *sums);
             for (; i + ACCUMULATE_LIGHTS <= lights->count; i += ACCUMULATE_LIGHTS)
-                gradient_lights(tile, ACCUMULATE_LIGHTS, lights, i, point, cos_min, band, sums);
+                gradient_lights(tile, ACCUMULATE_LIGHTS, lights, i, point, cos_min, per_reach, band,
+                                sums);
             for (; i < lights->count; i++)
-                gradient_lights(tile, 1, lights, i, point, cos_min, band, sums);
+                gradient_lights(tile, 1, lights, i, point, cos_min, per_reach, band, sums);
             accumulate_put(bands, tile, 0, values, sums, memory.at, out, e, live);
             accumulate_put(bands, tile, 0, slopes, sums, memory.at, gradient, e, live);
         }
     }
+}
+
+static void kernel_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
+                            const lmp_kernel_vec3 *points, float cos_min, size_t count,
+                            const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
+    kernel_fading_gradient(scratch, bands, lights, points, cos_min, 0, count, out, gradient);
 }
 
 #endif

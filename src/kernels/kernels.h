@@ -93,12 +93,26 @@ typedef struct lmp_kernel_surfaces {
 } lmp_kernel_surfaces;
 
 /* A sphere; or with w = 0 a cap of any kind, seen alike from every point: x, y, z its direction,
- * radius the sine of its half angle. scale is a plane of factors of its radiance, or NULL. */
+ * radius the sine of its half angle. scale is a plane of factors of its radiance, or NULL. Of a
+ * sphere with per_reach above 0 what a field lacks of it (field.h of the API), 1/reach, is left. */
 typedef struct lmp_kernel_light {
     float x, y, z, w, radius;
     lmp_rgb radiance;
     const float *scale;
+    float per_reach;
 } lmp_kernel_light;
+
+/* Points in the cells of a grid: of each node `values` numbers, then their derivatives by x, by y
+ * and by z, tight. */
+typedef struct lmp_kernel_cells {
+    const float *nodes;
+    lmp_vec3 cell;            /* its edges */
+    const uint32_t *corners;  /* of each point 8 nodes; x changes first, then y, then z */
+    lmp_kernel_vec3 fraction; /* of each point, 0 … 1 along the edges */
+} lmp_kernel_cells;
+
+/* Bands of a field at most. */
+#define LMP_KERNEL_FIELD_BANDS_MAX 10
 
 /* Lights that one call of a shading kernel takes at most. */
 #define LMP_KERNEL_LIGHTS_MAX 16
@@ -163,6 +177,15 @@ typedef struct lmp_kernels {
     void (*gradient)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                      const lmp_kernel_vec3 *points, float cos_min, size_t count,
                      const lmp_kernel_out *out, const lmp_kernel_out *gradient);
+    /* The same of lights that fade toward their surfaces, over a distance of 1/per_reach
+     * (src/kernels/fade.h). */
+    void (*fading_gradient)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
+                            const lmp_kernel_vec3 *points, float cos_min, float per_reach,
+                            size_t count, const lmp_kernel_out *out,
+                            const lmp_kernel_out *gradient);
+    /* `values` values: Adini's interpolation. */
+    void (*interpolate)(size_t values, const lmp_kernel_cells *cells, size_t count,
+                        const lmp_kernel_out *out);
     /* 3 values: the response of a lobe around each point's axis to the lights. */
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
@@ -173,8 +196,13 @@ typedef struct lmp_kernels {
                         const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                         size_t light_count, size_t count,
                         const lmp_kernel_accumulated *accumulated);
-    /* The same from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX times,
-     * `specular` are those of each Phong lobe. */
+    /* The same of light given by its coefficients at each surface, 3 bands^2 values, planar and
+     * readable like planes. */
+    void (*shade_field)(int bands, const float *window, const float *diffuse,
+                        const lmp_kernel_surfaces *surfaces, const lmp_kernel_in *sh, size_t count,
+                        const lmp_kernel_accumulated *accumulated);
+    /* As shade_zonal from a preintegrated lobe; `diffuse` is one position, LMP_KERNEL_LANES_MAX
+     * times, `specular` are those of each Phong lobe. */
     void (*shade_preintegrated_lobe)(const lmp_kernel_preintegrated_lobe *lobe,
                                      const lmp_kernel_lobe_positions *diffuse,
                                      const lmp_kernel_lobe_positions *specular,

@@ -38,9 +38,16 @@ LMP_INLINE int reconstruct_phong(int bands, const float *factors, vf exponent, v
     return needed;
 }
 
+/* Coefficient i of a plane times `value`; with `own` > 0, the distance from one to the next, each
+ * lane has a function of its own. */
+LMP_INLINE vf reconstruct_term(const float *plane, size_t own, size_t i, vf value) {
+    return own > 0 ? vf_load(plane + i * own) * value : plane[i] * value;
+}
+
 /* Column m: what the coefficients (l, m) and (l, -m) add up to along it, times C_m and S_m. */
-LMP_INLINE void reconstruct_column(int bands, int m, int phong, int blocks, const float *factors,
-                                   const float *const planes[3], reconstruct_block *block) {
+LMP_INLINE void reconstruct_column(int bands, int m, int phong, size_t own, int blocks,
+                                   const float *factors, const float *const planes[3],
+                                   reconstruct_block *block) {
     vf q0[RECONSTRUCT_BLOCKS], q1[RECONSTRUCT_BLOCKS];
     vf cosine[RECONSTRUCT_BLOCKS][3], sine[RECONSTRUCT_BLOCKS][3];
     LMP_UNROLL for (int k = 0; k < blocks; k++) {
@@ -61,9 +68,11 @@ LMP_INLINE void reconstruct_column(int bands, int m, int phong, int blocks, cons
                 continue; /* as every other one of a diffuse lobe */
             const vf value = phong ? q1[k] * block[k].factor[l] : q1[k] * factors[l];
             LMP_UNROLL for (int i = 0; i < 3; i++) {
-                cosine[k][i] = cosine[k][i] + planes[i][middle + (size_t)m] * value;
+                cosine[k][i] =
+                    cosine[k][i] + reconstruct_term(planes[i], own, middle + (size_t)m, value);
                 if (m > 0)
-                    sine[k][i] = sine[k][i] + planes[i][middle - (size_t)m] * value;
+                    sine[k][i] =
+                        sine[k][i] + reconstruct_term(planes[i], own, middle - (size_t)m, value);
             }
         }
     }
@@ -96,7 +105,7 @@ LMP_INLINE void reconstruct_blocks(int bands, int constant, int blocks, vf (*fac
     LMP_UNROLL for (int m = 0; m < needed; m++) {
         LMP_UNROLL for (int k = 0; m > 0 && k < blocks; k++)
             basis_rotate(m, block[k].axis[0], block[k].axis[1], &block[k].c, &block[k].s);
-        reconstruct_column(needed, m, factor != NULL, blocks, factors, planes, block);
+        reconstruct_column(needed, m, factor != NULL, 0, blocks, factors, planes, block);
     }
     LMP_ROLLED for (int k = 0; k < blocks; k++) {
         const size_t e = element + (size_t)k * LMP_LANES;

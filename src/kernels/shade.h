@@ -9,6 +9,7 @@
 #define LAMPION_KERNELS_SHADE_H
 
 #include "src/kernels/accumulate.h"
+#include "src/kernels/fade.h"
 
 /* Where the lobes of a block of surfaces lie and point. */
 typedef struct shade_block {
@@ -46,6 +47,10 @@ LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf
         weight = weight * scale;
         if (cap.inside)
             direction->ambient = direction->ambient * scale;
+    }
+    if (__builtin_expect(light->per_reach > 0, 0)) {
+        const vf d = vf_sqrt(x * x + y * y + z * z);
+        weight = weight * (vf_set(1) - fade_at(d, light->radius, light->per_reach).value);
     }
     direction->is_ambient = cap.inside;
     direction->t = cap.t;

@@ -94,7 +94,7 @@ static lmp_rgb scaled(lmp_rgb color, float factor) {
 
 /* The same cap from every point. */
 static lmp_kernel_light fixed_cap(lmp_vec3 direction, float sine, lmp_rgb radiance) {
-    return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL };
+    return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL, 0 };
 }
 
 lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
@@ -102,7 +102,7 @@ lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk 
     const lmp_vec3 p = light->position;
     switch (light->kind) {
     case LMP_LIGHT_SPHERE:
-        return (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL };
+        return (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL, 0 };
     case LMP_LIGHT_POINT:
     case LMP_LIGHT_SPOT: {
         lmp_kernel_light dirac = { p.x,
@@ -112,7 +112,8 @@ lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk 
                                    SHADE_DIRAC_RADIUS,
                                    scaled(light->intensity,
                                           1 / pi / SHADE_DIRAC_RADIUS / SHADE_DIRAC_RADIUS),
-                                   NULL };
+                                   NULL,
+                                   0 };
         if (light->kind == LMP_LIGHT_POINT)
             return dirac;
         lmp_light white = *light;

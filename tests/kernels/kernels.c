@@ -194,6 +194,25 @@ static void wrong_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *ax
     honest.lobe(bands, lambda, axes, lights, points, count, out);
     spoil(out);
 }
+static void wrong_fading_gradient(const lmp_scratch *scratch, int bands,
+                                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
+                                  float cos_min, float per_reach, size_t count,
+                                  const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
+    honest.fading_gradient(scratch, bands, lights, points, cos_min, per_reach, count, out,
+                           gradient);
+    spoil(out);
+}
+static void wrong_interpolate(size_t values, const lmp_kernel_cells *cells, size_t count,
+                              const lmp_kernel_out *out) {
+    honest.interpolate(values, cells, count, out);
+    spoil(out);
+}
+static void wrong_shade_field(int bands, const float *window, const float *diffuse,
+                              const lmp_kernel_surfaces *surfaces, const lmp_kernel_in *sh,
+                              size_t count, const lmp_kernel_accumulated *accumulated) {
+    honest.shade_field(bands, window, diffuse, surfaces, sh, count, accumulated);
+    spoil_accumulated(accumulated);
+}
 static void wrong_eval_gradient(int bands, const lmp_kernel_vec3 *directions, size_t count,
                                 const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
     honest.eval_gradient(bands, directions, count, out, gradient);
@@ -265,11 +284,14 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .project = wrong_project,
                                    .accumulate = wrong_accumulate,
                                    .gradient = wrong_gradient,
+                                   .fading_gradient = wrong_fading_gradient,
+                                   .interpolate = wrong_interpolate,
                                    .lobe = wrong_lobe,
                                    .eval_gradient = wrong_eval_gradient,
                                    .reconstruct = wrong_reconstruct,
                                    .image = wrong_image,
                                    .shade_zonal = wrong_shade_zonal,
+                                   .shade_field = wrong_shade_field,
                                    .shade_preintegrated_lobe = wrong_shade_preintegrated_lobe,
                                    .shade_preintegrated_brdf = wrong_shade_preintegrated_brdf };
 

@@ -31,6 +31,9 @@ typedef enum kind {
     SHADE_PREINTEGRATED_LOBE_FEW,
     SHADE_ZONAL_ALL,
     SHADE_PREINTEGRATED_LOBE_ALL,
+    FADING_GRADIENT,
+    INTERPOLATE,
+    SHADE_FIELD,
     KINDS
 } kind;
 static const char *const kind_names[] = { "eval",
@@ -51,7 +54,10 @@ static const char *const kind_names[] = { "eval",
                                           "shade_zonal of few lobes",
                                           "shade_preintegrated_lobe of few lobes",
                                           "shade_zonal of all lobes",
-                                          "shade_preintegrated_lobe of all lobes" };
+                                          "shade_preintegrated_lobe of all lobes",
+                                          "fading_gradient",
+                                          "interpolate",
+                                          "shade_field" };
 
 /* Of Phong's, that a kernel of shading takes. */
 static int lobes_of(kind which) {
@@ -61,6 +67,7 @@ static int lobes_of(kind which) {
         return 3;
     case SHADE_ZONAL_ALL:
     case SHADE_PREINTEGRATED_LOBE_ALL:
+    case SHADE_FIELD:
         return LMP_KERNEL_LOBES_MAX;
     default:
         return 1;
@@ -81,8 +88,10 @@ static size_t values_of(kind which, int bands) {
         return (size_t)bands;
     case ACCUMULATE:
     case IMAGE:
+    case INTERPOLATE:
         return 3 * n;
     case GRADIENT:
+    case FADING_GRADIENT:
         return 12 * n;
     case EVAL_GRADIENT:
         return 4 * n;
@@ -97,6 +106,7 @@ static size_t values_of(kind which, int bands) {
     case SHADE_PREINTEGRATED_LOBE_FEW:
     case SHADE_ZONAL_ALL:
     case SHADE_PREINTEGRATED_LOBE_ALL:
+    case SHADE_FIELD:
         return 3 + 3 * (size_t)lobes_of(which);
     default:
         return n;
@@ -200,6 +210,26 @@ static void run_image(const lmp_kernels *k, int bands, const inputs *in, size_t 
     }
 }
 
+/* Nodes whose coefficients are those of vectors; every point has its corners anywhere. */
+static void run_interpolate(const lmp_kernels *k, int bands, const inputs *in, size_t count,
+                            const lmp_kernel_out *out) {
+    enum { NODES = 9 };
+    const size_t values = 3 * LMP_SH_COUNT(bands);
+    float *nodes = make_vectors(4 * values, NODES, 0, 4 * values, 0);
+    _Alignas(64) float fraction[3][COUNT + 16];
+    uint32_t corners[8 * COUNT];
+    for (size_t i = 0; i < 8 * COUNT; i++)
+        corners[i] = (uint32_t)((i * 5 + i / 8) % NODES);
+    for (int a = 0; a < 3; a++)
+        for (size_t i = 0; i < COUNT + 16; i++)
+            fraction[a][i] = fminf(fabsf(in->axis[a][i]), 1);
+    const lmp_kernel_cells cells = {
+        nodes, { 0.5f, 0.25f, 2 }, corners, { fraction[0], fraction[1], fraction[2] }
+    };
+    k->interpolate(values, &cells, count, out);
+    free(nodes);
+}
+
 /* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
  * guarded here. */
 enum { PLANE = (COUNT / LMP_KERNEL_LANES_MAX + 1) * LMP_KERNEL_LANES_MAX + 2 * GUARD };
@@ -227,7 +257,9 @@ static void call_shading(const lmp_kernels *k, kind which, const shading *s, siz
     const lmp_kernel_lobe_positions diffuse = { s->diffuse_first, s->diffuse_columns,
                                                 s->diffuse_weights[0], s->diffuse_weights[1],
                                                 s->diffuse_weights[2] };
-    if (is_zonal(which))
+    if (which == SHADE_FIELD)
+        k->shade_field(s->bands, s->window, s->diffuse, &surfaces, &s->sh, count, &sums);
+    else if (is_zonal(which))
         k->shade_zonal(s->bands, s->window, s->diffuse, &surfaces, s->lights, SHADE_LIGHTS, count,
                        &sums);
     else if (which != SHADE_PREINTEGRATED_BRDF)
@@ -245,7 +277,11 @@ static void run_shading(const lmp_kernels *k, kind which, int bands, const input
     const size_t whole =
         (count + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
     const size_t values = values_of(which, bands);
-    shading *s = shading_create(in, bands, lobes_of(which));
+    const bool field = which == SHADE_FIELD;
+    const int most = field ? LMP_KERNEL_FIELD_BANDS_MAX : LMP_BANDS_MAX;
+    shading *s = shading_create(in, bands < most ? bands : most, lobes_of(which));
+    float *sh = make_vectors(field ? 3 * LMP_SH_COUNT(s->bands) : 0, COUNT + 16, 1, COUNT + 16, 0);
+    s->sh = (lmp_kernel_in) { sh, COUNT + 16, 1 };
     for (size_t v = 0; v < PLANES; v++) {
         planes[v] = memory[v] + GUARD;
         for (size_t i = 0; i < PLANE; i++)
@@ -253,6 +289,7 @@ static void run_shading(const lmp_kernels *k, kind which, int bands, const input
     }
     call_shading(k, which, s, count, planes);
     shading_free(s);
+    free(sh);
     for (size_t v = 0; v < PLANES; v++) {
         for (size_t e = 0; v < values && e < count; e++)
             out->at[out->planar ? v * out->stride + e : e * out->stride + v] = planes[v][e];
@@ -272,6 +309,21 @@ static lmp_kernel_lights lights_of(const inputs *in) {
     };
 }
 
+/* Sums of lights, whose gradients follow them: further on in a row, or in the planes after. */
+static void run_sums(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
+                     const lmp_kernel_out *out) {
+    const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
+    const lmp_kernel_lights lights = lights_of(in);
+    lmp_kernel_out gradient = *out;
+    gradient.at += 3 * LMP_SH_COUNT(bands) * (out->planar ? out->stride : 1);
+    if (which == ACCUMULATE)
+        k->accumulate(NULL, bands, &lights, &point, count, out);
+    else if (which == GRADIENT)
+        k->gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
+    else
+        k->fading_gradient(NULL, bands, &lights, &point, LMP_COS_MIN, 0.5f, count, out, &gradient);
+}
+
 static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
                 int planar, const lmp_kernel_out *out) {
     const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
@@ -279,9 +331,8 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     const lmp_kernel_vec3 axis = { in->axis[0], in->axis[1], in->axis[2] };
     const lmp_kernel_pairs pairs = { center, point, in->radius };
     const lmp_kernel_lights lights = lights_of(in);
-    /* Gradients follow the values: further on in a row, or in the planes after them. */
     lmp_kernel_out gradient = *out;
-    gradient.at += (which == GRADIENT ? 3 : 1) * LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
+    gradient.at += LMP_SH_COUNT(bands) * (planar ? out->stride : 1);
     float lambda[LMP_BANDS_MAX];
     make_lambda(bands, lambda);
     switch (which) {
@@ -299,10 +350,12 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         k->project(bands, &pairs, count, out);
         break;
     case ACCUMULATE:
-        k->accumulate(NULL, bands, &lights, &point, count, out);
-        break;
     case GRADIENT:
-        k->gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
+    case FADING_GRADIENT:
+        run_sums(k, which, bands, in, count, out);
+        break;
+    case INTERPOLATE:
+        run_interpolate(k, bands, in, count, out);
         break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
@@ -324,6 +377,7 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case SHADE_PREINTEGRATED_LOBE_FEW:
     case SHADE_ZONAL_ALL:
     case SHADE_PREINTEGRATED_LOBE_ALL:
+    case SHADE_FIELD:
         run_shading(k, which, bands, in, count, out);
         break;
     case KINDS:

@@ -23,6 +23,7 @@ typedef struct shading {
     lmp_rgb ambient;
     _Alignas(64) float scale[2][COUNT + 16];
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
+    lmp_kernel_in sh; /* of the light at each surface */
 
     int16_t *pairs;
     uint32_t cell_first[CELLS], cell_columns[CELLS];

@@ -45,6 +45,8 @@ static lmp_sgd sgd;
 static lmp_brdf_table *table, *read_table;
 static lmp_preintegrated_lobe *lobe, *read_lobe;
 static lmp_preintegrated_brdf *preintegrated, *read_preintegrated;
+static lmp_field *field, *read_field;
+static const lmp_field_desc small_field = { .bands = LMP_FIELD_BANDS_MAX, .nodes = { 4, 4, 4 } };
 static lmp_probe_constants constants;
 static lmp_probe_convention convention;
 static lmp_parse_error parse_error;
@@ -85,6 +87,18 @@ static void shade_all_ways(void) {
             (void)lmp_shade(&settings, &material, &surface, lights, LIGHTS);
             lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
         }
+}
+
+/* Of every kind that is shaded in a way of its own under a field. */
+static void shade_under_a_field(void) {
+    for (int kind = 0; kind < 4; kind++) {
+        material = (lmp_material) { .kind = (lmp_material_kind)kind,
+                                    .diffuse = { 1, 1, 1 },
+                                    .roughness = 0.4f,
+                                    .table = table,
+                                    .preintegrated = preintegrated };
+        lmp_field_shade_n(NULL, field, &surfaces, COUNT, 0, rgb);
+    }
 }
 
 /* --- every function --------------------------------------------------------------------------- */
@@ -212,7 +226,22 @@ static void shade_all_ways(void) {
     X(lmp_shade_environment, lmp_shade_environment(&(lmp_shade_settings) { .bands = N }, &(lmp_material) { .exponent = 20 }, &(lmp_surface) { at, up, up, up, up }, &(lmp_environment) { sh, N })) \
     X(lmp_material_dielectric, (void)lmp_material_dielectric(2, 1, (lmp_rgb) { 1, 1, 1 })) \
     X(lmp_material_coated, (void)lmp_material_coated(&(lmp_coat) { 1, 0.5f }, up, up)) \
-    X(lmp_shade_environment_n, lmp_shade_environment_n(NULL, &(lmp_surfaces) { .position = points, .normal = points, .view = points, .material = &(lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table, .coat = { 1, 0.5f } } }, COUNT, &(lmp_environment) { sh, N }, 0, rgb))
+    X(lmp_shade_environment_n, lmp_shade_environment_n(NULL, &(lmp_surfaces) { .position = points, .normal = points, .view = points, .material = &(lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table, .coat = { 1, 0.5f } } }, COUNT, &(lmp_environment) { sh, N }, 0, rgb)) \
+    X(lmp_field_create, MAKE(lmp_field_destroy, field, lmp_field_create(NULL, &small_field, &field))) \
+    X(lmp_field_describe, (void)lmp_field_describe(field)) \
+    X(lmp_field_lights, (void)lmp_field_lights(field)) \
+    X(lmp_field_update, (void)lmp_field_update(NULL, field, lights, LIGHTS)) \
+    X(lmp_field_move, lmp_field_move(NULL, field, (size_t[2]) { 1, 2 }, lights, 2)) \
+    X(lmp_field_add, (void)lmp_field_add(NULL, field, lights)) \
+    X(lmp_field_remove, lmp_field_remove(NULL, field, 3)) \
+    X(lmp_field_eval_n, LAYOUTS(lmp_field_eval_n(field, points, COUNT, layout, 0, out))) \
+    X(lmp_field_lobe_n, lmp_field_lobe_n(field, lambda, points, points, COUNT, (lmp_rgb *)(void *)rgb)) \
+    X(lmp_field_shade_n, shade_under_a_field()) \
+    X(lmp_field_near, (void)lmp_field_near(field, at, 0, NULL, NULL)) \
+    X(lmp_field_size, (void)lmp_field_size(field)) \
+    X(lmp_field_write, lmp_field_write(field, bytes)) \
+    X(lmp_field_read, MAKE(lmp_field_destroy, read_field, lmp_field_read(NULL, bytes, lmp_field_size(field), &read_field))) \
+    X(lmp_field_destroy, lmp_field_destroy(read_field), read_field = NULL)
 /* clang-format on */
 
 #define DEFINE(name, ...)                                                                          \

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT */
+#include "src/field/field.h"
+
+#include <string.h>
+
+/* --- error and reach ---------------------------------------------------------------------------
+ */
+
+/* error = max((joint / reach)³, (scale / reach)⁴): the third derivative of the fade jumps where the
+ * fade ends, and the coefficients of many bands turn fast near a light. Bounds of the worst of
+ * 20 000 points around lights of three sizes, for each of eight reaches; docs/fields.md. */
+#define JOINT 1.06f
+static const float scales[LMP_FIELD_BANDS_MAX] = { 1.1f,  1.1f, 1.1f,  1.3f,  1.62f,
+                                                   1.85f, 2.2f, 2.55f, 2.85f, 3.15f };
+
+enum { BANDS_DEFAULT = 5, NODES_DEFAULT = 16, LIGHTS_DEFAULT = 1024 };
+#define REACH_MIN 1.0f
+#define REACH_MAX 64.0f
+
+/* By Newton's steps, for every machine's bits. */
+static float cube_root(float x) {
+    float root = 1;
+    for (int i = 0; i < 30; i++)
+        root = (root + root + x / (root * root)) / 3;
+    return root;
+}
+
+static float error_of(const lmp_field_desc *desc) {
+    const float joint = JOINT / desc->reach, scale = scales[desc->bands - 1] / desc->reach;
+    return fmaxf(joint * joint * joint, scale * scale * scale * scale);
+}
+
+static float reach_of(const lmp_field_desc *desc) {
+    const float reach =
+        fmaxf(JOINT / cube_root(desc->error), scales[desc->bands - 1] / sqrtf(sqrtf(desc->error)));
+    return fmaxf(reach, REACH_MIN);
+}
+
+static bool resolve_error(lmp_field_desc *desc) {
+    if (desc->reach == 0) {
+        if (desc->error == 0)
+            desc->error = LMP_FIELD_ERROR_DEFAULT;
+        if (!(desc->error >= 1e-5f && desc->error <= 1))
+            return false;
+        desc->reach = reach_of(desc);
+    }
+    desc->error = error_of(desc);
+    return desc->reach >= REACH_MIN && desc->reach <= REACH_MAX;
+}
+
+static bool is_edge(float edge) {
+    return edge >= 1e-12f && edge <= 1e12f;
+}
+
+bool lmp_field_resolve(lmp_field_desc *desc) {
+    uint64_t nodes = 1;
+    if (desc->bands == 0)
+        desc->bands = BANDS_DEFAULT;
+    if (desc->light_max == 0)
+        desc->light_max = LIGHTS_DEFAULT;
+    for (int a = 0; a < 3; a++) {
+        if (desc->nodes[a] == 0)
+            desc->nodes[a] = NODES_DEFAULT;
+        if (desc->nodes[a] < 2 || desc->nodes[a] > LMP_FIELD_NODES_MAX)
+            return false;
+        nodes *= (uint64_t)desc->nodes[a];
+    }
+    if (desc->cell.x == 0 && desc->cell.y == 0 && desc->cell.z == 0)
+        desc->cell = (lmp_vec3) { 1, 1, 1 };
+    return nodes <= FIELD_NODES && desc->bands >= 1 && desc->bands <= LMP_FIELD_BANDS_MAX &&
+           desc->light_max >= 1 && desc->light_max <= LMP_FIELD_LIGHTS_MAX &&
+           fabsf(desc->origin.x) <= 1e15f && fabsf(desc->origin.y) <= 1e15f &&
+           fabsf(desc->origin.z) <= 1e15f && is_edge(desc->cell.x) && is_edge(desc->cell.y) &&
+           is_edge(desc->cell.z) && resolve_error(desc);
+}
+
+/* --- memory ------------------------------------------------------------------------------------
+ */
+
+/* Pieces of one allocation, each begun at a multiple of 64 bytes. */
+static void *take(unsigned char *memory, size_t *used, size_t size) {
+    const size_t at = *used;
+    *used += (size + 63) / 64 * 64;
+    return memory ? memory + at : NULL;
+}
+
+/* Entries that lights of no size need, if their reach is not most of the grid; not more than make
+ * lists of 256 lights a block, beyond which a finer grid is what helps. */
+static size_t entry_count(const lmp_field *field) {
+    const lmp_field_desc *desc = &field->info.desc;
+    const float edge[3] = { desc->cell.x, desc->cell.y, desc->cell.z };
+    size_t around = 1;
+    for (int a = 0; a < 3; a++) {
+        const float blocks = 2 * field->info.reach / (FIELD_BLOCK * edge[a]) + 2;
+        around *= blocks < (float)field->blocks[a] ? (size_t)blocks : field->blocks[a];
+    }
+    const size_t lights = (size_t)desc->light_max;
+    const size_t most = 256 * field->block_count + lights;
+    return lights * around < most ? lights * around : most;
+}
+
+static size_t divide(lmp_field *field, size_t entries, unsigned char *memory) {
+    const size_t lights = (size_t)field->info.desc.light_max;
+    const size_t brick = FIELD_BRICK * field->info.node_bytes;
+    size_t used = 0;
+    (void)take(memory, &used, sizeof *field);
+    field->nodes = take(memory, &used, field->brick_count * brick);
+    field->scratch = take(memory, &used, field->scratch_count * brick);
+    field->lights = take(memory, &used, lights * sizeof *field->lights);
+    field->spheres = take(memory, &used, lights * sizeof *field->spheres);
+    field->everywhere = take(memory, &used, lights);
+    field->lists = take(memory, &used, (field->block_count + 1) * sizeof *field->lists);
+    field->entries = take(memory, &used, entries * sizeof *field->entries);
+    return used;
+}
+
+lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field) {
+    static const uint32_t brick[3] = { 4, 2, 2 };
+    const float edge = fmaxf(desc->cell.x, fmaxf(desc->cell.y, desc->cell.z));
+    lmp_field plan = { .host = lmp_host_resolve(host), .info = { .desc = *desc } };
+    plan.info.reach = desc->reach * edge;
+    plan.values = 3 * LMP_SH_COUNT(desc->bands);
+    plan.info.node_bytes = 4 * plan.values * sizeof(float);
+    plan.brick_count = plan.block_count = 1;
+    for (int a = 0; a < 3; a++) {
+        const uint32_t nodes = (uint32_t)desc->nodes[a];
+        plan.bricks[a] = (nodes + brick[a] - 1) / brick[a];
+        plan.blocks[a] = (nodes - 1 + FIELD_BLOCK - 1) / FIELD_BLOCK;
+        plan.brick_count *= plan.bricks[a];
+        plan.block_count *= plan.blocks[a];
+    }
+    plan.scratch_count = plan.brick_count < FIELD_SCRATCH ? plan.brick_count : FIELD_SCRATCH;
+    const size_t entries = entry_count(&plan);
+    plan.free_count = (uint32_t)entries;
+    plan.info.bytes = divide(&plan, entries, NULL);
+    unsigned char *memory = lmp_allocate(&plan.host, plan.info.bytes);
+    *field = (lmp_field *)(void *)memory;
+    if (!memory)
+        return LMP_ERROR_MEMORY;
+    divide(&plan, entries, memory);
+    **field = plan;
+    memset(plan.nodes, 0, plan.brick_count * FIELD_BRICK * plan.info.node_bytes);
+    for (size_t i = 0; i < entries; i++)
+        plan.entries[i].next = i + 1 < entries ? (uint32_t)(i + 1) : FIELD_NONE;
+    memset(plan.lists, 0xff, (plan.block_count + 1) * sizeof *plan.lists);
+    return LMP_OK;
+}
+
+lmp_result lmp_field_create(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field) {
+    lmp_field_desc resolved = desc ? *desc : (lmp_field_desc) { 0 };
+    *field = NULL;
+    if (!lmp_field_resolve(&resolved))
+        return LMP_ERROR_ARGUMENT;
+    return lmp_field_allocate(host, &resolved, field);
+}
+
+void lmp_field_destroy(lmp_field *field) {
+    lmp_release_object(field);
+}
+
+lmp_field_info lmp_field_describe(const lmp_field *field) {
+    return field->info;
+}
+
+const lmp_light *lmp_field_lights(const lmp_field *field) {
+    return field->lights;
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: MIT */
+/* field.h - how a field lies in memory.
+ *
+ * Nodes lie in bricks of 4 x 2 x 2, as many as the widest kernel has lanes: a kernel computes a
+ * brick, and the corners of a cell are close. Nodes that fill the last bricks lie outside the grid
+ * and are computed with the others. Cells are listed with what is near them in blocks of 2 x 2 x 2.
+ */
+#ifndef LAMPION_FIELD_FIELD_H
+#define LAMPION_FIELD_FIELD_H
+
+#include "src/base/host.h"
+#include "src/base/precondition.h"
+#include "src/kernels/kernels.h"
+
+#include <lampion/field.h>
+
+enum {
+    FIELD_BRICK = 16,
+    FIELD_BLOCK = 2,    /* cells along the edge of a block */
+    FIELD_SCRATCH = 32, /* bricks that changes are computed in, at most */
+    FIELD_NODES = 1 << 24
+};
+
+#define FIELD_NONE UINT32_MAX
+
+/* One light of one block's list. */
+typedef struct field_entry {
+    uint32_t light, next;
+} field_entry;
+
+/* A light as the kernels read it, dark if it is not interpolated. */
+typedef struct field_sphere {
+    lmp_vec3 center;
+    float radius;
+    lmp_rgb radiance;
+} field_sphere;
+
+struct lmp_field {
+    lmp_host host; /* resolved; first, for lmp_release_object */
+    lmp_field_info info;
+    size_t values;      /* 3 bands² */
+    uint32_t bricks[3]; /* along each axis */
+    size_t brick_count;
+    uint32_t blocks[3]; /* of cells */
+    size_t block_count;
+    size_t scratch_count;
+    float *nodes; /* of each its values, then their derivatives by x, y, z */
+    float *scratch;
+    lmp_light *lights;
+    field_sphere *spheres;
+    uint8_t *everywhere; /* of each light: it is in the list of that name */
+    /* Lists of blocks, then of the lights that are near everywhere; and of unused entries. */
+    uint32_t *lists;
+    field_entry *entries;
+    uint32_t free, free_count;
+    size_t listed_count; /* lights */
+    uint64_t changed;    /* lights, since the nodes were computed */
+};
+
+/* A desc with every default filled in, or false if a member is outside its range. */
+bool lmp_field_resolve(lmp_field_desc *desc);
+
+/* A dark field. desc is resolved. */
+lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field);
+
+/* Lists a light as what the kernels read of it, in place of what was there. */
+void lmp_field_set_light(lmp_field *field, uint32_t at, const lmp_light *light);
+
+/* --- near lights (near.c) --------------------------------------------------------------------- */
+
+/* Whether lights of its kind are interpolated, but near them. */
+bool lmp_field_fades(const lmp_light *light);
+
+/* Puts a light into the lists of the blocks that it is near to, takes it from them. */
+void lmp_field_list(lmp_field *field, uint32_t light);
+void lmp_field_unlist(lmp_field *field, uint32_t light);
+
+/* Where a point lies in the grid: its cell, and how far along its edges; false if outside. */
+typedef struct field_place {
+    uint32_t cell[3];
+    float fraction[3];
+} field_place;
+bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_place *place);
+
+/* A bit for each light: those listed for some of the points given. */
+typedef struct field_set {
+    uint64_t bits[LMP_FIELD_LIGHTS_MAX / 64];
+    size_t words;
+} field_set;
+void lmp_field_set_clear(const lmp_field *field, field_set *set);
+void lmp_field_set_add(const lmp_field *field, uint32_t block, field_set *set);
+void lmp_field_set_add_all(const lmp_field *field, field_set *set);
+/* The first light of the set from `light` on, or FIELD_NONE. */
+uint32_t lmp_field_set_next(const field_set *set, uint32_t light);
+
+/* The index of a cell's block. */
+static inline uint32_t lmp_field_block(const lmp_field *field, const uint32_t cell[3]) {
+    return (cell[2] / FIELD_BLOCK * field->blocks[1] + cell[1] / FIELD_BLOCK) * field->blocks[0] +
+           cell[0] / FIELD_BLOCK;
+}
+
+/* The fraction of a light that the field lacks at a point inside the grid. */
+float lmp_field_lacks(const lmp_field *field, uint32_t light, lmp_vec3 point);
+
+/* Adds the lights listed at a point, or all if it lies outside the grid; whether it lies inside. */
+bool lmp_field_set_find(const lmp_field *field, lmp_vec3 point, field_set *set);
+
+/* --- points (points.c) ------------------------------------------------------------------------ */
+
+/* Coefficients of as many points as a brick has nodes. */
+#define FIELD_ROWS (FIELD_BRICK * 3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX)
+
+/* Interpolated coefficients of up to FIELD_BRICK points, of any cell where they lie outside the
+ * grid; and rows of field->values with what near lights add. */
+void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
+                           const lmp_kernel_out *out);
+void lmp_field_rows(const lmp_field *field, const lmp_vec3 *points, size_t count, float *rows);
+
+/* --- nodes ------------------------------------------------------------------------------------ */
+
+static inline uint32_t lmp_field_node(const lmp_field *field, uint32_t x, uint32_t y, uint32_t z) {
+    const uint32_t brick = (z / 2 * field->bricks[1] + y / 2) * field->bricks[0] + x / 4;
+    return brick * FIELD_BRICK + (z % 2 * 2 + y % 2) * 4 + x % 4;
+}
+
+#endif

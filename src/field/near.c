@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT */
+/* near.c - which lights are near which cells: a list a block of cells, in a pool of entries that
+ * was allocated with the field. What does not fit is near everywhere. */
+#include "src/field/field.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- lists -------------------------------------------------------------------------------------
+ */
+
+/* A ball around a light, from the grid's origin, and the blocks of the box around it. */
+typedef struct near_ball {
+    float center[3], radius;
+    uint32_t first[3], end[3];
+} near_ball;
+
+static float coordinate(lmp_vec3 v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+static uint32_t held(float block, uint32_t count) {
+    return block > 0 ? block < (float)count ? (uint32_t)block : count : 0;
+}
+
+bool lmp_field_fades(const lmp_light *light) {
+    return light->kind == LMP_LIGHT_SPHERE || light->kind == LMP_LIGHT_POINT;
+}
+
+static float block_edge(const lmp_field *field, int axis) {
+    return FIELD_BLOCK * coordinate(field->info.desc.cell, axis);
+}
+
+/* False where a light has none. */
+static bool find_ball(const lmp_field *field, uint32_t light, near_ball *ball) {
+    const field_sphere *sphere = &field->spheres[light];
+    ball->radius = sphere->radius + field->info.reach;
+    for (int a = 0; a < 3; a++) {
+        const float edge = block_edge(field, a);
+        ball->center[a] = coordinate(sphere->center, a) - coordinate(field->info.desc.origin, a);
+        ball->first[a] = held(floorf((ball->center[a] - ball->radius) / edge), field->blocks[a]);
+        ball->end[a] = held(floorf((ball->center[a] + ball->radius) / edge) + 1, field->blocks[a]);
+    }
+    return lmp_field_fades(&field->lights[light]);
+}
+
+/* Whether the ball reaches a block. */
+static bool reaches(const lmp_field *field, const near_ball *ball, const uint32_t block[3]) {
+    float distance2 = 0;
+    for (int a = 0; a < 3; a++) {
+        const float edge = block_edge(field, a), low = edge * (float)block[a];
+        const float gap = fmaxf(fmaxf(low - ball->center[a], ball->center[a] - low - edge), 0);
+        distance2 += gap * gap;
+    }
+    return distance2 <= ball->radius * ball->radius;
+}
+
+typedef void list_action(lmp_field *field, uint32_t light, size_t list);
+
+/* Does it to every list that a light belongs to; returns how many those are. */
+static size_t each_list(lmp_field *field, uint32_t light, const near_ball *ball,
+                        list_action *action) {
+    uint32_t at[3];
+    size_t count = 0;
+    for (at[2] = ball->first[2]; at[2] < ball->end[2]; at[2]++)
+        for (at[1] = ball->first[1]; at[1] < ball->end[1]; at[1]++)
+            for (at[0] = ball->first[0]; at[0] < ball->end[0]; at[0]++)
+                if (reaches(field, ball, at)) {
+                    action(field, light,
+                           (at[2] * field->blocks[1] + at[1]) * field->blocks[0] + at[0]);
+                    count++;
+                }
+    return count;
+}
+
+static void none(lmp_field *field, uint32_t light, size_t list) {
+    (void)field;
+    (void)light;
+    (void)list;
+}
+
+static void put(lmp_field *field, uint32_t light, size_t list) {
+    const uint32_t entry = field->free;
+    field->free = field->entries[entry].next;
+    field->free_count--;
+    field->entries[entry] = (field_entry) { light, field->lists[list] };
+    field->lists[list] = entry;
+}
+
+static void take(lmp_field *field, uint32_t light, size_t list) {
+    uint32_t *link = &field->lists[list];
+    while (field->entries[*link].light != light)
+        link = &field->entries[*link].next;
+    const uint32_t entry = *link;
+    *link = field->entries[entry].next;
+    field->entries[entry].next = field->free;
+    field->free = entry;
+    field->free_count++;
+}
+
+/* An entry is kept for every light that is not listed: it might be near everywhere. */
+void lmp_field_list(lmp_field *field, uint32_t light) {
+    const size_t kept = (size_t)field->info.desc.light_max - ++field->listed_count;
+    near_ball ball;
+    const bool bounded = find_ball(field, light, &ball);
+    field->everywhere[light] =
+        !bounded || each_list(field, light, &ball, none) + kept > field->free_count;
+    if (field->everywhere[light])
+        put(field, light, field->block_count);
+    else
+        each_list(field, light, &ball, put);
+}
+
+void lmp_field_unlist(lmp_field *field, uint32_t light) {
+    near_ball ball;
+    field->listed_count--;
+    find_ball(field, light, &ball);
+    if (field->everywhere[light])
+        take(field, light, field->block_count);
+    else
+        each_list(field, light, &ball, take);
+}
+
+/* --- points ------------------------------------------------------------------------------------
+ */
+
+bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_place *place) {
+    const lmp_field_desc *desc = &field->info.desc;
+    for (int a = 0; a < 3; a++) {
+        const float at =
+            (coordinate(point, a) - coordinate(desc->origin, a)) / coordinate(desc->cell, a);
+        const uint32_t last = (uint32_t)desc->nodes[a] - 2;
+        if (!(at >= 0 && at <= (float)(last + 1)))
+            return false;
+        const uint32_t cell = (uint32_t)at;
+        place->cell[a] = cell < last ? cell : last;
+        place->fraction[a] = at - (float)place->cell[a];
+    }
+    return true;
+}
+
+float lmp_field_lacks(const lmp_field *field, uint32_t light, lmp_vec3 point) {
+    if (!lmp_field_fades(&field->lights[light]))
+        return 1;
+    const field_sphere *s = &field->spheres[light];
+    const float x = s->center.x - point.x, y = s->center.y - point.y, z = s->center.z - point.z;
+    const float away = (sqrtf(x * x + y * y + z * z) - s->radius) / field->info.reach;
+    const float t = fminf(fmaxf(away, 0), 1), v = 1 - t * t;
+    return v * v * v * (1 + 3 * t * t);
+}
+
+/* --- sets --------------------------------------------------------------------------------------
+ */
+
+void lmp_field_set_clear(const lmp_field *field, field_set *set) {
+    set->words = (field->info.light_count + 63) / 64;
+    memset(set->bits, 0, set->words * sizeof *set->bits);
+}
+
+static void add_list(const lmp_field *field, size_t list, field_set *set) {
+    for (uint32_t i = field->lists[list]; i != FIELD_NONE; i = field->entries[i].next) {
+        const uint32_t light = field->entries[i].light;
+        set->bits[light / 64] |= (uint64_t)1 << light % 64;
+    }
+}
+
+void lmp_field_set_add(const lmp_field *field, uint32_t block, field_set *set) {
+    add_list(field, block, set);
+    add_list(field, field->block_count, set);
+}
+
+void lmp_field_set_add_all(const lmp_field *field, field_set *set) {
+    for (size_t i = 0; i < field->info.light_count; i++)
+        set->bits[i / 64] |= (uint64_t)1 << i % 64;
+}
+
+uint32_t lmp_field_set_next(const field_set *set, uint32_t light) {
+    for (size_t word = light / 64; word < set->words; word++) {
+        const uint64_t bits =
+            word == light / 64 ? set->bits[word] >> light % 64 << light % 64 : set->bits[word];
+        if (bits)
+            return (uint32_t)(64 * word) + (uint32_t)__builtin_ctzll(bits);
+    }
+    return FIELD_NONE;
+}

@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: MIT */
+/* shade.c - surfaces under a field: lobes of a chunk receive the interpolated coefficients, then
+ * the near lights by zonal sums, each light weighted by what the field lacks of it. */
+#include "src/field/field.h"
+#include "src/light/cap.h"
+#include "src/shade/chunk.h"
+
+#include <math.h>
+#include <string.h>
+
+static const float pi = 3.14159265f;
+
+/* What all chunks of a call share. */
+typedef struct field_shading {
+    const lmp_field *field;
+    lmp_shade_settings settings; /* zonal, with the field's bands */
+    float window[LMP_FIELD_BANDS_MAX], diffuse[LMP_FIELD_BANDS_MAX];
+} field_shading;
+
+static lmp_vec3 point_of(const shade_chunk *chunk, size_t i) {
+    return (lmp_vec3) { chunk->point.x.at[i], chunk->point.y.at[i], chunk->point.z.at[i] };
+}
+
+/* --- far lights --------------------------------------------------------------------------------
+ */
+
+static lmp_kernel_vec3 from(const lmp_kernel_vec3 *planes, size_t first) {
+    return (lmp_kernel_vec3) { planes->x + first, planes->y + first, planes->z + first };
+}
+
+/* A function of its own: under the zonal kernel its planes would be too much stack. */
+static __attribute__((noinline)) void shade_far(const field_shading *shading, size_t first,
+                                                const shade_chunk *chunk) {
+    const lmp_field *field = shading->field;
+    const size_t left = chunk->count - first, count = left < FIELD_BRICK ? left : FIELD_BRICK;
+    float planes[FIELD_ROWS];
+    lmp_vec3 points[FIELD_BRICK];
+    lmp_kernel_surfaces surfaces = { .normal = from(&chunk->surfaces.normal, first),
+                                     .lobe_count = chunk->phong_count };
+    lmp_kernel_accumulated sums = { 0 };
+    for (int c = 0; c < 3; c++)
+        sums.diffuse[c] = chunk->sums.diffuse[c] + first;
+    for (int k = 0; k < chunk->phong_count; k++) {
+        const lmp_kernel_lobe *lobe = &chunk->surfaces.lobe[k];
+        surfaces.lobe[k] = (lmp_kernel_lobe) { from(&lobe->axis, first), lobe->exponent + first };
+        for (int c = 0; c < 3; c++)
+            sums.specular[k][c] = chunk->sums.specular[k][c] + first;
+    }
+    for (size_t i = 0; i < count; i++)
+        points[i] = point_of(chunk, first + i);
+    if (count < FIELD_BRICK)
+        memset(planes, 0, FIELD_BRICK * field->values * sizeof *planes);
+    const lmp_kernel_out out = { planes, FIELD_BRICK, 1 };
+    const lmp_kernel_in in = { planes, FIELD_BRICK, 1 };
+    lmp_field_interpolate(field, points, count, &out);
+    lmp_kernels_get()->shade_field(field->info.desc.bands, shading->window, shading->diffuse,
+                                   &surfaces, &in, count, &sums);
+}
+
+/* --- near lights -------------------------------------------------------------------------------
+ */
+
+/* A ball around a chunk's points. */
+typedef struct chunk_ball {
+    lmp_vec3 center;
+    float radius;
+} chunk_ball;
+
+static float distance(lmp_vec3 a, lmp_vec3 b) {
+    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    return sqrtf(x * x + y * y + z * z);
+}
+
+static chunk_ball ball_of(const shade_chunk *chunk) {
+    lmp_vec3 low = point_of(chunk, 0), high = low;
+    for (size_t i = 1; i < chunk->count; i++) {
+        const lmp_vec3 p = point_of(chunk, i);
+        low = (lmp_vec3) { fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z) };
+        high = (lmp_vec3) { fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z) };
+    }
+    const lmp_vec3 center = { (low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2 };
+    return (chunk_ball) { center, distance(center, high) };
+}
+
+/* Whether some point of the chunk may lack some of the light. */
+static bool is_near(const lmp_field *field, uint32_t light, const chunk_ball *ball) {
+    const field_sphere *sphere = &field->spheres[light];
+    const float reach = sphere->radius + field->info.reach + ball->radius;
+    return field->everywhere[light] || distance(sphere->center, ball->center) < reach * 1.0001f;
+}
+
+/* Lights near a chunk that are found at once. */
+enum { FOUND = 128 };
+
+/* The first of them from light *next on, which becomes the one to go on with or FIELD_NONE. A
+ * function of its own: under the zonal kernel its set would be too much stack. */
+static __attribute__((noinline)) size_t find_near(const lmp_field *field, const shade_chunk *chunk,
+                                                  uint32_t *next, uint32_t found[FOUND]) {
+    const chunk_ball ball = ball_of(chunk);
+    uint32_t last = FIELD_NONE, light = *next;
+    size_t count = 0;
+    field_set near;
+    lmp_field_set_clear(field, &near);
+    for (size_t i = 0; i < chunk->count; i++) {
+        field_place place;
+        (void)lmp_field_find(field, point_of(chunk, i), &place);
+        const uint32_t block = lmp_field_block(field, place.cell);
+        if (block != last)
+            lmp_field_set_add(field, block, &near);
+        last = block;
+    }
+    while (count < FOUND && (light = lmp_field_set_next(&near, light)) != FIELD_NONE) {
+        if (is_near(field, light, &ball))
+            found[count++] = light;
+        light++;
+    }
+    *next = count < FOUND ? FIELD_NONE : light;
+    return count;
+}
+
+/* Lights that the zonal kernel takes at once. */
+enum { PASS = 8 };
+
+static void add_near(const field_shading *shading, const uint32_t *found, size_t count,
+                     shade_chunk *chunk) {
+    const lmp_field *field = shading->field;
+    lmp_kernel_light lights[PASS];
+    lmp_batch_plane scales[PASS];
+    for (size_t i = 0; i < count; i++) {
+        lmp_rgb ambient = { 0, 0, 0 };
+        lights[i] = lmp_shade_take_light(&field->lights[found[i]], chunk, &scales[i], &ambient);
+        lights[i].per_reach = lmp_field_fades(&field->lights[found[i]]) ? 1 / field->info.reach : 0;
+        chunk->ambient[0] += ambient.r;
+        chunk->ambient[1] += ambient.g;
+        chunk->ambient[2] += ambient.b;
+    }
+    lmp_kernels_get()->shade_zonal(shading->settings.bands, shading->window, shading->diffuse,
+                                   &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
+}
+
+static void shade_near(const field_shading *shading, shade_chunk *chunk) {
+    for (uint32_t next = 0; next != FIELD_NONE;) {
+        uint32_t found[FOUND];
+        const size_t count = find_near(shading->field, chunk, &next, found);
+        for (size_t i = 0; i < count; i += PASS)
+            add_near(shading, found + i, count - i < PASS ? count - i : PASS, chunk);
+    }
+}
+
+/* --- surfaces ----------------------------------------------------------------------------------
+ */
+
+/* All the light at a surface as its surroundings. */
+static __attribute__((noinline)) lmp_rgb shade_surroundings(const field_shading *shading,
+                                                            const lmp_material *material,
+                                                            const lmp_surface *surface) {
+    float sh[3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX];
+    const lmp_environment light = { sh, shading->settings.bands };
+    lmp_field_rows(shading->field, &surface->position, 1, sh);
+    return lmp_shade_environment(&shading->settings, material, surface, &light);
+}
+
+/* A surface outside the grid, under a coat or of a material without lobes. */
+static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces, size_t i,
+                      size_t stride, float *rgb) {
+    const lmp_field *field = shading->field;
+    const lmp_material *material = lmp_material_at(surfaces, i);
+    const lmp_vec3 point = lmp_vec3_element(&surfaces->position, i);
+    lmp_surface surface = { .position = point,
+                            .normal = lmp_vec3_element(&surfaces->normal, i),
+                            .view = lmp_vec3_element(&surfaces->view, i) };
+    if (surfaces->tangent.x)
+        surface.tangent = lmp_vec3_element(&surfaces->tangent, i);
+    if (surfaces->coat_normal.x)
+        surface.coat_normal = lmp_vec3_element(&surfaces->coat_normal, i);
+    const bool preintegrated = material->kind == LMP_MATERIAL_PREINTEGRATED ||
+                               (material->kind == LMP_MATERIAL_TABLE && !material->table);
+    lmp_rgb color;
+    if (preintegrated) {
+        lmp_shade_settings settings = shading->settings;
+        settings.method = LMP_SHADE_PREINTEGRATED;
+        color = lmp_shade(&settings, material, &surface, field->lights, field->info.light_count);
+    } else {
+        color = shade_surroundings(shading, material, &surface);
+    }
+    memcpy((char *)rgb + i * stride, &color, sizeof color);
+}
+
+/* Surfaces with lobes, inside the grid. A function of its own, for shade_one must not be called on
+ * top of its chunk. */
+static __attribute__((noinline)) void shade_chunks(const field_shading *shading,
+                                                   const lmp_surfaces *surfaces, size_t *left,
+                                                   size_t count, size_t stride, float *rgb) {
+    shade_chunk chunk;
+    while (count > 0) {
+        count = lmp_shade_take_alike(surfaces, LMP_SHADE_ZONAL, left, count, &chunk);
+        lmp_shade_load_chunk(surfaces, &chunk);
+        for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
+            shade_far(shading, first, &chunk);
+        shade_near(shading, &chunk);
+        lmp_shade_sum_planes(chunk.count, chunk.phong_count, chunk.ambient, &chunk.planes);
+        lmp_shade_store_chunk(&chunk, stride, rgb);
+    }
+}
+
+/* Whether the field and zonal sums have all that a surface reflects. */
+static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size_t i) {
+    const lmp_material *material = lmp_material_at(surfaces, i);
+    field_place place;
+    return (material->kind == LMP_MATERIAL_LOBES ||
+            material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS) &&
+           !(material->coat.weight > 0) &&
+           lmp_field_find(field, lmp_vec3_element(&surfaces->position, i), &place);
+}
+
+static field_shading prepare(const lmp_shade_settings *settings, const lmp_field *field) {
+    field_shading shading = { .field = field, .settings = lmp_shade_resolve(settings) };
+    shading.settings.method = LMP_SHADE_ZONAL;
+    shading.settings.bands = field->info.desc.bands;
+    lmp_sh_window(shading.settings.bands, shading.settings.window, shading.settings.window_size,
+                  shading.window);
+    lmp_lobe_diffuse(shading.settings.bands, shading.diffuse);
+    for (int l = 0; l < shading.settings.bands; l++)
+        shading.diffuse[l] /= pi;
+    return shading;
+}
+
+void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *field,
+                       const lmp_surfaces *surfaces, size_t count, size_t rgb_stride, float *rgb) {
+    const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
+    const field_shading shading = prepare(settings, field);
+    assert(lmp_are_surfaces(surfaces, count));
+    assert(stride >= sizeof(lmp_rgb) && stride % sizeof(float) == 0);
+    for (size_t first = 0; first < count; first += LMP_BATCH) {
+        size_t left[LMP_BATCH], left_count = 0;
+        for (size_t i = first; i < first + lmp_batch_count(count, first); i++)
+            if (has_lobes(field, surfaces, i))
+                left[left_count++] = i;
+            else
+                shade_one(&shading, surfaces, i, stride, rgb);
+        shade_chunks(&shading, surfaces, left, left_count, stride, rgb);
+    }
+}

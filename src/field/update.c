@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* update.c - what becomes of a field's nodes and lists when its lights change. */
+#include "src/field/field.h"
+#include "src/light/cap.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Lights that one pass over the nodes adds, and takes away, at most. */
+enum { PASS = 32 };
+
+static const float pi = 3.14159265f;
+
+/* --- lights ------------------------------------------------------------------------------------
+ */
+
+/* A point is a sphere this small (src/shade/chunk.h). */
+static field_sphere sphere_of(const lmp_light *light) {
+    const float area = pi * LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    const lmp_rgb i = light->intensity;
+    switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+        return (field_sphere) { light->position, light->radius, light->radiance };
+    case LMP_LIGHT_POINT:
+        return (field_sphere) { light->position,
+                                LMP_POINT_DISTANCE_MIN,
+                                { i.r / area, i.g / area, i.b / area } };
+    default:
+        return (field_sphere) { .radius = 0 };
+    }
+}
+
+void lmp_field_set_light(lmp_field *field, uint32_t at, const lmp_light *light) {
+    field->lights[at] = *light;
+    field->spheres[at] = sphere_of(light);
+    lmp_field_list(field, at);
+}
+
+static lmp_kernel_lights kernel_lights(const field_sphere *spheres, size_t count) {
+    const lmp_vec3 *center = &spheres->center;
+    const lmp_rgb *radiance = &spheres->radiance;
+    return (lmp_kernel_lights) {
+        { &center->x, &center->y, &center->z, sizeof *spheres },
+        { &spheres->radius, sizeof *spheres },
+        { &radiance->r, &radiance->g, &radiance->b, sizeof *spheres },
+        count,
+    };
+}
+
+/* --- nodes -------------------------------------------------------------------------------------
+ */
+
+static size_t brick_size(const lmp_field *field) {
+    return FIELD_BRICK * 4 * field->values;
+}
+
+/* What the lights give a brick's nodes. */
+static void compute(const lmp_field *field, size_t brick, const lmp_kernel_lights *lights,
+                    float *nodes) {
+    const lmp_field_desc *desc = &field->info.desc;
+    float at[3][FIELD_BRICK] __attribute__((aligned(64)));
+    const size_t x = brick % field->bricks[0], y = brick / field->bricks[0] % field->bricks[1];
+    const size_t z = brick / field->bricks[0] / field->bricks[1];
+    for (size_t i = 0; i < FIELD_BRICK; i++) {
+        at[0][i] = desc->origin.x + desc->cell.x * (float)(4 * x + i % 4);
+        at[1][i] = desc->origin.y + desc->cell.y * (float)(2 * y + i / 4 % 2);
+        at[2][i] = desc->origin.z + desc->cell.z * (float)(2 * z + i / 8);
+    }
+    const lmp_kernel_vec3 points = { at[0], at[1], at[2] };
+    const lmp_kernel_out out = { nodes, 4 * field->values, 0 };
+    const lmp_kernel_out slopes = { nodes + field->values, 4 * field->values, 0 };
+    lmp_kernels_get()->fading_gradient(NULL, desc->bands, lights, &points, LMP_COS_MIN,
+                                       1 / field->info.reach, FIELD_BRICK, &out, &slopes);
+}
+
+static lmp_result compute_task(size_t brick, void *data) {
+    const lmp_field *field = data;
+    const lmp_kernel_lights lights = kernel_lights(field->spheres, field->info.light_count);
+    compute(field, brick, &lights, field->nodes + brick * brick_size(field));
+    return LMP_OK;
+}
+
+lmp_result lmp_field_update(const lmp_host *host, lmp_field *field, const lmp_light *lights,
+                            size_t count) {
+    assert(lmp_are_lights(lights, count));
+    if (count > (size_t)field->info.desc.light_max)
+        return LMP_ERROR_ARGUMENT;
+    const lmp_host resolved = lmp_host_resolve(host);
+    for (uint32_t i = 0; i < field->info.light_count; i++)
+        lmp_field_unlist(field, i);
+    for (uint32_t i = 0; i < count; i++)
+        lmp_field_set_light(field, i, &lights[i]);
+    field->info.light_count = count;
+    field->changed = 0;
+    return lmp_host_run(&resolved, 0, 1, field->brick_count, compute_task, field);
+}
+
+/* --- changes -----------------------------------------------------------------------------------
+ */
+
+typedef struct change {
+    lmp_field *field;
+    lmp_kernel_lights lights; /* those taken away have negative radiance */
+} field_change;
+
+/* Every scratch_count-th brick, each by way of the task's own scratch. */
+static void change_task(size_t index, void *data) {
+    const field_change *change = data;
+    const lmp_field *field = change->field;
+    const size_t size = brick_size(field);
+    float *scratch = field->scratch + index * size;
+    for (size_t brick = index; brick < field->brick_count; brick += field->scratch_count) {
+        float *nodes = field->nodes + brick * size;
+        compute(field, brick, &change->lights, scratch);
+        for (size_t i = 0; i < size; i++)
+            nodes[i] += scratch[i];
+    }
+}
+
+static field_sphere negative(const field_sphere *sphere) {
+    field_sphere taken = *sphere;
+    taken.radiance = (lmp_rgb) { -taken.radiance.r, -taken.radiance.g, -taken.radiance.b };
+    return taken;
+}
+
+/* The bricks whose turn it is, anew. */
+static void refresh(lmp_field *field, size_t changed) {
+    const uint64_t before = field->changed / LMP_FIELD_REFRESH;
+    field->changed += changed;
+    for (uint64_t turn = before; turn < field->changed / LMP_FIELD_REFRESH; turn++)
+        (void)compute_task((size_t)(turn % field->brick_count), field);
+}
+
+static void add_to_nodes(const lmp_host *host, lmp_field *field, const field_sphere *spheres,
+                         size_t count) {
+    const lmp_host resolved = lmp_host_resolve(host);
+    field_change change = { field, kernel_lights(spheres, count) };
+    resolved.parallel(field->scratch_count, change_task, &change, resolved.user);
+}
+
+void lmp_field_move(const lmp_host *host, lmp_field *field, const size_t *at,
+                    const lmp_light *lights, size_t count) {
+    assert(lmp_are_lights(lights, count));
+    for (size_t first = 0; first < count; first += PASS) {
+        const size_t some = count - first < PASS ? count - first : PASS;
+        field_sphere spheres[2 * PASS];
+        for (size_t i = 0; i < some; i++) {
+            const uint32_t light = (uint32_t)at[first + i];
+            assert(light < field->info.light_count);
+            spheres[2 * i] = negative(&field->spheres[light]);
+            lmp_field_unlist(field, light);
+            lmp_field_set_light(field, light, &lights[first + i]);
+            spheres[2 * i + 1] = field->spheres[light];
+        }
+        add_to_nodes(host, field, spheres, 2 * some);
+        refresh(field, some);
+    }
+}
+
+lmp_result lmp_field_add(const lmp_host *host, lmp_field *field, const lmp_light *light) {
+    assert(lmp_is_light(light));
+    const uint32_t at = (uint32_t)field->info.light_count;
+    if (at >= (uint32_t)field->info.desc.light_max)
+        return LMP_ERROR_ARGUMENT;
+    lmp_field_set_light(field, at, light);
+    field->info.light_count++;
+    add_to_nodes(host, field, &field->spheres[at], 1);
+    refresh(field, 1);
+    return LMP_OK;
+}
+
+void lmp_field_remove(const lmp_host *host, lmp_field *field, size_t at) {
+    assert(at < field->info.light_count);
+    const uint32_t light = (uint32_t)at, last = (uint32_t)field->info.light_count - 1;
+    const field_sphere gone = negative(&field->spheres[light]);
+    lmp_field_unlist(field, light);
+    if (light != last) {
+        lmp_field_unlist(field, last);
+        lmp_field_set_light(field, light, &field->lights[last]);
+    }
+    field->info.light_count--;
+    add_to_nodes(host, field, &gone, 1);
+    refresh(field, 1);
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: MIT */
+/* Fields at points: what interpolation reproduces, how it converges, and near lights. */
+#include "src/base/bytes.h"
+#include "tests/unit/fields.h"
+
+#include <string.h>
+
+enum { BANDS = 5, VALUES = 3 * BANDS * BANDS, LIGHTS = 60 };
+
+/* --- interpolation -----------------------------------------------------------------------------
+ */
+
+/* Every cubic of x, y, z, each with a factor; its derivatives in slopes. */
+static double cubic(const double at[3], const double *factors, double slopes[3]) {
+    double sum = 0;
+    slopes[0] = slopes[1] = slopes[2] = 0;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; i + j < 4; j++)
+            for (int k = 0; i + j + k < 4; k++) {
+                const double f = *factors++;
+                const int power[3] = { i, j, k };
+                sum += f * pow(at[0], i) * pow(at[1], j) * pow(at[2], k);
+                for (int a = 0; a < 3; a++) {
+                    double slope = f * power[a];
+                    for (int b = 0; b < 3; b++)
+                        slope *= pow(at[b], power[b] - (a == b && power[b] > 0));
+                    slopes[a] += slope;
+                }
+            }
+    return sum;
+}
+
+/* A dark field's bytes end with its nodes, x first, and the checksum: the nodes become the cubic.
+ */
+static lmp_field *cubic_field(const lmp_field_desc *desc, const double *factors) {
+    lmp_field *dark = field_of(desc, NULL, 0), *field;
+    const size_t size = lmp_field_size(dark), values = 3 * LMP_SH_COUNT(desc->bands);
+    unsigned char *bytes = malloc(size);
+    assert_non_null(bytes);
+    lmp_field_write(dark, bytes);
+    lmp_field_destroy(dark);
+    const int *n = desc->nodes;
+    unsigned char *p = bytes + size - 4 - 16 * values * (size_t)(n[0] * n[1] * n[2]);
+    for (int i = 0; i < n[0] * n[1] * n[2]; i++) {
+        const double at[3] = {
+            (double)desc->origin.x + (double)desc->cell.x * (i % n[0]),
+            (double)desc->origin.y + (double)desc->cell.y * (i / n[0] % n[1]),
+            (double)desc->origin.z + (double)desc->cell.z * (i / n[0] / n[1]),
+        };
+        double of[4];
+        of[0] = cubic(at, factors, of + 1);
+        for (size_t v = 0; v < 4 * values; v++)
+            p = lmp_bytes_store_f32(p, (float)(of[v / values] * (double)(1 + v % values)));
+    }
+    lmp_bytes_store_u32(bytes + size - 4, lmp_bytes_checksum(bytes, size - 4));
+    assert_int_equal(lmp_field_read(NULL, bytes, size, &field), LMP_OK);
+    free(bytes);
+    return field;
+}
+
+static void interpolation_reproduces_cubics(void **test) {
+    (void)test;
+    for (int bands = 1; bands <= LMP_FIELD_BANDS_MAX; bands += 3) {
+        const lmp_field_desc desc = { .bands = bands,
+                                      .nodes = { 6, 3, 5 },
+                                      .origin = { -1, 0.5f, -0.5f },
+                                      .cell = { 0.5f, 0.25f, 0.375f } };
+        const size_t values = 3 * LMP_SH_COUNT(bands);
+        double factors[20], slopes[3];
+        float sh[3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX];
+        for (int i = 0; i < 20; i++)
+            factors[i] = check_random_between(-1, 1);
+        lmp_field *field = cubic_field(&desc, factors);
+        for (int i = 0; i < 200; i++) {
+            const double at[3] = { -1 + 2.5 * check_random(), 0.5 + 0.5 * check_random(),
+                                   -0.5 + 1.5 * check_random() };
+            const lmp_vec3 point = { (float)at[0], (float)at[1], (float)at[2] };
+            const double expected = cubic(at, factors, slopes);
+            lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, sh);
+            for (size_t v = 0; v < values; v++)
+                CHECK_WITHIN(fabs((double)sh[v] / (double)(1 + v) - expected), 1e-5);
+        }
+        lmp_field_destroy(field);
+    }
+}
+
+/* Of lights beyond their reach; the grid is halved twice. */
+static void the_error_falls_with_the_fourth_power_of_a_cell(void **test) {
+    (void)test;
+    lmp_light lights[LIGHTS];
+    field_sphere_lights(-4, -2, LIGHTS, lights);
+    lmp_vec3 points[300];
+    for (int i = 0; i < 300; i++)
+        points[i] = field_point(0, 4);
+    double before = 0;
+    for (int n = 5; n <= 17; n = 2 * n - 1) {
+        const float cell = 4.0f / (float)(n - 1);
+        const lmp_field_desc desc = { .nodes = { n, n, n },
+                                      .cell = { cell, cell, cell },
+                                      .reach = 1 };
+        lmp_field *field = field_of(&desc, lights, LIGHTS);
+        double sum = 0;
+        for (int i = 0; i < 300; i++)
+            sum += field_error(field, points[i]);
+        lmp_field_destroy(field);
+        if (n > 5)
+            CHECK_WITHIN(fabs(log2(before / sum) - 4), 0.35);
+        before = sum;
+    }
+}
+
+/* --- near lights -------------------------------------------------------------------------------
+ */
+
+static void a_light_errs_by_no_more_than_the_field_says(void **test) {
+    (void)test;
+    static const float reaches[] = { 2, 3, 4.5f, 7 };
+    for (int bands = 1; bands <= LMP_FIELD_BANDS_MAX; bands++)
+        for (int r = 0; r < 4; r++) {
+            const lmp_field_desc desc = { .bands = bands, .reach = reaches[r] };
+            lmp_field *field = field_of(&desc, NULL, 0);
+            const lmp_field_info info = lmp_field_describe(field);
+            double worst = 0;
+            for (int i = 0; i < 12; i++) {
+                const lmp_light light = field_sphere_light(7, 8);
+                assert_int_equal(lmp_field_update(NULL, field, &light, 1), LMP_OK);
+                for (int k = 0; k < 40; k++) {
+                    const lmp_vec3 to = check_random_direction();
+                    const float d = light.radius + (float)check_random() * 1.2f * info.reach;
+                    const lmp_vec3 point = { light.position.x + d * to.x,
+                                             light.position.y + d * to.y,
+                                             light.position.z + d * to.z };
+                    worst = fmax(worst, field_error(field, point));
+                }
+            }
+            CHECK_WITHIN(worst, (double)info.desc.error);
+            lmp_field_destroy(field);
+        }
+}
+
+static void the_reach_follows_from_the_error_asked_for(void **test) {
+    (void)test;
+    for (int bands = 1; bands <= LMP_FIELD_BANDS_MAX; bands++) {
+        lmp_field *field;
+        const lmp_field_desc desc = { .bands = bands, .error = 0.01f, .cell = { 1, 3, 2 } };
+        assert_int_equal(lmp_field_create(NULL, &desc, &field), LMP_OK);
+        const lmp_field_info info = lmp_field_describe(field);
+        CHECK_WITHIN(fabs((double)info.desc.error - 0.01), 1e-6);
+        CHECK_WITHIN(fabs((double)info.reach - 3 * (double)info.desc.reach), 1e-5);
+        lmp_field_destroy(field);
+    }
+}
+
+/* A light goes through cells, past points, in steps that nothing could change by more than a few
+ * times their size: what jumps would be seen. */
+static void nothing_jumps_where_a_light_crosses_a_cell(void **test) {
+    (void)test;
+    enum { STEPS = 400, POINTS = 24 };
+    const lmp_field_desc desc = { .nodes = { 12, 12, 12 }, .error = 0.3f };
+    lmp_light light = { .radius = 0.2f, .radiance = { 1, 1, 1 } };
+    lmp_field *field = field_of(&desc, &light, 1);
+    lmp_vec3 points[POINTS];
+    float before[POINTS][VALUES], error[VALUES];
+    for (int i = 0; i < POINTS; i++)
+        points[i] = field_point(2, 9);
+    for (int step = 0; step <= STEPS; step++) {
+        const float s = (float)step / STEPS;
+        light.position = (lmp_vec3) { 2 + 6.5f * s, 3 + 4.3f * s, 8 - 5.1f * s };
+        assert_int_equal(lmp_field_update(NULL, field, &light, 1), LMP_OK);
+        for (int i = 0; i < POINTS; i++) {
+            float exact[VALUES], sh[VALUES];
+            lmp_light_project(BANDS, &light, 1, points[i], exact);
+            lmp_field_eval_n(field, lmp_vec3_array_same(&points[i]), 1, LMP_SH_INTERLEAVED, 0, sh);
+            for (int v = 0; v < VALUES; v++)
+                error[v] = sh[v] - exact[v];
+            /* The error itself is 0.3 of a light at most, and changes over a part of a cell; a step
+             * is a fortieth of one. */
+            if (step > 0)
+                CHECK_WITHIN(field_distance(error, before[i], VALUES),
+                             0.03 * field_size(exact, VALUES) + 1e-4);
+            memcpy(before[i], error, sizeof error);
+        }
+    }
+    lmp_field_destroy(field);
+}
+
+static void near_lights_are_told_with_what_the_field_lacks(void **test) {
+    (void)test;
+    lmp_light lights[LIGHTS];
+    const lmp_field_desc desc = { .nodes = { 9, 9, 9 }, .reach = 2 };
+    field_sphere_lights(0, 8, LIGHTS, lights);
+    lights[7].kind = LMP_LIGHT_DIRECTIONAL;
+    lights[7].direction = (lmp_vec3) { 0, 1, 0 };
+    lmp_field *field = field_of(&desc, lights, LIGHTS);
+    for (int i = 0; i < 300; i++) {
+        const lmp_vec3 p = field_point(-1, 9);
+        const bool inside = fmaxf(p.x, fmaxf(p.y, p.z)) <= 8 && fminf(p.x, fminf(p.y, p.z)) >= 0;
+        uint32_t near[LIGHTS];
+        float fractions[LIGHTS];
+        size_t count = lmp_field_near(field, p, LIGHTS, near, fractions), found = 0;
+        assert_int_equal(lmp_field_near(field, p, 0, NULL, NULL), count);
+        for (uint32_t k = 0; k < LIGHTS; k++) {
+            const lmp_vec3 c = lights[k].position;
+            const double d = sqrt((double)((c.x - p.x) * (c.x - p.x) + (c.y - p.y) * (c.y - p.y) +
+                                           (c.z - p.z) * (c.z - p.z)));
+            const double t = fmin(fmax((d - (double)lights[k].radius) / 2, 0), 1), u = t * t;
+            const double lacks = inside && k != 7 ? 1 - u * u * (6 - 8 * u + 3 * u * u) : 1;
+            const bool listed = found < count && near[found] == k;
+            CHECK_WITHIN(fabs((listed ? (double)fractions[found] : 0) - lacks), 1e-5);
+            found += listed;
+        }
+        assert_int_equal(found, count);
+    }
+    lmp_field_destroy(field);
+}
+
+static void outside_the_grid_every_light_is_summed(void **test) {
+    (void)test;
+    lmp_light lights[LIGHTS];
+    field_sphere_lights(0, 15, LIGHTS, lights);
+    lmp_field *field = field_of(NULL, lights, LIGHTS);
+    for (int i = 0; i < 100; i++) {
+        const lmp_vec3 point = field_point(15.001, 40);
+        CHECK_WITHIN(field_error(field, point), 1e-6);
+    }
+    lmp_field_destroy(field);
+}
+
+/* --- lobes -------------------------------------------------------------------------------------
+ */
+
+static void lobes_respond_as_to_the_coefficients(void **test) {
+    (void)test;
+    enum { POINTS = 37 };
+    lmp_light lights[LIGHTS];
+    lmp_vec3 points[POINTS], axes[POINTS];
+    lmp_rgb rgb[POINTS];
+    float planes[VALUES][POINTS + 3], rows[POINTS][VALUES], lambda[BANDS], lobe[BANDS * BANDS];
+    field_sphere_lights(0, 15, LIGHTS, lights);
+    for (int i = 0; i < POINTS; i++) {
+        points[i] = field_point(-1, 16);
+        axes[i] = check_random_direction();
+    }
+    lmp_field *field = field_of(NULL, lights, LIGHTS);
+    lmp_lobe_phong(BANDS, 7, lambda);
+    lmp_field_lobe_n(field, lambda, lmp_vec3_array_of(axes), lmp_vec3_array_of(points), POINTS,
+                     rgb);
+    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, LMP_SH_INTERLEAVED, 0, rows[0]);
+    lmp_field_eval_n(field, lmp_vec3_array_of(points), POINTS, LMP_SH_PLANAR, sizeof planes[0],
+                     planes[0]);
+    for (int i = 0; i < POINTS; i++) {
+        lmp_lobe_project(BANDS, lambda, axes[i], lobe);
+        const double scale = field_size(rows[i], VALUES);
+        for (int v = 0; v < VALUES; v++)
+            assert_true(memcmp(&rows[i][v], &planes[v][i], sizeof(float)) == 0);
+        CHECK_WITHIN(fabsf(rgb[i].r - lmp_sh_dot(BANDS, lobe, rows[i])), 1e-6 * scale);
+        CHECK_WITHIN(fabsf(rgb[i].g - lmp_sh_dot(BANDS, lobe, rows[i] + 25)), 1e-6 * scale);
+        CHECK_WITHIN(fabsf(rgb[i].b - lmp_sh_dot(BANDS, lobe, rows[i] + 50)), 1e-6 * scale);
+    }
+    lmp_field_destroy(field);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(interpolation_reproduces_cubics),
+        cmocka_unit_test(the_error_falls_with_the_fourth_power_of_a_cell),
+        cmocka_unit_test(a_light_errs_by_no_more_than_the_field_says),
+        cmocka_unit_test(the_reach_follows_from_the_error_asked_for),
+        cmocka_unit_test(nothing_jumps_where_a_light_crosses_a_cell),
+        cmocka_unit_test(near_lights_are_told_with_what_the_field_lacks),
+        cmocka_unit_test(outside_the_grid_every_light_is_summed),
+        cmocka_unit_test(lobes_respond_as_to_the_coefficients),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

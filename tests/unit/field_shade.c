@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT */
+/* Surfaces under a field reflect what lmp_shade says of all its lights. */
+#include "tests/unit/fields.h"
+
+#include <string.h>
+
+enum { LIGHTS = 300, COUNT = 150 };
+
+static lmp_vec3 position[COUNT], normal[COUNT], view[COUNT];
+static lmp_material materials[COUNT];
+static lmp_light lights[LIGHTS];
+
+static const lmp_surfaces surfaces = {
+    .position = { &position->x, &position->y, &position->z, sizeof *position },
+    .normal = { &normal->x, &normal->y, &normal->z, sizeof *normal },
+    .view = { &view->x, &view->y, &view->z, sizeof *view },
+    .material = materials,
+    .material_stride = sizeof *materials
+};
+
+/* Neighbors lie side by side now and then, as those of an image do; some outside the grid. */
+static void scatter(void) {
+    for (int i = 0; i < COUNT; i++) {
+        const lmp_vec3 before = position[i ? i - 1 : 0];
+        position[i] = i % 10 ? (lmp_vec3) { before.x + 0.01f, before.y, before.z - 0.01f }
+                             : field_point(-0.5, 15.5);
+        normal[i] = check_random_direction();
+        view[i] = check_random_direction();
+        materials[i] = (lmp_material) {
+            .kind = i / 7 % 2 ? LMP_MATERIAL_METALLIC_ROUGHNESS : LMP_MATERIAL_LOBES,
+            .diffuse = { 0.7f, 0.5f, 0.3f },
+            .specular = { 0.2f, 0.3f, 0.4f },
+            .exponent = 12,
+            .roughness = 0.5f,
+            .coat = { i % 50 == 3 ? 0.5f : 0, 0.3f },
+        };
+    }
+    field_sphere_lights(0, 15, LIGHTS, lights);
+}
+
+/* The largest difference to `exact` in parts of the largest radiance, and its root mean square. */
+static void compare(const lmp_rgb *rgb, const lmp_rgb *exact, double *worst, double *rms) {
+    double peak = 0, sum = 0;
+    *worst = 0;
+    for (int i = 0; i < COUNT; i++) {
+        const double d = fmax(fabs((double)rgb[i].r - (double)exact[i].r),
+                              fmax(fabs((double)rgb[i].g - (double)exact[i].g),
+                                   fabs((double)rgb[i].b - (double)exact[i].b)));
+        peak = fmax(peak, (double)exact[i].g);
+        *worst = fmax(*worst, d);
+        sum += d * d;
+    }
+    *worst /= peak;
+    *rms = sqrt(sum / COUNT) / peak;
+}
+
+static void surfaces_reflect_as_under_all_lights(void **test) {
+    (void)test;
+    scatter();
+    for (int bands = 3; bands <= 10; bands += bands == 3 ? 2 : 5)
+        for (int window = 0; window < LMP_WINDOWS; window++) {
+            const lmp_field_desc desc = { .bands = bands };
+            const lmp_shade_settings settings = { .bands = bands, .window = (lmp_window)window };
+            lmp_field *field = field_of(&desc, lights, LIGHTS);
+            lmp_rgb rgb[COUNT], exact[COUNT];
+            double worst, rms;
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, &exact->r);
+            lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+            compare(rgb, exact, &worst, &rms);
+            CHECK_WITHIN(worst, 0.01);
+            CHECK_WITHIN(rms, 0.001);
+            lmp_field_destroy(field);
+        }
+}
+
+/* They are near everywhere, so that nothing is interpolated. */
+static void lights_that_are_no_spheres_are_summed_exactly(void **test) {
+    (void)test;
+    lmp_light others[10];
+    scatter();
+    for (int i = 0; i < 10; i++) {
+        others[i] = lights[i];
+        others[i].kind = (lmp_light_kind)(LMP_LIGHT_SPOT + i % 4);
+        others[i].direction = check_random_direction();
+        others[i].outer = 1;
+        others[i].angle = 0.4f;
+    }
+    lmp_field *field = field_of(NULL, others, 10);
+    const lmp_shade_settings settings = { .bands = 5 };
+    lmp_rgb rgb[COUNT], exact[COUNT];
+    double worst, rms;
+    lmp_shade_n(&settings, &surfaces, COUNT, others, 10, 0, &exact->r);
+    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+    compare(rgb, exact, &worst, &rms);
+    CHECK_WITHIN(worst, 5e-4); /* of skies, as shade.h says of lmp_shade_n */
+    lmp_field_destroy(field);
+}
+
+static void points_are_interpolated_as_small_spheres(void **test) {
+    (void)test;
+    scatter();
+    for (int i = 0; i < LIGHTS; i++) {
+        lights[i].kind = LMP_LIGHT_POINT;
+        lights[i].intensity = (lmp_rgb) { 1, 0.5f, 0.25f };
+    }
+    lmp_field *field = field_of(NULL, lights, LIGHTS);
+    const lmp_shade_settings settings = { .bands = 5 };
+    lmp_rgb rgb[COUNT], exact[COUNT];
+    double worst, rms;
+    lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, &exact->r);
+    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+    compare(rgb, exact, &worst, &rms);
+    CHECK_WITHIN(worst, 0.01);
+    lmp_field_destroy(field);
+}
+
+static void tables_reflect_as_under_all_lights(void **test) {
+    (void)test;
+    const lmp_brdf_table_desc small = { .bands = 5, .views = 8, .rings_max = 32 };
+    const lmp_preintegrated_brdf_desc coarse = { .error = 0.1f };
+    lmp_brdf *brdf;
+    lmp_brdf_table *table;
+    lmp_preintegrated_brdf *preintegrated;
+    scatter();
+    assert_int_equal(
+        lmp_brdf_create_ggx(NULL, &(lmp_ggx) { 0.5f, 0.5f, { 1, 1, 1 }, { 0, 0, 0 } }, &brdf),
+        LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &small, brdf, &table), LMP_OK);
+    assert_int_equal(lmp_preintegrated_brdf_create(NULL, &coarse, table, &preintegrated), LMP_OK);
+    for (int i = 0; i < COUNT; i++) {
+        materials[i] = (lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = table };
+        if (i % 5 == 0)
+            materials[i] = (lmp_material) { .kind = LMP_MATERIAL_PREINTEGRATED,
+                                            .preintegrated = preintegrated };
+    }
+    lmp_field *field = field_of(NULL, lights, LIGHTS);
+    const lmp_shade_settings settings = { .bands = 5 };
+    lmp_rgb rgb[COUNT], exact[COUNT];
+    double worst, rms;
+    for (int i = 0; i < COUNT; i++)
+        exact[i] = lmp_shade(
+            &settings, &materials[i],
+            &(lmp_surface) { .position = position[i], .normal = normal[i], .view = view[i] },
+            lights, LIGHTS);
+    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+    compare(rgb, exact, &worst, &rms);
+    CHECK_WITHIN(worst, 0.01);
+    lmp_field_destroy(field);
+    lmp_preintegrated_brdf_destroy(preintegrated);
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(surfaces_reflect_as_under_all_lights),
+        cmocka_unit_test(lights_that_are_no_spheres_are_summed_exactly),
+        cmocka_unit_test(points_are_interpolated_as_small_spheres),
+        cmocka_unit_test(tables_reflect_as_under_all_lights),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
