@@ -29,9 +29,12 @@ static void set_ggx(reference_surface *surface, reference_ggx *ggx, const ruler_
     reference_surface_shine(surface, &whole, ggx, up, view_vector(row));
 }
 
-/* Positions and directions of lights are float32: an exponent of 10 000 sees that. */
+/* Lights are float32: an exponent of 10 000 sees that of their directions, and the rim of a sphere
+ * that is nearly touched moves by more than its radius does. */
 static double rounding(const ruler_row *row) {
-    return (2e-6 + 1e-7 * row->exponent) * (row->value + 0.01 * ruler_scale(row));
+    const bool outside = row->light == RULER_SPHERE && row->size < 1;
+    const double rim = outside ? 6e-8 / sqrt(1 - row->size * row->size) * ruler_scale(row) : 0;
+    return (2e-6 + 1e-7 * row->exponent) * (row->value + 0.01 * ruler_scale(row)) + rim;
 }
 
 static void quadrature_of_lobes_is_within_the_bounds(void **state) {
