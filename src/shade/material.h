@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* material.h - what a material is to a kernel: for one surface a short list of zonal lobes, or one
- * row of a table. A new kind of material is a case of lmp_shade_source and of lmp_shade_lobes. */
+ * row of a table. A new kind of material is a case of lmp_shade_source and of
+ * lmp_shade_reflection. */
 #ifndef LAMPION_SHADE_MATERIAL_H
 #define LAMPION_SHADE_MATERIAL_H
 
