@@ -3,6 +3,7 @@
 #ifndef LAMPION_KERNELS_BATCH_H
 #define LAMPION_KERNELS_BATCH_H
 
+#include "src/base/element.h"
 #include "src/kernels/kernels.h"
 
 #include <string.h>
@@ -37,12 +38,26 @@ static inline void lmp_batch_floats(const float *array, size_t stride, size_t fi
         plane->at[i] = 0;
 }
 
+static inline void lmp_batch_set(lmp_vec3 v, lmp_batch_vec3 *planes, size_t i) {
+    planes->x.at[i] = v.x;
+    planes->y.at[i] = v.y;
+    planes->z.at[i] = v.z;
+}
+
+/* The same of vectors; where their members are not planes, in one pass over them. */
 static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, size_t first,
                                                 size_t count, lmp_batch_vec3 *planes) {
     const lmp_kernel_vec3 vectors = { planes->x.at, planes->y.at, planes->z.at };
-    lmp_batch_floats(array->x, array->stride, first, count, &planes->x);
-    lmp_batch_floats(array->y, array->stride, first, count, &planes->y);
-    lmp_batch_floats(array->z, array->stride, first, count, &planes->z);
+    if (array->stride == sizeof(float)) {
+        lmp_batch_floats(array->x, array->stride, first, count, &planes->x);
+        lmp_batch_floats(array->y, array->stride, first, count, &planes->y);
+        lmp_batch_floats(array->z, array->stride, first, count, &planes->z);
+        return vectors;
+    }
+    for (size_t i = 0; i < count; i++)
+        lmp_batch_set(lmp_vec3_element(array, first + i), planes, i);
+    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        lmp_batch_set((lmp_vec3) { 0, 0, 0 }, planes, i);
     return vectors;
 }
 

@@ -7,14 +7,14 @@ static const float pi = 3.14159265f;
 
 size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
                             size_t count, shade_chunk *chunk) {
-    size_t others = 0;
-    chunk->count = 0;
+    size_t taken = 0, others = 0;
     for (size_t i = 0; i < count; i++) {
-        const lmp_material *material = lmp_material_at(surfaces, left[i]);
+        const size_t at = left[i];
+        const lmp_material *material = lmp_material_at(surfaces, at);
         const shade_source source = lmp_shade_source(material, preintegrated);
         const int phong_count =
-            lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, left[i]),
-                                  lmp_vec3_element(&surfaces->view, left[i]));
+            lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, at),
+                                  lmp_vec3_element(&surfaces->view, at));
         if (i == 0) {
             chunk->source = source;
             chunk->phong_count = phong_count;
@@ -22,32 +22,24 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
         if (source.table == chunk->source.table &&
             source.preintegrated == chunk->source.preintegrated &&
             phong_count == chunk->phong_count)
-            chunk->at[chunk->count++] = left[i];
+            chunk->at[taken++] = at;
         else
-            left[others++] = left[i];
+            left[others++] = at;
     }
+    chunk->count = taken;
     return others;
-}
-
-static const float *load_floats(const float *array, size_t stride, const shade_chunk *chunk,
-                                lmp_batch_plane *plane) {
-    const size_t first = chunk->at[0], count = chunk->count;
-    if (chunk->at[count - 1] - first == count - 1) {
-        lmp_batch_floats(array, stride, first, count, plane);
-        return plane->at;
-    }
-    for (size_t i = 0; i < count; i++)
-        memcpy(&plane->at[i], (const char *)array + chunk->at[i] * stride, sizeof(float));
-    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
-        plane->at[i] = 0;
-    return plane->at;
 }
 
 static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const shade_chunk *chunk,
                                     lmp_batch_vec3 *planes) {
-    return (lmp_kernel_vec3) { load_floats(array->x, array->stride, chunk, &planes->x),
-                               load_floats(array->y, array->stride, chunk, &planes->y),
-                               load_floats(array->z, array->stride, chunk, &planes->z) };
+    const size_t first = chunk->at[0], count = chunk->count;
+    if (chunk->at[count - 1] - first == count - 1)
+        return lmp_batch_vectors(array, first, count, planes);
+    for (size_t i = 0; i < count; i++)
+        lmp_batch_set(lmp_vec3_element(array, chunk->at[i]), planes, i);
+    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        lmp_batch_set((lmp_vec3) { 0, 0, 0 }, planes, i);
+    return (lmp_kernel_vec3) { planes->x.at, planes->y.at, planes->z.at };
 }
 
 static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {
@@ -79,11 +71,12 @@ void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
 }
 
 void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb) {
-    for (size_t c = 0; c < 3; c++)
-        for (size_t i = 0; i < chunk->count; i++) {
-            const float color = lmp_shade_clamped(chunk->planes.accumulated[c].at[i]);
-            memcpy((char *)rgb + chunk->at[i] * stride + c * sizeof color, &color, sizeof color);
-        }
+    const lmp_batch_plane *sum = chunk->planes.accumulated;
+    for (size_t i = 0; i < chunk->count; i++) {
+        const lmp_rgb color = { lmp_shade_clamped(sum[0].at[i]), lmp_shade_clamped(sum[1].at[i]),
+                                lmp_shade_clamped(sum[2].at[i]) };
+        memcpy((char *)rgb + chunk->at[i] * stride, &color, sizeof color);
+    }
 }
 
 /* --- lights ----------------------------------------------------------------------------------- */

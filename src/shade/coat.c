@@ -17,8 +17,7 @@ lmp_material lmp_coat_material(const lmp_coat *coat, float part) {
                             .dielectric = { true, { part, part, part }, part } };
 }
 
-/* --- many surfaces -----------------------------------------------------------------------------
- */
+/* --- many surfaces ---------------------------------------------------------------------------- */
 
 /* What shines on them: lights, or an environment. */
 typedef struct coat_light {
