@@ -16,8 +16,7 @@ static void set_lane(shadow_vectors *v, int lane, lmp_vec3 value) {
     v->of[2][lane] = value.z;
 }
 
-/* --- where rays start ---------------------------------------------------------------------------
- */
+/* --- where rays start ------------------------------------------------------------------------- */
 
 /* A smooth normal says that the surface bulges past its flat triangle: a ray that starts on the
  * triangle would meet its neighbors. So it starts on the surface that the corners' tangent planes
@@ -75,8 +74,7 @@ static void find_origins(const shadow_view *view, shadow_points *p) {
     }
 }
 
-/* --- what they reflect --------------------------------------------------------------------------
- */
+/* --- what they reflect ------------------------------------------------------------------------ */
 
 /* n bands show a lobe as wide as one of GGX of this alpha², at least. */
 static float resolved(const lmp_shade_settings *settings) {
@@ -113,6 +111,7 @@ static void set_material(const lmp_material *m, float least, int i, shadow_point
 
 void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, int width,
                        shadow_points *p) {
+    static const lmp_material unlit = { 0 }; /* where nothing is, the row has no material */
     const float least = resolved(&view->settings);
     p->material = row->material + first;
     p->settings = &view->settings;
@@ -129,7 +128,7 @@ void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, i
         for (int c = 0; c < 3; c++)
             p->mirror.of[c][i] = 2 * along * p->normal.of[c][i] - p->view.of[c][i];
         p->ambient[i] = row->ambient[x];
-        set_material(&row->material[x], least, i, p);
+        set_material(p->lit[i] ? &row->material[x] : &unlit, least, i, p);
     }
     find_origins(view, p);
 }

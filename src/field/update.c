@@ -11,8 +11,7 @@ enum { PASS = 32 };
 
 static const float pi = 3.14159265f;
 
-/* --- lights ------------------------------------------------------------------------------------
- */
+/* --- lights ----------------------------------------------------------------------------------- */
 
 /* A point is a sphere this small (src/shade/chunk.h). */
 static field_sphere sphere_of(const lmp_light *light) {
@@ -47,8 +46,7 @@ static lmp_kernel_lights kernel_lights(const field_sphere *spheres, size_t count
     };
 }
 
-/* --- nodes -------------------------------------------------------------------------------------
- */
+/* --- nodes ------------------------------------------------------------------------------------ */
 
 static size_t brick_size(const lmp_field *field) {
     return FIELD_BRICK * 4 * field->values;
@@ -82,9 +80,9 @@ static lmp_result compute_task(size_t brick, void *data) {
 
 lmp_result lmp_field_update(const lmp_host *host, lmp_field *field, const lmp_light *lights,
                             size_t count) {
-    assert(lmp_are_lights(lights, count));
     if (count > (size_t)field->info.desc.light_max)
         return LMP_ERROR_ARGUMENT;
+    assert(lmp_are_lights(lights, count));
     const lmp_host resolved = lmp_host_resolve(host);
     for (uint32_t i = 0; i < field->info.light_count; i++)
         lmp_field_unlist(field, i);
@@ -95,8 +93,7 @@ lmp_result lmp_field_update(const lmp_host *host, lmp_field *field, const lmp_li
     return lmp_host_run(&resolved, 0, 1, field->brick_count, compute_task, field);
 }
 
-/* --- changes -----------------------------------------------------------------------------------
- */
+/* --- changes ---------------------------------------------------------------------------------- */
 
 typedef struct change {
     lmp_field *field;
