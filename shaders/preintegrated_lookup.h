@@ -8,8 +8,7 @@
 
 #define LMP_LOOKUP_PI 3.14159265358979f
 
-/* --- layout of a lobe ---------------------------------------------------------------------------
- */
+/* --- layout of a lobe ------------------------------------------------------------------------- */
 
 /* The remap of exponents: entries an octave of 1 + e are the upper bits of the mantissa's 23. */
 #define LMP_LOOKUP_OCTAVES      20
@@ -45,8 +44,7 @@
 #define LMP_LOOKUP_VALUE_MAX      7 /* of the largest 16-bit number */
 #define LMP_LOOKUP_SLICE          8
 
-/* --- the three languages ------------------------------------------------------------------------
- */
+/* --- the three languages ---------------------------------------------------------------------- */
 
 #ifndef __STDC_VERSION__ /* GLSL */
 #define LOOKUP_FUNCTION(type)   type
@@ -95,8 +93,7 @@ static inline int32_t lmp_lookup_bits(float x) {
 }
 #endif
 
-/* --- angles -------------------------------------------------------------------------------------
- */
+/* --- angles ----------------------------------------------------------------------------------- */
 
 /* acos(1 - y), y in 0 … 1, to 3e-8, and relatively as exact for small y (Abramowitz and Stegun
  * 4.4.46). */
@@ -139,8 +136,7 @@ lmp_lookup_azimuth(LOOKUP_FLOAT x, LOOKUP_FLOAT y, LOOKUP_FLOAT across2, bool mi
     return LOOKUP_LESS(y, zero, 2.0f * LMP_LOOKUP_PI - half_circle, half_circle);
 }
 
-/* --- where a reading lies -----------------------------------------------------------------------
- */
+/* --- where a reading lies --------------------------------------------------------------------- */
 
 /* The whole part of a coordinate along remap or slices, at most `last`, so that it has a next. */
 LOOKUP_FUNCTION(LOOKUP_INT) lmp_lookup_first(LOOKUP_FLOAT at, float last) {

@@ -13,8 +13,7 @@
 
 #define SHARED_TONE_MAX 65504.0f
 
-/* --- filmic -------------------------------------------------------------------------------------
- */
+/* --- filmic ----------------------------------------------------------------------------------- */
 
 /* Stephen Hill's fit of ACES' reference and sRGB output transforms (BakingLab, 2016), scaled so
  * that middle gray stays 0.18. A channel follows the curve by itself, which makes bright colors
@@ -54,8 +53,7 @@ TONE_FUNCTION float tone_filmic(int channel, float r, float g, float b) {
                       filmic_channel(z, peak));
 }
 
-/* --- linear -------------------------------------------------------------------------------------
- */
+/* --- linear ----------------------------------------------------------------------------------- */
 
 TONE_FUNCTION float tone_linear(int channel, float r, float g, float b) {
     return channel == 0 ? r : channel == 1 ? g : b;

@@ -13,8 +13,7 @@ void cJSON_InitHooks(cJSON_Hooks *hooks) {
     memory = *hooks;
 }
 
-/* --- values -------------------------------------------------------------------------------------
- */
+/* --- values ----------------------------------------------------------------------------------- */
 
 cJSON_bool cJSON_IsArray(const cJSON *item) {
     return item && item->type == cJSON_Array;
@@ -67,8 +66,7 @@ void cJSON_Delete(cJSON *item) {
     }
 }
 
-/* --- parsing ------------------------------------------------------------------------------------
- */
+/* --- parsing ---------------------------------------------------------------------------------- */
 
 static void skip(const char **at) {
     *at += strspn(*at, " \t\r\n");

@@ -38,8 +38,7 @@ int sandbox_open(const char *name, int *number, cli_error *error) {
     return -1;
 }
 
-/* --- scenes -------------------------------------------------------------------------------------
- */
+/* --- scenes ----------------------------------------------------------------------------------- */
 
 static bool fill_materials(void) {
     const scene *w = &demo.world;
@@ -175,8 +174,7 @@ EXPORT const float *demo_camera(float aspect) {
     return camera;
 }
 
-/* --- lights -------------------------------------------------------------------------------------
- */
+/* --- lights ----------------------------------------------------------------------------------- */
 
 /* So many others, in place of what there is. */
 EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
@@ -212,8 +210,7 @@ EXPORT void demo_drag_light(size_t i, float x, float y, float z) {
     *position = (lmp_vec3) { position->x + x, position->y + y, position->z + z };
 }
 
-/* --- numbers ------------------------------------------------------------------------------------
- */
+/* --- numbers ---------------------------------------------------------------------------------- */
 
 EXPORT const float *demo_ggx_texels(void) {
     static float texels[LMP_GGX_TEXELS * 4];
@@ -280,8 +277,7 @@ EXPORT const demo_lobe *demo_make_lobe(int bands, int window) {
     return made.pairs ? &made : NULL;
 }
 
-/* --- what the kernels cost ----------------------------------------------------------------------
- */
+/* --- what the kernels cost -------------------------------------------------------------------- */
 
 enum { POINTS = 256 };
 

@@ -24,8 +24,7 @@ struct animation {
     size_t path_count;
 };
 
-/* --- the paths ----------------------------------------------------------------------------------
- */
+/* --- the paths -------------------------------------------------------------------------------- */
 
 static void orbit(const animation *all, size_t number, double seconds, scene_light *light) {
     const float size = vec_length(vec_sub(vec_load(all->maximum), vec_load(all->minimum)));
@@ -155,8 +154,7 @@ void animation_move_all(const animation *all, const scene *world, double seconds
     }
 }
 
-/* --- opening ------------------------------------------------------------------------------------
- */
+/* --- opening ---------------------------------------------------------------------------------- */
 
 /* The motions that the scene file brought, as keys at even steps. */
 static bool take_motions(const scene *world, animation *all, cli_error *error) {

@@ -32,8 +32,7 @@ static bool wanted(const bench_options *o, int kernel) {
     return o->kernel == 0 || o->kernel == kernel + 1;
 }
 
-/* --- measuring ----------------------------------------------------------------------------------
- */
+/* --- measuring -------------------------------------------------------------------------------- */
 
 static double now_ns(void) {
     return 1e9 * timing_now();

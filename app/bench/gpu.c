@@ -18,8 +18,7 @@ static double now_ms(void) {
     return 1e3 * timing_now();
 }
 
-/* --- which rows ---------------------------------------------------------------------------------
- */
+/* --- which rows ------------------------------------------------------------------------------- */
 
 /* What tells most first: the paper's 8 bands and 30 lights, then other bands, then other lights.
  * The first scene and size are those of the short selection. */
@@ -94,8 +93,7 @@ static void plan_rows(bench_plan *plan, const bench_options *o) {
     }
 }
 
-/* --- one row ------------------------------------------------------------------------------------
- */
+/* --- one row ---------------------------------------------------------------------------------- */
 
 static bool find_lobes(bench_scene *s, int bands, cli_error *error) {
     if (s->lobes[bands])
@@ -171,8 +169,7 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
     return true;
 }
 
-/* --- all rows -----------------------------------------------------------------------------------
- */
+/* --- all rows --------------------------------------------------------------------------------- */
 
 /* Everything that is chosen, at one setting. */
 static bool time_setting(bench_scene *s, const bench_setting *setting, cli_error *error) {

@@ -116,8 +116,7 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     return b;
 }
 
-/* --- tables ------------------------------------------------------------------------------------
- */
+/* --- tables ----------------------------------------------------------------------------------- */
 
 void bench_tables_free(bench_inputs *in) {
     lmp_preintegrated_lobe_destroy(in->lobes);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/bench/kernels.h"
 
-/* --- the batch functions ------------------------------------------------------------------------
- */
+/* --- the batch functions ---------------------------------------------------------------------- */
 
 static void run_basis(const bench_batch *b) {
     lmp_sh_eval_n(b->bands, b->axes, b->count, b->layout, b->stride, b->out);
@@ -114,8 +113,7 @@ static void run_shade_preintegrated(const bench_batch *b) {
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
 }
 
-/* --- operations: what src/kernels asks for, without fused ones -----------------------------------
- */
+/* --- operations: what src/kernels asks for, without fused ones -------------------------------- */
 
 static size_t values_basis(int n) {
     return LMP_SH_COUNT(n);
@@ -232,8 +230,7 @@ static double slots_shade_brdf(int n) {
     return SLOTS_CAP + 18 + 66 + 50 + 5 + 4 * (59 + 24) + 24;
 }
 
-/* --- the table ----------------------------------------------------------------------------------
- */
+/* --- the table -------------------------------------------------------------------------------- */
 
 const bench_kernel bench_kernels[BENCH_KERNELS] = {
     { "project", values_basis, slots_project, run_project, bench_paper_project, 1, false,

@@ -53,8 +53,7 @@ typedef struct bench_kernel {
 enum { BENCH_KERNELS = 23 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
-/* --- paper.c: elements of the same work by the paper's formulas, one by one ----------------------
- */
+/* --- paper.c: elements of the same work by the paper's formulas, one by one ------------------- */
 
 void bench_paper_basis(const bench_batch *b, size_t element);
 void bench_paper_basis_gradient(const bench_batch *b, size_t element);

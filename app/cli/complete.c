@@ -78,8 +78,7 @@ static void print_escaped(const char *text, const char *special, const char *quo
     }
 }
 
-/* --- bash ---------------------------------------------------------------------------------------
- */
+/* --- bash ------------------------------------------------------------------------------------- */
 
 /* Whether there is anything to offer as its value. */
 static bool offers(const cli_option *option) {
@@ -146,8 +145,7 @@ void option_bash(const cli_command *command, const cli_option *options) {
     printf("        ;;\n");
 }
 
-/* --- zsh ----------------------------------------------------------------------------------------
- */
+/* --- zsh -------------------------------------------------------------------------------------- */
 
 static void print_zsh_candidates(const char *name, const candidates *p) {
     static const char *const kinds[] = { " ", "_files", "_files -/", "_lampion_scenes",
@@ -192,8 +190,7 @@ void option_zsh(const cli_command *command, const cli_option *options) {
     printf("' ;;\n");
 }
 
-/* --- fish ---------------------------------------------------------------------------------------
- */
+/* --- fish ------------------------------------------------------------------------------------- */
 
 static void print_fish_candidates(const candidates *p) {
     static const char *const kinds[] = { " -x", " -r -F", " -x -a '(__fish_complete_directories)'",

@@ -12,8 +12,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* --- info ---------------------------------------------------------------------------------------
- */
+/* --- info ------------------------------------------------------------------------------------- */
 
 static void print_cells(const lmp_brdf_info *info) {
     printf("cells      %d theta_h x %d theta_d x %d phi_d\n", info->shape[0], info->shape[1],
@@ -95,8 +94,7 @@ static bool print_info(const brdf_options *o, const material *m, cli_error *erro
     return true;
 }
 
-/* --- eval ---------------------------------------------------------------------------------------
- */
+/* --- eval ------------------------------------------------------------------------------------- */
 
 static bool eval_rows(const material *m, csv_reader *reader, cli_error *error) {
     static const char *const names[] = { "wi_x", "wi_y", "wi_z", "wo_x", "wo_y", "wo_z" };
@@ -127,8 +125,7 @@ static bool evaluate(const brdf_options *o, const material *m, cli_error *error)
     return ok;
 }
 
-/* --- bake, convert ------------------------------------------------------------------------------
- */
+/* --- bake, convert ---------------------------------------------------------------------------- */
 
 static bool bake_table(const brdf_options *o, const material *m, cli_error *error) {
     if (!m->brdf)
@@ -161,8 +158,7 @@ static bool convert(const brdf_options *o, const material *m, cli_error *error) 
     return ok;
 }
 
-/* --- bands --------------------------------------------------------------------------------------
- */
+/* --- bands ------------------------------------------------------------------------------------ */
 
 /* ∫ (f_r cos theta_i)² dw of green for one view; uniform in theta, for lobes at the pole are
  * narrow. */
@@ -239,8 +235,7 @@ static bool study_bands(const char *name, cli_error *error) {
     return true;
 }
 
-/* --- the command --------------------------------------------------------------------------------
- */
+/* --- the command ------------------------------------------------------------------------------ */
 
 static const struct {
     const char *name;

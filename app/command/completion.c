@@ -7,8 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* --- names --------------------------------------------------------------------------------------
- */
+/* --- names ------------------------------------------------------------------------------------ */
 
 static void print_commands(void) {
     for (size_t i = 0; command_table[i]; i++)
@@ -30,8 +29,7 @@ static void print_summaries(const char *before, const char *between) {
     }
 }
 
-/* --- shells -------------------------------------------------------------------------------------
- */
+/* --- shells ----------------------------------------------------------------------------------- */
 
 /* The words of the line are read anew, for bash takes : and = for ends of words. */
 static void begin_bash(void) {

@@ -21,8 +21,7 @@ static void name_frame(const render_options *o, int index, char path[PATH_SIZE])
         snprintf(path, PATH_SIZE, "%s", o->output);
 }
 
-/* --- one image --------------------------------------------------------------------------------
- */
+/* --- one image -------------------------------------------------------------------------------- */
 
 static bool write_exr(const render_job *j, const char *path, cli_error *error) {
     image pixels;
@@ -108,8 +107,7 @@ static bool render_frames(render_job *j, cli_error *error) {
     return ok;
 }
 
-/* --- the command --------------------------------------------------------------------------------
- */
+/* --- the command ------------------------------------------------------------------------------ */
 
 /* Chooses where to shade, and has the lobes ready that a preintegrated method reads. */
 static bool settle_shading(render_job *j, cli_error *error) {

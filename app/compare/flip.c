@@ -27,8 +27,7 @@ typedef struct seen {
     float *planes[PLANES], *source, *half; /* the last two are for work */
 } seen;
 
-/* --- color --------------------------------------------------------------------------------------
- */
+/* --- color ------------------------------------------------------------------------------------ */
 
 static double decoded(double v) {
     const double held = fmin(fmax(v, 0), 1);
@@ -87,8 +86,7 @@ static double hyab(const double a[3], const double b[3]) {
     return fabs(a[0] - b[0]) + hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-/* --- filters ------------------------------------------------------------------------------------
- */
+/* --- filters ---------------------------------------------------------------------------------- */
 
 static void scale_to(kernel k, double positive, double negative) {
     double sums[2] = { 0, 0 };
@@ -154,8 +152,7 @@ static void filter(const seen *s, const kernel across, const kernel down, float 
         }
 }
 
-/* --- an image -----------------------------------------------------------------------------------
- */
+/* --- an image --------------------------------------------------------------------------------- */
 
 static size_t pixels_of(const seen *s) {
     return (size_t)s->width * (size_t)s->height;
@@ -228,8 +225,7 @@ static bool look(const image *from, seen *s) {
     return true;
 }
 
-/* --- the difference -----------------------------------------------------------------------------
- */
+/* --- the difference --------------------------------------------------------------------------- */
 
 /* The largest of colors: between green and blue. */
 static double largest_color(void) {

@@ -8,8 +8,7 @@
 
 static const float pi = 3.14159265f;
 
-/* --- files --------------------------------------------------------------------------------------
- */
+/* --- files ------------------------------------------------------------------------------------ */
 
 /* What is below 0 is taken for 0: resampled images ring a little. */
 static bool check_radiance(image *pixels, float strength, const char *path, cli_error *error) {
@@ -47,8 +46,7 @@ static bool open_file(const char *path, float strength, image *light, cli_error 
     return ok;
 }
 
-/* --- the studio ---------------------------------------------------------------------------------
- */
+/* --- the studio ------------------------------------------------------------------------------- */
 
 /* Its front is toward the camera that frames the scene by itself. */
 static bool open_studio(const environment_options *options, const scene *world, environment *e,

@@ -62,8 +62,7 @@ static lmp_rgb shade(lmp_vec3 normal, float distance, lmp_rgb color) {
     return (lmp_rgb) { color.r * light + gloss, color.g * light + gloss, color.b * light + gloss };
 }
 
-/* --- mesh to samples ---------------------------------------------------------------------------
- */
+/* --- mesh to samples -------------------------------------------------------------------------- */
 
 static float edge(lmp_vec3 a, lmp_vec3 b, float x, float y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);

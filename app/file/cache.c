@@ -32,8 +32,7 @@ static trailer trailer_of(const char *name, const void *data, size_t size) {
     return t;
 }
 
-/* --- entries ------------------------------------------------------------------------------------
- */
+/* --- entries ---------------------------------------------------------------------------------- */
 
 /* A link is none: what it leads to was not made for the cache. */
 static bool is_own_directory(const char *path) {
@@ -121,8 +120,7 @@ void file_cache_unmap(const void *data, size_t size) {
         munmap((void *)(uintptr_t)data, size);
 }
 
-/* --- what is in it -------------------------------------------------------------------------------
- */
+/* --- what is in it ---------------------------------------------------------------------------- */
 
 typedef struct cached_file {
     char name[NAME_MAX_LENGTH + 1];

@@ -57,8 +57,7 @@ static void forget(const char *temporary) {
             pending_used[i] = 0;
 }
 
-/* --- what killed runs left ----------------------------------------------------------------------
- */
+/* --- what killed runs left -------------------------------------------------------------------- */
 
 #define TEMPORARY_FORMAT ".lampion-%ld-XXXXXX"
 
@@ -117,8 +116,7 @@ static void sweep(const char *folder) {
     closedir(directory);
 }
 
-/* --- the stream: as of a file, but it keeps the reason of a failure -----------------------------
- */
+/* --- the stream: as of a file, but it keeps the reason of a failure --------------------------- */
 
 static ssize_t write_bytes(void *cookie, const char *bytes, size_t size) {
     file_writer *const writer = cookie;
@@ -147,8 +145,7 @@ static int close_descriptor(void *cookie) {
     return status;
 }
 
-/* --- writing ------------------------------------------------------------------------------------
- */
+/* --- writing ---------------------------------------------------------------------------------- */
 
 /* The folder of path, then a name that says whose it is. */
 static bool name_temporary(file_writer *writer, const char *path) {

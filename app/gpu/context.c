@@ -13,8 +13,7 @@ enum { DEVICES_MAX = 32 };
 static const char packages[] =
     "install libegl1, libgl1 and libgl1-mesa-dri, or the GPU vendor's driver";
 
-/* --- complaints of OpenGL -----------------------------------------------------------------------
- */
+/* --- complaints of OpenGL --------------------------------------------------------------------- */
 
 static void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                   GLsizei length, const GLchar *message, const void *user) {
@@ -44,8 +43,7 @@ static void listen_to_messages(void) {
     glDebugMessageCallback(on_message, debug_is_fatal() ? &fatal : NULL);
 }
 
-/* --- the current context ------------------------------------------------------------------------
- */
+/* --- the current context ---------------------------------------------------------------------- */
 
 bool gpu_context_adopt(gpu_context *context, cli_error *error) {
     const char *renderer = (const char *)glGetString(GL_RENDERER);
@@ -72,8 +70,7 @@ bool gpu_context_lost(void) {
     return glGetGraphicsResetStatus() != GL_NO_ERROR;
 }
 
-/* --- EGL ----------------------------------------------------------------------------------------
- */
+/* --- EGL -------------------------------------------------------------------------------------- */
 
 static bool open_display(EGLDisplay display, gpu_context *context, cli_error *error) {
     const EGLint attributes[] = { EGL_CONTEXT_MAJOR_VERSION,

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- reading ------------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 static bool allocate(gpu_gbuffer *g, int width, int height, bool layered, cli_error *error) {
     const size_t count = (size_t)width * (size_t)height;
@@ -88,8 +87,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     return true;
 }
 
-/* --- a row --------------------------------------------------------------------------------------
- */
+/* --- a row ------------------------------------------------------------------------------------ */
 
 bool gpu_row_create(int width, gpu_row *row) {
     const size_t count = (size_t)width;

@@ -15,8 +15,7 @@
 
 #define GPU_SIZE_MAX 16384 /* pixels a side */
 
-/* --- the device --------------------------------------------------------------------------------
- */
+/* --- the device ------------------------------------------------------------------------------- */
 
 typedef struct gpu_context {
     void *display, *context; /* EGL's; NULL when adopted */
@@ -36,8 +35,7 @@ void gpu_context_destroy(gpu_context *context);
 /* Fills *context for the context that is current (a window's). */
 bool gpu_context_adopt(gpu_context *context, cli_error *error);
 
-/* --- a scene on the device ---------------------------------------------------------------------
- */
+/* --- a scene on the device -------------------------------------------------------------------- */
 
 struct gpu_frame;
 typedef struct gpu_gbuffer gpu_gbuffer;
@@ -126,8 +124,7 @@ bool gpu_read_rgb8(gpu_renderer *renderer, const image_display *display, unsigne
 /* The HDR target, linear; *image is created. */
 bool gpu_read_image(gpu_renderer *renderer, image *image, cli_error *error);
 
-/* --- a window's image -------------------------------------------------------------------------
- */
+/* --- a window's image ------------------------------------------------------------------------- */
 
 /* One image, two side by side with a divider between them, or how they differ; drawings over it.
  */
@@ -169,8 +166,7 @@ void gpu_screen_draw(gpu_screen *screen, const gpu_layout *layout, int drawing, 
 /* Whether the device has lost the current context: everything in it is gone then. */
 bool gpu_context_lost(void);
 
-/* --- what the shaders see ----------------------------------------------------------------------
- */
+/* --- what the shaders see --------------------------------------------------------------------- */
 
 typedef enum gpu_kind { GPU_KIND_NONE, GPU_KIND_LIGHT, GPU_KIND_SURFACE } gpu_kind;
 
@@ -217,8 +213,7 @@ int gpu_gbuffer_sample(const gpu_gbuffer *gbuffer);
 /* The environment that shines on its surfaces; NULL: none. */
 const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer);
 
-/* --- sources -----------------------------------------------------------------------------------
- */
+/* --- sources ---------------------------------------------------------------------------------- */
 
 extern const embedded_file gpu_sources[]; /* the files of shaders/, ended by a NULL name */
 

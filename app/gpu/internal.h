@@ -8,15 +8,13 @@
 
 #include <epoxy/gl.h>
 
-/* --- crash.c ------------------------------------------------------------------------------------
- */
+/* --- crash.c ---------------------------------------------------------------------------------- */
 
 /* Where the address space is limited, a crash of the driver becomes a line and an end: drivers do
  * not ask whether they were given the memory that they then use. */
 void gpu_expect_crashes(void);
 
-/* --- program.c: shaders -------------------------------------------------------------------------
- */
+/* --- program.c: shaders ----------------------------------------------------------------------- */
 
 typedef struct gpu_stage {
     GLenum type;
@@ -26,8 +24,7 @@ typedef struct gpu_stage {
 /* Compiles and links; `defines` is text put before every stage. 0 on failure. */
 GLuint gpu_program(const gpu_stage *stages, int count, const char *defines, cli_error *error);
 
-/* --- mesh.c: the scene's triangles, materials and textures ---------------------------------------
- */
+/* --- mesh.c: the scene's triangles, materials and textures ------------------------------------ */
 
 typedef struct gpu_draw {
     GLuint first_index, index_count, material;
@@ -76,8 +73,7 @@ bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind);
 /* Draws what the frustum of clip_from_world may hold. */
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_surfaces *programs);
 
-/* --- what follows shares the renderer -----------------------------------------------------------
- */
+/* --- what follows shares the renderer --------------------------------------------------------- */
 
 /* Of all attachments (shared.h), those that only layered materials have come last. */
 enum { GPU_ATTACHMENTS = 7, GPU_ATTACHMENTS_PLAIN = 5, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
@@ -92,15 +88,13 @@ typedef struct gpu_variant {
     GLuint program;
 } gpu_variant;
 
-/* --- preintegrated_lobe.c -----------------------------------------------------------------------
- */
+/* --- preintegrated_lobe.c --------------------------------------------------------------------- */
 
 /* Uploads the lobes once, and again when another one takes its place. */
 bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated_lobe *lobe,
                                  cli_error *error);
 
-/* --- table.c ------------------------------------------------------------------------------------
- */
+/* --- table.c ---------------------------------------------------------------------------------- */
 
 /* Which tables a frame sums by bands: as in gpu_variant. */
 int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
@@ -108,8 +102,7 @@ int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
 /* Uploads the tables that a frame sums by bands, once. */
 bool gpu_bind_tables(gpu_renderer *renderer, method_kind method, cli_error *error);
 
-/* --- preintegrated_brdf.c -----------------------------------------------------------------------
- */
+/* --- preintegrated_brdf.c --------------------------------------------------------------------- */
 
 /* Whether some material is read preintegrated. */
 bool gpu_has_preintegrated_brdf(const gpu_renderer *renderer);
@@ -117,14 +110,12 @@ bool gpu_has_preintegrated_brdf(const gpu_renderer *renderer);
 /* Uploads the preintegrated BRDFs, once. */
 bool gpu_bind_preintegrated_brdf(gpu_renderer *renderer, cli_error *error);
 
-/* --- zonal.c ------------------------------------------------------------------------------------
- */
+/* --- zonal.c ---------------------------------------------------------------------------------- */
 
 /* Binds the table of Z_l of so many bands, made at its first use. */
 bool gpu_bind_zonal(gpu_renderer *renderer, int bands, cli_error *error);
 
-/* --- environment.c ------------------------------------------------------------------------------
- */
+/* --- environment.c ---------------------------------------------------------------------------- */
 
 /* Uploads what the shaders read of the environment, once for so many bands and a window. */
 bool gpu_bind_environment(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
@@ -133,8 +124,7 @@ bool gpu_bind_environment(gpu_renderer *renderer, const gpu_frame *frame, cli_er
 void gpu_describe_environment(const gpu_renderer *renderer, const gpu_frame *frame,
                               vec4 surroundings);
 
-/* --- gbuffer.c ----------------------------------------------------------------------------------
- */
+/* --- gbuffer.c -------------------------------------------------------------------------------- */
 
 typedef struct gpu_pair16 {
     uint16_t u, v;
@@ -176,15 +166,13 @@ bool gpu_gbuffer_read(const gpu_renderer *renderer, const shared_frame *block,
                       const gpu_frame *frame, gpu_gbuffer *gbuffer, cli_error *error);
 void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
 
-/* --- lights.c -----------------------------------------------------------------------------------
- */
+/* --- lights.c --------------------------------------------------------------------------------- */
 
 /* The frame's lights, each at its own index, and one more if some are ambient; returns
  * how many the shaders have to take. */
 size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
 
-/* --- the renderer -------------------------------------------------------------------------------
- */
+/* --- the renderer ----------------------------------------------------------------------------- */
 
 struct gpu_renderer {
     gpu_context context;
@@ -223,8 +211,7 @@ struct gpu_renderer {
     gpu_gbuffer gbuffer;          /* of host shaders */
 };
 
-/* --- targets.c ----------------------------------------------------------------------------------
- */
+/* --- targets.c -------------------------------------------------------------------------------- */
 
 /* Of the G-buffer's attachments, and of its depth. */
 extern const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1];
@@ -240,24 +227,21 @@ void gpu_targets_delete(gpu_renderer *renderer);
 /* What a frame of keep_geometry has left is not used any more. */
 void gpu_forget_geometry(gpu_renderer *renderer);
 
-/* --- frame.c ------------------------------------------------------------------------------------
- */
+/* --- frame.c ---------------------------------------------------------------------------------- */
 
 /* For one sample. */
 bool gpu_fill_frame(const gpu_renderer *renderer, const gpu_frame *frame, int index,
                     shared_frame *block, cli_error *error);
 void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
 
-/* --- variant.c ----------------------------------------------------------------------------------
- */
+/* --- variant.c -------------------------------------------------------------------------------- */
 
 /* The program that shades the frame, 0 on failure; and what its method reads, uploaded and bound.
  */
 GLuint gpu_variant_find(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
 bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
 
-/* --- passes.c -----------------------------------------------------------------------------------
- */
+/* --- passes.c --------------------------------------------------------------------------------- */
 
 void gpu_draw_gbuffer(gpu_renderer *renderer, const gpu_frame *frame, const shared_frame *block);
 
@@ -270,8 +254,7 @@ void gpu_shade(gpu_renderer *renderer, const gpu_frame *frame, GLuint program);
 /* Adds the HDR target to the sums; the last sample leaves the mean there, with `show` every one. */
 void gpu_resolve(gpu_renderer *renderer, const gpu_frame *frame, int index, bool show);
 
-/* --- clock.c ------------------------------------------------------------------------------------
- */
+/* --- clock.c ---------------------------------------------------------------------------------- */
 
 /* Marks an instant of the frame; its milliseconds, once the frame is done. */
 void gpu_mark(gpu_renderer *renderer, int index);

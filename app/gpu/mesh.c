@@ -13,8 +13,7 @@ static GLuint upload(const void *data, size_t size) {
     return buffer;
 }
 
-/* --- textures -----------------------------------------------------------------------------------
- */
+/* --- textures --------------------------------------------------------------------------------- */
 
 static GLint wrap_mode(uint32_t wrap) {
     return wrap == SCENE_WRAP_CLAMP    ? GL_CLAMP_TO_EDGE
@@ -50,8 +49,7 @@ static bool create_texture(const gpu_context *context, const scene *world,
     return true;
 }
 
-/* --- materials ----------------------------------------------------------------------------------
- */
+/* --- materials -------------------------------------------------------------------------------- */
 
 static void fill_material(const scene_material *source, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
@@ -136,8 +134,7 @@ lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const
                                             weight } };
 }
 
-/* --- triangles ----------------------------------------------------------------------------------
- */
+/* --- triangles -------------------------------------------------------------------------------- */
 
 static GLuint create_vertex_array(GLuint vertices, GLuint indices) {
     static const struct {
@@ -219,8 +216,7 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     memset(mesh, 0, sizeof *mesh);
 }
 
-/* --- drawing ------------------------------------------------------------------------------------
- */
+/* --- drawing ---------------------------------------------------------------------------------- */
 
 /* False if the box is wholly outside one of the planes w ± x >= 0, w ± y >= 0, w - z >= 0 (near).
  */

@@ -27,8 +27,7 @@ void gpu_set_preintegrated_brdfs(gpu_renderer *r, const lmp_preintegrated_brdf *
     r->brdf_block = r->brdf_texels = r->tables_buffer = 0;
 }
 
-/* --- the texture --------------------------------------------------------------------------------
- */
+/* --- the texture ------------------------------------------------------------------------------ */
 
 /* A slice and where its first texel lies. */
 typedef struct placement {
@@ -55,8 +54,7 @@ static GLsizei lay_out(placement *placements, size_t count) {
     return shelves.bottom;
 }
 
-/* --- numbers ------------------------------------------------------------------------------------
- */
+/* --- numbers ---------------------------------------------------------------------------------- */
 
 static size_t slice_count(const lmp_preintegrated_brdf_info *info) {
     return (size_t)info->view_count * info->cap_count;
@@ -107,8 +105,7 @@ static void write_slices(const placement *placements, size_t count, float *numbe
     }
 }
 
-/* --- upload -------------------------------------------------------------------------------------
- */
+/* --- upload ----------------------------------------------------------------------------------- */
 
 static bool upload_texels(gpu_renderer *r, const placement *placements, size_t count,
                           GLsizei height, cli_error *error) {

@@ -11,8 +11,7 @@
  * that a small one costs no precision; there is no far plane. */
 static const float near_of_extent = 1e-4f;
 
-/* --- creation -----------------------------------------------------------------------------------
- */
+/* --- creation --------------------------------------------------------------------------------- */
 
 static bool create_tones(gpu_renderer *r, cli_error *error) {
     const gpu_stage tone[] = { { GL_VERTEX_SHADER, "screen.vert" },
@@ -118,8 +117,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     free(r);
 }
 
-/* --- a frame ------------------------------------------------------------------------------------
- */
+/* --- a frame ---------------------------------------------------------------------------------- */
 
 /* The G-buffer goes to the host and comes back as radiance. */
 static bool shade_host(gpu_renderer *r, const gpu_frame *frame, const shared_frame *block,

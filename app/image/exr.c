@@ -17,8 +17,7 @@ static void on_error(exr_const_context_t context, exr_result_t code, const char 
     (void)message;
 }
 
-/* --- writing ------------------------------------------------------------------------------------
- */
+/* --- writing ---------------------------------------------------------------------------------- */
 
 static int64_t write_at(exr_const_context_t context, void *user, const void *data, uint64_t size,
                         uint64_t offset, exr_stream_error_func_ptr_t fail) {
@@ -134,8 +133,7 @@ bool image_write_exr_layers(const char *path, const image_layer *layers, int cou
     return file_write_commit(&writer, error);
 }
 
-/* --- reading ------------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 /* Aims the R, G and B of a chunk at the image; other channels are skipped. */
 static exr_result_t set_decoder(exr_decode_pipeline_t *decoder, image *pixels, int64_t column,

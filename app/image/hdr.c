@@ -22,8 +22,7 @@ static const unsigned char *take(rest *file, size_t size) {
     return bytes;
 }
 
-/* --- the header ---------------------------------------------------------------------------------
- */
+/* --- the header ------------------------------------------------------------------------------- */
 
 /* A line without its end; false if there is none, or a longer one. */
 static bool take_line(rest *file, char line[LINE_SIZE]) {
@@ -72,8 +71,7 @@ static bool read_header(rest *file, long *width, long *height, double *scale, co
            cli_fail(error, path, "has rows that do not run from the top and from the left");
 }
 
-/* --- rows ---------------------------------------------------------------------------------------
- */
+/* --- rows ------------------------------------------------------------------------------------- */
 
 /* One channel of a packed row: runs of one byte (128 + n, byte) and of others (n, bytes). */
 static bool unpack(rest *file, size_t width, unsigned char *to) {

@@ -21,8 +21,7 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-/* --- writing ------------------------------------------------------------------------------------
- */
+/* --- writing ---------------------------------------------------------------------------------- */
 
 static bool write_stream(png_structp png, png_infop info, FILE *stream, const unsigned char *rgb8,
                          int width, int height, const image_text *text) {
@@ -60,8 +59,7 @@ bool image_write_png8_text(const unsigned char *rgb8, int width, int height, con
     return ok ? file_write_commit(&writer, error) : file_write_fail(&writer, complaint.text, error);
 }
 
-/* --- reading ------------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 static const char *find_text(png_structp png, png_infop info, const char *key) {
     png_textp chunks = NULL;

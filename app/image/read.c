@@ -28,8 +28,7 @@ typedef struct decoded_size {
     int32_t width, height;
 } decoded_size;
 
-/* --- in the child -------------------------------------------------------------------------------
- */
+/* --- in the child ----------------------------------------------------------------------------- */
 
 static bool write_all(int output, const void *data, size_t size) {
     const char *bytes = data;
@@ -61,8 +60,7 @@ static bool decode_text(void *context, int output, cli_error *error) {
             cli_fail(error, d->source.path, "does not fit into memory"));
 }
 
-/* --- in the parent ------------------------------------------------------------------------------
- */
+/* --- in the parent ---------------------------------------------------------------------------- */
 
 static bool decode(decoding *d, const char *path, void **block, size_t *size, cli_error *error) {
     void *data;

@@ -7,8 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* --- exposure -----------------------------------------------------------------------------------
- */
+/* --- exposure --------------------------------------------------------------------------------- */
 
 /* Luminance in eighths of a stop, from 2^-40 to 2^40. */
 enum { BINS_A_STOP = 8, STOPS = 40, BINS = 2 * STOPS * BINS_A_STOP };
@@ -61,8 +60,7 @@ float image_exposure_of_stops(float stops) {
     return exp2f(stops);
 }
 
-/* --- tone curves --------------------------------------------------------------------------------
- */
+/* --- tone curves ------------------------------------------------------------------------------ */
 
 static void filmic(const float from[3], float to[3]) {
     for (int c = 0; c < 3; c++)

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
-/* --- tables -------------------------------------------------------------------------------------
- */
+/* --- tables ----------------------------------------------------------------------------------- */
 
 typedef struct table_recipe {
     const lmp_brdf *brdf;
@@ -94,8 +93,7 @@ bool material_write_table(const lmp_brdf_table *table, const char *path, cli_err
     return ok;
 }
 
-/* --- preintegrated ------------------------------------------------------------------------------
- */
+/* --- preintegrated ---------------------------------------------------------------------------- */
 
 /* Memory in large pages where the system has them: fresh pages cost more than the bytes in them. */
 static void *allocate_large(size_t size, void *user) {

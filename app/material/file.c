@@ -13,8 +13,7 @@
 #define FILE_LIMIT ((size_t)1 << 30)
 #define TEXT_LIMIT ((size_t)1 << 24)
 
-/* --- BRDFs and tables ---------------------------------------------------------------------------
- */
+/* --- BRDFs and tables ------------------------------------------------------------------------- */
 
 static lmp_result read_table(const void *data, size_t size, lmp_parse_error *error,
                              material_file *file) {
@@ -88,8 +87,7 @@ bool material_read_file(const char *path, material_file *file, cli_error *error)
     return ok;
 }
 
-/* --- tables of fits -----------------------------------------------------------------------------
- */
+/* --- tables of fits --------------------------------------------------------------------------- */
 
 static bool find_in_child(void *context, int output, cli_error *error) {
     const reading *const r = context;

@@ -12,8 +12,7 @@ void material_close(material *m) {
     memset(m, 0, sizeof *m);
 }
 
-/* --- parametric names ---------------------------------------------------------------------------
- */
+/* --- parametric names ------------------------------------------------------------------------- */
 
 /* Reads 1 to `count` numbers divided by `separator`, up to ':' or the end, and steps over them.
  * Returns how many there were; 0: not numbers. */
@@ -93,8 +92,7 @@ static bool open_ggx(const char *name, const char *text, material *m, cli_error 
                   "ALPHA 0.001 to 1, F0 0 to 1, DIFFUSE at least 0", error);
 }
 
-/* --- SGD ----------------------------------------------------------------------------------------
- */
+/* --- SGD -------------------------------------------------------------------------------------- */
 
 /* The SGD material of that name, or of one near it; NULL: none. */
 static const char *nearest_sgd(const char *text) {
@@ -130,8 +128,7 @@ static bool open_sgd(const char *name, const char *text, material *m, cli_error 
                   error);
 }
 
-/* --- by name ------------------------------------------------------------------------------------
- */
+/* --- by name ---------------------------------------------------------------------------------- */
 
 static const struct {
     const char *name;

@@ -13,8 +13,7 @@
 /* The names of the windowing filters (lmp_window), NULL-terminated. */
 const char *const *method_window_names(void);
 
-/* --- methods ------------------------------------------------------------------------------------
- */
+/* --- methods ---------------------------------------------------------------------------------- */
 
 typedef enum method_kind {
     METHOD_ZONAL,

@@ -88,8 +88,7 @@ void page_image(paper_page *page, const char *file, const char *caption) {
             file, file, caption, caption);
 }
 
-/* --- tables -------------------------------------------------------------------------------------
- */
+/* --- tables ----------------------------------------------------------------------------------- */
 
 /* A cell of a CSV file (RFC 4180). */
 static void put_cell(FILE *csv, const char *cell, size_t length) {

@@ -27,8 +27,7 @@ bool paper_has_step(const char *name, cli_error *error);
  * the others go on. False only if the page itself cannot be written. */
 bool paper_write(const paper_options *options, int *failures, cli_error *error);
 
-/* --- for the steps ------------------------------------------------------------------------------
- */
+/* --- for the steps ---------------------------------------------------------------------------- */
 
 typedef struct paper {
     const paper_options *options;

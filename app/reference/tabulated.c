@@ -81,8 +81,7 @@ static void load_view(reference_tabulated *tabulated, double cosine, double phi)
         add_azimuth(source, row, first - 1 + k, weights[k], tabulated->coefficients);
 }
 
-/* --- one surface point --------------------------------------------------------------------------
- */
+/* --- one surface point ------------------------------------------------------------------------ */
 
 /* The part of v square to the normal, unit; where there is none, any such direction. */
 static reference_vec flatten(reference_vec v, reference_vec normal) {

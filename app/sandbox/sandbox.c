@@ -46,8 +46,7 @@
 #define SANITIZED 0
 #endif
 
-/* --- limits -------------------------------------------------------------------------------------
- */
+/* --- limits ----------------------------------------------------------------------------------- */
 
 static void set_limit(pid_t process, __rlimit_resource_t resource, uint64_t soft) {
     struct rlimit limit;
@@ -79,8 +78,7 @@ static void set_limits(pid_t process, uint64_t base, uint64_t input_bytes) {
     set_limit(process, RLIMIT_CPU, (uint64_t)cpu_seconds(input_bytes) + 2);
 }
 
-/* --- the child ----------------------------------------------------------------------------------
- */
+/* --- the child -------------------------------------------------------------------------------- */
 
 /* Its descriptors: the standard ones on /dev/null, then these two. */
 enum { CHILD_OUTPUT = 3, CHILD_SOCKET = 4 };
@@ -182,8 +180,7 @@ int sandbox_open(const char *name, int *number, cli_error *error) {
     return -1;
 }
 
-/* --- the parent ---------------------------------------------------------------------------------
- */
+/* --- the parent ------------------------------------------------------------------------------- */
 
 typedef struct file_identity {
     dev_t device;

@@ -21,8 +21,7 @@ typedef struct assimp_job {
     cli_error refusal; /* set when a file was asked for that may not be read */
 } assimp_job;
 
-/* --- files for Assimp: from memory, and only the scene's own ------------------------------------
- */
+/* --- files for Assimp: from memory, and only the scene's own ---------------------------------- */
 
 typedef struct open_file {
     struct aiFile face;
@@ -130,8 +129,7 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
     return imported;
 }
 
-/* --- triangles ----------------------------------------------------------------------------------
- */
+/* --- triangles -------------------------------------------------------------------------------- */
 
 static bool copy_corners(const struct aiMesh *mesh, mesh_draft *draft, cli_error *error) {
     size_t triangles = 0;

@@ -95,8 +95,7 @@ static void atrium_put_balustrade(scene_shaper *shaper, float floor) {
     shape_sweep(shaper, rail, sizeof rail / sizeof *rail, vec(0.0f, floor, 0.05f), -end, end);
 }
 
-/* --- arches -------------------------------------------------------------------------------------
- */
+/* --- arches ----------------------------------------------------------------------------------- */
 
 /* One face of the wall around an arch, at depth z, seen from +z (or from -z if `back`). */
 static void put_spandrels(scene_shaper *shaper, const storey_plan *s, float z, bool back) {

@@ -42,8 +42,7 @@ const void *blob_items(const void *block, blob_section section) {
     return (const char *)block + header->sections[section].offset;
 }
 
-/* --- validation ---------------------------------------------------------------------------------
- */
+/* --- validation ------------------------------------------------------------------------------- */
 
 static bool all_finite(const float *numbers, size_t count) {
     for (size_t i = 0; i < count; i++)
@@ -254,8 +253,7 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
     return true;
 }
 
-/* --- opening ------------------------------------------------------------------------------------
- */
+/* --- opening ---------------------------------------------------------------------------------- */
 
 static void measure(scene *s) {
     for (int k = 0; k < 3; k++) {

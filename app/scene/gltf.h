@@ -135,8 +135,7 @@ bool gltf_check_uses(const gltf *document, cli_error *error);
 bool gltf_fail(const gltf *document, gltf_kind kind, size_t index, const char *wrong,
                cli_error *error);
 
-/* --- bytes --------------------------------------------------------------------------------------
- */
+/* --- bytes ------------------------------------------------------------------------------------ */
 
 /* The bytes of a data URI; *bytes owns them. Without a URI of that scheme, or damaged: false. */
 bool gltf_data_uri(const char *uri, gltf_bytes *bytes);
@@ -154,8 +153,7 @@ bool gltf_read_floats(const gltf *document, size_t accessor, float **numbers, cl
 bool gltf_read_integers(const gltf *document, size_t accessor, size_t limit, uint32_t **numbers,
                         cli_error *error);
 
-/* --- transforms ---------------------------------------------------------------------------------
- */
+/* --- transforms ------------------------------------------------------------------------------- */
 
 /* A node's own transform, but for a matrix it may have instead. */
 typedef struct gltf_transform {
@@ -176,8 +174,7 @@ bool gltf_rotates(const gltf_motions *motions, size_t node); /* its rotation cha
 bool gltf_add_motion(const gltf *document, const gltf_motions *motions, size_t node, size_t light,
                      scene_builder *builder, cli_error *error);
 
-/* --- reading JSON whose schema is checked -------------------------------------------------------
- */
+/* --- reading JSON whose schema is checked ----------------------------------------------------- */
 
 static inline size_t gltf_count(const gltf *document, gltf_kind kind) {
     return document->lists[kind].count;

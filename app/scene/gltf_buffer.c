@@ -8,8 +8,7 @@
 /* of an accessor without a buffer view: its elements are zeros, and cost a file nothing */
 #define UNBACKED_BYTES_MAX (64u << 20)
 
-/* --- data URIs ----------------------------------------------------------------------------------
- */
+/* --- data URIs -------------------------------------------------------------------------------- */
 
 static int base64_digit(char c) {
     return c >= 'A' && c <= 'Z'   ? c - 'A'
@@ -46,8 +45,7 @@ bool gltf_data_uri(const char *uri, gltf_bytes *bytes) {
     return out != NULL;
 }
 
-/* --- buffers ------------------------------------------------------------------------------------
- */
+/* --- buffers ---------------------------------------------------------------------------------- */
 
 static bool load_buffer(gltf *document, size_t i, cli_error *error) {
     const cJSON *entry = gltf_item(document, GLTF_BUFFERS, i);
@@ -102,8 +100,7 @@ bool gltf_load_buffers(gltf *document, cli_error *error) {
     return ok;
 }
 
-/* --- accessors ----------------------------------------------------------------------------------
- */
+/* --- accessors -------------------------------------------------------------------------------- */
 
 static size_t component_size(gltf_component component) {
     return component <= GLTF_UNSIGNED_BYTE ? 1 : component <= GLTF_UNSIGNED_SHORT ? 2 : 4;

@@ -108,8 +108,7 @@ static bool check_value(walk *w, const gltf_field *field, const cJSON *value) {
                   fail(w, "is none of the values that glTF knows"));
 }
 
-/* --- arrays -------------------------------------------------------------------------------------
- */
+/* --- arrays ----------------------------------------------------------------------------------- */
 
 static int compare_items(const void *a, const void *b) {
     const cJSON *x = *(const cJSON *const *)a, *y = *(const cJSON *const *)b;
@@ -148,8 +147,7 @@ static bool check_array(walk *w, const gltf_field *field, const cJSON *array) {
     return !field->distinct || check_distinct(w, array, count);
 }
 
-/* --- objects ------------------------------------------------------------------------------------
- */
+/* --- objects ---------------------------------------------------------------------------------- */
 
 static bool check_fields(walk *w, const gltf_field *fields, const cJSON *value) {
     for (const gltf_field *field = fields; field->name; field++) {
@@ -207,8 +205,7 @@ bool gltf_check_schema(const gltf *document, cli_error *error) {
     return check_object(&w, &gltf_schema, document->root);
 }
 
-/* --- version and extensions ---------------------------------------------------------------------
- */
+/* --- version and extensions ------------------------------------------------------------------- */
 
 /* "2.0" as 2 and 0. */
 static bool parse_version(const char *text, int *major, int *minor) {

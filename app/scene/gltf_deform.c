@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- morph targets ------------------------------------------------------------------------------
- */
+/* --- morph targets ---------------------------------------------------------------------------- */
 
 /* Adds an attribute of a target to three floats of every vertex. */
 static bool add_target(const gltf *document, size_t accessor, double weight, size_t offset,
@@ -50,8 +49,7 @@ bool gltf_morph(const gltf *document, const cJSON *node, const cJSON *primitive,
     return true;
 }
 
-/* --- skins --------------------------------------------------------------------------------------
- */
+/* --- skins ------------------------------------------------------------------------------------ */
 
 typedef struct skin {
     size_t joint_count;

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- members ------------------------------------------------------------------------------------
- */
+/* --- members ---------------------------------------------------------------------------------- */
 
 const cJSON *gltf_member(const cJSON *object, const char *name) {
     return cJSON_IsObject(object) ? cJSON_GetObjectItemCaseSensitive(object, name) : NULL;
@@ -38,8 +37,7 @@ const char *gltf_text(const cJSON *object, const char *name) {
     return cJSON_IsString(item) && item->valuestring ? item->valuestring : "";
 }
 
-/* --- the container ------------------------------------------------------------------------------
- */
+/* --- the container ---------------------------------------------------------------------------- */
 
 static uint32_t little_endian(const unsigned char *bytes) {
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
@@ -83,8 +81,7 @@ static bool split_glb(gltf *document, const unsigned char *data, size_t size, gl
     return true;
 }
 
-/* --- names --------------------------------------------------------------------------------------
- */
+/* --- names ------------------------------------------------------------------------------------ */
 
 static int compare_names(const void *a, const void *b) {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
@@ -117,8 +114,7 @@ static const char *repeated_name(const cJSON *value, bool *out_of_memory) {
     return found;
 }
 
-/* --- parsing ------------------------------------------------------------------------------------
- */
+/* --- parsing ---------------------------------------------------------------------------------- */
 
 static bool make_list(const cJSON *holder, const char *name, gltf_list *list) {
     const cJSON *array = gltf_member(holder, name), *item;

@@ -105,8 +105,7 @@ static void read_transform(const cJSON *info, scene_texture_use *use) {
     use->offset[1] = (float)offset[1];
 }
 
-/* --- sets of texture coordinates ----------------------------------------------------------------
- */
+/* --- sets of texture coordinates -------------------------------------------------------------- */
 
 static long set_of(const cJSON *info) {
     const cJSON *transform = gltf_extension(info, "KHR_texture_transform");
@@ -159,8 +158,7 @@ void gltf_material_sets(const cJSON *material, long sets[2]) {
         add_set(map_info(material, &maps[i]), sets);
 }
 
-/* --- materials ----------------------------------------------------------------------------------
- */
+/* --- materials -------------------------------------------------------------------------------- */
 
 static bool read_map(texture_pool *pool, const cJSON *info, bool srgb, const long sets[2],
                      scene_texture_use *use) {

@@ -9,8 +9,7 @@
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
-/* --- a primitive's numbers ----------------------------------------------------------------------
- */
+/* --- a primitive's numbers -------------------------------------------------------------------- */
 
 /* Reads an attribute if it is there; *numbers is NULL if not. */
 static bool read_attribute(const gltf *document, const cJSON *attributes, const char *name,
@@ -129,8 +128,7 @@ static bool read_corners(const gltf *document, const cJSON *primitive, mesh_draf
     return draft->corners || cli_fail(error, document->subject, "does not fit into memory");
 }
 
-/* --- nodes --------------------------------------------------------------------------------------
- */
+/* --- nodes ------------------------------------------------------------------------------------ */
 
 static bool is_drawn(const cJSON *primitive) {
     return gltf_number(primitive, "mode", MODE_TRIANGLES) >= MODE_TRIANGLES &&
@@ -177,8 +175,7 @@ static bool add_mesh(const gltf *document, const cJSON *node, const double world
     return true;
 }
 
-/* --- instances ----------------------------------------------------------------------------------
- */
+/* --- instances -------------------------------------------------------------------------------- */
 
 /* The mesh of a node by every transform that EXT_mesh_gpu_instancing gives it. */
 static bool add_instances(const gltf *document, const cJSON *node, const cJSON *attributes,

@@ -36,8 +36,7 @@ struct gltf_motions {
     double period;
 };
 
-/* --- reading ------------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 static bool times_rise(const channel *c) {
     for (size_t i = 0; i < c->count; i++)
@@ -139,8 +138,7 @@ bool gltf_rotates(const gltf_motions *all, size_t node) {
     return all->period > 0.0 && all->rotated[node];
 }
 
-/* --- sampling -----------------------------------------------------------------------------------
- */
+/* --- sampling --------------------------------------------------------------------------------- */
 
 /* q and r with -r alike: the shorter way, at constant speed. */
 static void rotate_between(const float *q, const float *r, double u, double *out) {

@@ -9,8 +9,7 @@
 /* A rotation of this much more or less than length 1 is rounded; of more it is none. */
 #define QUATERNION_SLACK 0.01
 
-/* --- transforms ---------------------------------------------------------------------------------
- */
+/* --- transforms ------------------------------------------------------------------------------- */
 
 void gltf_transform_read(const cJSON *node, gltf_transform *t) {
     *t = (gltf_transform) { .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
@@ -68,8 +67,7 @@ static bool check_transform(const gltf *document, size_t index, cli_error *error
     return true;
 }
 
-/* --- the tree -----------------------------------------------------------------------------------
- */
+/* --- the tree --------------------------------------------------------------------------------- */
 
 static bool find_parents(const gltf *document, cli_error *error) {
     const size_t count = gltf_count(document, GLTF_NODES);

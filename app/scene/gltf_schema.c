@@ -21,8 +21,7 @@
 #define VECTOR(n)              .array = true, .least = (n), .most = (n)
 #define INTEGER_CHOICE(values) .type = GLTF_TYPE_INTEGER, CHOICE(values)
 
-/* --- bytes --------------------------------------------------------------------------------------
- */
+/* --- bytes ------------------------------------------------------------------------------------ */
 
 static const gltf_object buffer = {
     "buffer",
@@ -81,8 +80,7 @@ static const gltf_object accessor = {
     NULL,
 };
 
-/* --- images and materials -----------------------------------------------------------------------
- */
+/* --- images and materials --------------------------------------------------------------------- */
 
 static const gltf_object image = {
     "image",
@@ -199,8 +197,7 @@ static const gltf_object material = {
                            END },
 };
 
-/* --- meshes and nodes ---------------------------------------------------------------------------
- */
+/* --- meshes and nodes ------------------------------------------------------------------------- */
 
 #define ATTRIBUTES .type = GLTF_TYPE_REFERENCES, .kind = GLTF_ACCESSORS
 static const gltf_object primitive = {
@@ -265,8 +262,7 @@ static const gltf_object scene_object = {
     NULL,
 };
 
-/* --- cameras and lights -------------------------------------------------------------------------
- */
+/* --- cameras and lights ----------------------------------------------------------------------- */
 
 static const gltf_object orthographic = {
     "camera",
@@ -319,8 +315,7 @@ static const gltf_object lights = {
     NULL,
 };
 
-/* --- animations ---------------------------------------------------------------------------------
- */
+/* --- animations ------------------------------------------------------------------------------- */
 
 static const gltf_object channel_target = {
     "animation",
@@ -352,8 +347,7 @@ static const gltf_object animation = {
     NULL,
 };
 
-/* --- the document -------------------------------------------------------------------------------
- */
+/* --- the document ----------------------------------------------------------------------------- */
 
 static const gltf_object asset = {
     "file",

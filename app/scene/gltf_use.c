@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- attributes ---------------------------------------------------------------------------------
- */
+/* --- attributes ------------------------------------------------------------------------------- */
 
 /* Component types, as bits. */
 enum {
@@ -107,8 +106,7 @@ static bool check_attributes(const gltf *document, const cJSON *attributes, cons
     return true;
 }
 
-/* --- meshes -------------------------------------------------------------------------------------
- */
+/* --- meshes ----------------------------------------------------------------------------------- */
 
 static bool check_indices(const gltf *document, long index) {
     if (index < 0)
@@ -151,8 +149,7 @@ static bool check_mesh(const gltf *document, size_t i, cli_error *error) {
            gltf_fail(document, GLTF_MESHES, i, "has not one weight a morph target", error);
 }
 
-/* --- nodes and skins ----------------------------------------------------------------------------
- */
+/* --- nodes and skins -------------------------------------------------------------------------- */
 
 static bool check_node(const gltf *document, size_t i, cli_error *error) {
     const cJSON *node = gltf_item(document, GLTF_NODES, i);
@@ -181,8 +178,7 @@ static bool check_skin(const gltf *document, size_t i, cli_error *error) {
            gltf_fail(document, GLTF_SKINS, i, "has no matrix for every joint", error);
 }
 
-/* --- cameras, images, animations ----------------------------------------------------------------
- */
+/* --- cameras, images, animations -------------------------------------------------------------- */
 
 static bool check_camera(const gltf *document, size_t i, cli_error *error) {
     const cJSON *camera = gltf_item(document, GLTF_CAMERAS, i);

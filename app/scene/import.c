@@ -37,8 +37,7 @@ struct import_job {
     source_set sources;
 };
 
-/* --- the child's work ---------------------------------------------------------------------------
- */
+/* --- the child's work ------------------------------------------------------------------------- */
 
 static bool add_gltf(import_job *job, scene_builder *builder, cli_error *error) {
     gltf document;
@@ -142,8 +141,7 @@ static bool import_in_child(void *context, int output, cli_error *error) {
     return true;
 }
 
-/* --- the parent ---------------------------------------------------------------------------------
- */
+/* --- the parent ------------------------------------------------------------------------------- */
 
 /* What can read the file, by its first bytes or its name; NULL: nothing. */
 static import_reader reader_of(const char *path, const void *data, size_t size) {

@@ -140,8 +140,7 @@ float *scene_light_value(lmp_light *light, const scene_light_member *member) {
     return value;
 }
 
-/* --- the ranges ---------------------------------------------------------------------------------
- */
+/* --- the ranges ------------------------------------------------------------------------------- */
 
 static bool is_position(const float *v) {
     return fabsf(v[0]) <= LMP_LENGTH_MAX && fabsf(v[1]) <= LMP_LENGTH_MAX &&

@@ -13,8 +13,7 @@ static float dot3(const float *a, const float *b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* --- transforms ---------------------------------------------------------------------------------
- */
+/* --- transforms ------------------------------------------------------------------------------- */
 
 mesh_transform mesh_transform_make(const double m[16]) {
     mesh_transform t;
@@ -67,8 +66,7 @@ void mesh_flip(mesh_draft *f) {
     }
 }
 
-/* --- missing normals ----------------------------------------------------------------------------
- */
+/* --- missing normals -------------------------------------------------------------------------- */
 
 /* A vertex of its own for every corner, so that faces that meet there may differ. */
 static bool split_corners(mesh_draft *f, cli_error *error) {
@@ -158,8 +156,7 @@ static void mend_normals(mesh_draft *f) {
             f->vertices[i].normal[1] = 1.0f;
 }
 
-/* --- missing tangents ---------------------------------------------------------------------------
- */
+/* --- missing tangents ------------------------------------------------------------------------- */
 
 /* Adds a triangle's dP/du to `along` and its dP/dv to `across` of its vertices. */
 static void add_triangle_tangent(const mesh_draft *f, size_t triangle, lmp_vec3 *along,
@@ -207,8 +204,7 @@ static bool make_tangents(mesh_draft *f, cli_error *error) {
     return true;
 }
 
-/* --- welding ------------------------------------------------------------------------------------
- */
+/* --- welding ---------------------------------------------------------------------------------- */
 
 /* Merges equal vertices, keeping the order of their first use. */
 static bool weld_vertices(mesh_draft *f, cli_error *error) {
@@ -242,8 +238,7 @@ static bool weld_vertices(mesh_draft *f, cli_error *error) {
     return ok || cli_fail(error, f->subject, "does not fit into memory");
 }
 
-/* --- into the scene -----------------------------------------------------------------------------
- */
+/* --- into the scene --------------------------------------------------------------------------- */
 
 static bool append_draft(const mesh_draft *f, scene_builder *builder, cli_error *error) {
     const size_t first_vertex = builder_count(builder, BLOB_VERTICES);

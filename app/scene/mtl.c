@@ -70,8 +70,7 @@ static bool new_material(mtl_reader *r) {
     return true;
 }
 
-/* --- factors ------------------------------------------------------------------------------------
- */
+/* --- factors ---------------------------------------------------------------------------------- */
 
 static bool read_number(mtl_reader *r, float *number) {
     return words_number(words_next(&r->words), number) ||
@@ -121,8 +120,7 @@ static bool read_factor(mtl_reader *r, const char *keyword, bool *known) {
     return ok;
 }
 
-/* --- maps ---------------------------------------------------------------------------------------
- */
+/* --- maps ------------------------------------------------------------------------------------- */
 
 /* Skips the options before the name of a map's file; -clamp is heeded, and those that would move
  * or recolor it are noted. */
@@ -185,8 +183,7 @@ static bool read_map(mtl_reader *r, const char *keyword) {
                   : texture_file_use(r->files, path, maps[i].srgb, wrap, wrap, use, r->error);
 }
 
-/* --- statements ---------------------------------------------------------------------------------
- */
+/* --- statements ------------------------------------------------------------------------------- */
 
 /* What says nothing about how a surface looks by these lights. */
 static bool is_ignored(const char *keyword) {

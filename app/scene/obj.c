@@ -61,8 +61,7 @@ static void *append(const obj_reader *r, list *l, size_t item) {
     return (char *)l->items + item * l->count++;
 }
 
-/* --- vertices -----------------------------------------------------------------------------------
- */
+/* --- vertices --------------------------------------------------------------------------------- */
 
 /* A statement's numbers, at least `least` and at most `most` of them; returns how many, -1 on
  * failure. */
@@ -90,8 +89,7 @@ static bool read_vertex(obj_reader *r, list *l, int least, int most, size_t widt
     return true;
 }
 
-/* --- polygons -----------------------------------------------------------------------------------
- */
+/* --- polygons --------------------------------------------------------------------------------- */
 
 /* A reference of a corner: from 1, or backwards from -1. An empty one is none, where it may be. */
 static bool read_reference(const char **text, size_t count, uint32_t *index) {
@@ -149,8 +147,7 @@ static bool read_polygon(obj_reader *r) {
     return true;
 }
 
-/* --- groups and materials -----------------------------------------------------------------------
- */
+/* --- groups and materials --------------------------------------------------------------------- */
 
 /* Begins a run like the last one, or changes that where it has no triangles yet. */
 static run *begin_run(obj_reader *r) {
@@ -213,8 +210,7 @@ static bool read_libraries(obj_reader *r) {
     return true;
 }
 
-/* --- statements ---------------------------------------------------------------------------------
- */
+/* --- statements ------------------------------------------------------------------------------- */
 
 static bool is_one_of(const char *keyword, const char *const *names) {
     while (*names && strcmp(*names, keyword) != 0)
@@ -257,8 +253,7 @@ static bool read_statement(obj_reader *r) {
     return true;
 }
 
-/* --- into the scene -----------------------------------------------------------------------------
- */
+/* --- into the scene --------------------------------------------------------------------------- */
 
 static uint32_t material_of(const obj_reader *r, const run *from) {
     const mtl_name *found = from->material ? mtl_find(&r->materials, from->material) : NULL;

@@ -108,8 +108,7 @@ void shape_box(scene_shaper *shaper, lmp_vec3 lo, lmp_vec3 hi) {
                    corner[faces[i][3]]);
 }
 
-/* --- profiles -----------------------------------------------------------------------------------
- */
+/* --- profiles --------------------------------------------------------------------------------- */
 
 /* Normals at both ends of the profile's segment i: averaged with the neighbor's where smooth. */
 typedef struct segment_normals {

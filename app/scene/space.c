@@ -20,8 +20,7 @@ static triangle triangle_at(const scene *world, size_t first) {
     return t;
 }
 
-/* --- along an axis ------------------------------------------------------------------------------
- */
+/* --- along an axis ---------------------------------------------------------------------------- */
 
 /* Where the line through a point along an axis meets the triangle, from the point; whether the
  * triangle shows its front to it. */
@@ -45,8 +44,7 @@ static bool meets(const triangle *t, lmp_vec3 point, int axis, float *distance, 
     return true;
 }
 
-/* --- balls --------------------------------------------------------------------------------------
- */
+/* --- balls ------------------------------------------------------------------------------------ */
 
 static float to_segment2(lmp_vec3 p, lmp_vec3 a, lmp_vec3 b) {
     const lmp_vec3 along = vec_sub(b, a), way = vec_sub(p, a);
@@ -128,8 +126,7 @@ void space_fit(const scene *world, space_ball *balls, size_t count) {
         balls[i].fits = balls[i].fits && !balls[i].above_is_back && !balls[i].below_is_back;
 }
 
-/* --- rooms --------------------------------------------------------------------------------------
- */
+/* --- rooms ------------------------------------------------------------------------------------ */
 
 #define BUILDING_WALLS 4 /* of six directions */
 

@@ -4,8 +4,7 @@
 #include "app/scene/vector.h"
 #include "app/shadow/wide.h"
 
-/* --- the sources --------------------------------------------------------------------------------
- */
+/* --- the sources ------------------------------------------------------------------------------ */
 
 static shadow_source source_of(shadow_kind kind, const lmp_light *light, lmp_rgb color) {
     return (shadow_source) { .kind = kind,
@@ -60,8 +59,7 @@ size_t shadow_sources_make(const scene_light *lights, size_t count,
     return made;
 }
 
-/* --- from a point -------------------------------------------------------------------------------
- */
+/* --- from a point ----------------------------------------------------------------------------- */
 
 /* Of a sphere at a distance; inside it the cap goes on growing, as in <lampion/light.h>. */
 static float one_minus_cos_of(float radius, float distance) {
@@ -175,8 +173,7 @@ void shadow_source_weigh(const shadow_source *source, const shadow_points *p,
     weigh_caps(&caps, p, weights);
 }
 
-/* --- a direction --------------------------------------------------------------------------------
- */
+/* --- a direction ------------------------------------------------------------------------------ */
 
 /* Around an orthonormal basis without branches at the poles (Duff et al. 2017). */
 static lmp_vec3 in_cap(lmp_vec3 axis, float one_minus_cos, float u, float v) {

@@ -54,8 +54,7 @@ double trace_lift(const scene *world) {
     return 1e-5 * size;
 }
 
-/* --- what lets rays pass ------------------------------------------------------------------------
- */
+/* --- what lets rays pass ---------------------------------------------------------------------- */
 
 /* Light passes what blends where a mask would let it. */
 static bool may_be_cut(const scene_material *material, trace_kind kind) {
@@ -126,8 +125,7 @@ static void pass_backs(const struct RTCFilterFunctionNArguments *a) {
     }
 }
 
-/* --- creation -----------------------------------------------------------------------------------
- */
+/* --- creation --------------------------------------------------------------------------------- */
 
 static bool add_mesh(trace_bvh *bvh, const scene *world, size_t number) {
     trace_mesh *mesh = &bvh->meshes[number];
@@ -181,8 +179,7 @@ void trace_destroy(trace_bvh *bvh) {
     free(bvh);
 }
 
-/* --- rays ---------------------------------------------------------------------------------------
- */
+/* --- rays ------------------------------------------------------------------------------------- */
 
 static void set_context(const trace_bvh *bvh, trace_kind kind, trace_context *context) {
     rtcInitIntersectContext(&context->embree);

@@ -83,8 +83,7 @@ void view_frame(scene_camera *camera, lmp_vec3 center, float radius, float aspec
     vec_store(vec_sub(center, vec_scale(f.forward, distance)), camera->eye);
 }
 
-/* --- rays ---------------------------------------------------------------------------------------
- */
+/* --- rays ------------------------------------------------------------------------------------- */
 
 view_ray view_ray_through(const scene_camera *camera, int width, int height, double x, double y) {
     const frame f = frame_of(camera);
@@ -111,8 +110,7 @@ bool view_project(const scene_camera *camera, int width, int height, lmp_vec3 po
     return true;
 }
 
-/* --- picking ------------------------------------------------------------------------------------
- */
+/* --- picking ---------------------------------------------------------------------------------- */
 
 int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count, float pixels,
                     float *distance) {

@@ -91,8 +91,7 @@ gpu_screen *view_compositor_screen(view_compositor *s) {
     return s->screen;
 }
 
-/* --- lobes ----------------------------------------------------------------------------------
- */
+/* --- lobes ------------------------------------------------------------------------------------ */
 
 static kept_lobe *find_lobe(view_compositor *s, const view_shading *shading) {
     for (int i = 0; i < LOBES_KEPT; i++)
@@ -121,8 +120,7 @@ static const lmp_preintegrated_lobe *get_lobe(view_compositor *s, const view_sha
     return made->lobe;
 }
 
-/* --- materials ----------------------------------------------------------------------------------
- */
+/* --- materials -------------------------------------------------------------------------------- */
 
 static bool is_preintegrated(const view_shading *shading) {
     return method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
@@ -184,8 +182,7 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
     return NULL;
 }
 
-/* --- drawing ------------------------------------------------------------------------------------
- */
+/* --- drawing ---------------------------------------------------------------------------------- */
 
 static bool has_draft(const view_compositor *s) {
     return s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;

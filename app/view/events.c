@@ -31,8 +31,7 @@ static view_ray pointer_ray(const view_state *s) {
     return view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
 }
 
-/* --- the pointer --------------------------------------------------------------------------------
- */
+/* --- the pointer ------------------------------------------------------------------------------ */
 
 /* Through the middle of the image. */
 static view_ray middle_ray(const view_state *s) {
@@ -144,8 +143,7 @@ static void scroll(view_state *s, double steps) {
     }
 }
 
-/* --- keys and files -----------------------------------------------------------------------------
- */
+/* --- keys and files --------------------------------------------------------------------------- */
 
 static void press_key(view_state *s, const char *name) {
     for (const view_key *key = view_keys; key->key || key->shown; key++)

@@ -8,8 +8,7 @@
 
 #define FRAME_SECONDS (1.0 / 24)
 
-/* --- shading ------------------------------------------------------------------------------------
- */
+/* --- shading ---------------------------------------------------------------------------------- */
 
 static view_shading *shading_here(view_state *s) {
     return &s->now.shading[view_side(s)];
@@ -83,8 +82,7 @@ static void swap_sides(view_state *s, int unused) {
     s->now.shading[1] = first;
 }
 
-/* --- time ---------------------------------------------------------------------------------------
- */
+/* --- time ------------------------------------------------------------------------------------- */
 
 static void play(view_state *s, int unused) {
     (void)unused;
@@ -107,8 +105,7 @@ static void rewind_time(view_state *s, int unused) {
     s->seconds = 0;
 }
 
-/* --- materials ----------------------------------------------------------------------------------
- */
+/* --- materials -------------------------------------------------------------------------------- */
 
 static const char *const materials[] = { "lambert:0.8",       "phong:50:0.8",     "ggx:0.1:0.9",
                                          "ggx:0.35:0.04:0.5", "sgd:chrome-steel", "sgd:brass",
@@ -139,8 +136,7 @@ static void change_material(view_state *s, int step) {
         view_say(s, "%s cannot be replaced: too many materials, or too long a name", name);
 }
 
-/* --- camera and window --------------------------------------------------------------------------
- */
+/* --- camera and window ------------------------------------------------------------------------ */
 
 static void frame_all(view_state *s, int unused) {
     (void)unused;

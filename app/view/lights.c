@@ -21,8 +21,7 @@ static bool is_changed(const view_state *s, size_t index) {
     return s->selected < 0 || (size_t)s->selected == index;
 }
 
-/* --- size ---------------------------------------------------------------------------------------
- */
+/* --- size ------------------------------------------------------------------------------------- */
 
 /* A sphere's power stays: a larger one is a dimmer one. Cones and caps widen. */
 static void grow(scene_light *light, float by) {
@@ -48,8 +47,7 @@ void view_resize_lights(view_state *s, int sign) {
     s->lights_edited = true;
 }
 
-/* --- color --------------------------------------------------------------------------------------
- */
+/* --- color ------------------------------------------------------------------------------------ */
 
 static void each_color(view_state *s, void (*change)(float color[3], float by), float by) {
     for (size_t i = 0; i < s->now.light_count; i++) {
@@ -102,8 +100,7 @@ void view_fade_lights(view_state *s, int sign) {
     each_color(s, make_paler, sign > 0 ? 0.25f : -1.0f / 3);
 }
 
-/* --- selecting, adding, removing ----------------------------------------------------------------
- */
+/* --- selecting, adding, removing -------------------------------------------------------------- */
 
 void view_select_light(view_state *s, int step) {
     const int count = (int)s->now.light_count;
@@ -169,8 +166,7 @@ void view_remove_light(view_state *s, int unused) {
     s->lights_edited = true;
 }
 
-/* --- kind, direction, view ----------------------------------------------------------------------
- */
+/* --- kind, direction, view -------------------------------------------------------------------- */
 
 void view_change_kind(view_state *s, int step) {
     if (!is_selected(s))

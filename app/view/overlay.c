@@ -17,8 +17,7 @@ static const color paper = { 0.05, 0.06, 0.08, 0.78 }, solid_paper = { 0.05, 0.0
 static const color ink = { 0.95, 0.95, 0.94, 1 }, pale = { 0.66, 0.69, 0.74, 1 };
 static const color accent = { 1.0, 0.74, 0.38, 1 };
 
-/* --- surfaces -----------------------------------------------------------------------------------
- */
+/* --- surfaces --------------------------------------------------------------------------------- */
 
 static cairo_t *begin(view_drawing *drawing, double width, double height) {
     drawing->width = (int)ceil(fmax(width, 1));
@@ -57,8 +56,7 @@ static void rounded_box(cairo_t *cairo, double width, double height, double radi
     cairo_fill(cairo);
 }
 
-/* --- text ---------------------------------------------------------------------------------------
- */
+/* --- text ------------------------------------------------------------------------------------- */
 
 typedef struct writer {
     PangoContext *context;
@@ -112,8 +110,7 @@ static void put_text(cairo_t *cairo, const writer *w, double x, double y, const 
     g_object_unref(layout);
 }
 
-/* --- the panel ----------------------------------------------------------------------------------
- */
+/* --- the panel -------------------------------------------------------------------------------- */
 
 view_drawing view_draw_panel(const view_row *rows, int count, double scale) {
     view_drawing drawing = { .width = 0 };
@@ -142,8 +139,7 @@ view_drawing view_draw_panel(const view_row *rows, int count, double scale) {
     return drawing;
 }
 
-/* --- the help -----------------------------------------------------------------------------------
- */
+/* --- the help --------------------------------------------------------------------------------- */
 
 typedef struct help_layout {
     int first[HELP_COLUMNS_MAX + 1]; /* the row that begins a column */
@@ -242,8 +238,7 @@ view_drawing view_draw_help(int width, int height, double scale) {
     return drawing;
 }
 
-/* --- messages and marks -------------------------------------------------------------------------
- */
+/* --- messages and marks ----------------------------------------------------------------------- */
 
 view_drawing view_draw_message(const char *text, int width, double scale) {
     view_drawing drawing = { .width = 0 };

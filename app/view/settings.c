@@ -11,8 +11,7 @@
 
 const char *const view_split_names[GPU_SPLITS + 1] = { "none", "divided", "difference", NULL };
 
-/* --- materials ----------------------------------------------------------------------------------
- */
+/* --- materials -------------------------------------------------------------------------------- */
 
 static int find_material(const view_settings *s, const char *material_name) {
     const size_t length = strlen(material_name);
@@ -49,8 +48,7 @@ bool view_set_material(view_settings *s, const char *material_name, const char *
     return true;
 }
 
-/* --- to JSON ------------------------------------------------------------------------------------
- */
+/* --- to JSON ---------------------------------------------------------------------------------- */
 
 static void add_camera(cJSON *root, const scene_camera *camera) {
     cJSON *object = cJSON_AddObjectToObject(root, "camera");
@@ -101,8 +99,7 @@ cJSON *view_settings_to_json(const view_settings *s) {
     return root;
 }
 
-/* --- from JSON ----------------------------------------------------------------------------------
- */
+/* --- from JSON -------------------------------------------------------------------------------- */
 
 static bool read_int(const cJSON *object, const char *name, int minimum, int maximum, int *value) {
     double number;
@@ -273,8 +270,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
     return cli_fail(error, subject, "has settings whose %s make no sense", wrong);
 }
 
-/* --- screenshots --------------------------------------------------------------------------------
- */
+/* --- screenshots ------------------------------------------------------------------------------ */
 
 #define SHOT_KEY "lampion"
 

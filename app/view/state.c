@@ -15,8 +15,7 @@ void view_say(view_state *s, const char *format, ...) {
     s->message_until = s->clock + MESSAGE_SECONDS;
 }
 
-/* --- opening ------------------------------------------------------------------------------------
- */
+/* --- opening ---------------------------------------------------------------------------------- */
 
 static bool add_path(view_state *s, const char *name, cli_error *error) {
     if (!animation_open(name, s->world, &s->paths[s->path_count], error))
@@ -100,8 +99,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, cli_error *erro
     return true;
 }
 
-/* --- what is shown ------------------------------------------------------------------------------
- */
+/* --- what is shown ---------------------------------------------------------------------------- */
 
 void view_shown(const view_state *s, view_settings *shown) {
     *shown = s->now;

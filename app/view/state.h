@@ -7,8 +7,7 @@
 #include "app/view/camera.h"
 #include "app/view/settings.h"
 
-/* --- events -------------------------------------------------------------------------------------
- */
+/* --- events ----------------------------------------------------------------------------------- */
 
 typedef enum view_event_kind {
     VIEW_MOVE,    /* the pointer, to x, y in pixels */
@@ -33,8 +32,7 @@ typedef struct view_event {
     const char *text; /* the key, or the file */
 } view_event;
 
-/* --- the state ----------------------------------------------------------------------------------
- */
+/* --- the state -------------------------------------------------------------------------------- */
 
 /* What the window has to do; the state machine sets them, who does it clears them. */
 typedef struct view_wishes {
@@ -102,8 +100,7 @@ int view_side(const view_state *state);
 /* Shows a line for some seconds. */
 void view_say(view_state *state, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* --- keys ---------------------------------------------------------------------------------------
- */
+/* --- keys ------------------------------------------------------------------------------------- */
 
 /* A row of the help: keys by the character that they type, or by name. */
 typedef struct view_key {

@@ -11,8 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* --- the window's graphics ----------------------------------------------------------------------
- */
+/* --- the window's graphics -------------------------------------------------------------------- */
 
 static bool open_graphics(viewer *v, cli_error *error) {
     char title[VIEW_PATH_SIZE + 16];
@@ -55,8 +54,7 @@ static bool grant_wishes(viewer *v, cli_error *error) {
     return !wishes.shot || view_take_shot(v, NULL, error);
 }
 
-/* --- the loop -----------------------------------------------------------------------------------
- */
+/* --- the loop --------------------------------------------------------------------------------- */
 
 /* Plays what is due; a size goes through the window. */
 static bool play_script(viewer *v, cli_error *error) {

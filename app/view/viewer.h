@@ -57,8 +57,7 @@ typedef struct viewer {
     label labels[GPU_DRAWINGS_MAX];
 } viewer;
 
-/* --- reload.c: the scene and its file -----------------------------------------------------------
- */
+/* --- reload.c: the scene and its file --------------------------------------------------------- */
 
 version view_version_of(const char *path);
 
@@ -72,8 +71,7 @@ void view_reload(viewer *v);
 /* Wishes to read the scene again once its file has changed and rests. */
 void view_watch(viewer *v);
 
-/* --- shots.c: files out -------------------------------------------------------------------------
- */
+/* --- shots.c: files out ----------------------------------------------------------------------- */
 
 /* A screenshot; of a script where path is given: then a failure ends the viewer. */
 bool view_take_shot(viewer *v, const char *path, cli_error *error);
@@ -86,14 +84,12 @@ bool view_record_frame(viewer *v, cli_error *error);
 /* What the program knows of itself, for tests and for the curious. */
 bool view_write_state(viewer *v, cli_error *error);
 
-/* --- labels.c: drawings over the image ----------------------------------------------------------
- */
+/* --- labels.c: drawings over the image -------------------------------------------------------- */
 
 /* announcement: a message in place of the state's own, or NULL. */
 void view_draw_labels(viewer *v, const char *announcement);
 
-/* --- frame.c ------------------------------------------------------------------------------------
- */
+/* --- frame.c ---------------------------------------------------------------------------------- */
 
 /* Whether every frame takes a fixed step of time, so that the same script gives the same images. */
 bool view_steps_time(const viewer *v);

@@ -33,8 +33,7 @@ static double pixels_a_unit(GLFWwindow *glfw) {
     return units > 0 && pixels > 0 ? (double)pixels / units : 1;
 }
 
-/* --- input --------------------------------------------------------------------------------------
- */
+/* --- input ------------------------------------------------------------------------------------ */
 
 static void on_move(GLFWwindow *glfw, double x, double y) {
     const double scale = pixels_a_unit(glfw);
@@ -156,8 +155,7 @@ static void listen(GLFWwindow *glfw) {
     glfwSetWindowRefreshCallback(glfw, on_damage);
 }
 
-/* --- the window ---------------------------------------------------------------------------------
- */
+/* --- the window ------------------------------------------------------------------------------- */
 
 static GLFWwindow *create(const char *title, int width, int height) {
     const char *debug = getenv("LAMPION_GL_DEBUG");

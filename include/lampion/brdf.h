@@ -133,8 +133,7 @@ LMP_API lmp_result lmp_brdf_write_merl(const lmp_host *host, const lmp_brdf *brd
 LMP_API lmp_result lmp_brdf_write_rgl(const lmp_host *host, const lmp_brdf *brdf, void **data,
                                       size_t *size);
 
-/* --- tables ------------------------------------------------------------------------------------
- */
+/* --- tables ----------------------------------------------------------------------------------- */
 
 typedef enum lmp_brdf_symmetry {
     LMP_BRDF_SYMMETRY_AUTO = 0, /* mirrored where the BRDF is so, exactly or to its own noise */

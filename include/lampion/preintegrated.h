@@ -60,8 +60,7 @@ LMP_API void lmp_preintegrated_lobe_destroy(lmp_preintegrated_lobe *lobe);
 LMP_API float lmp_preintegrated_lobe_eval(const lmp_preintegrated_lobe *lobe, float exponent,
                                           float one_minus_cos, float cosine);
 
-/* --- for a graphics API or a kernel of your own --------------------------------------------------
- */
+/* --- for a graphics API or a kernel of your own ----------------------------------------------- */
 
 /* Where a cell lies: rows of a, columns of g. */
 typedef struct lmp_preintegrated_lobe_cell {

@@ -28,8 +28,7 @@ static uint32_t step(uint32_t table[STEP][256], uint32_t crc, const unsigned cha
            fold(table, lmp_bytes_at_u32(p + 8), 4) ^ fold(table, lmp_bytes_at_u32(p + 12), 0);
 }
 
-/* --- three runs at once: one waits for its tables while the others read theirs -------------------
- */
+/* --- three runs at once: one waits for its tables while the others read theirs ---------------- */
 
 /* A power of two bytes a run. */
 enum { RUN_LOG2 = 13, RUN = 1 << RUN_LOG2 };
@@ -90,8 +89,7 @@ uint32_t lmp_bytes_checksum(const void *bytes, size_t size) {
     return ~crc;
 }
 
-/* --- what is around the numbers of a file --------------------------------------------------------
- */
+/* --- what is around the numbers of a file ----------------------------------------------------- */
 
 unsigned char *lmp_bytes_begin(void *bytes, const lmp_bytes_format *format) {
     memcpy(bytes, format->magic, sizeof format->magic);

@@ -18,8 +18,7 @@ static bool take_color(lmp_rgb rgb, double out[3]) {
     return all_within(out, 3, 0, 3e38);
 }
 
-/* --- Lambert -----------------------------------------------------------------------------------
- */
+/* --- Lambert ---------------------------------------------------------------------------------- */
 
 static void eval_lambert(const lmp_brdf *brdf, const double a[3], const double b[3],
                          double rgb[3]) {
@@ -43,8 +42,7 @@ lmp_result lmp_brdf_create_lambert(const lmp_host *host, lmp_rgb albedo, lmp_brd
     return LMP_OK;
 }
 
-/* --- Phong -------------------------------------------------------------------------------------
- */
+/* --- Phong ------------------------------------------------------------------------------------ */
 
 static void eval_phong(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
     const double e = brdf->phong.exponent;
@@ -69,8 +67,7 @@ lmp_result lmp_brdf_create_phong(const lmp_host *host, lmp_rgb reflectance, floa
     return LMP_OK;
 }
 
-/* --- GGX ---------------------------------------------------------------------------------------
- */
+/* --- GGX -------------------------------------------------------------------------------------- */
 
 /* w.z (1 + 2 Λ), Smith's Λ for GGX the masking of direction w. */
 static double smith_root(const brdf_ggx *ggx, const double w[3]) {

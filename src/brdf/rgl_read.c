@@ -68,8 +68,7 @@ static bool wrong(const rgl_file *file, size_t offset, const char *format, ...) 
     return false;
 }
 
-/* --- the directory -----------------------------------------------------------------------------
- */
+/* --- the directory ---------------------------------------------------------------------------- */
 
 static int find_known(const unsigned char *name, size_t length) {
     for (int id = 0; id < FIELD_COUNT; id++)
@@ -163,8 +162,7 @@ static bool read_directory(rgl_file *file) {
     return true;
 }
 
-/* --- shapes and values -------------------------------------------------------------------------
- */
+/* --- shapes and values ------------------------------------------------------------------------ */
 
 static bool same_shape(const rgl_file *file, rgl_field_id id, int d, uint64_t expected,
                        const char *by) {
@@ -245,8 +243,7 @@ static bool check_angles(const rgl_file *file, brdf_rgl *rgl) {
     return true;
 }
 
-/* --- color ------------------------------------------------------------------------------------
- */
+/* --- color ------------------------------------------------------------------------------------ */
 
 /* A bell of different widths on both sides. */
 static double bell(double x, double center, double left, double right) {
@@ -335,8 +332,7 @@ static lmp_result convert_spectra(const rgl_file *file, const lmp_host *host, si
     return good ? LMP_OK : LMP_ERROR_FORMAT;
 }
 
-/* --- the object --------------------------------------------------------------------------------
- */
+/* --- the object ------------------------------------------------------------------------------- */
 
 /* Sets the shapes and lays the arrays out behind the object; returns the floats they take. */
 static size_t lay_out(const rgl_file *file, brdf_rgl *rgl, float *base) {

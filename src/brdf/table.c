@@ -43,8 +43,7 @@ const float *lmp_brdf_table_coefficients(const lmp_brdf_table *table) {
     return table->coefficients;
 }
 
-/* --- making ------------------------------------------------------------------------------------
- */
+/* --- making ----------------------------------------------------------------------------------- */
 
 /* One doubling of the nodes over all views; task i is view i % views of azimuth i / views. */
 typedef struct table_job {
@@ -276,8 +275,7 @@ lmp_result lmp_brdf_project(const lmp_host *host, int bands, int rings, const lm
     return parts ? LMP_OK : LMP_ERROR_MEMORY;
 }
 
-/* --- reading -----------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 /* Four neighbors and their weights (Catmull-Rom), t in 0 … 1 from the second to the third. */
 static void cubic_weights(float t, float weights[4]) {

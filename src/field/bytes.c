@@ -27,8 +27,7 @@ size_t lmp_field_size(const lmp_field *field) {
     return file_size(&field->info.desc, field->info.light_count);
 }
 
-/* --- writing -----------------------------------------------------------------------------------
- */
+/* --- writing ---------------------------------------------------------------------------------- */
 
 static unsigned char *store_vector(unsigned char *p, float x, float y, float z) {
     return lmp_bytes_store_f32(lmp_bytes_store_f32(lmp_bytes_store_f32(p, x), y), z);
@@ -75,8 +74,7 @@ void lmp_field_write(const lmp_field *field, void *bytes) {
     lmp_bytes_end(bytes, p);
 }
 
-/* --- reading -----------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 static lmp_vec3 load_vector(const unsigned char **p) {
     const float x = lmp_bytes_load_f32(p), y = lmp_bytes_load_f32(p);

@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-/* --- error and reach ---------------------------------------------------------------------------
- */
+/* --- error and reach -------------------------------------------------------------------------- */
 
 /* error = max((joint / reach)³, (scale / reach)⁴): the third derivative of the fade jumps where the
  * fade ends, and the coefficients of many bands turn fast near a light. Bounds of the worst of
@@ -74,8 +73,7 @@ bool lmp_field_resolve(lmp_field_desc *desc) {
            is_edge(desc->cell.z) && resolve_error(desc);
 }
 
-/* --- memory ------------------------------------------------------------------------------------
- */
+/* --- memory ----------------------------------------------------------------------------------- */
 
 /* Pieces of one allocation, each begun at a multiple of 64 bytes. */
 static void *take(unsigned char *memory, size_t *used, size_t size) {

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* --- lists -------------------------------------------------------------------------------------
- */
+/* --- lists ------------------------------------------------------------------------------------ */
 
 /* A ball around a light, from the grid's origin, and the blocks of the box around it. */
 typedef struct near_ball {
@@ -121,8 +120,7 @@ void lmp_field_unlist(lmp_field *field, uint32_t light) {
         each_list(field, light, &ball, take);
 }
 
-/* --- points ------------------------------------------------------------------------------------
- */
+/* --- points ----------------------------------------------------------------------------------- */
 
 bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_place *place) {
     const lmp_field_desc *desc = &field->info.desc;
@@ -149,8 +147,7 @@ float lmp_field_lacks(const lmp_field *field, uint32_t light, lmp_vec3 point) {
     return v * v * v * (1 + 3 * t * t);
 }
 
-/* --- sets --------------------------------------------------------------------------------------
- */
+/* --- sets ------------------------------------------------------------------------------------- */
 
 void lmp_field_set_clear(const lmp_field *field, field_set *set) {
     set->words = (field->info.light_count + 63) / 64;

@@ -6,8 +6,7 @@
 
 #include <string.h>
 
-/* --- interpolation -----------------------------------------------------------------------------
- */
+/* --- interpolation ---------------------------------------------------------------------------- */
 
 /* Of points outside the grid any cell will do. */
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
@@ -30,8 +29,7 @@ void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_
     lmp_kernels_get()->interpolate(field->values, &cells, count, out);
 }
 
-/* --- near lights -------------------------------------------------------------------------------
- */
+/* --- near lights ------------------------------------------------------------------------------ */
 
 bool lmp_field_set_find(const lmp_field *field, lmp_vec3 point, field_set *set) {
     field_place place;
@@ -87,8 +85,7 @@ static void add_near(const lmp_field *field, lmp_vec3 point, float *row) {
     }
 }
 
-/* --- at points ---------------------------------------------------------------------------------
- */
+/* --- at points -------------------------------------------------------------------------------- */
 
 static size_t load_points(lmp_vec3_array array, size_t first, size_t count, lmp_vec3 *points) {
     const size_t some = count - first < FIELD_BRICK ? count - first : FIELD_BRICK;

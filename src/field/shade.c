@@ -21,8 +21,7 @@ static lmp_vec3 point_of(const shade_chunk *chunk, size_t i) {
     return (lmp_vec3) { chunk->point.x.at[i], chunk->point.y.at[i], chunk->point.z.at[i] };
 }
 
-/* --- far lights --------------------------------------------------------------------------------
- */
+/* --- far lights ------------------------------------------------------------------------------- */
 
 static lmp_kernel_vec3 from(const lmp_kernel_vec3 *planes, size_t first) {
     return (lmp_kernel_vec3) { planes->x + first, planes->y + first, planes->z + first };
@@ -57,8 +56,7 @@ static __attribute__((noinline)) void shade_far(const field_shading *shading, si
                                    &surfaces, &in, count, &sums);
 }
 
-/* --- near lights -------------------------------------------------------------------------------
- */
+/* --- near lights ------------------------------------------------------------------------------ */
 
 /* A ball around a chunk's points. */
 typedef struct chunk_ball {
@@ -147,8 +145,7 @@ static void shade_near(const field_shading *shading, shade_chunk *chunk) {
     }
 }
 
-/* --- surfaces ----------------------------------------------------------------------------------
- */
+/* --- surfaces --------------------------------------------------------------------------------- */
 
 /* All the light at a surface as its surroundings. */
 static __attribute__((noinline)) lmp_rgb shade_surroundings(const field_shading *shading,

@@ -9,8 +9,7 @@
 /* Weights are 0 … SPLINE_ONE for 0 … 1. */
 #define SPLINE_ONE 32767.0f
 
-/* --- pairs of a preintegrated lobe -------------------------------------------------------------
- */
+/* --- pairs of a preintegrated lobe ------------------------------------------------------------ */
 
 /* Of elements 0, 4, …: four sums of two products each, of a row's coefficients and their weights.
  */
@@ -51,8 +50,7 @@ LMP_INLINE vf pair_products(const int16_t *const *from, vf columns) {
 }
 #endif
 
-/* --- texels of a preintegrated BRDF ------------------------------------------------------------
- */
+/* --- texels of a preintegrated BRDF ----------------------------------------------------------- */
 
 /* Four texels: TEXEL_PARTS registers of TEXEL_LANES. TEXEL_NUMBER(i) is the number of a row that is
  * number i of them; 12 and up are the next texel's and mean nothing. */

@@ -62,8 +62,7 @@ void lmp_preintegrated_brdf_write(const lmp_preintegrated_brdf *brdf, void *byte
     lmp_bytes_end(bytes, p);
 }
 
-/* --- reading -------------------------------------------------------------------------------------
- */
+/* --- reading ---------------------------------------------------------------------------------- */
 
 static bool positive(float value) {
     return value > 0 && value <= 1e9f;

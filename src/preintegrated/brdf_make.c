@@ -7,8 +7,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* --- the object ---------------------------------------------------------------------------------
- */
+/* --- the object ------------------------------------------------------------------------------- */
 
 lmp_result lmp_preintegrated_brdf_allocate(const lmp_host *host,
                                            const lmp_preintegrated_brdf_info *info,
@@ -49,8 +48,7 @@ lmp_preintegrated_brdf_info lmp_preintegrated_brdf_describe(const lmp_preintegra
     return brdf->info;
 }
 
-/* --- making one ---------------------------------------------------------------------------------
- */
+/* --- making one ------------------------------------------------------------------------------- */
 
 typedef struct making {
     const lmp_preintegrated_brdf_desc *desc;

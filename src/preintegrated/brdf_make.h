@@ -8,8 +8,7 @@
 #include "src/preintegrated/brdf.h"
 #include "src/preintegrated/brdf_series.h"
 
-/* --- rows ---------------------------------------------------------------------------------------
- */
+/* --- rows ------------------------------------------------------------------------------------- */
 
 /* The row coordinate of an angle from the rim and its inverse, the angle of the rim, and the half
  * angle at a step: those of readings (lookup.h), in double. */
@@ -21,8 +20,7 @@ double lmp_preintegrated_brdf_angle_at(int step);
 /* Sets reach and slope of the series: the fewest rows that keep the values. */
 lmp_result lmp_preintegrated_brdf_choose_rows(brdf_series *series, float error);
 
-/* --- thinning -----------------------------------------------------------------------------------
- */
+/* --- thinning --------------------------------------------------------------------------------- */
 
 /* Measured with three materials at 10 bands (docs/preintegration.md): a row step of 0.4 errs no
  * less for a fifth more memory; half the margins change nothing. */
@@ -60,8 +58,7 @@ static inline float brdf_larger(float a, float b) {
     return a > b ? a : b;
 }
 
-/* --- nodes and slices ---------------------------------------------------------------------------
- */
+/* --- nodes and slices ------------------------------------------------------------------------- */
 
 /* The steps of the half angle, and of the view, to hold, and their number. */
 lmp_result lmp_preintegrated_brdf_caps(const brdf_series *series, float error, int *nodes,

@@ -31,8 +31,7 @@ typedef struct probes {
     bool by_cap;                             /* steps are half angles */
 } probes;
 
-/* --- probing -----------------------------------------------------------------------------------
- */
+/* --- probing ---------------------------------------------------------------------------------- */
 
 static float *values_at(const probes *p, size_t node, size_t probe) {
     return p->values + (node * PROBES + probe) * p->size;
@@ -77,8 +76,7 @@ static lmp_result sum_probes(probes *p, double from, double to, size_t tasks) {
     return lmp_host_run(&series->host, from, to, tasks, probe_task, p);
 }
 
-/* --- choosing ----------------------------------------------------------------------------------
- */
+/* --- choosing --------------------------------------------------------------------------------- */
 
 /* Rows on the sphere proper, g in 0 … pi. */
 static bool row_counts(const probes *p, size_t row, double rim) {

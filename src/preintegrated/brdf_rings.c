@@ -17,8 +17,7 @@
 #define COLUMNS_MAX 128 /* one a band at least */
 #define FEW_ORDERS  16  /* up to which all orders are sampled at twice their frequency */
 
-/* --- sets of views ------------------------------------------------------------------------------
- */
+/* --- sets of views ---------------------------------------------------------------------------- */
 
 /* Intervals over the azimuths: a power of two, for slices to halve it. Of many orders the last
  * ones are faint, and one interval an order is enough. */
@@ -53,8 +52,7 @@ void lmp_preintegrated_brdf_views_free(brdf_views *views) {
     views->coefficients = NULL;
 }
 
-/* --- the sum ------------------------------------------------------------------------------------
- */
+/* --- the sum ---------------------------------------------------------------------------------- */
 
 /* The mean of P_l over the cap, times the solid angles: R_l/R_0 (lobe_fill.c). */
 static void cap_means(const brdf_series *series, double half_angle, float *means) {

@@ -39,8 +39,7 @@ double lmp_preintegrated_brdf_angle_at(int step) {
     return 0.5 * fraction / (1 - fraction);
 }
 
-/* --- the choice ---------------------------------------------------------------------------------
- */
+/* --- the choice ------------------------------------------------------------------------------- */
 
 /* The probed rows of one half angle, at half their step. */
 typedef struct row_probe {

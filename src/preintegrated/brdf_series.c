@@ -15,8 +15,7 @@
 #define SAMPLES_MIN      16     /* and two a band */
 #define WIDTH            1.2f   /* of the finest detail, times the bands */
 
-/* --- the coefficients ---------------------------------------------------------------------------
- */
+/* --- the coefficients ------------------------------------------------------------------------- */
 
 /* One channel of a view on the full layout l² + l + m, `bands` bands of it. */
 static void expand(const lmp_brdf_table_info *info, const float *plane, int bands, float *sh) {

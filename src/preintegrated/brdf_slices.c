@@ -8,8 +8,7 @@
 
 #include <string.h>
 
-/* --- one slice ----------------------------------------------------------------------------------
- */
+/* --- one slice -------------------------------------------------------------------------------- */
 
 /* The spline's coefficients at the kept rows and columns, a column before the first and as many
  * after the last as a reading needs: [channel][row][column]. */
@@ -71,8 +70,7 @@ static void store(const brdf_grid *g, const row_range *range, brdf_column *colum
     column->texel_count += (after - before) * columns;
 }
 
-/* --- one half angle ------------------------------------------------------------------------------
- */
+/* --- one half angle --------------------------------------------------------------------------- */
 
 /* Readings of the slice come from half angles up to the neighbors'. */
 static row_range range_of(const brdf_series *series, const int *caps, int count, int index) {

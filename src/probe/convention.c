@@ -19,8 +19,7 @@ static double factor(const lmp_probe_convention *convention, int l, int m) {
     return value;
 }
 
-/* --- axes ---------------------------------------------------------------------------------------
- */
+/* --- axes ------------------------------------------------------------------------------------- */
 
 /* Rows: the axes of a convention in this library's world. */
 static void axes_of(const lmp_probe_convention *convention, int axes[3][3]) {
@@ -66,8 +65,7 @@ static void change_axes(int bands, int m[3][3], float *sh) {
         mirror_z(bands, sh);
 }
 
-/* --- conversion ---------------------------------------------------------------------------------
- */
+/* --- conversion ------------------------------------------------------------------------------- */
 
 void lmp_probe_convert(int bands, const lmp_probe_convention *from, const lmp_probe_convention *to,
                        const float *sh, float *converted) {

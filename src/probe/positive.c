@@ -8,8 +8,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* --- three bands: a quadratic polynomial on the sphere ------------------------------------------
- */
+/* --- three bands: a quadratic polynomial on the sphere ---------------------------------------- */
 
 /* f(n) = constant + linear·n + n·A n, the last without trace. */
 typedef struct quadratic {
@@ -97,8 +96,7 @@ float lmp_probe_minimum(int bands, const float *sh) {
     return (float)quadratic_minimum(quadratic_of(bands, sh));
 }
 
-/* --- the window ---------------------------------------------------------------------------------
- */
+/* --- the window ------------------------------------------------------------------------------- */
 
 static void set_weights(int bands, double mu, float *weights) {
     for (int l = 0; l < bands; l++) {

@@ -80,8 +80,7 @@ void lmp_sh_eval_double(int bands, const double direction[3], double *sh) {
     lmp_sh_eval_gradient_double(bands, direction, sh, NULL);
 }
 
-/* --- second derivatives -------------------------------------------------------------------------
- */
+/* --- second derivatives ----------------------------------------------------------------------- */
 
 /* Those of the polynomial p = q_l^m(z) {C_m, S_m}, and its first: what one coefficient needs. */
 typedef struct slopes {

@@ -79,8 +79,7 @@ void lmp_sh_combine(int bands, float s, const float *a, float t, const float *b,
         sh[i] = s * a[i] + t * b[i];
 }
 
-/* --- gradient ----------------------------------------------------------------------------------
- */
+/* --- gradient --------------------------------------------------------------------------------- */
 
 /* The derivatives of the polynomial q(z) C, without their part along the direction w: those of
  * Y(v/|v|) at w. */

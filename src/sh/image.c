@@ -51,8 +51,7 @@ static float float_of_half(uint16_t half) {
     return value;
 }
 
-/* --- a pass -----------------------------------------------------------------------------------
- */
+/* --- a pass ----------------------------------------------------------------------------------- */
 
 /* What is projected now: orders m … m+orders-1 of a few channels, and a run of texels. */
 typedef struct pass {
@@ -125,8 +124,7 @@ static void project(const void *image, grid g, add_image *add, int bands, int ch
     }
 }
 
-/* --- latitude-longitude ------------------------------------------------------------------------
- */
+/* --- latitude-longitude ----------------------------------------------------------------------- */
 
 static void add_latlong(const void *image, pass *p) {
     const lmp_latlong *map = image;
@@ -164,8 +162,7 @@ void lmp_sh_project_latlong(int bands, const lmp_latlong *image, float *sh) {
     project(image, g, add_latlong, bands, image->channels, sh);
 }
 
-/* --- cube maps ---------------------------------------------------------------------------------
- */
+/* --- cube maps -------------------------------------------------------------------------------- */
 
 /* A face: the axes of increasing column and row, and the axis it is on (OpenGL 4.6, table 8.19). */
 static const signed char face_axes[6][3][3] = {

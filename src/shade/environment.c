@@ -38,8 +38,7 @@ static environment_method method_of(const lmp_shade_settings *resolved, const lm
     return method;
 }
 
-/* --- surfaces that have lobes ------------------------------------------------------------------
- */
+/* --- surfaces that have lobes ----------------------------------------------------------------- */
 
 /* Some of a chunk's surfaces, which have the same number of Phong lobes. */
 typedef struct environment_chunk {
@@ -92,8 +91,7 @@ static void shade_lobes_of_chunk(const environment_method *method, const lmp_sur
     }
 }
 
-/* --- surfaces ----------------------------------------------------------------------------------
- */
+/* --- surfaces --------------------------------------------------------------------------------- */
 
 /* A surface of a table, or of what reflects nothing of an environment. */
 static void shade_one(const lmp_surfaces *surfaces, size_t i, const lmp_environment *e,

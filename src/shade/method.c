@@ -18,8 +18,7 @@ static void add_zonal(const shade_prepared *prepared, const shade_chunk *chunk,
                                    &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
 }
 
-/* --- from preintegrated lobes ------------------------------------------------------------------
- */
+/* --- from preintegrated lobes ----------------------------------------------------------------- */
 
 static void prepare_preintegrated(const lmp_shade_settings *settings, shade_prepared *prepared) {
     lmp_preintegrated_lobe_position position;

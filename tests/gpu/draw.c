@@ -207,8 +207,7 @@ static void materials_are_those_of_the_library(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
-/* --- glowing spheres ----------------------------------------------------------------------------
- */
+/* --- glowing spheres -------------------------------------------------------------------------- */
 
 /* A pixel's center on the sphere, off it, or so near the outline (±0) that rounding decides. */
 static int side_of_outline(const gpu_frame *frame, const scene_light *light, int x, int y) {
@@ -276,8 +275,7 @@ static void a_camera_inside_a_light_sees_it_all_round(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
-/* --- images -----------------------------------------------------------------------------------
- */
+/* --- images ----------------------------------------------------------------------------------- */
 
 static void samples_cover_a_pixel_in_part(void **state) {
     (void)state;
@@ -349,8 +347,7 @@ static void eight_bit_images_are_where_the_camera_says(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
-/* --- refusals -----------------------------------------------------------------------------------
- */
+/* --- refusals --------------------------------------------------------------------------------- */
 
 static void impossible_frames_are_refused_with_a_reason(void **state) {
     (void)state;

@@ -122,8 +122,7 @@ static void coefficients_agree_with_the_library(void **state) {
     }
 }
 
-/* --- probes -------------------------------------------------------------------------------------
- */
+/* --- probes ----------------------------------------------------------------------------------- */
 
 static const char probe_main[] =
     "layout(local_size_x = 64) in;\n"
@@ -170,8 +169,7 @@ static void irradiance_agrees_with_the_library(void **state) {
     glDeleteProgram(program);
 }
 
-/* --- GGX --------------------------------------------------------------------------------------
- */
+/* --- GGX -------------------------------------------------------------------------------------- */
 
 static const char ggx_head[] =
     "#version 450 core\n"

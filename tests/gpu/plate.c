@@ -65,8 +65,7 @@ static void lay_plate(plate *p, double view, double ratio) {
     };
 }
 
-/* --- as the specification says ------------------------------------------------------------------
- */
+/* --- as the specification says ---------------------------------------------------------------- */
 
 /* Where the ray through a pixel's center meets y = 0, and the direction from there to the eye;
  * false where it does not. */
@@ -178,8 +177,7 @@ static void plates_look_as_the_specification_says(void **state) {
     CHECK_WITHIN(check_errors_rms(&all), 0.02);
 }
 
-/* --- what comes through -------------------------------------------------------------------------
- */
+/* --- what comes through ----------------------------------------------------------------------- */
 
 static lmp_material seen_by_host;
 

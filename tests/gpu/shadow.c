@@ -6,8 +6,7 @@
 
 #include <omp.h>
 
-/* --- the ground truth ---------------------------------------------------------------------------
- */
+/* --- the ground truth ------------------------------------------------------------------------- */
 
 typedef struct ground_truth {
     image lit, lit_error, shadowed, shadowed_error;
@@ -126,8 +125,7 @@ static void the_mean_ratio_is_the_truth_of_an_environment(void **state) {
     environment_free(&e);
 }
 
-/* --- limits -------------------------------------------------------------------------------------
- */
+/* --- limits ----------------------------------------------------------------------------------- */
 
 static void any_number_of_threads_gives_the_same_bits(void **state) {
     (void)state;

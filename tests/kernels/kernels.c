@@ -90,8 +90,7 @@ static void both_layouts_hold_the_same_bits(void **test) {
     free(in);
 }
 
-/* --- the same bits from every compiler ---------------------------------------------------------
- */
+/* --- the same bits from every compiler -------------------------------------------------------- */
 
 static const uint32_t golden[KINDS][FEW] = {
 #include "tests/kernels/golden.h"
@@ -131,8 +130,7 @@ static void every_compiler_gives_the_bits_of_the_checksums(void **test) {
     free(in);
 }
 
-/* --- wrong kernels -----------------------------------------------------------------------------
- */
+/* --- wrong kernels ---------------------------------------------------------------------------- */
 
 /* One ulp in one lane of one value. */
 static lmp_kernels honest;

@@ -12,8 +12,7 @@ static void assert_refused(const char *name, const char *expected) {
     assert_int_equal(count_entries(folder), before);
 }
 
-/* --- a valid file to damage ---------------------------------------------------------------------
- */
+/* --- a valid file to damage ------------------------------------------------------------------- */
 
 #define HEAD                                                                                       \
     "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
@@ -110,8 +109,7 @@ static void random_damage_never_crashes_the_program(void **state) {
     }
 }
 
-/* --- lies and bombs -----------------------------------------------------------------------------
- */
+/* --- lies and bombs --------------------------------------------------------------------------- */
 
 static void counts_beyond_the_data_are_refused(void **state) {
     (void)state;
@@ -266,8 +264,7 @@ static void textures_that_cannot_be_are_refused(void **state) {
     assert_refused("embedded.gltf", "\"image 0\"");
 }
 
-/* --- files outside ------------------------------------------------------------------------------
- */
+/* --- files outside ---------------------------------------------------------------------------- */
 
 static void files_outside_the_folder_are_never_read(void **state) {
     (void)state;

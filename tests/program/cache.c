@@ -204,8 +204,7 @@ static void two_writers_leave_one_s_bytes(void **state) {
         waitpid(writers[i], NULL, 0);
 }
 
-/* --- sweeping -----------------------------------------------------------------------------------
- */
+/* --- sweeping --------------------------------------------------------------------------------- */
 
 static bool renamed_locked;
 

@@ -12,8 +12,7 @@
 
 enum { LONGEST_SIDE = 40, ROWS_A_CHUNK = 16, LAYERS = 3 };
 
-/* --- the reader: a file in memory, and how far it is read ---------------------------------------
- */
+/* --- the reader: a file in memory, and how far it is read ------------------------------------- */
 
 typedef struct reader {
     const unsigned char *bytes;
@@ -141,8 +140,7 @@ static void check_file(const char *name, const image_layer *layers) {
     free(data);
 }
 
-/* --- what is written ----------------------------------------------------------------------------
- */
+/* --- what is written -------------------------------------------------------------------------- */
 
 static float any_float(void) {
     const uint32_t bits = (uint32_t)(check_random() * 4294967296.0);

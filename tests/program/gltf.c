@@ -3,8 +3,7 @@
  * to a valid document. */
 #include "tests/program/gltf_document.h"
 
-/* --- every field by type, range and reference ---------------------------------------------------
- */
+/* --- every field by type, range and reference ------------------------------------------------- */
 
 /* The end of the JSON value that begins here. */
 static const char *value_end(const char *at) {
@@ -130,8 +129,7 @@ static void what_must_be_there_is_missed(void **state) {
     }
 }
 
-/* --- one by one ---------------------------------------------------------------------------------
- */
+/* --- one by one ------------------------------------------------------------------------------- */
 
 typedef struct change {
     const char *from, *to;

@@ -4,8 +4,7 @@
 
 #include <math.h>
 
-/* --- the bytes ----------------------------------------------------------------------------------
- */
+/* --- the bytes -------------------------------------------------------------------------------- */
 
 /* The document with its mesh's indices from accessor 1 (bytes), 2 (shorts) or 3 (words). */
 static void an_index_past_the_vertices_is_refused(void **state) {
@@ -122,8 +121,7 @@ static void sparse_accessors_replace_their_elements(void **state) {
     free(text);
 }
 
-/* --- the container ------------------------------------------------------------------------------
- */
+/* --- the container ---------------------------------------------------------------------------- */
 
 static void expect_bytes(const void *data, size_t size, const char *refusal) {
     scene_builder builder;
@@ -197,8 +195,7 @@ static void what_is_no_json_is_refused(void **state) {
         expect_bytes(cases[i].text, strlen(cases[i].text), cases[i].refusal);
 }
 
-/* --- what is left out ---------------------------------------------------------------------------
- */
+/* --- what is left out ------------------------------------------------------------------------- */
 
 #define MATERIAL(name)                                                                             \
     {                                                                                              \

@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- a valid document ---------------------------------------------------------------------------
- */
+/* --- a valid document ------------------------------------------------------------------------- */
 
 /* Its bytes: four positions, three indices in each of three types, two matrices, two times, two
  * translations, a joint and a weight a vertex, and an image of one pixel. */
@@ -112,8 +111,7 @@ static inline void fill_bytes(void) {
     memcpy(bytes + PIXEL, pixel_png, sizeof pixel_png);
 }
 
-/* --- reading one --------------------------------------------------------------------------------
- */
+/* --- reading one ------------------------------------------------------------------------------ */
 
 static inline unsigned char *pack_glb(const char *json, size_t *size) {
     const size_t length = strlen(json), padded = (length + 3) & ~(size_t)3;

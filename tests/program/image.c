@@ -148,8 +148,7 @@ static void paths_that_cannot_be_written_are_refused_at_once(void **state) {
     assert_non_null(strstr(error.text, ".png or .exr"));
 }
 
-/* --- exposure and tone --------------------------------------------------------------------------
- */
+/* --- exposure and tone ------------------------------------------------------------------------ */
 
 static void fill(image *pixels, float value) {
     for (size_t i = 0; i < VALUES; i++)

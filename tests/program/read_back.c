@@ -20,8 +20,7 @@ static char *read_file(const char *name, size_t *size) {
     return bytes;
 }
 
-/* --- PNG (ISO/IEC 15948) ------------------------------------------------------------------------
- */
+/* --- PNG (ISO/IEC 15948) ---------------------------------------------------------------------- */
 
 typedef struct png_file {
     uint32_t width, height;
@@ -142,8 +141,7 @@ static void every_pixel_of_a_png_is_found(void **state) {
     printf("tried: %d sizes of PNG read by zlib alone\n", tried);
 }
 
-/* --- CSV (RFC 4180) -----------------------------------------------------------------------------
- */
+/* --- CSV (RFC 4180) --------------------------------------------------------------------------- */
 
 /* The program's output as a file of the folder. */
 static void run(const char *arguments, const char *name) {
@@ -192,8 +190,7 @@ static void every_float_of_a_csv_is_found(void **state) {
     free(text);
 }
 
-/* --- JSON (RFC 8259) ----------------------------------------------------------------------------
- */
+/* --- JSON (RFC 8259) -------------------------------------------------------------------------- */
 
 /* Behind the value that begins here; the test fails where that is none. */
 static const char *skip_value(const char *at);

@@ -52,8 +52,7 @@ static void assert_error(const sandbox_job *job, const char *expected) {
     assert_null(strchr(error.text, '\n'));
 }
 
-/* --- what the work may do -----------------------------------------------------------------------
- */
+/* --- what the work may do --------------------------------------------------------------------- */
 
 static bool write_greeting(void *context, int output, cli_error *error) {
     (void)error;
@@ -99,8 +98,7 @@ static void files_come_from_the_parent_alone(void **state) {
     assert_error(&job, "no file can be opened");
 }
 
-/* --- what ends it -------------------------------------------------------------------------------
- */
+/* --- what ends it ----------------------------------------------------------------------------- */
 
 static bool report(void *context, int output, cli_error *error) {
     (void)output;
@@ -189,8 +187,7 @@ static void limits_end_the_work(void **state) {
     assert_error(&job, "SCENE: takes too long");
 }
 
-/* --- escapes ------------------------------------------------------------------------------------
- */
+/* --- escapes ---------------------------------------------------------------------------------- */
 
 typedef struct attempt {
     const char *name;

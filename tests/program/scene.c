@@ -37,8 +37,7 @@ static void assert_unit_and_inside(const scene *s) {
     }
 }
 
-/* --- files --------------------------------------------------------------------------------------
- */
+/* --- files ------------------------------------------------------------------------------------ */
 
 static void files_hold_what_the_facts_say(void **state) {
     (void)state;
@@ -171,8 +170,7 @@ static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) 
     scene_free(&s);
 }
 
-/* --- the cache ----------------------------------------------------------------------------------
- */
+/* --- the cache -------------------------------------------------------------------------------- */
 
 static void find_cached(char *path, size_t size) {
     const char *cache = in_folder("cache/lampion");
@@ -228,8 +226,7 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
     scene_free(&first);
 }
 
-/* --- built in -----------------------------------------------------------------------------------
- */
+/* --- built in --------------------------------------------------------------------------------- */
 
 /* Right-handed: what was +z is +y, what was +y is -z. */
 static void check_stands(const float lying[3], const float standing[3]) {
@@ -300,8 +297,7 @@ static void the_atrium_is_the_same_for_a_seed_and_another_for_another(void **sta
     scene_free(&c);
 }
 
-/* --- lights -------------------------------------------------------------------------------------
- */
+/* --- lights ----------------------------------------------------------------------------------- */
 
 static void random_lights_are_the_same_everywhere(void **state) {
     (void)state;

@@ -27,8 +27,7 @@ static const char *in_scene(const char *name) {
     return path;
 }
 
-/* --- where they lie -----------------------------------------------------------------------------
- */
+/* --- where they lie --------------------------------------------------------------------------- */
 
 /* Exchanges two names again and again, until it is killed. */
 static pid_t exchange(const char *a, const char *b) {
@@ -71,8 +70,7 @@ static void no_link_leads_outside_while_names_change(void **state) {
     printf("tried: %d openings of a name that changes\n", times);
 }
 
-/* --- by what names ------------------------------------------------------------------------------
- */
+/* --- by what names ---------------------------------------------------------------------------- */
 
 static void a_name_is_decoded_once(void **state) {
     (void)state;
@@ -116,8 +114,7 @@ static void a_cached_scene_knows_its_files_by_the_same_names(void **state) {
     }
 }
 
-/* --- how often ----------------------------------------------------------------------------------
- */
+/* --- how often -------------------------------------------------------------------------------- */
 
 enum { LARGE = 64 << 20 };
 

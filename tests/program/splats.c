@@ -20,8 +20,7 @@ enum {
 
 static float original[SPLATS][ROW], rotated[SPLATS][ROW];
 
-/* --- files --------------------------------------------------------------------------------------
- */
+/* --- files ------------------------------------------------------------------------------------ */
 
 static size_t put_header(char *text, size_t size, int rest_count) {
     size_t n = (size_t)snprintf(text, size,
@@ -84,8 +83,7 @@ static int make_splats(void **state) {
     return 0;
 }
 
-/* --- the judges ---------------------------------------------------------------------------------
- */
+/* --- the judges ------------------------------------------------------------------------------- */
 
 /* The color of a channel seen along unit d, as the rasterizer sums it. */
 static double color_seen(const float *row, int channel, const double d[3]) {

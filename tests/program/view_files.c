@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* --- settings, screenshots, scripts -------------------------------------------------------------
- */
+/* --- settings, screenshots, scripts ----------------------------------------------------------- */
 
 static void screenshots_keep_every_setting(void **unused) {
     (void)unused;
@@ -136,8 +135,7 @@ static void every_key_of_the_help_does_something(void **unused) {
     assert_true(state.wishes.quit && state.wishes.shot && state.wishes.reload);
 }
 
-/* --- drafts and drawings ------------------------------------------------------------------------
- */
+/* --- drafts and drawings ---------------------------------------------------------------------- */
 
 static void drafts_have_fewer_triangles_in_the_same_bounds(void **unused) {
     (void)unused;

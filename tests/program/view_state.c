@@ -7,8 +7,7 @@ static double distance(const float *a, const float *b) {
                          (a[2] - b[2]) * (a[2] - b[2])));
 }
 
-/* --- the camera ---------------------------------------------------------------------------------
- */
+/* --- the camera ------------------------------------------------------------------------------- */
 
 static void orbiting_keeps_the_target_and_the_distance(void **unused) {
     (void)unused;
@@ -115,8 +114,7 @@ static void parallel_rays_pan_zoom_and_frame(void **unused) {
     framing_shows_every_corner(unused);
 }
 
-/* --- shading, sides, materials ------------------------------------------------------------------
- */
+/* --- shading, sides, materials ---------------------------------------------------------------- */
 
 static void keys_change_the_side_under_the_pointer(void **unused) {
     (void)unused;

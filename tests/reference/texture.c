@@ -115,8 +115,7 @@ static void coordinates_are_transformed_first(void **state) {
         assert_true(moved[c] == 1);
 }
 
-/* --- lobes --------------------------------------------------------------------------------------
- */
+/* --- lobes ------------------------------------------------------------------------------------ */
 
 static void lobes_have_the_value_of_their_definition(void **state) {
     (void)state;

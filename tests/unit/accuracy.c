@@ -212,8 +212,7 @@ static void errors_grow_slowly_with_the_number_of_bands(void **state) {
     }
 }
 
-/* --- near the surface of a light ---------------------------------------------------------------
- */
+/* --- near the surface of a light -------------------------------------------------------------- */
 
 /* The largest over spheres at d = (1 + gap) r. */
 static double measure_touching(int bands, double gap) {

@@ -9,8 +9,7 @@
 
 #define PAIRS 10000
 
-/* --- round trips -------------------------------------------------------------------------------
- */
+/* --- round trips ------------------------------------------------------------------------------ */
 
 typedef lmp_result (*writer)(const lmp_host *, const lmp_brdf *, void **, size_t *);
 typedef lmp_result (*reader)(const lmp_host *, const void *, size_t, lmp_parse_error *,
@@ -128,8 +127,7 @@ static void merl_cell_centres_are_exact(void **state) {
     free(bytes);
 }
 
-/* --- bad bytes ---------------------------------------------------------------------------------
- */
+/* --- bad bytes -------------------------------------------------------------------------------- */
 
 /* A MERL file of 2 x 3 x 4 cells, each holding its number. */
 enum { SMALL_MERL = 12 + 24 * 24 };
@@ -210,8 +208,7 @@ static void negative_merl_cells_are_black(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* --- memory ------------------------------------------------------------------------------------
- */
+/* --- memory ----------------------------------------------------------------------------------- */
 
 typedef lmp_result (*attempt)(const lmp_host *host);
 

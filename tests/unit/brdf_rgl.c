@@ -3,8 +3,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/unit/tensor.h"
 
-/* --- values ------------------------------------------------------------------------------------
- */
+/* --- values ----------------------------------------------------------------------------------- */
 
 /* The value over the second cosine, times ndf / (4 sigma) where the file says so. */
 static void samples_are_scaled_by_the_model_and_the_cosine(void **state) {
@@ -159,8 +158,7 @@ static void spectral_lines_have_the_color_of_the_observer(void **state) {
     CHECK_WITHIN(worst, 0.012);
 }
 
-/* --- folding -----------------------------------------------------------------------------------
- */
+/* --- folding ---------------------------------------------------------------------------------- */
 
 /* Takes a written file apart. */
 static tensor taken_apart(const unsigned char *bytes) {

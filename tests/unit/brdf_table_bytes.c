@@ -60,8 +60,7 @@ static void descriptions_out_of_range_are_refused(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* --- bytes -------------------------------------------------------------------------------------
- */
+/* --- bytes ------------------------------------------------------------------------------------ */
 
 static unsigned char *written(const lmp_brdf *brdf, const lmp_brdf_table_desc *desc, size_t *size) {
     lmp_brdf_table *table = NULL;

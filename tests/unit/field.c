@@ -7,8 +7,7 @@
 
 enum { BANDS = 5, VALUES = 3 * BANDS * BANDS, LIGHTS = 60 };
 
-/* --- interpolation -----------------------------------------------------------------------------
- */
+/* --- interpolation ---------------------------------------------------------------------------- */
 
 /* Every cubic of x, y, z, each with a factor; its derivatives in slopes. */
 static double cubic(const double at[3], const double *factors, double slopes[3]) {
@@ -109,8 +108,7 @@ static void the_error_falls_with_the_fourth_power_of_a_cell(void **test) {
     }
 }
 
-/* --- near lights -------------------------------------------------------------------------------
- */
+/* --- near lights ------------------------------------------------------------------------------ */
 
 static void a_light_errs_by_no_more_than_the_field_says(void **test) {
     (void)test;
@@ -226,8 +224,7 @@ static void outside_the_grid_every_light_is_summed(void **test) {
     lmp_field_destroy(field);
 }
 
-/* --- lobes -------------------------------------------------------------------------------------
- */
+/* --- lobes ------------------------------------------------------------------------------------ */
 
 static void lobes_respond_as_to_the_coefficients(void **test) {
     (void)test;

@@ -41,8 +41,7 @@ static uint16_t half_of(float value) {
     return (uint16_t)(value == 0 ? sign : sign | (uint32_t)exponent << 10 | mantissa);
 }
 
-/* --- latitude-longitude ------------------------------------------------------------------------
- */
+/* --- latitude-longitude ----------------------------------------------------------------------- */
 
 /* The texel that shows direction w, as the shaders of three.js and of glTF's sample viewer look it
  * up: u = atan(z, x) / 2 pi + 1/2, v = acos(y) / pi from the top. */
@@ -195,8 +194,7 @@ static void halves_of_every_size_are_read(void **state) {
     assert_true(isnan(sh[0]));
 }
 
-/* --- cube maps ---------------------------------------------------------------------------------
- */
+/* --- cube maps -------------------------------------------------------------------------------- */
 
 /* The face of direction w and where on it, in 0 … 1: table 8.19 of the OpenGL 4.6 specification. */
 static int specified_face(const double w[3], double *s, double *t) {

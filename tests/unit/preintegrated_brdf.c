@@ -5,8 +5,7 @@
 #include <lampion/cpu.h>
 #include <stdlib.h>
 
-/* --- errors ------------------------------------------------------------------------------------
- */
+/* --- errors ----------------------------------------------------------------------------------- */
 
 static lmp_rgb shaded(const lmp_brdf_table *table, const lmp_preintegrated_brdf *preintegrated,
                       const probe *p, lmp_vec3 direction) {
@@ -179,8 +178,7 @@ static void a_larger_error_takes_less_memory(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-/* --- many surfaces ------------------------------------------------------------------------------
- */
+/* --- many surfaces ---------------------------------------------------------------------------- */
 
 enum { SURFACES = 531, MATERIALS = 5, LIGHTS = 43 };
 

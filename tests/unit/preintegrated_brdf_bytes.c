@@ -5,8 +5,7 @@
 
 #include <stdlib.h>
 
-/* --- making ------------------------------------------------------------------------------------
- */
+/* --- making ----------------------------------------------------------------------------------- */
 
 static lmp_brdf_table *small_table(void) {
     const lmp_brdf_table_desc desc = { .bands = 2, .views = 3, .rings_max = 32 };
@@ -89,8 +88,7 @@ static void a_refused_allocation_leaks_nothing(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-/* --- bytes -------------------------------------------------------------------------------------
- */
+/* --- bytes ------------------------------------------------------------------------------------ */
 
 static void bytes_read_back_are_the_same_brdf(void **state) {
     (void)state;

@@ -15,8 +15,7 @@ static void randomize(float *sh, int count) {
         sh[k] = (float)check_random_between(-1, 1);
 }
 
-/* --- irradiance ---------------------------------------------------------------------------------
- */
+/* --- irradiance ------------------------------------------------------------------------------- */
 
 /* A sphere above the horizon: pi L sin²a cos(theta) exactly. */
 static void irradiance_of_a_sphere_is_its_closed_form(void **state) {
@@ -93,8 +92,7 @@ static void constants_are_the_published_polynomial(void **state) {
     assert_true(half.last[0] == k.last[0] / 2 && half.last[3] == 1);
 }
 
-/* --- conventions --------------------------------------------------------------------------------
- */
+/* --- conventions ------------------------------------------------------------------------------ */
 
 /* SphericalHarmonics3.getBasisAt of three.js, as its documentation prints it. */
 static void three_js_basis(const double w[3], double basis[9]) {
@@ -239,8 +237,7 @@ static void axes_are_recognized(void **state) {
     }
 }
 
-/* --- from samples -------------------------------------------------------------------------------
- */
+/* --- from samples ----------------------------------------------------------------------------- */
 
 typedef struct sampled {
     lmp_vec3 directions[400];
@@ -335,8 +332,7 @@ static void bad_samples_are_refused(void **state) {
     assert_int_equal(lmp_probe_fit(NULL, 1, 0, &s.samples, fitted), LMP_ERROR_ARGUMENT);
 }
 
-/* --- series that stay positive ------------------------------------------------------------------
- */
+/* --- series that stay positive ---------------------------------------------------------------- */
 
 static double least_on_grid(int bands, const float *sh) {
     double least = (double)INFINITY;

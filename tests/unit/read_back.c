@@ -11,8 +11,7 @@
 
 #define PI 3.14159265358979323846
 
-/* --- bytes, least first -------------------------------------------------------------------------
- */
+/* --- bytes, least first ----------------------------------------------------------------------- */
 
 typedef struct cursor {
     const unsigned char *bytes;
@@ -82,8 +81,7 @@ static cursor open_frame(const unsigned char *bytes, size_t size, const char *na
     return c;
 }
 
-/* --- .lmpt --------------------------------------------------------------------------------------
- */
+/* --- .lmpt ------------------------------------------------------------------------------------ */
 
 static lmp_brdf *create_ggx(float alpha_x, float alpha_y) {
     lmp_brdf *brdf;
@@ -130,8 +128,7 @@ static void tables_hold_their_coefficients(void **state) {
     check_table(create_table(0.2f, 8), 8, 0, 25);
 }
 
-/* --- .lmpr and .lmps ----------------------------------------------------------------------------
- */
+/* --- .lmpr and .lmps -------------------------------------------------------------------------- */
 
 static void preintegrated_lobes_hold_their_cells(void **state) {
     (void)state;
@@ -205,8 +202,7 @@ static void preintegrated_brdfs_hold_their_slices(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
-/* --- .binary, as MERL's BRDFRead.cpp has it ------------------------------------------------------
- */
+/* --- .binary, as MERL's BRDFRead.cpp has it --------------------------------------------------- */
 
 static void rotate(const double axis[3], double angle, double v[3]) {
     const double c = cos(angle), s = sin(angle);
@@ -265,8 +261,7 @@ static void merl_files_hold_each_cell(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
-/* --- .bsdf, as the RGL database's tensor files are -----------------------------------------------
- */
+/* --- .bsdf, as the RGL database's tensor files are -------------------------------------------- */
 
 typedef struct field {
     uint64_t type, dimensions, shape[5], offset, count;

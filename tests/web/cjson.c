@@ -77,8 +77,7 @@ static void values_nest_as_deep_as_the_grammar_allows(void **state) {
     cJSON_Delete(root);
 }
 
-/* --- memory that runs out ------------------------------------------------------------------------
- */
+/* --- memory that runs out --------------------------------------------------------------------- */
 
 static int granted, held;
 

@@ -70,8 +70,7 @@ static double pole(int l) {
     return sqrt((2.0 * l + 1) / (4 * pi));
 }
 
-/* --- zonal sums: P_l = t_l u P_(l-1) - d_l P_(l-2), in monic form t = 1 -------------------------
- */
+/* --- zonal sums: P_l = t_l u P_(l-1) - d_l P_(l-2), in monic form t = 1 ----------------------- */
 
 static double zonal_t(int form, int l) {
     return form ? 1 : (2 * l - 1) / (double)l;
@@ -116,8 +115,7 @@ static double even_c(int form, int l) {
     return l < 4 ? 0 : even_down(form, l) * zonal_d(form, l - 2);
 }
 
-/* --- triple products --------------------------------------------------------------------------
- */
+/* --- triple products -------------------------------------------------------------------------- */
 
 enum { DEGREES = 3 * LMP_TABLE_TRIPLE_BANDS }; /* of a product of three, and more */
 
