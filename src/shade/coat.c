@@ -38,7 +38,7 @@ static void shade_uncoated(const coat_light *light, const lmp_surfaces *surfaces
 }
 
 /* Coats of some surfaces: as many as the stack has room for. */
-enum { COATS = 16 };
+enum { COATS = 8 };
 typedef struct coats {
     size_t count, at[COATS]; /* among the caller's */
     lmp_material material[COATS];

@@ -3,8 +3,13 @@
 #ifndef LAMPION_SHADE_PLANES_H
 #define LAMPION_SHADE_PLANES_H
 
-/* Planes of five lobes: a larger chunk would leave the stack that base.h promises. */
+/* Planes of five lobes: a larger chunk would leave the stack that base.h promises. Code that is
+ * to be debugged keeps more there; no result depends on it. */
+#ifdef NDEBUG
 #define LMP_BATCH 64
+#else
+#define LMP_BATCH 48
+#endif
 
 #include "src/kernels/batch.h"
 #include "src/shade/material.h"
