@@ -16,7 +16,8 @@
  * that is too small is slow there, not wrong.
  *
  * docs/fields.md has errors, times and how to choose a grid. A field may be read by many threads at
- * once, while none changes it. */
+ * once, while none changes it. A release build, which asserts nothing (base.h), stays in its arrays
+ * at any point; the index of a light that is not there leads outside them. */
 #ifndef LAMPION_FIELD_H
 #define LAMPION_FIELD_H
 
