@@ -13,9 +13,10 @@
  *     prints, nothing exits.
  *   - What a comment asks of arguments (ranges, unit and finite vectors, arrays that do not
  *     overlap) is asserted where the library was built without NDEBUG. A release build trusts its
- *     caller, and still: finite numbers give finite ones; NaN gives NaN where it matters, or the
- *     least of a range that a number is clamped to; and no float, in range or not, makes it read or
- *     write outside the arrays that bands, counts and strides describe. Those it cannot check.
+ *     caller, and still: finite numbers whose squares are finite give finite ones; NaN gives NaN
+ *     where it matters, or the least of a range that a number is clamped to; and no float, in range
+ *     or not, makes it read or write outside the arrays that bands, counts and strides describe.
+ *     Those it cannot check.
  *   - Arrays whose count is 0 may be NULL.
  *   - Degenerate geometry (a light that contains the point, d = 0, a zero radius) is no error: its
  *     result is documented, finite and continuous.

@@ -17,7 +17,8 @@
  *
  * Coordinates and radii are at most LMP_LENGTH_MAX in magnitude. Lengths below 1e-18 lose digits,
  * for their squares do, and may count as 0. A release build, which asserts nothing (base.h), gives
- * finite values for any finite lights and points, of no meaning where these are out of range. */
+ * finite values for finite lights and points as long as the squares of their distances are finite
+ * (1e19), of no meaning where these are out of range. */
 #ifndef LAMPION_LIGHT_H
 #define LAMPION_LIGHT_H
 
