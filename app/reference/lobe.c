@@ -34,6 +34,7 @@ void reference_surface_set(reference_surface *surface, const reference_band_limi
     diffuse->ggx = specular->ggx = NULL;
     surface->lobe_count = 2;
     surface->band_limited = limit->bands > 0;
+    surface->occluded = 0;
     surface->tabulated = NULL;
     surface->ggx = surface->coat = NULL;
     surface->under = 1;

@@ -131,7 +131,6 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
         emission[c] = glow[c] * (double)material->emission[c];
     }
     sample(f, &material->occlusion_map, hit, shade);
-    surface->occluded = (double)material->occlusion * (1 - shade[0]);
     const reference_vec normal =
         mapped_normal(f, hit, &material->normal_map, (double)material->normal_scale);
     const reference_dielectric dielectric = dielectric_of(f, hit, material);
@@ -148,6 +147,7 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     } else if (material->coat > 0) {
         coat_surface(f, own, hit, view, surface, emission);
     }
+    surface->occluded = (double)material->occlusion * (1 - shade[0]);
 }
 
 static void see_backdrop(const frame *f, reference_vec direction, double emission[3]) {
