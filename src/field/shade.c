@@ -17,10 +17,6 @@ typedef struct field_shading {
     float window[LMP_FIELD_BANDS_MAX], diffuse[LMP_FIELD_BANDS_MAX];
 } field_shading;
 
-static lmp_vec3 point_of(const shade_chunk *chunk, size_t i) {
-    return (lmp_vec3) { chunk->point.x.at[i], chunk->point.y.at[i], chunk->point.z.at[i] };
-}
-
 /* --- far lights ------------------------------------------------------------------------------- */
 
 static lmp_kernel_vec3 from(const lmp_kernel_vec3 *planes, size_t first) {
@@ -46,7 +42,7 @@ static __attribute__((noinline)) void shade_far(const field_shading *shading, si
             sums.specular[k][c] = chunk->sums.specular[k][c] + first;
     }
     for (size_t i = 0; i < count; i++)
-        points[i] = point_of(chunk, first + i);
+        points[i] = lmp_batch_get(&chunk->point, first + i);
     if (count < FIELD_BRICK)
         memset(planes, 0, FIELD_BRICK * field->values * sizeof *planes);
     const lmp_kernel_out out = { planes, FIELD_BRICK, 1 };
@@ -70,9 +66,9 @@ static float distance(lmp_vec3 a, lmp_vec3 b) {
 }
 
 static chunk_ball ball_of(const shade_chunk *chunk) {
-    lmp_vec3 low = point_of(chunk, 0), high = low;
+    lmp_vec3 low = lmp_batch_get(&chunk->point, 0), high = low;
     for (size_t i = 1; i < chunk->count; i++) {
-        const lmp_vec3 p = point_of(chunk, i);
+        const lmp_vec3 p = lmp_batch_get(&chunk->point, i);
         low = (lmp_vec3) { fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z) };
         high = (lmp_vec3) { fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z) };
     }
@@ -101,7 +97,7 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
     lmp_field_set_clear(field, &near);
     for (size_t i = 0; i < chunk->count; i++) {
         field_place place;
-        (void)lmp_field_find(field, point_of(chunk, i), &place);
+        (void)lmp_field_find(field, lmp_batch_get(&chunk->point, i), &place);
         const uint32_t block = lmp_field_block(field, place.cell);
         if (block != last)
             lmp_field_set_add(field, block, &near);
@@ -162,14 +158,7 @@ static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces
                       size_t stride, float *rgb) {
     const lmp_field *field = shading->field;
     const lmp_material *material = lmp_material_at(surfaces, i);
-    const lmp_vec3 point = lmp_vec3_element(&surfaces->position, i);
-    lmp_surface surface = { .position = point,
-                            .normal = lmp_vec3_element(&surfaces->normal, i),
-                            .view = lmp_vec3_element(&surfaces->view, i) };
-    if (surfaces->tangent.x)
-        surface.tangent = lmp_vec3_element(&surfaces->tangent, i);
-    if (surfaces->coat_normal.x)
-        surface.coat_normal = lmp_vec3_element(&surfaces->coat_normal, i);
+    const lmp_surface surface = lmp_surface_at(surfaces, i);
     const bool preintegrated = material->kind == LMP_MATERIAL_PREINTEGRATED ||
                                (material->kind == LMP_MATERIAL_TABLE && !material->table);
     lmp_rgb color;
@@ -190,7 +179,7 @@ static __attribute__((noinline)) void shade_chunks(const field_shading *shading,
                                                    size_t count, size_t stride, float *rgb) {
     shade_chunk chunk;
     while (count > 0) {
-        count = lmp_shade_take_alike(surfaces, LMP_SHADE_ZONAL, left, count, &chunk);
+        count = lmp_shade_take_alike(surfaces, false, left, count, &chunk);
         lmp_shade_load_chunk(surfaces, &chunk);
         for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
             shade_far(shading, first, &chunk);

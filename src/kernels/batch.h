@@ -38,10 +38,27 @@ static inline void lmp_batch_floats(const float *array, size_t stride, size_t fi
         plane->at[i] = 0;
 }
 
-static inline void lmp_batch_set(lmp_vec3 v, lmp_batch_vec3 *planes, size_t i) {
-    planes->x.at[i] = v.x;
-    planes->y.at[i] = v.y;
-    planes->z.at[i] = v.z;
+static inline void lmp_batch_set(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
+    planes->x.at[i] = x;
+    planes->y.at[i] = y;
+    planes->z.at[i] = z;
+}
+
+static inline lmp_vec3 lmp_batch_get(const lmp_batch_vec3 *planes, size_t i) {
+    return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
+}
+
+/* Element i of the caller's at `to`. */
+static inline void lmp_batch_load(const lmp_vec3_array *array, size_t i, lmp_batch_vec3 *planes,
+                                  size_t to) {
+    const lmp_vec3 v = lmp_vec3_element(array, i);
+    lmp_batch_set(v.x, v.y, v.z, planes, to);
+}
+
+/* 0 in the lanes past the last of `count`. */
+static inline void lmp_batch_fill(lmp_batch_vec3 *planes, size_t count) {
+    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        lmp_batch_set(0, 0, 0, planes, i);
 }
 
 /* The same of vectors; where their members are not planes, in one pass over them. */
@@ -55,9 +72,8 @@ static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, siz
         return vectors;
     }
     for (size_t i = 0; i < count; i++)
-        lmp_batch_set(lmp_vec3_element(array, first + i), planes, i);
-    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
-        lmp_batch_set((lmp_vec3) { 0, 0, 0 }, planes, i);
+        lmp_batch_load(array, first + i, planes, i);
+    lmp_batch_fill(planes, count);
     return vectors;
 }
 

@@ -36,9 +36,8 @@ static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const shade_chu
     if (chunk->at[count - 1] - first == count - 1)
         return lmp_batch_vectors(array, first, count, planes);
     for (size_t i = 0; i < count; i++)
-        lmp_batch_set(lmp_vec3_element(array, chunk->at[i]), planes, i);
-    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
-        lmp_batch_set((lmp_vec3) { 0, 0, 0 }, planes, i);
+        lmp_batch_load(array, chunk->at[i], planes, i);
+    lmp_batch_fill(planes, count);
     return (lmp_kernel_vec3) { planes->x.at, planes->y.at, planes->z.at };
 }
 
@@ -114,8 +113,7 @@ lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk 
         white.intensity = plain.intensity = (lmp_rgb) { 1, 1, 1 };
         plain.kind = LMP_LIGHT_POINT;
         for (size_t i = 0; i < chunk->count; i++) {
-            const lmp_vec3 at = { chunk->point.x.at[i], chunk->point.y.at[i],
-                                  chunk->point.z.at[i] };
+            const lmp_vec3 at = lmp_batch_get(&chunk->point, i);
             lmp_cap cone, full;
             lmp_light_cap(&white, at, &cone);
             lmp_light_cap(&plain, at, &full);

@@ -92,6 +92,18 @@ static inline const lmp_vec3 *lmp_coat_normal(const lmp_surface *surface) {
     return n->x == 0 && n->y == 0 && n->z == 0 ? &surface->normal : n;
 }
 
+/* One of many. */
+static inline lmp_surface lmp_surface_at(const lmp_surfaces *surfaces, size_t i) {
+    const lmp_vec3_array *const arrays[] = { &surfaces->position, &surfaces->normal,
+                                             &surfaces->view, &surfaces->tangent,
+                                             &surfaces->coat_normal };
+    lmp_vec3 members[5] = { { 0, 0, 0 } };
+    for (int k = 0; k < 5; k++)
+        if (arrays[k]->x)
+            members[k] = lmp_vec3_element(arrays[k], i);
+    return (lmp_surface) { members[0], members[1], members[2], members[3], members[4] };
+}
+
 /* One surface as many, which functions of one hand to those of many. */
 static inline lmp_surfaces lmp_surfaces_of(const lmp_material *material,
                                            const lmp_surface *surface) {

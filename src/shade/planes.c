@@ -12,16 +12,6 @@ static float *plane_of(lmp_batch_vec3 *planes, size_t c) {
     return c == 0 ? planes->x.at : c == 1 ? planes->y.at : planes->z.at;
 }
 
-static void store_vector(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
-    planes->x.at[i] = x;
-    planes->y.at[i] = y;
-    planes->z.at[i] = z;
-}
-
-static lmp_vec3 from_planes(const lmp_batch_vec3 *planes, size_t i) {
-    return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
-}
-
 /* Of a material that has one lobe, its own. */
 static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t count,
                        const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
@@ -29,10 +19,10 @@ static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t co
     shade_lobe_planes *lobe = &planes->lobe[0];
     for (size_t i = 0; i < count; i++) {
         const lmp_material *m = lmp_material_at(surfaces, at[i]);
-        const lmp_vec3 axis = lmp_shade_mirrored(from_planes(normal, i), from_planes(view, i));
-        store_vector(m->diffuse.r, m->diffuse.g, m->diffuse.b, &planes->diffuse, i);
-        store_vector(axis.x, axis.y, axis.z, &lobe->axis, i);
-        store_vector(m->specular.r, m->specular.g, m->specular.b, &lobe->weight, i);
+        const lmp_vec3 axis = lmp_shade_mirrored(lmp_batch_get(normal, i), lmp_batch_get(view, i));
+        lmp_batch_set(m->diffuse.r, m->diffuse.g, m->diffuse.b, &planes->diffuse, i);
+        lmp_batch_set(axis.x, axis.y, axis.z, &lobe->axis, i);
+        lmp_batch_set(m->specular.r, m->specular.g, m->specular.b, &lobe->weight, i);
         lobe->exponent.at[i] = m->exponent;
     }
 }
@@ -62,8 +52,8 @@ static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t coun
         layers[i] = lmp_shade_layers(material);
         roughness.at[i] = material->roughness;
         f90.at[i] = of->f90;
-        store_vector(of->diffuse.r, of->diffuse.g, of->diffuse.b, &planes->diffuse, i);
-        store_vector(of->f0.r, of->f0.g, of->f0.b, &f0, i);
+        lmp_batch_set(of->diffuse.r, of->diffuse.g, of->diffuse.b, &planes->diffuse, i);
+        lmp_batch_set(of->f0.r, of->f0.g, of->f0.b, &f0, i);
     }
     for (int k = 0; k < lobe_count; k++) {
         shade_lobe_planes *to = &planes->lobe[k];
@@ -94,11 +84,11 @@ void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count
         load_phong(surfaces, at, count, normal, view, planes);
     else
         load_ggx(surfaces, at, count, lobes, normal, view, planes);
-    for (int k = 0; k < lobes; k++)
-        for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++) {
-            store_vector(0, 0, 0, &planes->lobe[k].axis, i);
+    for (int k = 0; k < lobes; k++) {
+        lmp_batch_fill(&planes->lobe[k].axis, count);
+        for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
             planes->lobe[k].exponent.at[i] = 0;
-        }
+    }
 }
 
 void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade_planes *planes) {

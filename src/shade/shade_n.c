@@ -3,25 +3,12 @@
 #include "src/light/cap.h"
 #include "src/shade/method.h"
 
-static lmp_vec3 vector_at(const lmp_vec3_array *array, size_t i) {
-    lmp_vec3 v = { 0, 0, 0 };
-    if (array->x) {
-        memcpy(&v.x, (const char *)array->x + i * array->stride, sizeof v.x);
-        memcpy(&v.y, (const char *)array->y + i * array->stride, sizeof v.y);
-        memcpy(&v.z, (const char *)array->z + i * array->stride, sizeof v.z);
-    }
-    return v;
-}
-
 /* Sums of coefficients: surface by surface. */
 static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *surfaces,
                        const size_t *at, size_t count, const lmp_light *lights, size_t light_count,
                        size_t stride, float *rgb) {
     for (size_t i = 0; i < count; i++) {
-        const lmp_surface surface = { .position = vector_at(&surfaces->position, at[i]),
-                                      .normal = vector_at(&surfaces->normal, at[i]),
-                                      .view = vector_at(&surfaces->view, at[i]),
-                                      .tangent = vector_at(&surfaces->tangent, at[i]) };
+        const lmp_surface surface = lmp_surface_at(surfaces, at[i]);
         const lmp_rgb color = lmp_shade_sum(resolved, lmp_material_at(surfaces, at[i]), &surface,
                                             lights, light_count);
         memcpy((char *)rgb + at[i] * stride, &color, sizeof color);

@@ -54,6 +54,17 @@ static void compare(const lmp_rgb *rgb, const lmp_rgb *exact, double *worst, dou
     *rms = sqrt(sum / COUNT) / peak;
 }
 
+/* Errors of a field's surfaces against those under all its lights. */
+static void shade_both(const lmp_shade_settings *settings, const lmp_field_desc *desc,
+                       const lmp_light *of, size_t count, double *worst, double *rms) {
+    lmp_field *field = field_of(desc, of, count);
+    lmp_rgb rgb[COUNT], exact[COUNT];
+    lmp_shade_n(settings, &surfaces, COUNT, of, count, 0, &exact->r);
+    lmp_field_shade_n(settings, field, &surfaces, COUNT, 0, &rgb->r);
+    compare(rgb, exact, worst, rms);
+    lmp_field_destroy(field);
+}
+
 static void surfaces_reflect_as_under_all_lights(void **test) {
     (void)test;
     scatter();
@@ -61,15 +72,10 @@ static void surfaces_reflect_as_under_all_lights(void **test) {
         for (int window = 0; window < LMP_WINDOWS; window++) {
             const lmp_field_desc desc = { .bands = bands };
             const lmp_shade_settings settings = { .bands = bands, .window = (lmp_window)window };
-            lmp_field *field = field_of(&desc, lights, LIGHTS);
-            lmp_rgb rgb[COUNT], exact[COUNT];
             double worst, rms;
-            lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, &exact->r);
-            lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
-            compare(rgb, exact, &worst, &rms);
+            shade_both(&settings, &desc, lights, LIGHTS, &worst, &rms);
             CHECK_WITHIN(worst, 0.01);
             CHECK_WITHIN(rms, 0.001);
-            lmp_field_destroy(field);
         }
 }
 
@@ -85,15 +91,10 @@ static void lights_that_are_no_spheres_are_summed_exactly(void **test) {
         others[i].outer = 1;
         others[i].angle = 0.4f;
     }
-    lmp_field *field = field_of(NULL, others, 10);
     const lmp_shade_settings settings = { .bands = 5 };
-    lmp_rgb rgb[COUNT], exact[COUNT];
     double worst, rms;
-    lmp_shade_n(&settings, &surfaces, COUNT, others, 10, 0, &exact->r);
-    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
-    compare(rgb, exact, &worst, &rms);
+    shade_both(&settings, NULL, others, 10, &worst, &rms);
     CHECK_WITHIN(worst, 5e-4); /* of skies, as shade.h says of lmp_shade_n */
-    lmp_field_destroy(field);
 }
 
 static void points_are_interpolated_as_small_spheres(void **test) {
@@ -103,15 +104,10 @@ static void points_are_interpolated_as_small_spheres(void **test) {
         lights[i].kind = LMP_LIGHT_POINT;
         lights[i].intensity = (lmp_rgb) { 1, 0.5f, 0.25f };
     }
-    lmp_field *field = field_of(NULL, lights, LIGHTS);
     const lmp_shade_settings settings = { .bands = 5 };
-    lmp_rgb rgb[COUNT], exact[COUNT];
     double worst, rms;
-    lmp_shade_n(&settings, &surfaces, COUNT, lights, LIGHTS, 0, &exact->r);
-    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
-    compare(rgb, exact, &worst, &rms);
+    shade_both(&settings, NULL, lights, LIGHTS, &worst, &rms);
     CHECK_WITHIN(worst, 0.01);
-    lmp_field_destroy(field);
 }
 
 static void tables_reflect_as_under_all_lights(void **test) {
