@@ -12,7 +12,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const char *const choices[] = { "one", "two", NULL };
     bool flag = false, given = false;
-    int count = 1, pixels[2] = { 1, 1 }, range[2] = { 0, 0 }, part[2] = { 1, 1 }, choice = 0;
+    int count = 1, pixels[2] = { 1, 1 }, grid[3] = { 1, 1, 1 }, range[2] = { 0, 0 },
+        part[2] = { 1, 1 }, choice = 0;
     uint64_t seed = 0;
     float number = 0, eye[3] = { 0 };
     const char *name = NULL;
@@ -21,6 +22,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         { "flag", 'f', CLI_FLAG, &flag, NULL, "help", 0, 0, NULL, &given },
         { "count", 'c', CLI_INT, &count, "N", "help", 1, 9, NULL, NULL },
         { "pixels", 0, CLI_SIZE, pixels, "WxH", "help", 0, 0, NULL, NULL },
+        { "grid", 0, CLI_GRID, grid, "XxYxZ", "help", 1, 9, NULL, NULL },
         { "range", 0, CLI_RANGE, range, "N|A-B", "help", 0, 99, NULL, NULL },
         { "part", 0, CLI_PART, part, "I/N", "help", 1, 99, NULL, NULL },
         { "choice", 0, CLI_CHOICE, &choice, "WORD", "help", 0, 0, choices, NULL },
@@ -45,8 +47,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char **operands;
     int operand_count, status;
     if (cli_parse(&command, options, word_count, words, &operand_count, &operands, &status) &&
-        (count < 1 || count > 9 || choice < 0 || choice > 1 || range[0] < 0 || range[1] > 99 ||
-         range[1] < range[0] || part[0] < 1 || part[0] > part[1] || operand_count > word_count - 1))
+        (count < 1 || count > 9 || choice < 0 || choice > 1 || grid[2] < 1 || grid[2] > 9 ||
+         range[0] < 0 || range[1] > 99 || range[1] < range[0] || part[0] < 1 || part[0] > part[1] ||
+         operand_count > word_count - 1))
         abort();
     free(text);
     return 0;

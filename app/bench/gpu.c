@@ -105,6 +105,16 @@ static bool find_lobes(bench_scene *s, int bands, cli_error *error) {
     return true;
 }
 
+/* Of the bands of the last row that read one. */
+static bool find_field(bench_scene *s, int bands, cli_error *error) {
+    static const shade_field_options options = SHADE_FIELD_DEFAULTS;
+    if (s->field && shade_field_describe(s->field).info.desc.bands == bands)
+        return true;
+    shade_field_destroy(s->field);
+    s->field = shade_field_create(&s->world, &options, bands, error);
+    return s->field;
+}
+
 /* The materials asked for, with so many bands, in place of the scene's. */
 static bool find_materials(bench_scene *s, int bands, cli_error *error) {
     override_set *all = &s->materials;
@@ -151,6 +161,11 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
         if (!find_lobes(s, c->bands, error))
             return false;
         frame.lobes = s->lobes[c->bands];
+    }
+    if (method_table[c->by->method].reads & METHOD_READS_FIELD) {
+        if (!find_field(s, c->bands, error))
+            return false;
+        frame.field = s->field;
     }
     double samples[FRAMES];
     int count = 0;
@@ -219,6 +234,7 @@ static void close_scene(bench_scene *s) {
     override_free(&s->materials);
     gpu_context_destroy(&s->context);
     scene_free(&s->world);
+    shade_field_destroy(s->field);
     for (int n = 0; n <= LMP_BANDS_MAX; n++)
         lmp_preintegrated_lobe_destroy(s->lobes[n]);
 }

@@ -5,6 +5,7 @@
 
 #include "app/bench/bench.h"
 #include "app/override/override.h"
+#include "app/shade/field.h"
 
 /* What shades. */
 typedef struct bench_case {
@@ -53,6 +54,7 @@ typedef struct bench_scene {
     gpu_renderer *renderer;
     lmp_preintegrated_lobe *lobes[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
     double build_ms[LMP_BANDS_MAX + 1];
+    shade_field *field;     /* of the bands asked for last, or NULL */
     override_set materials; /* of material_bands */
     int material_bands;     /* 0: none yet */
     double bake_ms, integrate_ms;

@@ -33,6 +33,7 @@ typedef enum cli_kind {
     CLI_FLOAT,  /* float, minimum … maximum, finite */
     CLI_VEC3,   /* float[3] as X,Y,Z, finite */
     CLI_SIZE,   /* int[2] as WIDTHxHEIGHT, minimum … maximum each */
+    CLI_GRID,   /* int[3] as XxYxZ, minimum … maximum each */
     CLI_RANGE,  /* int[2], first and last, as FIRST-LAST, or COUNT for 0 to COUNT-1 */
     CLI_PART,   /* int[2] as I/N, 1 <= I <= N <= maximum */
     CLI_TEXT,   /* const char * */

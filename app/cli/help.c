@@ -69,6 +69,11 @@ static void describe_default(const cli_option *option, char *text, size_t size) 
         snprintf(value, sizeof value, "%dx%d", ((const int *)option->target)[0],
                  ((const int *)option->target)[1]);
         break;
+    case CLI_GRID: {
+        const int *const v = option->target;
+        snprintf(value, sizeof value, "%dx%dx%d", v[0], v[1], v[2]);
+        break;
+    }
     case CLI_PART:
         snprintf(value, sizeof value, "%d/%d", ((const int *)option->target)[0],
                  ((const int *)option->target)[1]);

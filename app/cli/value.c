@@ -27,6 +27,7 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
         *maximum = INT_MAX;
         break;
     case CLI_SIZE:
+    case CLI_GRID:
     case CLI_PART:
         *minimum = 1;
         *maximum = INT_MAX;
@@ -68,27 +69,43 @@ static bool in_range(const cli_option *option, double value) {
     return value >= minimum && value <= maximum;
 }
 
+/* How the numbers of one kind are written. */
+typedef struct number_form {
+    const char *characters;
+    int count;
+    char between;
+    bool whole;
+    const char *name;
+} number_form;
+
+static number_form form_of(cli_kind kind) {
+    switch (kind) {
+    case CLI_INT:
+        return (number_form) { "+-" DIGITS, 1, 0, true, "a whole number" };
+    case CLI_SIZE:
+        return (number_form) { DIGITS, 2, 'x', true, "a size such as 1920x1080" };
+    case CLI_GRID:
+        return (number_form) { DIGITS, 3, 'x', true, "a grid such as 32x16x32" };
+    case CLI_VEC3:
+        return (number_form) { "+-.eE" DIGITS, 3, ',', false, "three numbers such as 0,1.5,-2" };
+    default:
+        return (number_form) { "+-.eE" DIGITS, 1, 0, false, "a number" };
+    }
+}
+
 static bool store_numbers(const cli_option *option, const char *text, cli_error *error) {
-    const bool whole = option->kind != CLI_FLOAT && option->kind != CLI_VEC3;
-    const char *const characters = option->kind == CLI_INT    ? "+-" DIGITS
-                                   : option->kind == CLI_SIZE ? DIGITS
-                                                              : "+-.eE" DIGITS;
-    const int count = option->kind == CLI_VEC3 ? 3 : option->kind == CLI_SIZE ? 2 : 1;
+    const number_form form = form_of(option->kind);
     double values[3];
     const char *rest = text;
-    for (int i = 0; i < count; i++) {
-        const char end = i == count - 1 ? '\0' : option->kind == CLI_SIZE ? 'x' : ',';
-        if (!read_number(&rest, characters, end, &values[i]))
-            return cli_fail(error, NULL, "--%s: \"%s\" is not %s", option->name, text,
-                            option->kind == CLI_INT    ? "a whole number"
-                            : option->kind == CLI_SIZE ? "a size such as 1920x1080"
-                            : option->kind == CLI_VEC3 ? "three numbers such as 0,1.5,-2"
-                                                       : "a number");
+    for (int i = 0; i < form.count; i++) {
+        const char end = i == form.count - 1 ? '\0' : form.between;
+        if (!read_number(&rest, form.characters, end, &values[i]))
+            return cli_fail(error, NULL, "--%s: \"%s\" is not %s", option->name, text, form.name);
         if (!in_range(option, values[i]))
             return out_of_range(option, text, error);
     }
-    for (int i = 0; i < count; i++) {
-        if (whole)
+    for (int i = 0; i < form.count; i++) {
+        if (form.whole)
             ((int *)option->target)[i] = (int)values[i];
         else
             ((float *)option->target)[i] = (float)values[i];

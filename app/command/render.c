@@ -109,7 +109,28 @@ static bool render_frames(render_job *j, cli_error *error) {
 
 /* --- the command ------------------------------------------------------------------------------ */
 
-/* Chooses where to shade, and has the lobes ready that a preintegrated method reads. */
+/* Whether the frame is drawn, or timed, by a method that reads such. */
+static bool reads(const render_options *o, unsigned what) {
+    return o->compare || method_table[o->method].reads & what;
+}
+
+/* Has ready what the method reads. */
+static bool settle_tables(render_job *j, cli_error *error) {
+    const render_options *o = j->options;
+    if (reads(o, METHOD_READS_PREINTEGRATED) &&
+        !bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error))
+        return false;
+    if (reads(o, METHOD_READS_FIELD) && o->bands <= LMP_FIELD_BANDS_MAX) {
+        j->field = shade_field_create(&j->world, &o->field, o->bands, error);
+        if (!j->field)
+            return false;
+    }
+    j->frame.lobes = j->lobes;
+    j->frame.field = j->field;
+    return true;
+}
+
+/* Chooses where to shade. */
 static bool settle_shading(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     const method_kind method = (method_kind)o->method;
@@ -127,11 +148,7 @@ static bool settle_shading(render_job *j, cli_error *error) {
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
                         o->bands, method_table[method].name);
     j->frame.host = shade_on(j->shading);
-    if (!(method_table[method].reads & METHOD_READS_PREINTEGRATED) && !o->compare)
-        return true;
-    const bool ok = bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error);
-    j->frame.lobes = j->lobes;
-    return ok;
+    return settle_tables(j, error);
 }
 
 static bool cast_shadows(render_job *j, cli_error *error) {
@@ -186,6 +203,7 @@ static void close_job(render_job *j) {
     scene_free(&j->world);
     shadow_destroy(j->shadow);
     lmp_preintegrated_lobe_destroy(j->lobes);
+    shade_field_destroy(j->field);
     free(j->moved);
     animation_close(j->path);
 }
@@ -211,6 +229,9 @@ static int check_options(const cli_command *command, const render_options *o, in
         return cli_usage(command, "%s: --from makes a .png, as the screenshot is", o->output);
     if (o->animate && !o->frames_given)
         return cli_usage(command, "--animate moves lights from frame to frame: it needs --frames");
+    if (bands_max == 0)
+        return cli_usage(command, "--method %s does not run on the %s", method->name,
+                         device_table[o->device_kind].text);
     if (o->bands > bands_max)
         return cli_usage(command, "--bands %d: %s takes 1 to %d", o->bands, method->name,
                          bands_max);
@@ -249,6 +270,7 @@ static const render_options defaults = { .size = { 1280, 720 },
                                          .window = LMP_WINDOW_HANNING,
                                          .environment = ENVIRONMENT_DEFAULTS,
                                          .shadow = SHADOW_DEFAULTS,
+                                         .field = SHADE_FIELD_DEFAULTS,
                                          .pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
                                          .repeat = 5,
@@ -260,8 +282,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "output", 'o', CLI_TEXT, &o.output, "FILE",
           "the image: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },
         { "size", 's', CLI_SIZE, o.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
-        { "bands", 'n', CLI_INT, &o.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
-          NULL, NULL },
+        { "bands", 'n', CLI_INT, &o.bands, "N", "number of bands", 1, LMP_BANDS_MAX, NULL, NULL },
         { "method", 0, CLI_CHOICE, &o.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
         { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE", device_help(), 0, 0, device_names(),
           NULL },
@@ -295,6 +316,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "samples", 0, CLI_INT, &o.samples, "N",
           "samples a pixel; without it 8, of a .exr the one in its middle, as reference has it", 1,
           SAMPLES_MAX, NULL, &o.samples_given },
+        SHADE_FIELD_OPTION_ROWS(o.field),
         SHADOW_OPTION_ROWS(o.shadow),
         { "stats", 0, CLI_FLAG, &o.stats, NULL,
           "print what was drawn and the time of each pass of a sample, as JSON", 0, 0, NULL, NULL },

@@ -7,6 +7,7 @@
 #include "app/animation/animation.h"
 #include "app/environment/environment.h"
 #include "app/override/override.h"
+#include "app/shade/field.h"
 #include "app/shadow/shadow.h"
 
 #define RENDER_REPEAT_MAX 1000
@@ -20,6 +21,7 @@ typedef struct render_options {
     bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;
     shadow_options shadow;
     environment_options environment;
+    shade_field_options field;
     scene_camera_options camera;
     scene_lights_options lights;
     cli_list materials;
@@ -36,6 +38,7 @@ typedef struct render_job {
     gpu_frame frame;
     device_kind shading;
     lmp_preintegrated_lobe *lobes; /* of methods that read them */
+    shade_field *field;            /* of methods that read one */
     shadow *shadow;                /* with --shadows */
     animation *path;               /* of the lights */
     scene_light *moved;

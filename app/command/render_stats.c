@@ -76,6 +76,19 @@ static void add_shadows(const render_job *j, cJSON *stats) {
     cJSON_AddNumberToObject(shadows, "filter_milliseconds", s.filter_milliseconds);
 }
 
+/* Of the last frame that was shaded by it. */
+static void add_field(const render_job *j, cJSON *stats) {
+    const shade_field_statistics s = shade_field_describe(j->field);
+    const double nodes[3] = { s.info.desc.nodes[0], s.info.desc.nodes[1], s.info.desc.nodes[2] };
+    cJSON *field = cJSON_AddObjectToObject(stats, "field");
+    cJSON_AddItemToObject(field, "nodes", cJSON_CreateDoubleArray(nodes, 3));
+    cJSON_AddNumberToObject(field, "error", (double)s.info.desc.error);
+    cJSON_AddNumberToObject(field, "reach", (double)s.info.reach);
+    cJSON_AddNumberToObject(field, "bytes", (double)s.info.bytes);
+    cJSON_AddNumberToObject(field, "update_milliseconds", s.update_milliseconds);
+    cJSON_AddNumberToObject(field, "evaluate_milliseconds", s.evaluate_milliseconds);
+}
+
 bool render_print_stats(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     cJSON *stats = cJSON_CreateObject();
@@ -100,6 +113,8 @@ bool render_print_stats(render_job *j, cli_error *error) {
         cJSON_Delete(stats);
         return false;
     }
+    if (j->field)
+        add_field(j, stats);
     if (j->shadow)
         add_shadows(j, stats);
     char *text = file_json_text(stats, true, NULL, error);

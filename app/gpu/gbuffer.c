@@ -235,6 +235,18 @@ static void decode_coat_normal(const gpu_gbuffer *g, size_t pixel, size_t x, con
             row->coat_normal[c][x] = row->normal[c][x];
 }
 
+size_t gpu_gbuffer_surfaces(const gpu_gbuffer *g, int y, gpu_row *row) {
+    const gpu_pair16 *of = g->roughness_kind + (size_t)y * (size_t)g->width;
+    size_t count = 0;
+    decode_points(g, y, row);
+    for (int x = 0; x < g->width; x++) {
+        for (int c = 0; c < 3; c++)
+            row->position[c][count] = row->position[c][x];
+        count += of[x].v >= SHARED_KIND_SURFACE;
+    }
+    return count;
+}
+
 bool gpu_gbuffer_is_layered(const gpu_gbuffer *g) {
     return g->coat;
 }

@@ -38,6 +38,7 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error);
 /* --- a scene on the device -------------------------------------------------------------------- */
 
 struct gpu_frame;
+typedef struct shade_field shade_field; /* app/shade/field.h */
 typedef struct gpu_gbuffer gpu_gbuffer;
 
 /* Shades on the host: rgba receives the radiance of width * height pixels, rows from the top; the
@@ -65,6 +66,7 @@ typedef struct gpu_frame {
     bool hide_backdrop;                  /* of the environment, which shines all the same */
     int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
     const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
+    shade_field *field;                  /* of these bands, if the method reads one */
     gpu_host_shader host;                /* instead of the compute pass, or NULL */
     gpu_host_pass shadow;                /* after shading; zero: none */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
@@ -200,6 +202,9 @@ void gpu_row_free(gpu_row *row);
 
 /* From any thread, each with a row of its own. */
 void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
+
+/* The positions of a row's surfaces alone, one after another; returns how many there are. */
+size_t gpu_gbuffer_surfaces(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
 
 /* What the surface of a pixel emits; the pixels are in rows. */
 lmp_rgb gpu_gbuffer_emission(const gpu_gbuffer *gbuffer, size_t pixel);

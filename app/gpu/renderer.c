@@ -180,6 +180,8 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
                         SCENE_LIGHTS_MAX);
     if (method_table[frame->method].reads & METHOD_READS_PREINTEGRATED && !frame->lobes)
         return cli_fail(error, NULL, "preintegrated shading without its lobes");
+    if (method_table[frame->method].reads & METHOD_READS_FIELD && !frame->field)
+        return cli_fail(error, NULL, "a field's shading without its field");
     const GLuint program = frame->host ? 0 : gpu_variant_find(r, frame, error);
     if ((!frame->host && !program) || !gpu_targets_create(r, frame->width, frame->height, error))
         return false;

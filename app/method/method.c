@@ -2,6 +2,8 @@
 #include "app/method/method.h"
 #include "app/cli/cli.h"
 
+#include <lampion/field.h>
+
 #include <stdio.h>
 
 /* A driver takes minutes to compile the coefficients of more bands. */
@@ -41,6 +43,15 @@ const method_row method_table[METHODS_TIMED] = {
                                .shader = "shade.comp",
                                .function = "lmp_shade_preintegrated",
                                .defines = "#define SHADE_PREINTEGRATED\n" },
+    [METHOD_FIELD] = { .name = "field",
+                       .help = "costs nearly the same for thousands of lights",
+                       .method = LMP_SHADE_ZONAL,
+                       .bands_max = BANDS(0, LMP_FIELD_BANDS_MAX),
+                       .batched = true,
+                       .tabulated = true,
+                       .reads = METHOD_READS_FIELD,
+                       .speedup = "field_speedup",
+                       .compared = METHOD_ZONAL },
     [METHOD_PAPER] = { .name = "paper",
                        .baseline = true,
                        .bands_max = BANDS(GPU_COEFFICIENTS_MAX, 0),
@@ -76,7 +87,12 @@ const char *method_help(void) {
         const method_row *row = &method_table[m];
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %s", m ? ", " : ": ",
                                  row->name, row->help);
-        if (row->bands_max[DEVICE_GPU] < row->bands_max[DEVICE_CPU])
+        if (row->bands_max[DEVICE_CPU] < LMP_BANDS_MAX)
+            used += (size_t)snprintf(text + used, sizeof text - used, " (to %d bands)",
+                                     row->bands_max[DEVICE_CPU]);
+        if (row->bands_max[DEVICE_GPU] == 0)
+            used += (size_t)snprintf(text + used, sizeof text - used, " (on the CPU alone)");
+        else if (row->bands_max[DEVICE_GPU] < row->bands_max[DEVICE_CPU])
             used += (size_t)snprintf(text + used, sizeof text - used, " (on the GPU to %d bands)",
                                      row->bands_max[DEVICE_GPU]);
     }

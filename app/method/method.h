@@ -19,6 +19,7 @@ typedef enum method_kind {
     METHOD_ZONAL,
     METHOD_COEFFICIENTS,
     METHOD_PREINTEGRATED,
+    METHOD_FIELD,
     METHODS,
     /* for benchmarks alone: the paper's own */
     METHOD_PAPER = METHODS, /* its fragment shader */
@@ -29,7 +30,8 @@ typedef enum method_kind {
 /* What a method reads besides the scene. */
 enum {
     METHOD_READS_PREINTEGRATED = 1, /* lobes and BRDFs, so that its cost is that of one band */
-    METHOD_READS_TABULATED_Z = 2
+    METHOD_READS_TABULATED_Z = 2,
+    METHOD_READS_FIELD = 4 /* of all lights, so that its cost is not that of their number */
 };
 
 typedef struct method_row {

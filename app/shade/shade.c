@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/shade/shade.h"
+#include "app/shade/field.h"
+#include "app/timing/timing.h"
 
 #include <stdlib.h>
 
@@ -8,6 +10,7 @@ typedef struct shading {
     lmp_shade_settings settings;
     const lmp_light *lights;
     size_t light_count;
+    const lmp_field *field;         /* of these lights, or NULL */
     const environment *environment; /* or NULL */
     bool layered;
 } shading;
@@ -61,7 +64,11 @@ static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t
     };
     if (s->layered)
         surfaces.coat_normal = vectors(row->coat_normal, first);
-    lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float), rgba);
+    if (s->field)
+        lmp_field_shade_n(&s->settings, s->field, &surfaces, count, 4 * sizeof(float), rgba);
+    else
+        lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float),
+                    rgba);
     if (s->environment)
         add_environment(s, &surfaces, row->ambient + first, count, rgba);
 }
@@ -83,36 +90,51 @@ static void shade_row(const shading *s, const gpu_row *row, size_t width, float 
     }
 }
 
-bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
-                 cli_error *error) {
-    const size_t width = (size_t)frame->width;
-    lmp_light *lights = calloc(frame->light_count + 1, sizeof *lights);
-    const shading s = { { .method = method_table[frame->method].method,
-                          .bands = frame->bands,
-                          .window = frame->window,
-                          .lobe = frame->lobes },
-                        lights,
-                        frame->light_count,
-                        gpu_gbuffer_environment(gbuffer),
-                        gpu_gbuffer_is_layered(gbuffer) };
-    bool ok = lights;
-    for (size_t i = 0; ok && i < frame->light_count; i++)
-        lights[i] = frame->lights[i].emitter;
-    if (ok)
+static bool shade_rows(const shading *s, const gpu_gbuffer *gbuffer, int width, int height,
+                       float *rgba) {
+    bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
         gpu_row row;
-        const bool mine = gpu_row_create(frame->width, &row);
+        const bool mine = gpu_row_create(width, &row);
 #pragma omp for schedule(dynamic, 4)
-        for (int y = 0; y < frame->height; y++)
+        for (int y = 0; y < height; y++)
             if (mine) {
                 gpu_gbuffer_row(gbuffer, y, &row);
-                shade_row(&s, &row, width, rgba + 4 * (size_t)y * width);
+                shade_row(s, &row, (size_t)width, rgba + 4 * (size_t)y * (size_t)width);
             }
         if (mine)
             gpu_row_free(&row);
         ok = mine;
     }
+    return ok;
+}
+
+bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                 cli_error *error) {
+    const size_t count = frame->light_count;
+    const bool by_field = method_table[frame->method].reads & METHOD_READS_FIELD;
+    lmp_light *lights = calloc(count + 1, sizeof *lights);
+    shading s = { { .method = method_table[frame->method].method,
+                    .bands = frame->bands,
+                    .window = frame->window,
+                    .lobe = frame->lobes },
+                  .lights = lights,
+                  .light_count = count,
+                  .environment = gpu_gbuffer_environment(gbuffer),
+                  .layered = gpu_gbuffer_is_layered(gbuffer) };
+    bool ok = lights;
+    for (size_t i = 0; ok && i < count; i++)
+        lights[i] = frame->lights[i].emitter;
+    if (ok && by_field) {
+        s.field =
+            shade_field_follow(frame->field, lights, count, gbuffer, frame->width, frame->height);
+        ok = s.field != NULL;
+    }
+    const double start = timing_now();
+    ok = ok && shade_rows(&s, gbuffer, frame->width, frame->height, rgba);
+    if (by_field)
+        shade_field_note(frame->field, 1e3 * (timing_now() - start));
     free(lights);
     return ok || cli_fail(error, NULL, "out of memory");
 }

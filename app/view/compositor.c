@@ -2,6 +2,7 @@
 #include "app/view/compositor.h"
 #include "app/bake/bake.h"
 #include "app/override/override.h"
+#include "app/shade/field.h"
 #include "app/shade/shade.h"
 #include "app/shadow/shadow.h"
 #include "app/view/draft.h"
@@ -23,9 +24,10 @@ typedef struct kept_lobe {
 /* In full; coarse while the camera rests; coarse and of fewer triangles while it moves. */
 typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
 
-/* One side's renderers, and the materials that they have been given. */
+/* One side's renderers and field, and the materials that they have been given. */
 typedef struct side {
     gpu_renderer *renderers[QUALITIES];
+    shade_field *field; /* of its method, or NULL */
     override_set materials;
     char (*names)[VIEW_MATERIAL_SIZE]; /* of them, GPU_TABLES_MAX allocated */
     int count, bands;
@@ -68,6 +70,7 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
 static void close_side(side *own) {
     for (int i = 0; i < QUALITIES; i++)
         gpu_renderer_destroy(own->renderers[i]);
+    shade_field_destroy(own->field);
     override_free(&own->materials);
     free(own->names);
     memset(own, 0, sizeof *own);
@@ -118,6 +121,24 @@ static const lmp_preintegrated_lobe *get_lobe(view_compositor *s, const view_sha
     }
     made->used = ++s->clock;
     return made->lobe;
+}
+
+/* --- fields ----------------------------------------------------------------------------------- */
+
+/* One for so many bands, or NULL where the method reads none. */
+static bool settle_field(view_compositor *s, side *own, const view_shading *shading,
+                         gpu_frame *frame, cli_error *error) {
+    static const shade_field_options options = { .error = LMP_FIELD_ERROR_DEFAULT, .moves = true };
+    const bool read = method_table[shading->method].reads & METHOD_READS_FIELD;
+    if (own->field &&
+        !(read && shade_field_describe(own->field).info.desc.bands == shading->bands)) {
+        shade_field_destroy(own->field);
+        own->field = NULL;
+    }
+    if (read && !own->field)
+        own->field = shade_field_create(s->world, &options, shading->bands, error);
+    frame->field = own->field;
+    return own->field || !read;
 }
 
 /* --- materials -------------------------------------------------------------------------------- */
@@ -293,6 +314,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         if (!open_side(s, own, fineness, error) ||
             !settle_materials(s, own, settings, shading, error) ||
             !fill_frame(s, settings, shading, divisor, &frame, &device, error) ||
+            !settle_field(s, own, shading, &frame, error) ||
             !settle_shadows(s, settings, &frame.shadow, error))
             return false;
         gpu_renderer *renderer = own->renderers[fineness];
@@ -338,7 +360,8 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
     side *own = &s->sides[0];
     if (!settle_environment(s, settings, error) || !open_side(s, own, FINE, error) ||
         !settle_materials(s, own, settings, &settings->shading[0], error) ||
-        !fill_frame(s, settings, &settings->shading[0], 1, &frame, &device, error))
+        !fill_frame(s, settings, &settings->shading[0], 1, &frame, &device, error) ||
+        !settle_field(s, own, &settings->shading[0], &frame, error))
         return false;
     *exposure = environment_exposure(&s->around, settings->light_count);
     if (*exposure > 0)

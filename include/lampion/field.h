@@ -79,6 +79,17 @@ LMP_API const lmp_light *lmp_field_lights(const lmp_field *field);
 LMP_API lmp_result lmp_field_update(const lmp_host *host, lmp_field *field, const lmp_light *lights,
                                     size_t count);
 
+/* The same in pieces, for those who read a field near few of its nodes, such as what a camera sees:
+ * reset replaces the lights and computes nothing; want, from many threads at once, notes the nodes
+ * around points; compute does those which are noted and have not been computed since. What is then
+ * changed by move, add and remove holds for nodes that come later, too.
+ *
+ * Points whose nodes are not computed must not be read, nor bytes written before all are.
+ * LMP_ERROR_ARGUMENT: as for update */
+LMP_API lmp_result lmp_field_reset(lmp_field *field, const lmp_light *lights, size_t count);
+LMP_API void lmp_field_want(lmp_field *field, lmp_vec3_array points, size_t count);
+LMP_API lmp_result lmp_field_compute(const lmp_host *host, lmp_field *field);
+
 /* Light at[i] becomes lights[i]. Each node loses what the old lights gave it and gains what the new
  * ones give, which costs as much as updating a field of twice `count` lights.
  *

@@ -104,6 +104,7 @@ static size_t divide(lmp_field *field, size_t entries, unsigned char *memory) {
     (void)take(memory, &used, sizeof *field);
     field->nodes = take(memory, &used, field->brick_count * brick);
     field->scratch = take(memory, &used, field->scratch_count * brick);
+    field->states = take(memory, &used, field->brick_count * sizeof *field->states);
     field->lights = take(memory, &used, lights * sizeof *field->lights);
     field->spheres = take(memory, &used, lights * sizeof *field->spheres);
     field->everywhere = take(memory, &used, lights);
@@ -141,6 +142,7 @@ lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, 
     for (size_t i = 0; i < entries; i++)
         plan.entries[i].next = i + 1 < entries ? (uint32_t)(i + 1) : FIELD_NONE;
     memset(plan.lists, 0xff, (plan.block_count + 1) * sizeof *plan.lists);
+    lmp_field_set_states(*field, FIELD_READY);
     return LMP_OK;
 }
 

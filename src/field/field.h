@@ -14,6 +14,11 @@
 
 #include <lampion/field.h>
 
+#include <stdatomic.h>
+
+/* What a brick's nodes are: of lights gone by, the same but asked for, or as they should be. */
+enum { FIELD_STALE, FIELD_WANTED, FIELD_READY };
+
 enum {
     FIELD_BRICK = 16,
     FIELD_BLOCK = 2,    /* cells along the edge of a block */
@@ -46,6 +51,7 @@ struct lmp_field {
     size_t scratch_count;
     float *nodes; /* of each its values, then their derivatives by x, y, z */
     float *scratch;
+    atomic_uchar *states; /* of each brick */
     lmp_light *lights;
     field_sphere *spheres;
     uint8_t *everywhere; /* of each light: it is in the list of that name */
@@ -65,6 +71,9 @@ lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, 
 
 /* Lists a light as what the kernels read of it, in place of what was there. */
 void lmp_field_set_light(lmp_field *field, uint32_t at, const lmp_light *light);
+
+/* Every brick is now in that state. */
+void lmp_field_set_states(lmp_field *field, unsigned char state);
 
 /* --- near lights (near.c) --------------------------------------------------------------------- */
 

@@ -78,19 +78,75 @@ static lmp_result compute_task(size_t brick, void *data) {
     return LMP_OK;
 }
 
-lmp_result lmp_field_update(const lmp_host *host, lmp_field *field, const lmp_light *lights,
-                            size_t count) {
+void lmp_field_set_states(lmp_field *field, unsigned char state) {
+    for (size_t i = 0; i < field->brick_count; i++)
+        atomic_store_explicit(&field->states[i], state, memory_order_relaxed);
+}
+
+static unsigned char state_of(const lmp_field *field, size_t brick) {
+    return atomic_load_explicit(&field->states[brick], memory_order_relaxed);
+}
+
+static void want(lmp_field *field, size_t brick) {
+    if (state_of(field, brick) == FIELD_STALE)
+        atomic_store_explicit(&field->states[brick], FIELD_WANTED, memory_order_relaxed);
+}
+
+/* Of a cell's eight corners. */
+static void want_corners(lmp_field *field, const uint32_t cell[3]) {
+    for (uint32_t k = 0; k < 8; k++)
+        want(field, lmp_field_node(field, cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4) /
+                        FIELD_BRICK);
+}
+
+void lmp_field_want(lmp_field *field, lmp_vec3_array points, size_t count) {
+    uint32_t last[3] = { UINT32_MAX, 0, 0 };
+    assert(lmp_are_finite(points, count));
+    for (size_t i = 0; i < count; i++) {
+        field_place place;
+        if (!lmp_field_find(field, lmp_vec3_element(&points, i), &place) ||
+            memcmp(place.cell, last, sizeof last) == 0)
+            continue;
+        want_corners(field, place.cell);
+        memcpy(last, place.cell, sizeof last);
+    }
+}
+
+static lmp_result wanted_task(size_t brick, void *data) {
+    lmp_field *field = data;
+    if (state_of(field, brick) != FIELD_WANTED)
+        return LMP_OK;
+    (void)compute_task(brick, field);
+    atomic_store_explicit(&field->states[brick], FIELD_READY, memory_order_relaxed);
+    return LMP_OK;
+}
+
+lmp_result lmp_field_compute(const lmp_host *host, lmp_field *field) {
+    const lmp_host resolved = lmp_host_resolve(host);
+    return lmp_host_run(&resolved, 0, 1, field->brick_count, wanted_task, field);
+}
+
+lmp_result lmp_field_reset(lmp_field *field, const lmp_light *lights, size_t count) {
     if (count > (size_t)field->info.desc.light_max)
         return LMP_ERROR_ARGUMENT;
     assert(lmp_are_lights(lights, count));
-    const lmp_host resolved = lmp_host_resolve(host);
     for (uint32_t i = 0; i < field->info.light_count; i++)
         lmp_field_unlist(field, i);
     for (uint32_t i = 0; i < count; i++)
         lmp_field_set_light(field, i, &lights[i]);
     field->info.light_count = count;
     field->changed = 0;
-    return lmp_host_run(&resolved, 0, 1, field->brick_count, compute_task, field);
+    lmp_field_set_states(field, FIELD_STALE);
+    return LMP_OK;
+}
+
+lmp_result lmp_field_update(const lmp_host *host, lmp_field *field, const lmp_light *lights,
+                            size_t count) {
+    const lmp_result result = lmp_field_reset(field, lights, count);
+    if (result != LMP_OK)
+        return result;
+    lmp_field_set_states(field, FIELD_WANTED);
+    return lmp_field_compute(host, field);
 }
 
 /* --- changes ---------------------------------------------------------------------------------- */
@@ -108,6 +164,8 @@ static void change_task(size_t index, void *data) {
     float *scratch = field->scratch + index * size;
     for (size_t brick = index; brick < field->brick_count; brick += field->scratch_count) {
         float *nodes = field->nodes + brick * size;
+        if (state_of(field, brick) != FIELD_READY)
+            continue;
         compute(field, brick, &change->lights, scratch);
         for (size_t i = 0; i < size; i++)
             nodes[i] += scratch[i];
@@ -124,8 +182,11 @@ static field_sphere negative(const field_sphere *sphere) {
 static void refresh(lmp_field *field, size_t changed) {
     const uint64_t before = field->changed / LMP_FIELD_REFRESH;
     field->changed += changed;
-    for (uint64_t turn = before; turn < field->changed / LMP_FIELD_REFRESH; turn++)
-        (void)compute_task((size_t)(turn % field->brick_count), field);
+    for (uint64_t turn = before; turn < field->changed / LMP_FIELD_REFRESH; turn++) {
+        const size_t brick = (size_t)(turn % field->brick_count);
+        if (state_of(field, brick) == FIELD_READY)
+            (void)compute_task(brick, field);
+    }
 }
 
 static void add_to_nodes(const lmp_host *host, lmp_field *field, const field_sphere *spheres,

@@ -25,7 +25,7 @@ may_include() {
     app/cli) echo app/timing app/cli base cpu ;;
     app/zonal) echo app/zonal base sh light ;;
     app/device) echo app/cli app/device ;;
-    app/method) echo app/cli app/device app/method base shade sh ;;
+    app/method) echo app/cli app/device app/method base shade field sh ;;
     app/bake) echo app/cli app/file app/bake LIBRARY ;;
     # it judges all of them: nothing but itself
     ruler) echo ruler ;;
@@ -45,7 +45,7 @@ may_include() {
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
     app/gpu) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
-    app/shade) echo app/device app/cli app/scene app/environment app/gpu app/shade LIBRARY ;;
+    app/shade) echo app/timing app/device app/cli app/bake app/scene app/environment app/gpu app/shade LIBRARY ;;
     app/shadow) echo app/timing app/cli app/scene app/environment app/trace app/reference app/gpu app/shadow LIBRARY ;;
     app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/shadow app/override app/view LIBRARY ;;

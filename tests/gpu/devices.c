@@ -74,6 +74,8 @@ static void close_fixture(fixture *s) {
 /* Both devices draw the frame by each method, within one level of 255. */
 static void check_every_method(fixture *s) {
     for (int m = 0; m < METHODS; m++) {
+        if (method_table[m].bands_max[DEVICE_GPU] == 0)
+            continue;
         s->frame.method = (method_kind)m;
         s->frame.host = NULL;
         draw_first(s->renderer, &s->frame);

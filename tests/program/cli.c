@@ -20,7 +20,7 @@ static const cli_command command = { "draw", "SCENE", "draws", "lampion draw", N
 /* Everything a table can hold. */
 typedef struct values {
     bool verbose, eye_given;
-    int bands, size[2], method, frames[2], part[2];
+    int bands, size[2], grid[3], method, frames[2], part[2];
     uint64_t seed;
     float fov, eye[3];
     const char *output;
@@ -59,6 +59,7 @@ static outcome parse(int argc, char **argv) {
         { "verbose", 'v', CLI_FLAG, &v->verbose, NULL, "say more", 0, 0, NULL, NULL },
         { "bands", 'n', CLI_INT, &v->bands, "N", "bands", 1, 128, NULL, NULL },
         { "size", 0, CLI_SIZE, &v->size, "WxH", "pixels", 1, 16384, NULL, NULL },
+        { "grid", 0, CLI_GRID, v->grid, "XxYxZ", "nodes", 2, 99, NULL, NULL },
         { "seed", 0, CLI_SEED, &v->seed, "N", "seed", 0, 0, NULL, NULL },
         { "fov", 0, CLI_FLOAT, &v->fov, "R", "field of view", 0.01, 3.1, NULL, NULL },
         { "eye", 0, CLI_VEC3, v->eye, "X,Y,Z", "position", 0, 0, NULL, &v->eye_given },
@@ -85,14 +86,17 @@ static outcome parse(int argc, char **argv) {
 
 static void every_kind_is_read_in_every_spelling(void **state) {
     (void)state;
-    const outcome o = PARSE("--bands", "12", "a.gltf", "--size=1980x995", "-v", "-oout.png",
-                            "--seed=18446744073709551615", "--eye", "-1,2.5,3e-1", "--method",
-                            "coefficients", "--lights", "a", "--lights=b", "--", "--bands");
+    const outcome o =
+        PARSE("--bands", "12", "a.gltf", "--size=1980x995", "--grid", "3x4x5", "-v", "-oout.png",
+              "--seed=18446744073709551615", "--eye", "-1,2.5,3e-1", "--method", "coefficients",
+              "--lights", "a", "--lights=b", "--", "--bands");
     assert_true(o.go_on);
     assert_string_equal(o.complaint, "");
     assert_int_equal(o.values.bands, 12);
     assert_int_equal(o.values.size[0], 1980);
     assert_int_equal(o.values.size[1], 995);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(o.values.grid[i], 3 + i);
     assert_true(o.values.verbose);
     assert_true(o.values.seed == UINT64_MAX);
     assert_true(o.values.eye_given);
@@ -151,6 +155,10 @@ static void wrong_values_are_refused_in_one_line(void **state) {
         { "--size=640x", "a size" },
         { "--size=0x480", "out of range" },
         { "--size=640x-1", "a size" },
+        { "--grid=3x4", "a grid" },
+        { "--grid=3x4x5x6", "a grid" },
+        { "--grid=3,4,5", "a grid" },
+        { "--grid=3x1x5", "out of range (2 to 99)" },
         { "--seed=-1", "whole number" },
         { "--seed=18446744073709551616", "whole number" },
         { "--method=fast", "none of zonal, coefficients" },

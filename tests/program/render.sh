@@ -46,6 +46,18 @@ for word in '"triangles"' '"zonal_speedup"' '"coefficients"' '"device"' '"shade"
     grep -q "$word" "$WORK/stats" || fail "--stats without $word"
 done
 
+# a field draws what sums do, and tells what it is; a GPU has none
+"$PROGRAM" render builtin:balls $small --method zonal --device cpu -o "$WORK/sums.exr"
+"$PROGRAM" render builtin:balls $small --method field --field-grid 12x9x12 --field-error 0.02 --stats --repeat 1 \
+    -o "$WORK/field.exr" >"$WORK/stats"
+for word in '"field"' '"nodes"' '"bytes"' '"update_milliseconds"' '"evaluate_milliseconds"'; do
+    grep -q "$word" "$WORK/stats" || fail "--stats of a field without $word"
+done
+"$PROGRAM" compare "$WORK/field.exr" "$WORK/sums.exr" --fail-above rmse=1e-3 || fail "a field's image is another"
+"$PROGRAM" render builtin:balls $small --method field --device gpu -o "$WORK/no.png" 2>"$WORK/err" &&
+    fail "a field on the GPU"
+grep -q 'field does not run on the GPU' "$WORK/err" || fail "a field on the GPU:" $(cat "$WORK/err")
+
 # samples smooth: more distinct gray levels at edges means other bytes
 "$PROGRAM" render builtin:balls $small --samples 4 -o "$WORK/smooth.png"
 cmp -s "$WORK/smooth.png" "$WORK/a.png" && fail "--samples changes nothing"

@@ -205,6 +205,45 @@ static void what_cannot_be_made_is_refused(void **test) {
     lmp_field_destroy(NULL);
 }
 
+static void nodes_are_computed_where_they_are_wanted(void **test) {
+    (void)test;
+    lmp_light lights[LIGHTS];
+    const size_t first = 3;
+    const lmp_vec3 here = { 1.2f, 1.3f, 1.4f }, there = { 6.5f, 4.5f, 7.5f };
+    const lmp_vec3_array at_here = lmp_vec3_array_same(&here);
+    const lmp_vec3_array at_there = lmp_vec3_array_same(&there);
+    float a[VALUES], b[VALUES];
+    field_sphere_lights(0, 8, LIGHTS, lights);
+    lmp_field *field = field_of(&grid, NULL, 0);
+    assert_int_equal(lmp_field_reset(field, lights, LIGHTS), LMP_OK);
+    lmp_field_want(field, at_here, 1);
+    assert_int_equal(lmp_field_compute(NULL, field), LMP_OK);
+    lmp_field *whole = same_lights(field);
+    lmp_field_eval_n(field, at_here, 1, LMP_SH_INTERLEAVED, 0, a);
+    lmp_field_eval_n(whole, at_here, 1, LMP_SH_INTERLEAVED, 0, b);
+    assert_memory_equal(a, b, sizeof a);
+    /* what is far from all that was wanted has not been computed */
+    lmp_field_eval_n(field, at_there, 1, LMP_SH_INTERLEAVED, 0, a);
+    lmp_field_eval_n(whole, at_there, 1, LMP_SH_INTERLEAVED, 0, b);
+    assert_true(field_distance(a, b, VALUES) > 0.1 * field_size(b, VALUES));
+    /* a moved light counts at nodes from before and at those that come */
+    lmp_field_move(NULL, field, &first, &lights[5], 1);
+    lmp_field_move(NULL, whole, &first, &lights[5], 1);
+    lmp_field_want(field, at_there, 1);
+    assert_int_equal(lmp_field_compute(NULL, field), LMP_OK);
+    lmp_field *moved = same_lights(field);
+    lmp_field_eval_n(field, at_there, 1, LMP_SH_INTERLEAVED, 0, a);
+    lmp_field_eval_n(moved, at_there, 1, LMP_SH_INTERLEAVED, 0, b);
+    assert_memory_equal(a, b, sizeof a);
+    lmp_field_eval_n(field, at_here, 1, LMP_SH_INTERLEAVED, 0, a);
+    lmp_field_eval_n(whole, at_here, 1, LMP_SH_INTERLEAVED, 0, b);
+    assert_memory_equal(a, b, sizeof a);
+    assert_int_equal(lmp_field_reset(field, lights, LIGHTS + 1), LMP_ERROR_ARGUMENT);
+    lmp_field_destroy(moved);
+    lmp_field_destroy(whole);
+    lmp_field_destroy(field);
+}
+
 static void an_update_can_be_cancelled(void **test) {
     (void)test;
     lmp_light lights[LIGHTS];
@@ -227,6 +266,7 @@ int main(void) {
         cmocka_unit_test(tasks_in_any_order_and_every_instruction_set_give_the_same_bits),
         cmocka_unit_test(nothing_is_allocated_once_it_is_made),
         cmocka_unit_test(what_cannot_be_made_is_refused),
+        cmocka_unit_test(nodes_are_computed_where_they_are_wanted),
         cmocka_unit_test(an_update_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

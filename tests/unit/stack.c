@@ -230,6 +230,9 @@ static void shade_under_a_field(void) {
     X(lmp_field_create, MAKE(lmp_field_destroy, field, lmp_field_create(NULL, &small_field, &field))) \
     X(lmp_field_describe, (void)lmp_field_describe(field)) \
     X(lmp_field_lights, (void)lmp_field_lights(field)) \
+    X(lmp_field_reset, (void)lmp_field_reset(field, lights, LIGHTS)) \
+    X(lmp_field_want, lmp_field_want(field, points, COUNT)) \
+    X(lmp_field_compute, (void)lmp_field_compute(NULL, field)) \
     X(lmp_field_update, (void)lmp_field_update(NULL, field, lights, LIGHTS)) \
     X(lmp_field_move, lmp_field_move(NULL, field, (size_t[2]) { 1, 2 }, lights, 2)) \
     X(lmp_field_add, (void)lmp_field_add(NULL, field, lights)) \
