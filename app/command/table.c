@@ -14,12 +14,14 @@ extern const cli_command command_project;
 extern const cli_command command_reference;
 extern const cli_command command_render;
 extern const cli_command command_ruler;
+extern const cli_command command_scoreboard;
 extern const cli_command command_view;
 
 const cli_command *const command_table[] = {
-    &command_render, &command_view,      &command_info,    &command_project,    &command_brdf,
-    &command_basis,  &command_reference, &command_compare, &command_ruler,      &command_paper,
-    &command_bench,  &command_doctor,    &command_man,     &command_completion, NULL,
+    &command_render, &command_view,       &command_info,       &command_project,
+    &command_brdf,   &command_basis,      &command_reference,  &command_compare,
+    &command_ruler,  &command_scoreboard, &command_paper,      &command_bench,
+    &command_doctor, &command_man,        &command_completion, NULL,
 };
 
 const char command_program_summary[] =

@@ -143,14 +143,14 @@ bool paper_step_integral(paper *p, cli_error *error) {
               "the largest absolute difference is <b>%.1e</b>. Annex A's antiderivative, "
               "differentiated numerically for l ≤ 20: %.1e (the step's own error is that large).",
               worst, worst_rule);
-    const plot_series series = { "Eq. 11 − quadrature", degrees, errors, DEGREES };
+    const figure_series series = { "Eq. 11 − quadrature", degrees, errors, DEGREES };
     return page_plot_write(&p->page,
-                           &(page_plot) { .file = "equation11",
-                                          .title = "Eq. 11: closed form against quadrature",
-                                          .x_label = "degree l",
-                                          .y_label = "largest difference",
-                                          .log_y = true,
-                                          .series = &series,
-                                          .series_count = 1 },
+                           &(figure_plot) { .file = "equation11",
+                                            .title = "Eq. 11: closed form against quadrature",
+                                            .x_label = "degree l",
+                                            .y_label = "largest difference",
+                                            .log_y = true,
+                                            .series = &series,
+                                            .series_count = 1 },
                            error);
 }

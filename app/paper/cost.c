@@ -63,7 +63,7 @@ static outcome measure(const setting *s, const double exact[ANGLES], int bands) 
 static bool plot_by(paper *p, const char *file, const char *title, const setting *settings,
                     const char *const *names, int count, cli_error *error) {
     double x[BAND_COUNTS], y[8][BAND_COUNTS];
-    plot_series series[8];
+    figure_series series[8];
 #pragma omp parallel for schedule(dynamic)
     for (int s = 0; s < count; s++) {
         double exact[ANGLES];
@@ -74,17 +74,17 @@ static bool plot_by(paper *p, const char *file, const char *title, const setting
     for (int c = 0; c < BAND_COUNTS; c++)
         x[c] = band_counts[c];
     for (int s = 0; s < count; s++)
-        series[s] = (plot_series) { names[s], x, y[s], BAND_COUNTS };
+        series[s] = (figure_series) { names[s], x, y[s], BAND_COUNTS };
     return page_plot_write(&p->page,
-                           &(page_plot) { .file = file,
-                                          .title = title,
-                                          .x_label = "bands",
-                                          .y_label = "largest error / peak",
-                                          .log_x = true,
-                                          .log_y = true,
-                                          .y_floor = 1e-6,
-                                          .series = series,
-                                          .series_count = count },
+                           &(figure_plot) { .file = file,
+                                            .title = title,
+                                            .x_label = "bands",
+                                            .y_label = "largest error / peak",
+                                            .log_x = true,
+                                            .log_y = true,
+                                            .y_floor = 1e-6,
+                                            .series = series,
+                                            .series_count = count },
                            error);
 }
 
@@ -126,7 +126,7 @@ static bool plot_distance(paper *p, cli_error *error) {
     const double ratios[RATIOS] = { 0.01, 0.02, 0.05, 0.1, 0.2, 0.3,  0.4,
                                     0.5,  0.6,  0.7,  0.8, 0.9, 0.97, 0.999 };
     double y[6][RATIOS];
-    plot_series series[6];
+    figure_series series[6];
 #pragma omp parallel for schedule(dynamic)
     for (int r = 0; r < RATIOS; r++)
         for (int i = 0; i < 6; i++) {
@@ -136,17 +136,17 @@ static bool plot_distance(paper *p, cli_error *error) {
             y[i][r] = measure(&s, exact, bands[i]).largest;
         }
     for (int i = 0; i < 6; i++)
-        series[i] = (plot_series) { names[i], ratios, y[i], RATIOS };
+        series[i] = (figure_series) { names[i], ratios, y[i], RATIOS };
     return page_plot_write(
         &p->page,
-        &(page_plot) { .file = "cost-distance",
-                       .title = "Error by r/d, from far to near, no windowing filter",
-                       .x_label = "r/d",
-                       .y_label = "largest error / peak",
-                       .log_x = true,
-                       .log_y = true,
-                       .series = series,
-                       .series_count = 6 },
+        &(figure_plot) { .file = "cost-distance",
+                         .title = "Error by r/d, from far to near, no windowing filter",
+                         .x_label = "r/d",
+                         .y_label = "largest error / peak",
+                         .log_x = true,
+                         .log_y = true,
+                         .series = series,
+                         .series_count = 6 },
         error);
 }
 
@@ -155,7 +155,7 @@ static bool plot_angles(paper *p, const char *file, const char *title, double ex
                         const int bands[3], cli_error *error) {
     double x[ANGLES], y[5][ANGLES];
     char names[5][32] = { "exact" };
-    plot_series series[5];
+    figure_series series[5];
     const double ratio = 0.2;
     const double peak = response(&(setting) { exponent, ratio, LMP_WINDOW_NONE }, 0, 0);
     for (int k = 0; k < 5; k++) {
@@ -167,15 +167,15 @@ static bool plot_angles(paper *p, const char *file, const char *title, double ex
             x[i] = 180.0 * i / (ANGLES - 1);
             y[k][i] = response(&s, n, REFERENCE_PI * i / (ANGLES - 1)) / peak;
         }
-        series[k] = (plot_series) { names[k], x, y[k], ANGLES };
+        series[k] = (figure_series) { names[k], x, y[k], ANGLES };
     }
     return page_plot_write(&p->page,
-                           &(page_plot) { .file = file,
-                                          .title = title,
-                                          .x_label = "degrees from the lobe's axis to the light",
-                                          .y_label = "response / exact peak",
-                                          .series = series,
-                                          .series_count = 5 },
+                           &(figure_plot) { .file = file,
+                                            .title = title,
+                                            .x_label = "degrees from the lobe's axis to the light",
+                                            .y_label = "response / exact peak",
+                                            .series = series,
+                                            .series_count = 5 },
                            error);
 }
 

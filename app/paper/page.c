@@ -146,3 +146,27 @@ bool page_table_end(page_table *table, cli_error *error) {
             table->file);
     return file_write_commit(&table->csv, error);
 }
+
+/* --- plots ------------------------------------------------------------------------------------ */
+
+static bool write_file(const figure_plot *plot, const char *extension,
+                       void (*put)(FILE *, const figure_plot *), cli_error *error) {
+    char path[80];
+    snprintf(path, sizeof path, "%s.%s", plot->file, extension);
+    file_writer file;
+    if (!file_write_begin(&file, path, error))
+        return false;
+    put(file.stream, plot);
+    return file_write_commit(&file, error);
+}
+
+bool page_plot_write(paper_page *page, const figure_plot *plot, cli_error *error) {
+    char path[80], caption[160];
+    if (!write_file(plot, "svg", figure_plot_draw, error) ||
+        !write_file(plot, "csv", figure_plot_list, error))
+        return false;
+    snprintf(path, sizeof path, "%s.svg", plot->file);
+    snprintf(caption, sizeof caption, "%s (points: %s.csv)", plot->title, plot->file);
+    page_image(page, path, caption);
+    return true;
+}

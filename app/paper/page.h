@@ -3,6 +3,7 @@
 #ifndef LAMPION_PAPER_PAGE_H
 #define LAMPION_PAPER_PAGE_H
 
+#include "app/figure/plot.h"
 #include "app/file/file.h"
 
 /* Files are written into the working directory, beside the page. */
@@ -35,20 +36,7 @@ void page_table_row(page_table *table, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 bool page_table_end(page_table *table, cli_error *error);
 
-/* A plot, written to FILE.svg, its points to FILE.csv. Points that a logarithm cannot show are left
- * out. */
-typedef struct plot_series {
-    const char *name;
-    const double *x, *y;
-    int count;
-} plot_series;
-typedef struct page_plot {
-    const char *file, *title, *x_label, *y_label;
-    bool log_x, log_y;
-    double y_floor; /* smallest y shown, of log_y; 0: as small as there is */
-    const plot_series *series;
-    int series_count; /* at most 8 */
-} page_plot;
-bool page_plot_write(paper_page *page, const page_plot *plot, cli_error *error);
+/* A plot, written to FILE.svg, its points to FILE.csv. */
+bool page_plot_write(paper_page *page, const figure_plot *plot, cli_error *error);
 
 #endif

@@ -71,7 +71,7 @@ bool paper_step_preintegrated(paper *p, cli_error *error) {
     static const char *const names[2 * SETTINGS] = { "10, largest", "20, largest", "100, largest",
                                                      "10, rms",     "20, rms",     "100, rms" };
     double x[SETTINGS][BOUNDS], y[2 * SETTINGS][BOUNDS];
-    plot_series series[2 * SETTINGS];
+    figure_series series[2 * SETTINGS];
     page_table table;
     page_text(&p->page, "Preintegrated lobes against their series of bands, %d values each.",
               EXPONENTS * RATIOS * ANGLES);
@@ -93,15 +93,15 @@ bool paper_step_preintegrated(paper *p, cli_error *error) {
     if (!page_table_end(&table, ok ? error : &ignored) || !ok)
         return false;
     for (int s = 0; s < 2 * SETTINGS; s++)
-        series[s] = (plot_series) { names[s], x[s % SETTINGS], y[s], BOUNDS };
+        series[s] = (figure_series) { names[s], x[s % SETTINGS], y[s], BOUNDS };
     return page_plot_write(&p->page,
-                           &(page_plot) { .file = "preintegrated-memory",
-                                          .title = "Preintegrated lobes: memory and error",
-                                          .x_label = "KB",
-                                          .y_label = "error, % of the peak",
-                                          .log_x = true,
-                                          .log_y = true,
-                                          .series = series,
-                                          .series_count = 2 * SETTINGS },
+                           &(figure_plot) { .file = "preintegrated-memory",
+                                            .title = "Preintegrated lobes: memory and error",
+                                            .x_label = "KB",
+                                            .y_label = "error, % of the peak",
+                                            .log_x = true,
+                                            .log_y = true,
+                                            .series = series,
+                                            .series_count = 2 * SETTINGS },
                            error);
 }

@@ -106,20 +106,20 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
     double noise[BANDS_MAX];
     for (int i = 0; i < count; i++)
         noise[i] = result.values[COMPARE_RELMSE];
-    const plot_series series[] = { { "against truth", x, rough, count },
-                                   { "noise alone", x, noise, count } };
+    const figure_series series[] = { { "against truth", x, rough, count },
+                                     { "noise alone", x, noise, count } };
     page_text(&p->page,
               "“Noise alone” compares two ground truths of other seeds. The largest error is often "
               "one pixel on an edge where rasterizer and ray see different surfaces.");
     snprintf(file, sizeof file, "%s-curve", f->name);
     return page_plot_write(&p->page,
-                           &(page_plot) { .file = file,
-                                          .title = "Error against whole lobes by number of bands",
-                                          .x_label = "bands",
-                                          .y_label = "relative MSE",
-                                          .log_y = true,
-                                          .series = series,
-                                          .series_count = 2 },
+                           &(figure_plot) { .file = file,
+                                            .title = "Error against whole lobes by number of bands",
+                                            .x_label = "bands",
+                                            .y_label = "relative MSE",
+                                            .log_y = true,
+                                            .series = series,
+                                            .series_count = 2 },
                            error);
 }
 

@@ -30,6 +30,7 @@ may_include() {
     # it judges all of them: nothing but itself
     ruler) echo ruler ;;
     app/ruler) echo app/cli app/file app/ruler ;;
+    app/scoreboard) echo app/timing app/cli app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard base sh light lobe brdf preintegrated shade ;;
     app/csv) echo app/cli app/csv ;;
     app/file) echo app/cli app/file ;;
     app/sandbox) echo app/cli app/sandbox ;;
@@ -51,7 +52,7 @@ may_include() {
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/shadow app/override app/view LIBRARY ;;
     app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
     app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/gpu app/bake app/shade app/override app/bench LIBRARY ;;
-    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/shade app/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/gpu app/device app/material app/view \
+    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/shade app/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard app/gpu app/device app/material app/view \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }

@@ -6,7 +6,7 @@ set -eu
 file_lines=450
 function_lines=60
 page_words=1700
-generated='src/base/tables.c src/brdf/sgd_table.c src/lobe/ggx_table.c'
+generated='src/base/tables.c src/brdf/sgd_table.c src/lobe/ggx_table.c app/scoreboard/cosines_table.c'
 
 # long_files FILE…
 long_files() {

@@ -1,13 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/paper/page.h"
+#include "app/figure/plot.h"
 
 #include <math.h>
-#include <string.h>
 
-enum { WIDTH = 720, HEIGHT = 400, LEFT = 76, RIGHT = 170, TOP = 40, BOTTOM = 50, COLORS = 8 };
+enum {
+    WIDTH = 720,
+    HEIGHT = 400,
+    LEFT = 76,
+    RIGHT = 170,
+    TOP = 40,
+    BOTTOM = 50,
+    COLORS = FIGURE_SERIES_MAX
+};
 
 static const char *const colors[COLORS] = { "#1f5fa8", "#c0392b", "#2e8b57", "#8e5ea2",
-                                            "#d9831f", "#16828c", "#7f8c8d", "#b03a7d" };
+                                            "#d9831f", "#16828c", "#7f8c8d", "#b03a7d",
+                                            "#5b6f1f", "#00a0e0", "#e05a8a", "#4a3b8f",
+                                            "#a06a3c", "#30b090", "#c8a400", "#202020" };
 
 /* One axis: values low … high over pixels from … to. */
 typedef struct axis {
@@ -24,12 +33,12 @@ static double position(const axis *a, double value) {
     return a->from + (a->to - a->from) * (scaled(a, value) - low) / (high > low ? high - low : 1);
 }
 
-static bool shown(const page_plot *plot, double x, double y) {
+static bool shown(const figure_plot *plot, double x, double y) {
     return isfinite(x) && isfinite(y) && (!plot->log_x || x > 0) &&
            (!plot->log_y || y > plot->y_floor);
 }
 
-static void span(const page_plot *plot, axis *x, axis *y) {
+static void span(const figure_plot *plot, axis *x, axis *y) {
     x->low = y->low = (double)INFINITY;
     x->high = y->high = -(double)INFINITY;
     for (int s = 0; s < plot->series_count; s++)
@@ -89,8 +98,8 @@ static void draw_marks(FILE *svg, const axis *a, bool vertical) {
         }
 }
 
-static void draw_series(FILE *svg, const page_plot *plot, int s, const axis *x, const axis *y) {
-    const plot_series *series = &plot->series[s];
+static void draw_series(FILE *svg, const figure_plot *plot, int s, const axis *x, const axis *y) {
+    const figure_series *series = &plot->series[s];
     const char *color = colors[s % COLORS];
     bool down = false;
     fprintf(svg, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\" d=\"", color);
@@ -103,14 +112,19 @@ static void draw_series(FILE *svg, const page_plot *plot, int s, const axis *x, 
                 position(y, series->y[i]));
         down = true;
     }
+    fputs("\"/>\n", svg);
+    for (int i = 0; plot->dots && i < series->count; i++)
+        if (shown(plot, series->x[i], series->y[i]))
+            fprintf(svg, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"%s\"/>\n",
+                    position(x, series->x[i]), position(y, series->y[i]), color);
     fprintf(svg,
-            "\"/>\n<path d=\"M%d %dh18\" stroke=\"%s\" stroke-width=\"3\"/><text x=\"%d\" "
+            "<path d=\"M%d %dh18\" stroke=\"%s\" stroke-width=\"3\"/><text x=\"%d\" "
             "y=\"%d\">%s</text>\n",
             WIDTH - RIGHT + 12, TOP + 8 + 20 * s, color, WIDTH - RIGHT + 36, TOP + 12 + 20 * s,
             series->name);
 }
 
-static void draw(FILE *svg, const page_plot *plot) {
+void figure_plot_draw(FILE *svg, const figure_plot *plot) {
     axis x = { .log = plot->log_x, .from = LEFT, .to = WIDTH - RIGHT };
     axis y = { .log = plot->log_y, .from = HEIGHT - BOTTOM, .to = TOP };
     span(plot, &x, &y);
@@ -134,31 +148,10 @@ static void draw(FILE *svg, const page_plot *plot) {
     fputs("</svg>\n", svg);
 }
 
-static void list_points(FILE *csv, const page_plot *plot) {
+void figure_plot_list(FILE *csv, const figure_plot *plot) {
     fprintf(csv, "series,%s,%s\n", plot->x_label, plot->y_label);
     for (int s = 0; s < plot->series_count; s++)
         for (int i = 0; i < plot->series[s].count; i++)
             fprintf(csv, "%s,%.9g,%.9g\n", plot->series[s].name, plot->series[s].x[i],
                     plot->series[s].y[i]);
-}
-
-static bool write_file(const page_plot *plot, const char *extension,
-                       void (*put)(FILE *, const page_plot *), cli_error *error) {
-    char path[80];
-    snprintf(path, sizeof path, "%s.%s", plot->file, extension);
-    file_writer file;
-    if (!file_write_begin(&file, path, error))
-        return false;
-    put(file.stream, plot);
-    return file_write_commit(&file, error);
-}
-
-bool page_plot_write(paper_page *page, const page_plot *plot, cli_error *error) {
-    char path[80], caption[160];
-    if (!write_file(plot, "svg", draw, error) || !write_file(plot, "csv", list_points, error))
-        return false;
-    snprintf(path, sizeof path, "%s.svg", plot->file);
-    snprintf(caption, sizeof caption, "%s (points: %s.csv)", plot->title, plot->file);
-    page_image(page, path, caption);
-    return true;
 }

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT */
+/* plot.h - lines and points over two axes, as SVG and as a table. */
+#ifndef LAMPION_FIGURE_PLOT_H
+#define LAMPION_FIGURE_PLOT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef struct figure_series {
+    const char *name;
+    const double *x, *y;
+    int count;
+} figure_series;
+
+/* Points that a logarithm cannot show are left out. */
+typedef struct figure_plot {
+    const char *file, *title, *x_label, *y_label;
+    bool log_x, log_y;
+    double y_floor; /* smallest y shown, of log_y; 0: as small as there is */
+    bool dots;      /* each point is drawn, too */
+    const figure_series *series;
+    int series_count; /* at most FIGURE_SERIES_MAX */
+} figure_plot;
+#define FIGURE_SERIES_MAX 16
+
+void figure_plot_draw(FILE *svg, const figure_plot *plot);
+void figure_plot_list(FILE *csv, const figure_plot *plot);
+
+#endif

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/scoreboard/board.h"
+#include "app/timing/timing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RUNS    9    /* the fastest counts */
+#define SECONDS 2e-3 /* of a run, at least */
+
+/* --- cells ------------------------------------------------------------------------------------ */
+
+board_cell board_all(const board_score *score) {
+    board_cell cell = { .by = score->by };
+    for (int k = 0; k < RULER_GROUPINGS; k++)
+        cell.group[k] = -1;
+    return cell;
+}
+
+static bool in_cell(const ruler_row *row, const void *user) {
+    const board_cell *const cell = user;
+    for (int k = 0; k < RULER_GROUPINGS; k++)
+        if (cell->group[k] >= 0 && !ruler_in_group(&ruler_groupings[k], cell->group[k], row))
+            return false;
+    return formula_applies(cell->by, row);
+}
+
+ruler_figures board_figures(const board *b, const board_score *score, const board_cell *cell) {
+    return ruler_figures_of(b->table, score->values, in_cell, cell);
+}
+
+const ruler_row *board_worst(const board *b, const board_score *score, const board_cell *cell) {
+    const ruler_row *worst = NULL;
+    double largest = -1;
+    for (int i = 0; i < b->table->count; i++) {
+        const ruler_row *const row = &b->table->rows[i];
+        const double error = fabs(ruler_error(row, score->values[i]));
+        if (!in_cell(row, cell) || error <= largest)
+            continue;
+        worst = row;
+        largest = error;
+    }
+    return worst;
+}
+
+/* --- judging ---------------------------------------------------------------------------------- */
+
+/* The fastest of several runs, each of all queries as often as the clock needs. */
+static double time_of(const formula *by, const lmp_shade_settings *settings,
+                      const formula_query *queries, int count) {
+    double fastest = (double)INFINITY;
+    volatile float sink = 0;
+    for (int run = 0; run < RUNS; run++) {
+        const double start = timing_now();
+        double seconds = 0;
+        int rounds = 0;
+        for (; seconds < SECONDS; rounds++) {
+            for (int i = 0; i < count; i++)
+                sink = by->radiance(&queries[i], settings);
+            seconds = timing_now() - start;
+        }
+        fastest = fmin(fastest, seconds / rounds / count);
+    }
+    (void)sink;
+    return fastest * 1e9;
+}
+
+static void judge(const board *b, board_score *score, const lmp_shade_settings *settings,
+                  formula_query *queries) {
+    for (int m = 0; m < RULER_MATERIALS; m++) {
+        int count = 0;
+        for (int i = 0; i < b->table->count; i++) {
+            const ruler_row *const row = &b->table->rows[i];
+            if (row->material != (ruler_material)m || !formula_applies(score->by, row))
+                continue;
+            queries[count] = formula_query_of(row);
+            score->values[i] = (double)score->by->radiance(&queries[count++], settings);
+        }
+        if (count > 0)
+            score->nanoseconds[m] = time_of(score->by, settings, queries, count);
+    }
+}
+
+static bool add(board *b, const formula *by, cli_error *error) {
+    board_score *const score = &b->scores[b->count];
+    lmp_shade_settings settings;
+    lmp_preintegrated_lobe *lobe;
+    if (!formula_open(by, &settings, &lobe, error))
+        return false;
+    formula_query *const queries = malloc(((size_t)b->table->count + 1) * sizeof *queries);
+    *score = (board_score) { .by = by };
+    score->values = calloc((size_t)b->table->count + 1, sizeof *score->values);
+    const bool made = queries && score->values;
+    if (made)
+        judge(b, score, &settings, queries);
+    b->count++;
+    free(queries);
+    lmp_preintegrated_lobe_destroy(lobe);
+    return made || cli_fail(error, NULL, "out of memory");
+}
+
+static bool is_chosen(const cli_list *names, const char *name) {
+    for (int i = 0; i < names->count; i++)
+        if (strcmp(names->items[i], name) == 0)
+            return true;
+    return names->count == 0;
+}
+
+static bool check_names(const cli_list *names, cli_error *error) {
+    const char *known[FORMULAS_MAX + 1];
+    cli_row_names(&formula_table[0].name, sizeof *formula_table, formula_count, known);
+    for (int i = 0; i < names->count; i++) {
+        int k = 0;
+        while (k < formula_count && strcmp(known[k], names->items[i]) != 0)
+            k++;
+        if (k == formula_count)
+            return cli_fail_word(error, "formula", names->items[i], known);
+    }
+    return true;
+}
+
+bool board_create(const ruler_table *table, const cli_list *names, board *result,
+                  cli_error *error) {
+    *result = (board) { .table = table };
+    if (!check_names(names, error))
+        return false;
+    result->scores = calloc((size_t)formula_count, sizeof *result->scores);
+    if (!result->scores)
+        return cli_fail(error, NULL, "out of memory");
+    for (int k = 0; k < formula_count; k++) {
+        cli_progress("judging", (double)k / formula_count);
+        if (is_chosen(names, formula_table[k].name) && !add(result, &formula_table[k], error)) {
+            board_free(result);
+            return false;
+        }
+    }
+    cli_progress_end();
+    return true;
+}
+
+void board_free(board *b) {
+    for (int k = 0; k < b->count; k++)
+        free(b->scores[k].values);
+    free(b->scores);
+    *b = (board) { .count = 0 };
+}

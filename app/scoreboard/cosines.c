@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT */
+/* Heitz et al., Real-Time Polygonal-Light Shading with Linearly Transformed Cosines (SIGGRAPH
+ * 2016), and Heitz and Hill, Real-Time Line- and Disk-Light Shading (SIGGRAPH 2017 course): the
+ * inverse matrix makes the lobe a clamped cosine and the disk of directions an ellipse, whose
+ * vector irradiance is closed; the horizon clips a sphere of the same irradiance. */
+#include "app/scoreboard/cosines.h"
+#include "app/scoreboard/gltf.h"
+
+static double dot(const cosines_vector a, const cosines_vector b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void lookup(float roughness, float nv, float node[COSINES_MEMBERS]) {
+    const float x = gltf_clamp(roughness) * (COSINES_SIZE - 1);
+    const float y = sqrtf(1 - gltf_clamp(nv)) * (COSINES_SIZE - 1);
+    const int i = (int)fminf(x, COSINES_SIZE - 2), j = (int)fminf(y, COSINES_SIZE - 2);
+    const float u = x - (float)i, v = y - (float)j;
+    for (int k = 0; k < COSINES_MEMBERS; k++)
+        node[k] = (1 - u) * ((1 - v) * cosines_table[i][j][k] + v * cosines_table[i][j + 1][k]) +
+                  u * ((1 - v) * cosines_table[i + 1][j][k] + v * cosines_table[i + 1][j + 1][k]);
+}
+
+/* P = u u' - sin2 B B', u = B axis, has the axes of the ellipse's cone; its one positive eigenvalue
+ * is found by Newton's steps from |u|², which is above it. */
+float cosines_over_disk(cosines_vector rows[3], const cosines_vector axis, double sin2) {
+    const cosines_vector u = { dot(rows[0], axis), dot(rows[1], axis), dot(rows[2], axis) };
+    cosines_vector p[3], once, twice, mean;
+    double trace = 0, squares = 0, largest = dot(u, u);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            p[i][j] = u[i] * u[j] - sin2 * dot(rows[i], rows[j]);
+        trace += p[i][i];
+        squares += dot(p[i], p[i]);
+    }
+    const double volume = rows[1][1] * (rows[0][0] * rows[2][2] - rows[0][2] * rows[2][0]);
+    const double minors = (trace * trace - squares) / 2;
+    const double determinant = volume * volume * sin2 * sin2 * (1 - sin2);
+    for (int k = 0; k < 8; k++)
+        largest -= (((largest - trace) * largest + minors) * largest - determinant) /
+                   ((3 * largest - 2 * trace) * largest + minors);
+    const double sum = trace - largest, product = determinant / largest; /* of the other two */
+    for (int i = 0; i < 3; i++)
+        once[i] = dot(p[i], u);
+    for (int i = 0; i < 3; i++)
+        twice[i] = dot(p[i], once);
+    for (int i = 0; i < 3; i++)
+        mean[i] = twice[i] - sum * once[i] + product * u[i];
+    const double form = sqrt(product / (largest * (largest - sum) + product));
+    return gltf_sphere((float)(mean[2] / sqrt(dot(mean, mean))), (float)form);
+}
+
+float formula_cosines(const formula_query *q, const lmp_shade_settings *settings) {
+    (void)settings;
+    const float sin2 = q->sine * q->sine, nv = vec_dot(q->normal, q->view);
+    const float diffuse = gltf_sphere(vec_dot(q->normal, q->light), sin2);
+    if (q->material == RULER_LAMBERT)
+        return q->color * diffuse;
+    float node[COSINES_MEMBERS];
+    lookup(q->roughness, nv, node);
+    const lmp_vec3 x =
+        vec_normalize(vec_sub(q->view, vec_scale(q->normal, nv)), vec_across(q->normal));
+    const cosines_vector axis = { vec_dot(q->light, x), vec_dot(q->light, vec_cross(q->normal, x)),
+                                  vec_dot(q->light, q->normal) };
+    cosines_vector rows[3] = { { node[0], 0, node[1] }, { 0, 1, 0 }, { node[2], 0, node[3] } };
+    const float weight = gltf_f0(q) * node[4] + (1 - gltf_f0(q)) * node[5];
+    return gltf_layers(q, weight * cosines_over_disk(rows, axis, sin2), diffuse, q->light);
+}
