@@ -2,10 +2,19 @@
 /* environment.glsl - ambient light from far away: the responses of lobes to its coefficients (lmp_environment),
  * and what is seen of it. */
 
-/* red, green, blue of coefficient l² + l + m, windowed; surroundings.x bands */
+/* red, green, blue of coefficient l² + l + m, windowed: surroundings.w of them; as many that are
+ * not; then, in x, the matrices of a quarter turn about x. surroundings.x: bands */
 layout(std430, binding = SHARED_ENVIRONMENT) readonly restrict buffer environment_block {
     vec4 environment_sh[];
 };
+
+int environment_whole() {
+    return int(surroundings.w);
+}
+
+int environment_tilts() {
+    return 2 * int(surroundings.w);
+}
 layout(binding = SHARED_BACKDROP) uniform sampler2D backdrop_map;
 
 /* A Phong lobe of integral 1 around an axis; with exponent 1 it is the diffuse one. Its factors

@@ -86,8 +86,13 @@ vec3 shade_by_lobes(pixel p) {
 
 vec3 shade_surface(pixel p) {
 #if defined(TABLE_FULL) || defined(SHADE_PREINTEGRATED_BRDF)
-    if (p.table >= 0)
-        return shade_by_table(p.surface, p.table);
+    if (p.table >= 0) {
+        vec3 sum = shade_by_table(p.surface, p.table);
+#if TABLE_ENVIRONMENT
+        sum += shade_table_environment(p.surface, p.table) * p.layers.x;
+#endif
+        return sum;
+    }
 #endif
     return shade_by_lobes(p);
 }

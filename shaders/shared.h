@@ -114,7 +114,8 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 size_lights; /* width, height, number of lights */
     vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1; z, w:
                     its index, of how many */
-    vec4 surroundings; /* of the environment: bands (0: none), azimuth, 1 if it is seen */
+    vec4 surroundings; /* of the environment: bands (0: none), azimuth, 1 if it is seen,
+                          coefficients of its block */
 }
 SHARED_END(shared_frame);
 

@@ -4,7 +4,8 @@
  * TABLE_FULL is 0 where every table is mirror-symmetric: then half the coefficients do.
  * table_values begins with a vec4 a table: its first value, rows over theta_o from 0 to pi/2, and
  * columns over phi_o. Then the tables, [column][row][coefficient], all of LMP_BANDS bands; rows and
- * columns are so many that linear interpolation between them follows the library's cubic. */
+ * columns are so many that linear interpolation between them follows the library's cubic.
+ * TABLE_ENVIRONMENT: by how many bands at most they reflect that of environment.glsl; 0: not. */
 layout(std430, binding = SHARED_TABLES) readonly restrict buffer tables_block {
     vec4 table_values[];
 };
@@ -45,11 +46,26 @@ void table_rows(int table, float cos_theta, float phi, out ivec4 first, out vec4
     weight = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
 }
 
+/* The frame of a surface's table: z is the normal, and the view is at y = 0, x >= 0. phi is its
+ * angle from the horizontal tangent. */
+struct table_frame {
+    vec3 x, y, n;
+    float phi;
+};
+
+table_frame table_frame_of(lmp_surface surface) {
+    table_frame f;
+    f.n = surface.normal;
+    vec3 side = table_flatten(cross(vec3(0.0, 1.0, 0.0), f.n), f.n,
+                              table_flatten(vec3(1.0, 0.0, 0.0), f.n, vec3(1.0, 0.0, 0.0)));
+    f.x = table_flatten(surface.view, f.n, side);
+    f.y = cross(f.n, f.x);
+    f.phi = atan(dot(f.x, cross(f.n, side)), dot(f.x, side));
+    return f;
+}
+
 vec3 shade_table(lmp_surface surface, int table) {
-    vec3 n = surface.normal;
-    vec3 side = table_flatten(cross(vec3(0.0, 1.0, 0.0), n), n,
-                              table_flatten(vec3(1.0, 0.0, 0.0), n, vec3(1.0, 0.0, 0.0)));
-    vec3 x = table_flatten(surface.view, n, side), y = cross(n, x);
+    table_frame f = table_frame_of(surface);
 
     vec3 sum[LMP_SH_COUNT];
 #define LMP_ROW(l, m)                                                                              \
@@ -68,7 +84,7 @@ vec3 shade_table(lmp_surface surface, int table) {
         vec3 to = fixed_cap ? sphere.xyz : sphere.xyz - surface.position;
         vec3 radiance = LMP_LIGHT_COLOR(i, surface.position);
         float sh[LMP_SH_COUNT];
-        vec4 local = vec4(dot(to, x), dot(to, y), dot(to, n), sphere.w);
+        vec4 local = vec4(dot(to, f.x), dot(to, f.y), dot(to, f.n), sphere.w);
         lmp_cap_project(lmp_cap_of_light(local, fixed_cap, vec3(0.0)), sh);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
@@ -84,8 +100,7 @@ vec3 shade_table(lmp_surface surface, int table) {
 
     ivec4 first;
     vec4 weight;
-    table_rows(table, dot(surface.view, n), atan(dot(x, cross(n, side)), dot(x, side)), first,
-               weight);
+    table_rows(table, dot(surface.view, f.n), f.phi, first, weight);
     vec3 reflected = vec3(0.0);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
@@ -99,3 +114,58 @@ vec3 shade_table(lmp_surface surface, int table) {
 #undef LMP_ROW
     return max(reflected, vec3(0.0));
 }
+
+/* --- an environment ----------------------------------------------------------------------------
+ * Its coefficients, brought into the table's frame band by band: three rotations about z, with a quarter
+ * turn about x, whose matrices the block holds, between them and back. */
+#if TABLE_ENVIRONMENT
+
+/* The angles of Rz(a) Ry(b) Rz(c), the rotation into the frame. */
+vec3 table_angles(table_frame f) {
+    if (dot(f.n.xy, f.n.xy) < 1e-12)
+        return vec3(f.n.z > 0.0 ? atan(f.y.x, f.x.x) : atan(-f.y.x, -f.x.x),
+                    f.n.z > 0.0 ? 0.0 : LMP_PI, 0.0);
+    return vec3(atan(f.y.z, f.x.z), atan(length(f.n.xy), f.n.z), atan(f.n.y, -f.n.x));
+}
+
+void table_rotate(int l, float angle, inout vec3 band[2 * TABLE_ENVIRONMENT - 1]) {
+    for (int m = 1; m <= l; m++) {
+        float c = cos(float(m) * angle), s = sin(float(m) * angle);
+        vec3 even = band[l + m], odd = band[l - m];
+        band[l + m] = even * c - odd * s;
+        band[l - m] = even * s + odd * c;
+    }
+}
+
+/* A quarter turn about x, or back: by the transposed matrix. */
+void table_tilt(int l, bool back, inout vec3 band[2 * TABLE_ENVIRONMENT - 1]) {
+    vec3 from[2 * TABLE_ENVIRONMENT - 1] = band;
+    int size = 2 * l + 1, first = environment_tilts() + l * (4 * l * l - 1) / 3;
+    for (int i = 0; i < size; i++) {
+        band[i] = vec3(0.0);
+        for (int k = 0; k < size; k++)
+            band[i] += environment_sh[first + (back ? k * size + i : i * size + k)].x * from[k];
+    }
+}
+
+vec3 shade_table_environment(lmp_surface surface, int table) {
+    table_frame f = table_frame_of(surface);
+    vec3 angles = table_angles(f), reflected = vec3(0.0), band[2 * TABLE_ENVIRONMENT - 1];
+    int bands = min(min(int(surroundings.x), LMP_BANDS), TABLE_ENVIRONMENT);
+    ivec4 first;
+    vec4 weight;
+    table_rows(table, dot(surface.view, f.n), f.phi, first, weight);
+    for (int l = 0; l < bands; l++) {
+        for (int i = 0; i <= 2 * l; i++)
+            band[i] = environment_sh[environment_whole() + l * l + i].rgb;
+        table_rotate(l, angles.z, band);
+        table_tilt(l, false, band);
+        table_rotate(l, angles.y, band);
+        table_tilt(l, true, band);
+        table_rotate(l, angles.x, band);
+        for (int m = TABLE_FULL == 1 ? -l : 0; m <= l; m++)
+            reflected += band[l + m] * TABLE_AT(first, weight, TABLE_INDEX(l, m));
+    }
+    return max(reflected, vec3(0.0));
+}
+#endif

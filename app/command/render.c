@@ -134,16 +134,10 @@ static bool settle_tables(render_job *j, cli_error *error) {
 static bool settle_shading(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     const method_kind method = (method_kind)o->method;
-    const unsigned needs = o->materials.count > 0 && environment_shines(&j->around)
-                               ? DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT
-                               : 0;
+    const bool tables = o->materials.count > 0 && environment_shines(&j->around);
     /* Methods are compared where all of them run. */
-    j->shading = method_device(method, (device_kind)o->device_kind, needs,
+    j->shading = method_device(method, (device_kind)o->device_kind, tables,
                                j->context.software && !o->compare, o->bands);
-    if (needs & ~device_table[j->shading].offers)
-        return cli_fail(error, NULL,
-                        "tabulated materials reflect an environment on the CPU alone (--device "
-                        "cpu, or --environment none)");
     if (o->bands > method_table[method].bands_max[j->shading])
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
                         o->bands, method_table[method].name);

@@ -10,8 +10,7 @@ const device_row device_table[DEVICES] = {
     [DEVICE_CPU] = { .name = "cpu",
                      .help = "the library's kernels on all cores",
                      .text = "CPU",
-                     .on_host = true,
-                     .offers = DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT },
+                     .on_host = true },
 };
 
 const char *const *device_names(void) {

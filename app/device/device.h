@@ -14,15 +14,11 @@ typedef enum device_kind {
     DEVICES
 } device_kind;
 
-/* What a frame may need besides its method. */
-enum { DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT = 1 };
-
 typedef struct device_row {
     const char *name; /* in options and output */
     const char *help; /* what --device says of it */
     const char *text; /* in sentences */
     bool on_host;     /* the library shades, no shader */
-    unsigned offers;  /* DEVICE_LIGHTS_… */
 } device_row;
 
 extern const device_row device_table[DEVICES];

@@ -14,6 +14,7 @@ static void forget(gpu_renderer *r) {
 
 void gpu_set_environment(gpu_renderer *r, const environment *e) {
     forget(r);
+    gpu_forget_tables(r); /* which of them are summed depends on it */
     r->environment = e;
 }
 
@@ -26,23 +27,37 @@ static void upload_backdrop(gpu_renderer *r) {
                         seen->rgb);
 }
 
-/* Windowed, as the lobes are. */
+/* Matrices of a quarter turn about x. */
+enum { TILTS = LMP_SH_ROTATION_COUNT(LMP_ENVIRONMENT_TABLE_BANDS) };
+
+static void fill_tilts(vec4 *block) {
+    static const float quarter[9] = { 1, 0, 0, 0, 0, -1, 0, 1, 0 };
+    float matrices[TILTS];
+    lmp_sh_rotation_from_matrix(LMP_ENVIRONMENT_TABLE_BANDS, quarter, matrices);
+    for (size_t i = 0; i < TILTS; i++)
+        block[i][0] = matrices[i];
+}
+
+/* Windowed, as the lobes are, and as they are, for tables that are windowed themselves. */
 static bool upload_coefficients(gpu_renderer *r, int bands, lmp_window window, cli_error *error) {
     const environment *e = r->environment;
-    const size_t count = LMP_SH_COUNT(e->bands);
+    const size_t count = LMP_SH_COUNT(e->bands), size = 2 * count + TILTS;
     float weights[LMP_BANDS_MAX];
-    vec4 *block = calloc(count, sizeof *block);
+    vec4 *block = calloc(size, sizeof *block);
     if (!block)
         return cli_fail(error, NULL, "out of memory");
     lmp_sh_window(bands, window, 0, weights);
     for (int l = 0; l < bands && l < e->bands; l++)
         for (int m = -l; m <= l; m++)
-            for (size_t c = 0; c < 3; c++)
-                block[LMP_SH_INDEX(l, m)][c] =
-                    weights[l] * e->sh[c * count + (size_t)LMP_SH_INDEX(l, m)];
+            for (size_t c = 0; c < 3; c++) {
+                const size_t i = LMP_SH_INDEX(l, m);
+                block[i][c] = weights[l] * e->sh[c * count + i];
+                block[count + i][c] = e->sh[c * count + i];
+            }
+    fill_tilts(block + 2 * count);
     glDeleteBuffers(1, &r->environment_block);
     glCreateBuffers(1, &r->environment_block);
-    glNamedBufferStorage(r->environment_block, (GLsizeiptr)(count * sizeof *block), block, 0);
+    glNamedBufferStorage(r->environment_block, (GLsizeiptr)(size * sizeof *block), block, 0);
     free(block);
     return true;
 }
@@ -69,6 +84,7 @@ void gpu_describe_environment(const gpu_renderer *r, const gpu_frame *frame, vec
     surroundings[0] = (float)(e->bands < frame->bands ? e->bands : frame->bands);
     surroundings[1] = e->azimuth;
     surroundings[2] = e->backdrop.rgb && !frame->hide_backdrop;
+    surroundings[3] = (float)LMP_SH_COUNT(e->bands);
 }
 
 const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer) {

@@ -85,6 +85,7 @@ typedef struct gpu_variant {
     lmp_window window;
     int tables;               /* summed by bands: 0 none, 1 mirrored ones, 2 any */
     bool preintegrated_brdfs; /* some tables are read preintegrated */
+    int environment_bands;    /* of the one that tables reflect; 0: none */
     GLuint program;
 } gpu_variant;
 
@@ -98,6 +99,9 @@ bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated
 
 /* Which tables a frame sums by bands: as in gpu_variant. */
 int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
+
+/* What was uploaded is not used any more. */
+void gpu_forget_tables(gpu_renderer *renderer);
 
 /* Uploads the tables that a frame sums by bands, once. */
 bool gpu_bind_tables(gpu_renderer *renderer, method_kind method, cli_error *error);

@@ -46,9 +46,15 @@ static bool fill_table(const lmp_brdf_table *table, bool full, size_t stride, ve
     return true;
 }
 
-/* Whether frames of a method sum table t by its bands. */
+/* Whether frames of a method sum table t by its bands: under lights, or under an environment. */
 static bool by_bands(const gpu_renderer *r, method_kind method, int t) {
-    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->brdfs[t];
+    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->brdfs[t] ||
+           environment_shines(r->environment);
+}
+
+void gpu_forget_tables(gpu_renderer *r) {
+    glDeleteBuffers(1, &r->tables_buffer);
+    r->tables_buffer = 0;
 }
 
 int gpu_tables_by_bands(const gpu_renderer *r, method_kind method) {

@@ -10,6 +10,13 @@ static int variant_bands_max(const gpu_variant *v) {
     return v->tables && most > METHOD_GPU_BANDS_MAX ? METHOD_GPU_BANDS_MAX : most;
 }
 
+/* Of the environment, those that tables reflect. */
+static int reflected_bands(const gpu_renderer *r, int bands) {
+    if (!environment_shines(r->environment))
+        return 0;
+    return bands < LMP_ENVIRONMENT_TABLE_BANDS ? bands : LMP_ENVIRONMENT_TABLE_BANDS;
+}
+
 /* What a frame asks of the shading pass. A shader that sums nothing by bands is the same for all.
  */
 static gpu_variant variant_of(const gpu_renderer *r, const gpu_frame *frame) {
@@ -20,6 +27,7 @@ static gpu_variant variant_of(const gpu_renderer *r, const gpu_frame *frame) {
                            .bands = by_bands ? frame->bands : 1,
                            .window = by_bands ? frame->window : LMP_WINDOW_NONE,
                            .tables = tables,
+                           .environment_bands = tables ? reflected_bands(r, frame->bands) : 0,
                            .preintegrated_brdfs = preintegrated && gpu_has_preintegrated_brdf(r) };
 }
 
@@ -37,12 +45,13 @@ static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *err
     static const char *const table_defines[] = { "", "#define TABLE_FULL 0\n",
                                                  "#define TABLE_FULL 1\n" };
     const method_row *row = &method_table[v->method];
-    char weights[16 * METHOD_GPU_BANDS_MAX], defines[sizeof weights + 256];
+    char weights[16 * METHOD_GPU_BANDS_MAX], defines[sizeof weights + 320];
     print_weights(v, weights, sizeof weights);
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
-             "%s%s%s",
-             row->defines, row->function, v->bands, weights, table_defines[v->tables],
+             "#define TABLE_ENVIRONMENT %d\n%s%s%s",
+             row->defines, row->function, v->bands, weights, v->environment_bands,
+             table_defines[v->tables],
              v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "",
              layered ? "#define PIXEL_LAYERED\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };
@@ -68,7 +77,8 @@ GLuint gpu_variant_find(gpu_renderer *r, const gpu_frame *frame, cli_error *erro
     for (int i = 0; i < r->variant_count; i++) {
         const gpu_variant *v = &r->variants[i];
         if (v->method == wanted.method && v->bands == wanted.bands && v->window == wanted.window &&
-            v->tables == wanted.tables && v->preintegrated_brdfs == wanted.preintegrated_brdfs)
+            v->tables == wanted.tables && v->preintegrated_brdfs == wanted.preintegrated_brdfs &&
+            v->environment_bands == wanted.environment_bands)
             return v->program;
     }
     wanted.program = compile_variant(&wanted, r->mesh.layered, error);

@@ -99,7 +99,7 @@ const char *method_help(void) {
     return text;
 }
 
-device_kind method_device(method_kind method, device_kind wanted, unsigned needs, bool software,
+device_kind method_device(method_kind method, device_kind wanted, bool tables, bool software,
                           int bands) {
     const method_row *row = &method_table[method];
     if (wanted != DEVICE_AUTO)
@@ -107,6 +107,6 @@ device_kind method_device(method_kind method, device_kind wanted, unsigned needs
     if (bands > row->bands_max[DEVICE_CPU])
         return DEVICE_GPU;
     const bool too_much =
-        bands > row->bands_max[DEVICE_GPU] || (needs & ~device_table[DEVICE_GPU].offers);
+        bands > row->bands_max[DEVICE_GPU] || (tables && bands > METHOD_GPU_BANDS_MAX);
     return too_much || (software && row->batched) ? DEVICE_CPU : DEVICE_GPU;
 }

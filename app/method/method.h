@@ -59,10 +59,10 @@ extern const method_row method_table[METHODS_TIMED];
 const char *const *method_names(void);
 const char *method_help(void);
 
-/* Where a frame is shaded that needs DEVICE_LIGHTS_…. DEVICE_AUTO: on the GPU, but where OpenGL is
- * software on the CPU if it has batch kernels, and where the bands are too many for a shader or a
- * shader offers too little. */
-device_kind method_device(method_kind method, device_kind wanted, unsigned needs, bool software,
+/* Where a frame is shaded. DEVICE_AUTO: on the GPU, but where OpenGL is software on the CPU if it
+ * has batch kernels, and where the bands are too many for a shader; tables under an environment are
+ * summed by bands, whatever the method. */
+device_kind method_device(method_kind method, device_kind wanted, bool tables, bool software,
                           int bands);
 
 #endif

@@ -273,11 +273,9 @@ static bool settle_shadows(view_compositor *s, const view_settings *settings, gp
 static bool fill_frame(view_compositor *s, const view_settings *settings,
                        const view_shading *shading, int divisor, gpu_frame *frame,
                        device_kind *device, cli_error *error) {
-    const unsigned needs = settings->material_count > 0 && environment_shines(&s->around)
-                               ? DEVICE_LIGHTS_TABLES_BY_ENVIRONMENT
-                               : 0;
+    const bool tables = settings->material_count > 0 && environment_shines(&s->around);
     *device =
-        method_device(shading->method, DEVICE_AUTO, needs, s->context.software, shading->bands);
+        method_device(shading->method, DEVICE_AUTO, tables, s->context.software, shading->bands);
     *frame = (gpu_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials with tables on the GPU against lmp_shade at the very same surface points. */
+#include "app/shade/shade.h"
 #include "tests/gpu/device.h"
+#include "tests/oracle/check.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { WIDTH = 60, HEIGHT = 80, BANDS = 10 };
 
-static lmp_brdf_table *table_of(lmp_result made, lmp_brdf *brdf) {
+static lmp_brdf_table *table_of(lmp_result made, lmp_brdf *brdf, int bands) {
     lmp_brdf_table *table = NULL;
     const lmp_brdf_table_desc desc = {
-        .bands = BANDS, .views = 32, .azimuths = 16, .window = LMP_WINDOW_HANNING, .rings_max = 128
+        .bands = bands, .views = 32, .azimuths = 16, .window = LMP_WINDOW_HANNING, .rings_max = 128
     };
     assert_int_equal(made, LMP_OK);
     assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
@@ -78,16 +80,16 @@ static void agree_with(lmp_brdf_table *first, lmp_brdf_table *second, double bou
     lmp_brdf_table_destroy(second);
 }
 
-static lmp_brdf_table *phong(float exponent) {
+static lmp_brdf_table *phong(float exponent, int bands) {
     lmp_brdf *brdf = NULL;
     const lmp_result made =
         lmp_brdf_create_phong(NULL, (lmp_rgb) { 0.8f, 0.6f, 0.3f }, exponent, &brdf);
-    return table_of(made, brdf);
+    return table_of(made, brdf, bands);
 }
 
 static void mirrored_tables_agree_with_lmp_shade(void **state) {
     (void)state;
-    agree_with(phong(20), phong(3), 5e-4);
+    agree_with(phong(20, BANDS), phong(3, BANDS), 5e-4);
 }
 
 static void anisotropic_tables_agree_with_lmp_shade(void **state) {
@@ -95,7 +97,69 @@ static void anisotropic_tables_agree_with_lmp_shade(void **state) {
     const lmp_ggx desc = { 0.6f, 0.3f, { 0.9f, 0.8f, 0.6f }, { 0.1f, 0.1f, 0.1f } };
     lmp_brdf *brdf = NULL;
     const lmp_result made = lmp_brdf_create_ggx(NULL, &desc, &brdf);
-    agree_with(table_of(made, brdf), phong(5), 5e-3);
+    agree_with(table_of(made, brdf, BANDS), phong(5, BANDS), 5e-3);
+}
+
+/* A sky that no rotation leaves alone, 4 bands. */
+enum { SKY_BANDS = 4 };
+static environment sky_of(float *sh) {
+    for (int i = 0; i < 3 * SKY_BANDS * SKY_BANDS; i++)
+        sh[i] = (float)check_random_between(-0.05, 0.05);
+    for (int c = 0; c < 3; c++)
+        sh[c * SKY_BANDS * SKY_BANDS] = (float)(c + 1);
+    return (environment) { .light = { .width = 1, .height = 1, .rgb = sh },
+                           .sh = sh,
+                           .bands = SKY_BANDS };
+}
+
+/* The largest difference between the devices, as a part of the largest radiance. */
+static double difference_between_devices(gpu_renderer *renderer, gpu_frame *frame) {
+    frame->host = NULL;
+    image gpu = render_image(renderer, frame);
+    frame->host = shade_frame;
+    image cpu = render_image(renderer, frame);
+    double worst = 0, peak = 0;
+    for (size_t i = 0; i < (size_t)3 * (size_t)frame->width * (size_t)frame->height; i++) {
+        worst = fmax(worst, fabs((double)gpu.rgb[i] - (double)cpu.rgb[i]));
+        peak = fmax(peak, (double)cpu.rgb[i]);
+    }
+    assert_true(peak > 0.1);
+    image_free(&gpu);
+    image_free(&cpu);
+    return worst / peak;
+}
+
+/* No lights: what either shows of the material is what it reflects of the environment. Few pixels
+ * and bands, for drivers in software take long. */
+static void tables_reflect_an_environment_as_the_library_has_it(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    scene world;
+    float sh[3 * SKY_BANDS * SKY_BANDS];
+    const environment sky = sky_of(sh);
+    const lmp_ggx desc = { 0.6f, 0.3f, { 0.9f, 0.8f, 0.6f }, { 0.1f, 0.1f, 0.1f } };
+    lmp_brdf *brdf = NULL;
+    const lmp_result made = lmp_brdf_create_ggx(NULL, &desc, &brdf);
+    lmp_brdf_table *tables[2] = { phong(20, SKY_BANDS), table_of(made, brdf, SKY_BANDS) };
+    expect(scene_load("builtin:ball", &(scene_options) { .no_cache = true }, &world, &error),
+           &error);
+    gpu_renderer *renderer = open_renderer(&world);
+    gpu_frame frame = frame_of(&world, WIDTH / 4, HEIGHT / 4);
+    frame.bands = SKY_BANDS;
+    frame.window = LMP_WINDOW_HANNING;
+    frame.light_count = 0;
+    for (int t = 0; t < 2; t++) {
+        const lmp_brdf_table *const table = tables[t];
+        int uses[64] = { 0 };
+        expect(gpu_set_tables(renderer, &table, 1, uses, world.material_count, &error), &error);
+        gpu_set_environment(renderer, &sky);
+        const double worst = difference_between_devices(renderer, &frame);
+        print_message("%.1e of the peak\n", worst);
+        CHECK_WITHIN(worst, 1e-3);
+        lmp_brdf_table_destroy(tables[t]);
+    }
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
 }
 
 static void tables_of_other_bands_are_refused(void **state) {
@@ -105,7 +169,7 @@ static void tables_of_other_bands_are_refused(void **state) {
     expect(scene_load("builtin:ball", &(scene_options) { .no_cache = true }, &world, &error),
            &error);
     gpu_renderer *renderer = open_renderer(&world);
-    lmp_brdf_table *table = phong(5);
+    lmp_brdf_table *table = phong(5, BANDS);
     const lmp_brdf_table *const tables[] = { table };
     const int uses[64] = { 0 };
     expect(gpu_set_tables(renderer, tables, 1, uses, world.material_count, &error), &error);
@@ -122,6 +186,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mirrored_tables_agree_with_lmp_shade),
         cmocka_unit_test(anisotropic_tables_agree_with_lmp_shade),
+        cmocka_unit_test(tables_reflect_an_environment_as_the_library_has_it),
         cmocka_unit_test(tables_of_other_bands_are_refused),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
