@@ -9,8 +9,7 @@ install(TARGETS ${lampion_libraries} EXPORT lampionTargets
   RUNTIME COMPONENT library)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(FILES ${lampion_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lampion)
-install(FILES shaders/lampion.glsl shaders/coefficients.glsl shaders/preintegrated_lookup.h shaders/preintegrated_lobe.glsl shaders/preintegrated_brdf.glsl
-  shaders/probe.glsl shaders/ggx.glsl shaders/coat.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/shaders)
+include(variants)
 install(FILES ruler/ruler.csv ruler/bands.csv DESTINATION ${CMAKE_INSTALL_DATADIR}/lampion/ruler)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
   PATTERN node_modules EXCLUDE PATTERN examples/three/shaders EXCLUDE PATTERN probe.json EXCLUDE)

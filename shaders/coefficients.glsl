@@ -83,9 +83,9 @@ void lmp_cap_project(lmp_cap cap, out float sh[LMP_SH_COUNT]) {
 #undef LMP_ROW
 }
 
-/* Coefficients at `point` of a sphere of radiance 1. */
-void lmp_sphere_project(vec4 sphere, vec3 point, out float sh[LMP_SH_COUNT]) {
-    lmp_cap_project(lmp_cap_of_sphere(sphere, point), sh);
+/* Coefficients at a point of a sphere of radiance 1. */
+void lmp_sphere_project(vec4 sphere, vec3 from, out float sh[LMP_SH_COUNT]) {
+    lmp_cap_project(lmp_cap_of_sphere(sphere, from), sh);
 }
 
 #ifdef LMP_LIGHT_COUNT
@@ -123,7 +123,8 @@ void lmp_lights_project(lmp_surface surface, mat3 world_to_local, out vec3 sum[L
     for (int i = 0; i < lmp_light_count(); i += 2) {
         int j = min(i + 1, lmp_light_count() - 1);
         lmp_cap cap = lmp_light_cap(i, surface.position), cap2 = lmp_light_cap(j, surface.position);
-        vec3 w = world_to_local * cap.axis, w2 = world_to_local * cap2.axis;
+        vec3 w = LMP_MATRIX_TIMES(world_to_local, cap.axis);
+        vec3 w2 = LMP_MATRIX_TIMES(world_to_local, cap2.axis);
         vec3 radiance = lmp_light_color(i, surface.position);
         vec3 radiance2 =
             i + 1 < lmp_light_count() ? lmp_light_color(j, surface.position) : vec3(0.0);
@@ -169,7 +170,7 @@ vec3 lmp_shade_some_coefficients(lmp_surface surface, lmp_lobes lobes) {
     lmp_lobe_diffuse(diffuse);
     lmp_lobe_phong(lobes.exponent, glossy);
     /* x and z of the lobes' axes; y is 0 */
-    LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0) * world_to_local, lobes.axis);
+    LMP_EACH x = LMP_DOT(LMP_TIMES_MATRIX(vec3(1.0, 0.0, 0.0), world_to_local), lobes.axis);
     LMP_EACH z = LMP_DOT(surface.normal, lobes.axis), power = LMP_EACH(1.0), p, p1, p2;
     float q, q1, q2;
     vec3 diffuse_response = vec3(0.0), glossy_response = vec3(0.0);
@@ -180,7 +181,7 @@ vec3 lmp_shade_some_coefficients(lmp_surface surface, lmp_lobes lobes) {
         norm = l == m ? diagonal                                                                   \
                       : norm * float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m);           \
         glossy_response += sum[LMP_HALF_INDEX(l, m)] *                                             \
-                           (lobes.weight * (norm * power * p * glossy[LMP_BAND(l)]));              \
+                           LMP_SUM(lobes.weight, norm * power * p * glossy[LMP_BAND(l)]);          \
         if (m == 0) {                                                                              \
             LMP_MONIC(l, m, 1.0, q, q1, q2)                                                        \
             diffuse_response += sum[LMP_HALF_INDEX(l, m)] * (norm * q * diffuse[LMP_BAND(l)]);     \

@@ -95,21 +95,27 @@ struct lmp_material {
     float exponent;
 };
 
-/* Phong lobes of a surface: one, or those of GGX, of which LMP_GGX_LOBES_FEW are summed together,
- * then the others. What each of them has is a LMP_EACH or, of three numbers, a column of a LMP_EACH_VEC3; LMP_LOBE is that of lobe k, LMP_DOT(v, m) v times each
- * column. */
+/* The products of a matrix and a vector, which HLSL writes otherwise. */
+#define LMP_MATRIX_TIMES(m, v) ((m) * (v))
+#define LMP_TIMES_MATRIX(v, m) ((v) * (m))
+
+/* Phong lobes of a surface: one, or those of GGX, of which LMP_GGX_LOBES_FEW are summed together, then
+ * the others. What each of them has is a LMP_EACH or, of three numbers, a column of a LMP_EACH_VEC3;
+ * LMP_LOBE is that of lobe k, LMP_DOT(v, m) v times each column, LMP_SUM(m, v) the sum of columns. */
 #ifdef LAMPION_GGX_GLSL
 #define LMP_LOBES       LMP_GGX_LOBES_FEW
 #define LMP_EACH        vec3
 #define LMP_EACH_VEC3   mat3
 #define LMP_LOBE(of, k) of[k]
-#define LMP_DOT(v, m)   ((v) * (m))
+#define LMP_DOT(v, m)   LMP_TIMES_MATRIX(v, m)
+#define LMP_SUM(m, v)   LMP_MATRIX_TIMES(m, v)
 #else
 #define LMP_LOBES       1
 #define LMP_EACH        float
 #define LMP_EACH_VEC3   vec3
 #define LMP_LOBE(of, k) of
 #define LMP_DOT(v, m)   dot(v, m)
+#define LMP_SUM(m, v)   ((m) * (v))
 #endif
 
 /* What a surface reflects by: diffuse/pi max(n.w, 0), and of each lobe
@@ -129,8 +135,11 @@ struct lmp_lobes {
 bool lmp_lobes_next(inout lmp_lobes lobes) {
 #ifdef LAMPION_GGX_GLSL
     bool more = lobes.more;
-    lobes = lmp_lobes(vec3(0.0), lobes.more_axis, lobes.more_weight, lobes.more_exponent, false,
-                      lobes.more_axis, lobes.more_weight, lobes.more_exponent);
+    lobes.diffuse = vec3(0.0);
+    lobes.axis = lobes.more_axis;
+    lobes.weight = lobes.more_weight;
+    lobes.exponent = lobes.more_exponent;
+    lobes.more = false;
     return more;
 #else
     return false;
@@ -159,9 +168,9 @@ struct lmp_cap {
 
 /* Weight of band l under LMP_WINDOW; a constant for a constant l. */
 #ifdef LMP_WINDOW_WEIGHTS
-const float lmp_window_weights[LMP_BANDS] = float[LMP_BANDS](LMP_WINDOW_WEIGHTS);
 float lmp_window_weight(int l) {
-    return lmp_window_weights[l];
+    const float weights[LMP_BANDS] = float[LMP_BANDS](LMP_WINDOW_WEIGHTS);
+    return weights[l];
 }
 #else
 float lmp_window_weight(int l) {
@@ -182,9 +191,9 @@ float lmp_window_weight(int l) {
 }
 #endif
 
-/* The cap of the sphere (center, radius) seen from `point`. radius >= 0. */
-lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 point) {
-    vec3 v = sphere.xyz - point;
+/* The cap of the sphere (center, radius) seen from a point. radius >= 0. */
+lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 from) {
+    vec3 v = sphere.xyz - from;
     float d = sqrt(dot(v, v));
     bool inside = d < sphere.w;
     float far = max(max(d, sphere.w), 1e-30);
@@ -212,10 +221,10 @@ lmp_cap lmp_cap_of_directions(vec3 axis, float one_minus_cos) {
 }
 
 /* A light as LMP_LIGHT_SPHERE and LMP_LIGHT_FIXED describe it. */
-lmp_cap lmp_cap_of_light(vec4 sphere, bool fixed_cap, vec3 point) {
+lmp_cap lmp_cap_of_light(vec4 sphere, bool fixed_cap, vec3 from) {
     if (fixed_cap)
         return lmp_cap_of_directions(sphere.xyz, sphere.w);
-    return lmp_cap_of_sphere(sphere, point);
+    return lmp_cap_of_sphere(sphere, from);
 }
 
 lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_material material) {
@@ -235,8 +244,7 @@ lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_material material) {
 }
 
 #ifdef LAMPION_GGX_GLSL
-/* A metal, whose F0 is the base color, mixed with a dielectric, whose base color is under a layer.
- */
+/* A metal, whose F0 is the base color, mixed with a dielectric, whose base is under a layer. */
 lmp_lobes lmp_lobes_of(lmp_surface surface, lmp_metallic_roughness material, lmp_dielectric layer) {
     lmp_ggx_node node = lmp_ggx_lookup(surface.normal, surface.view, material.roughness);
     vec3 f0 = mix(layer.f0, material.base_color, material.metallic);
@@ -293,27 +301,10 @@ void lmp_lobe_phong(LMP_EACH e, out LMP_EACH lambda[LMP_BANDS]) {
 }
 
 /* What multiplies pi Y_lm(axis) in the coefficients of a cap of radiance 1, band by band: strength
- * R_l. */
-#ifdef LMP_CAP_TABLE
-/* The paper's tabulation (§4.2), to compare: LMP_CAP_TABLE(k, c) is a vec4 of sin²a R_l at cos a = c
- * for l = 4k … 4k + 3. Far lights lie in its last step. */
-void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
-    float c = 1.0 - cap.one_minus_cos, side = cap.strength < 0.0 ? -1.0 : 1.0;
-    vec4 four = LMP_CAP_TABLE(0, c);
-    R[0] = cap.base;
-    if (LMP_BANDS > 1)
-        R[LMP_BAND(1)] = side * four.y;
-#define LMP_STEP(l)                                                                                \
-    if (l < LMP_BANDS) {                                                                           \
-        if (l % 4 == 0)                                                                            \
-            four = LMP_CAP_TABLE(l / 4, c);                                                        \
-        R[LMP_BAND(l)] = side * four[l % 4];                                                       \
-    }
-    LMP_FOR_BANDS(LMP_STEP)
-#undef LMP_STEP
-}
+ * R_l, by its differences, which keeps far lights exact. */
+#ifdef LMP_CAP_SERIES /* the includer has another */
+void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]);
 #else
-/* R_l by its differences, which keeps far lights exact. */
 void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
     float r = cap.strength, difference = 0.0;
     R[0] = cap.base;
@@ -429,7 +420,7 @@ vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
 #undef LMP_STEP
         d = diffuse[0] * cap.base + cap.strength * d;
         g = glossy[0] * cap.base + cap.strength * g;
-        sum += lmp_light_color(i, surface.position) * (lobes.diffuse * d + lobes.weight * g);
+        sum += lmp_light_color(i, surface.position) * (lobes.diffuse * d + LMP_SUM(lobes.weight, g));
     }
     return sum;
 }

@@ -6,16 +6,13 @@
 
 #include "light.glsl"
 #ifdef SHADE_TABULATED_Z
-layout(binding = SHARED_ZONAL) uniform sampler2D zonal_table;
-/* entries from cos a = 0 to 1, at the centers of texels */
-#define LMP_CAP_TABLE(k, c)                                                                        \
-    textureLod(zonal_table,                                                                        \
-               vec2((c * float(SHARED_ZONAL_ENTRIES - 1) + 0.5) / float(SHARED_ZONAL_ENTRIES),     \
-                    (float(k) + 0.5) / float((LMP_BANDS + 3) / 4)),                                \
-               0.0)
+#define LMP_CAP_SERIES
 #endif
 #include "material.glsl"
 #include "lampion.glsl"
+#ifdef SHADE_TABULATED_Z
+#include "tabulated.glsl"
+#endif
 #include "coefficients.glsl"
 
 #ifdef SHADE_PREINTEGRATED

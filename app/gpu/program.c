@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { INCLUDES_MAX = 16 };
+enum { INCLUDES_MAX = 32 };
 
 /* A source with its #include lines resolved; every file once. */
 typedef struct unit {

@@ -68,7 +68,7 @@ done
 zgrep -q 'lights.json\|lights file' "$root/usr/share/man/man5/lampion-formats.5.gz" || fail "no manual page of formats"
 grep -q '<h1' "$root/usr/share/doc/liblampion-doc/html/index.html" || fail "no documents"
 for file in bash-completion/completions/lampion zsh/vendor-completions/_lampion fish/vendor_completions.d/lampion.fish \
-    lampion/shaders/lampion.glsl; do
+    lampion/shaders/lampion.glsl lampion/shaders/hlsl/lampion.hlsl lampion/shaders/metal/lampion.metal; do
     [ -s "$root/usr/share/$file" ] || fail "no $file"
 done
 

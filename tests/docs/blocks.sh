@@ -4,6 +4,7 @@
 #   sh    by sh -eu, with the program and an installed library at hand
 #   c     compiled without a warning; run if it has a main
 #   glsl  a fragment shader, compiled beside the installed lampion.glsl
+#   hlsl  a pixel shader, and metal, compiled beside the installed variants (as tests/gpu/variants.sh does)
 #   json  a lights file, which the program reads
 # The HTML comment on the line before a block may say
 #   <!-- not run: REASON -->   the block is left out; the reason is printed
@@ -77,6 +78,15 @@ compile_glsl() {
     glslangValidator -G -o compiled.spv -S "${stage:-frag}" "-I$WORK/prefix/share/lampion/shaders" "$1"
 }
 
+compile_hlsl() {
+    glslangValidator -D -V -e main -S frag -o compiled.spv "-I$WORK/prefix/share/lampion/shaders" "$1"
+}
+
+compile_metal() {
+    clang++ -std=c++14 -Wall -Werror -Wno-unknown-attributes -Dfragment= -include "$SOURCE/tests/gpu/variants/metal.h" \
+        "-I$WORK/prefix/share/lampion/shaders" -x c++ -fsyntax-only "$1"
+}
+
 read_json() {
     case $1 in *.json) ;; *) return ;; esac
     if grep -q '"lights"' "$1"; then
@@ -90,6 +100,7 @@ run_block() {
     sh) timeout 120 sh -eu "$2" ;;
     c) compile_c "$2" ;;
     glsl | vert | frag | comp) compile_glsl "$2" ;;
+    hlsl | metal) "compile_$1" "$2" ;;
     json) read_json "$2" ;;
     esac </dev/null >../printed 2>../complaints
 }
