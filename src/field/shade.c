@@ -122,7 +122,7 @@ static void add_near(const field_shading *shading, const uint32_t *found, size_t
     lmp_batch_plane scales[PASS];
     for (size_t i = 0; i < count; i++) {
         lmp_rgb ambient = { 0, 0, 0 };
-        lights[i] = lmp_shade_take_light(&field->lights[found[i]], chunk, &scales[i], &ambient);
+        lmp_shade_take_light(&field->lights[found[i]], chunk, &scales[i], &lights[i], &ambient);
         lights[i].per_reach = lmp_field_fades(&field->lights[found[i]]) ? 1 / field->info.reach : 0;
         chunk->ambient[0] += ambient.r;
         chunk->ambient[1] += ambient.g;

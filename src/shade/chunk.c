@@ -72,9 +72,9 @@ void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
 void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb) {
     const lmp_batch_plane *sum = chunk->planes.accumulated;
     for (size_t i = 0; i < chunk->count; i++) {
-        const lmp_rgb color = { lmp_shade_clamped(sum[0].at[i]), lmp_shade_clamped(sum[1].at[i]),
-                                lmp_shade_clamped(sum[2].at[i]) };
-        memcpy((char *)rgb + chunk->at[i] * stride, &color, sizeof color);
+        float *to = (float *)(void *)((char *)rgb + chunk->at[i] * stride);
+        for (int c = 0; c < 3; c++)
+            to[c] = lmp_shade_clamped(sum[c].at[i]);
     }
 }
 
@@ -84,53 +84,47 @@ static lmp_rgb scaled(lmp_rgb color, float factor) {
     return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
 }
 
-/* The same cap from every point. */
-static lmp_kernel_light fixed_cap(lmp_vec3 direction, float sine, lmp_rgb radiance) {
-    return (lmp_kernel_light) { direction.x, direction.y, direction.z, 0, sine, radiance, NULL, 0 };
+/* A plane of what a spot gives to each of the chunk's points of what a point light would. */
+static void take_cone(const lmp_light *light, const shade_chunk *chunk, float *scale) {
+    lmp_light white = *light, plain;
+    white.intensity = (lmp_rgb) { 1, 1, 1 };
+    plain = white;
+    plain.kind = LMP_LIGHT_POINT;
+    for (size_t i = 0; i < chunk->count; i++) {
+        const lmp_vec3 at = lmp_batch_get(&chunk->point, i);
+        lmp_cap cone, full;
+        lmp_light_cap(&white, at, &cone);
+        lmp_light_cap(&plain, at, &full);
+        scale[i] = cone.strength.r / full.strength.r;
+    }
 }
 
-lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
-                                      lmp_batch_plane *scale, lmp_rgb *ambient) {
-    const lmp_vec3 p = light->position;
-    switch (light->kind) {
-    case LMP_LIGHT_SPHERE:
-        return (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL, 0 };
-    case LMP_LIGHT_POINT:
-    case LMP_LIGHT_SPOT: {
-        lmp_kernel_light dirac = { p.x,
-                                   p.y,
-                                   p.z,
-                                   1,
-                                   SHADE_DIRAC_RADIUS,
-                                   scaled(light->intensity,
-                                          1 / pi / SHADE_DIRAC_RADIUS / SHADE_DIRAC_RADIUS),
-                                   NULL,
-                                   0 };
-        if (light->kind == LMP_LIGHT_POINT)
-            return dirac;
-        lmp_light white = *light;
-        lmp_light plain = *light;
-        white.intensity = plain.intensity = (lmp_rgb) { 1, 1, 1 };
-        plain.kind = LMP_LIGHT_POINT;
-        for (size_t i = 0; i < chunk->count; i++) {
-            const lmp_vec3 at = lmp_batch_get(&chunk->point, i);
-            lmp_cap cone, full;
-            lmp_light_cap(&white, at, &cone);
-            lmp_light_cap(&plain, at, &full);
-            scale->at[i] = cone.strength.r / full.strength.r;
-        }
-        dirac.scale = scale->at;
-        return dirac;
-    }
-    default:
-        break;
-    }
-    /* The others are the same cap from every point. */
+/* What is the same cap from every point. */
+static void take_cap(const lmp_light *light, lmp_kernel_light *taken, lmp_rgb *ambient) {
     lmp_cap cap;
-    lmp_light_cap(light, p, &cap);
+    lmp_light_cap(light, light->position, &cap);
     ambient->r += cap.ambient.r;
     ambient->g += cap.ambient.g;
     ambient->b += cap.ambient.b;
     const float sine = cap.sin2 > 0 ? sqrtf(cap.sin2) : SHADE_DIRAC_SINE;
-    return fixed_cap(cap.axis, sine, scaled(cap.strength, 1 / (pi * sine * sine)));
+    *taken =
+        (lmp_kernel_light) { cap.axis.x, cap.axis.y, cap.axis.z,
+                             0,          sine,       scaled(cap.strength, 1 / (pi * sine * sine)),
+                             NULL,       0 };
+}
+
+void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, lmp_batch_plane *scale,
+                          lmp_kernel_light *taken, lmp_rgb *ambient) {
+    const float radius = SHADE_DIRAC_RADIUS;
+    if (light->kind != LMP_LIGHT_POINT && light->kind != LMP_LIGHT_SPOT) {
+        take_cap(light, taken, ambient);
+        return;
+    }
+    lmp_shade_take_sphere(light, taken);
+    taken->radius = radius;
+    taken->radiance = scaled(light->intensity, 1 / pi / radius / radius);
+    if (light->kind == LMP_LIGHT_SPOT) {
+        take_cone(light, chunk, scale->at);
+        taken->scale = scale->at;
+    }
 }

@@ -34,9 +34,24 @@ void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk);
 /* What the lobes and the diffuse one have accumulated, already weighted, clamped at 0. */
 void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb);
 
+static inline void lmp_shade_take_sphere(const lmp_light *light, lmp_kernel_light *taken) {
+    const lmp_vec3 p = light->position;
+    *taken = (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL, 0 };
+}
+
+/* A light of another kind. */
+void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, lmp_batch_plane *scale,
+                          lmp_kernel_light *taken, lmp_rgb *ambient);
+
 /* The light as one sphere or cap; `ambient` receives what it adds from every direction. scale: a
- * plane for spots. */
-lmp_kernel_light lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
-                                      lmp_batch_plane *scale, lmp_rgb *ambient);
+ * plane for spots. Inline, for every chunk takes every light. */
+static inline void lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
+                                        lmp_batch_plane *scale, lmp_kernel_light *taken,
+                                        lmp_rgb *ambient) {
+    if (light->kind == LMP_LIGHT_SPHERE)
+        lmp_shade_take_sphere(light, taken);
+    else
+        lmp_shade_take_other(light, chunk, scale, taken, ambient);
+}
 
 #endif

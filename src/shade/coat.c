@@ -8,7 +8,8 @@
 float lmp_material_coated(const lmp_coat *coat, lmp_vec3 n, lmp_vec3 v) {
     const float along = fabsf(n.x * v.x + n.y * v.y + n.z * v.z), grazing = 1 - fminf(along, 1);
     const float square = grazing * grazing;
-    return coat->weight * (0.04f + 0.96f * (square * square * grazing));
+    const float rest = 1 - LMP_DIELECTRIC_F0;
+    return coat->weight * (LMP_DIELECTRIC_F0 + rest * (square * square * grazing));
 }
 
 lmp_material lmp_coat_material(const lmp_coat *coat, float part) {
@@ -56,10 +57,12 @@ static size_t take_coats(const lmp_surfaces *surfaces, bool positions, size_t ne
     const lmp_vec3_array *normals =
         surfaces->coat_normal.x ? &surfaces->coat_normal : &surfaces->normal;
     taken->count = 0;
-    for (; next < count && taken->count < COATS; next++) {
+    for (; taken->count < COATS; next++) {
+        while (next < count && !(lmp_material_at(surfaces, next)->coat.weight > 0))
+            next++;
+        if (next == count)
+            break;
         const lmp_coat *coat = &lmp_material_at(surfaces, next)->coat;
-        if (!(coat->weight > 0))
-            continue;
         const size_t k = taken->count++;
         taken->at[k] = next;
         taken->normal[k] = lmp_vec3_element(normals, next);

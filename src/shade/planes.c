@@ -19,11 +19,13 @@ static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t co
     shade_lobe_planes *lobe = &planes->lobe[0];
     for (size_t i = 0; i < count; i++) {
         const lmp_material *m = lmp_material_at(surfaces, at[i]);
-        const lmp_vec3 axis = lmp_shade_mirrored(lmp_batch_get(normal, i), lmp_batch_get(view, i));
         lmp_batch_set(m->diffuse.r, m->diffuse.g, m->diffuse.b, &planes->diffuse, i);
-        lmp_batch_set(axis.x, axis.y, axis.z, &lobe->axis, i);
         lmp_batch_set(m->specular.r, m->specular.g, m->specular.b, &lobe->weight, i);
         lobe->exponent.at[i] = m->exponent;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const lmp_vec3 axis = lmp_shade_mirrored(lmp_batch_get(normal, i), lmp_batch_get(view, i));
+        lmp_batch_set(axis.x, axis.y, axis.z, &lobe->axis, i);
     }
 }
 

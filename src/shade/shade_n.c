@@ -53,7 +53,7 @@ static size_t take_lights(const lmp_light *lights, size_t count, const shade_chu
         const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
         if (spot && spots == SPOTS_MAX)
             break;
-        taken[n] = lmp_shade_take_light(&lights[n], chunk, &scales[spots], ambient);
+        lmp_shade_take_light(&lights[n], chunk, &scales[spots], &taken[n], ambient);
         spots += spot;
     }
     return n;
