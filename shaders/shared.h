@@ -17,14 +17,15 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_END(name)                name
 #endif
 
-#define SHARED_LIGHTS_MAX 1025 /* one of them holds what all skies have in common */
+#define SHARED_LIGHTS_MAX 65537 /* one of them holds what all skies have in common */
 
 /* Uniform block bindings. */
 #define SHARED_FRAME    0
-#define SHARED_LIGHTS   1
 #define SHARED_MATERIAL 2
 
-/* Storage blocks of the tables (table.glsl), and of the lobes of GGX (material.glsl). */
+/* Storage blocks of the lights, of the tables (table.glsl), and of the lobes of GGX
+ * (material.glsl). */
+#define SHARED_LIGHTS 7
 #define SHARED_TABLES 1
 #define SHARED_GGX    2
 
@@ -139,10 +140,15 @@ typedef struct shared_light {
 } shared_light;
 #endif
 
-SHARED_BLOCK(lights_block, shared_lights, SHARED_LIGHTS) {
+#ifdef SHARED_WITHOUT_STORAGE /* as in a page, whose uniform block holds fewer */
+layout(std140) uniform lights_block {
     shared_light lights[SHARED_LIGHTS_MAX];
-}
-SHARED_END(shared_lights);
+};
+#elif defined(LAMPION_SHADER)
+layout(std430, binding = SHARED_LIGHTS) readonly buffer lights_block {
+    shared_light lights[];
+};
+#endif
 
 /* Of a map: matrix is KHR_texture_transform's, row-major; offset's z is the set of coordinates.
  * maps: 1 where a map is bound. */
@@ -191,7 +197,6 @@ static_assert(offsetof(shared_frame, eye) == 64, "std140");
 static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
 static_assert(sizeof(shared_frame) == 192, "std140");
 static_assert(sizeof(shared_light) == 48, "std140");
-static_assert(sizeof(shared_lights) == 48 * SHARED_LIGHTS_MAX, "std140");
 static_assert(offsetof(shared_material, matrix) == 128, "std140");
 static_assert(offsetof(shared_material, offset) == 288, "std140");
 static_assert(sizeof(shared_material) == 448, "std140");

@@ -22,7 +22,7 @@ static struct {
     scene world;
     animation *path;
     scene_light moved[SCENE_LIGHTS_MAX];
-    shared_lights lights;
+    shared_light lights[SHARED_LIGHTS_MAX];
     shared_material *materials;
     shared_reflector *reflectors;
 } demo;
@@ -183,7 +183,7 @@ EXPORT const char *demo_scatter_lights(int count, uint32_t seed) {
 }
 
 EXPORT const shared_light *demo_lights(void) {
-    return demo.lights.lights;
+    return demo.lights;
 }
 
 /* Puts them where they are after so many seconds; returns how many there are. Of a file's other
@@ -196,7 +196,7 @@ EXPORT size_t demo_move_lights(double seconds) {
         if (e->kind != LMP_LIGHT_SPHERE)
             continue;
         const bool drawn = scene_light_is_drawn(&demo.moved[i]);
-        demo.lights.lights[count++] =
+        demo.lights[count++] =
             (shared_light) { { e->position.x, e->position.y, e->position.z, e->radius },
                              { e->radiance.r, e->radiance.g, e->radiance.b,
                                (float)(drawn ? SHARED_LIGHT_DRAWN : SHARED_LIGHT_HIDDEN) },

@@ -53,6 +53,7 @@ export function makeProgram(gl, [vertex, fragment], defines, lightsMost) {
     const head = `#version 300 es
 precision highp float; precision highp int; precision highp sampler2D;
 #define LAMPION_SHADER
+#define SHARED_WITHOUT_STORAGE
 ${defines}\n`;
     const limit = (text) => text.replace(/#define SHARED_LIGHTS_MAX +\d+/, `#define SHARED_LIGHTS_MAX ${lightsMost}`);
     const program = gl.createProgram();

@@ -20,6 +20,7 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], c
     ok = ok && gpu_render(j->renderer, &frame, NULL, error);
     for (int i = 0; i < j->options->repeat && ok; i++) {
         gpu_times times;
+        shade_field_forget(j->field);
         ok = gpu_render(j->renderer, &frame, &times, error) &&
              gpu_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
         if (ok) {

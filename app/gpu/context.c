@@ -55,13 +55,12 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error) {
                         context->driver, packages);
     context->software = strstr(context->device, "llvmpipe") || strstr(context->device, "softpipe");
 
-    GLint block = 0, side = 0;
-    glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &block);
+    GLint blocks = 0, side = 0;
+    glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
     context->size_max = side < GPU_SIZE_MAX ? side : GPU_SIZE_MAX;
-    if (block < (GLint)sizeof(shared_lights))
-        return cli_fail(error, NULL, "%s has uniform blocks of %d bytes; %zu are needed",
-                        context->device, block, sizeof(shared_lights));
+    if (blocks == 0)
+        return cli_fail(error, NULL, "%s has no storage blocks in vertex shaders", context->device);
     listen_to_messages();
     return true;
 }

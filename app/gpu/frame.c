@@ -106,9 +106,8 @@ bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, int index, sh
 }
 
 void gpu_upload_lights(gpu_renderer *r, const gpu_frame *frame) {
-    shared_lights block;
-    r->shaded_lights = gpu_take_lights(frame, &block);
+    r->shaded_lights = gpu_take_lights(frame, r->lights);
     if (r->shaded_lights)
-        glNamedBufferSubData(r->lights_block, 0,
-                             (GLsizeiptr)(r->shaded_lights * sizeof *block.lights), &block);
+        glNamedBufferSubData(r->lights_block, 0, (GLsizeiptr)(r->shaded_lights * sizeof *r->lights),
+                             r->lights);
 }

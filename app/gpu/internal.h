@@ -174,7 +174,7 @@ void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
 
 /* The frame's lights, each at its own index, and one more if some are ambient; returns
  * how many the shaders have to take. */
-size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block);
+size_t gpu_take_lights(const gpu_frame *frame, shared_light *lights);
 
 /* --- the renderer ----------------------------------------------------------------------------- */
 
@@ -187,7 +187,8 @@ struct gpu_renderer {
     gpu_variant variants[GPU_VARIANTS];
     int variant_count;
     GLuint frame_block, lights_block, ggx_block, empty_array;
-    size_t shaded_lights; /* in lights_block */
+    shared_light *lights; /* SHARED_LIGHTS_MAX of them, as lights_block has them */
+    size_t shaded_lights; /* in it */
     GLuint zonal;         /* texture of the tabulated Z_l */
     int zonal_bands;
     GLuint lobe_pairs, lobe_block;      /* texture, buffer */

@@ -59,12 +59,12 @@ static shared_light take_light(const scene_light *light, lmp_rgb *ambient) {
     return make(e->direction, 1, above, 1, SHARED_LIGHT_FIXED);
 }
 
-size_t gpu_take_lights(const gpu_frame *frame, shared_lights *block) {
+size_t gpu_take_lights(const gpu_frame *frame, shared_light *lights) {
     lmp_rgb ambient = { 0, 0, 0 };
     size_t count = frame->light_count;
     for (size_t i = 0; i < count; i++)
-        block->lights[i] = take_light(&frame->lights[i], &ambient);
+        lights[i] = take_light(&frame->lights[i], &ambient);
     if (ambient.r > 0 || ambient.g > 0 || ambient.b > 0)
-        block->lights[count++] = make((lmp_vec3) { 0, 0, 1 }, 2, ambient, 1, SHARED_LIGHT_FIXED);
+        lights[count++] = make((lmp_vec3) { 0, 0, 1 }, 2, ambient, 1, SHARED_LIGHT_FIXED);
     return count;
 }

@@ -46,7 +46,7 @@ void gpu_draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_fram
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_LIGHTS, r->lights_block);
     draw_geometry(r, frame, block);
     if (frame->light_count) {
         glBindVertexArray(r->empty_array);
@@ -71,7 +71,7 @@ void gpu_bind_gbuffer(const gpu_renderer *r) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_GGX, r->ggx_block);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_REFLECTORS, r->mesh.reflectors);
     glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_FRAME, r->frame_block);
-    glBindBufferBase(GL_UNIFORM_BUFFER, SHARED_LIGHTS, r->lights_block);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_LIGHTS, r->lights_block);
 }
 
 static GLuint groups(int pixels) {

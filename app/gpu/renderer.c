@@ -62,7 +62,10 @@ static GLuint create_ggx_block(void) {
 gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world,
                                   cli_error *error) {
     gpu_renderer *r = calloc(1, sizeof *r);
-    if (!r) {
+    if (r)
+        r->lights = malloc(SHARED_LIGHTS_MAX * sizeof *r->lights);
+    if (!r || !r->lights) {
+        free(r);
         cli_fail(error, NULL, "out of memory");
         return NULL;
     }
@@ -75,7 +78,8 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
     glCreateBuffers(1, &r->frame_block);
     glNamedBufferStorage(r->frame_block, sizeof(shared_frame), NULL, GL_DYNAMIC_STORAGE_BIT);
     glCreateBuffers(1, &r->lights_block);
-    glNamedBufferStorage(r->lights_block, sizeof(shared_lights), NULL, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(r->lights_block, SHARED_LIGHTS_MAX * sizeof *r->lights, NULL,
+                         GL_DYNAMIC_STORAGE_BIT);
     r->ggx_block = create_ggx_block();
     glCreateQueries(GL_TIMESTAMP, GPU_TIMESTAMPS, r->timestamps);
     memcpy(r->minimum, world->minimum, sizeof r->minimum);
@@ -114,6 +118,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteTextures(1, &r->zonal);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
+    free(r->lights);
     free(r);
 }
 

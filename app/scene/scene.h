@@ -10,7 +10,7 @@
 
 #include <lampion/lampion.h>
 
-#define SCENE_LIGHTS_MAX 1024 /* from all sources together */
+#define SCENE_LIGHTS_MAX 65536 /* from all sources together */
 
 /* 64 bytes, as the vertex shader reads them. */
 typedef struct scene_vertex {

@@ -11,7 +11,7 @@ struct shade_field {
     lmp_field *nodes;
     size_t *moved; /* indices of lights, SCENE_LIGHTS_MAX */
     lmp_light *to; /* what they have become */
-    bool moves;
+    bool moves, forgotten;
     shade_field_statistics last;
 };
 
@@ -113,6 +113,11 @@ shade_field_statistics shade_field_describe(const shade_field *field) {
     return statistics;
 }
 
+void shade_field_forget(shade_field *field) {
+    if (field)
+        field->forgotten = true;
+}
+
 /* --- a frame ---------------------------------------------------------------------------------- */
 
 /* A moved light costs its nodes two: from half of them on all are computed anew. */
@@ -120,7 +125,8 @@ static void follow_lights(shade_field *field, const lmp_host *host, const lmp_li
                           size_t count) {
     const lmp_light *held = lmp_field_lights(field->nodes);
     size_t moved = 0;
-    bool anew = lmp_field_describe(field->nodes).light_count != count;
+    bool anew = field->forgotten || lmp_field_describe(field->nodes).light_count != count;
+    field->forgotten = false;
     for (size_t i = 0; i < count && !anew; i++)
         if (memcmp(&held[i], &lights[i], sizeof *lights) != 0) {
             field->moved[moved] = i;

@@ -48,6 +48,9 @@ typedef struct shade_field_statistics {
     lmp_field_info info;
     double update_milliseconds, evaluate_milliseconds; /* of the last sample */
 } shade_field_statistics;
+
+/* The next frame computes all that it needs anew, as if all lights had moved. field may be NULL. */
+void shade_field_forget(shade_field *field);
 shade_field_statistics shade_field_describe(const shade_field *field);
 
 /* --- for shade.c ------------------------------------------------------------------------------ */

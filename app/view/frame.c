@@ -58,12 +58,12 @@ static void adapt(viewer *v, double seconds) {
 
 /* Draws what has changed, or refines what has not; false if there was nothing to do. */
 static bool draw(viewer *v, bool *worked, cli_error *error) {
-    const bool changed = v->fresh || memcmp(v->shown, v->drawn, sizeof *v->shown) != 0;
+    const bool changed = v->fresh || memcmp(v->shown, v->drawn, view_settings_size(v->shown)) != 0;
     const bool draft = changed && !view_steps_time(v) && v->divisor > 1 && v->good->width > 0;
     *worked = false;
     if (changed) {
         v->moves = memcmp(&v->shown->camera, &v->drawn->camera, sizeof v->drawn->camera) != 0;
-        memcpy(v->drawn, v->shown, sizeof *v->drawn);
+        memcpy(v->drawn, v->shown, view_settings_size(v->shown));
         v->changed_at = v->clock;
         v->sample = draft ? -1 : 0;
     } else if (v->sample >= v->drawn->samples - 1 ||
@@ -78,7 +78,7 @@ static bool draw(viewer *v, bool *worked, cli_error *error) {
               ? view_compositor_draft(v->compositor, v->drawn, v->divisor, &v->statistics, error)
               : view_compositor_refine(v->compositor, v->drawn, v->sample, &v->statistics, error)))
         return false;
-    memcpy(v->good, v->drawn, sizeof *v->good);
+    memcpy(v->good, v->drawn, view_settings_size(v->drawn));
     return true;
 }
 

@@ -7,6 +7,8 @@
 #include "app/environment/environment.h"
 #include "app/gpu/gpu.h"
 
+#include <stddef.h>
+
 #define VIEW_PATH_SIZE     1024
 #define VIEW_MATERIAL_SIZE (VIEW_PATH_SIZE + SCENE_NAME_SIZE)
 #define VIEW_SAMPLES_MAX   1024
@@ -38,6 +40,11 @@ typedef struct view_settings {
     size_t light_count;
     scene_light lights[SCENE_LIGHTS_MAX];
 } view_settings;
+
+/* The bytes of them that count: all but the room for more lights. */
+static inline size_t view_settings_size(const view_settings *settings) {
+    return offsetof(view_settings, lights) + settings->light_count * sizeof *settings->lights;
+}
 
 extern const char *const view_split_names[GPU_SPLITS + 1]; /* NULL-terminated */
 

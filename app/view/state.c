@@ -102,7 +102,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, cli_error *erro
 /* --- what is shown ---------------------------------------------------------------------------- */
 
 void view_shown(const view_state *s, view_settings *shown) {
-    *shown = s->now;
+    memcpy(shown, &s->now, view_settings_size(&s->now));
     if (s->seconds > 0)
         for (size_t i = 0; i < shown->light_count; i++)
             animation_move(s->paths[s->path], s->numbers[i], s->seconds, &shown->lights[i]);
