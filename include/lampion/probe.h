@@ -122,6 +122,37 @@ LMP_API void lmp_probe_convert(int bands, const lmp_probe_convention *from,
 LMP_API bool lmp_probe_recognize(int bands, float tolerance, const float *ours, const float *theirs,
                                  lmp_probe_convention *convention);
 
+/* --- engines -----------------------------------------------------------------------------------
+ */
+
+/* What game engines keep of a probe: nine values a channel, of three bands. docs/probes.md says
+ * where each engine states it, and what its shaders then do. */
+typedef enum lmp_probe_engine {
+    LMP_PROBE_UNITY = 0, /* SphericalHarmonicsL2 */
+    LMP_PROBE_UNREAL,    /* FSHVectorRGB3 */
+    LMP_PROBE_GODOT,     /* a probe of LightmapGI */
+    LMP_PROBE_FILAMENT,  /* IndirectLight::Builder::irradiance */
+    LMP_PROBE_ENGINES    /* how many there are */
+} lmp_probe_engine;
+
+typedef struct lmp_probe_format {
+    const char *name; /* "unity" … */
+    /* Of its coefficients; the axes are those that its importer of glTF rotates a scene to. */
+    lmp_probe_convention convention;
+    float unit;       /* how many of its lengths are one of glTF's meters */
+    bool interleaved; /* red, green, blue of each value together; false: nine of red come first */
+    float factors[9]; /* what each coefficient is multiplied by */
+} lmp_probe_format;
+
+/* Static storage; copy it to change its axes. */
+LMP_API const lmp_probe_format *lmp_probe_format_of(lmp_probe_engine engine);
+
+/* A probe as an engine keeps it.
+ *
+ * At least 3 bands, of which 3 count; sh holds three planes, values receives 27 values. */
+LMP_API void lmp_probe_export(int bands, const lmp_probe_format *format, const float *sh,
+                              float *values);
+
 #ifdef __cplusplus
 }
 #endif

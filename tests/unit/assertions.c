@@ -97,6 +97,7 @@ static void create_half_a_host(void) {
     X(positive, lmp_probe_window_positive(BANDS, a, 1, b), lmp_probe_window_positive(BANDS, a, 1, a)) \
     X(constants, lmp_probe_constants_of(3, 1, a, &constants), lmp_probe_constants_of(2, 1, a, &constants)) \
     X(minimum, lmp_probe_minimum(3, a), lmp_probe_minimum(4, a)) \
+    X(export, lmp_probe_export(3, lmp_probe_format_of(LMP_PROBE_UNITY), a, b), lmp_probe_export(2, lmp_probe_format_of(LMP_PROBE_UNITY), a, b)) \
     X(multiply_few, lmp_sh_multiply_few(BANDS, a, b, c), lmp_sh_multiply_few(LMP_SH_FEW_BANDS + 1, a, b, c)) \
     X(multiply, lmp_sh_multiply(product, a, b, c), lmp_sh_multiply(product, a, b, a)) \
     X(eval_n, lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&up), 2, LMP_SH_INTERLEAVED, 0, a), lmp_sh_eval_n(BANDS, lmp_vec3_array_same(&long_up), 2, LMP_SH_INTERLEAVED, 0, a)) \

@@ -181,6 +181,8 @@ static void shade_under_a_field(void) {
     X(lmp_probe_window_positive, lmp_probe_window_positive(LMP_PROBE_POSITIVE_BANDS_MAX, sh, 3, weights)) \
     X(lmp_probe_minimum, lmp_probe_minimum(3, sh)) \
     X(lmp_probe_convert, lmp_probe_convert(N, &convention, &convention, sh, out)) \
+    X(lmp_probe_format_of, lmp_probe_format_of(LMP_PROBE_UNITY)) \
+    X(lmp_probe_export, lmp_probe_export(N, lmp_probe_format_of(LMP_PROBE_UNREAL), sh, out)) \
     X(lmp_probe_recognize, lmp_probe_recognize(N, 0.1f, sh, sh, &convention)) \
     X(lmp_brdf_create_lambert, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_lambert(NULL, (lmp_rgb) { 1, 1, 1 }, &brdf))) \
     X(lmp_brdf_create_phong, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_phong(NULL, (lmp_rgb) { 1, 1, 1 }, 20, &brdf))) \

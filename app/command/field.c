@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion field - an irradiance volume of a scene's lights, as an engine keeps one. */
+#include "app/command/command.h"
+#include "app/volume/volume.h"
+
+#include <string.h>
+
+typedef struct field_options {
+    volume_settings settings;
+    volume_output output;
+    bool minimum_given, maximum_given, shadows;
+    scene_lights_options lights;
+    environment_options environment;
+    scene_options load;
+} field_options;
+
+/* Nodes at the bounds of the scene, where no others are given. */
+static bool place_grid(const field_options *o, const scene *world, volume_grid *grid,
+                       cli_error *error) {
+    if (!o->minimum_given)
+        memcpy(grid->minimum, world->minimum, sizeof grid->minimum);
+    if (!o->maximum_given)
+        memcpy(grid->maximum, world->maximum, sizeof grid->maximum);
+    bool extended = false;
+    for (int a = 0; a < 3; a++) {
+        if (!(grid->minimum[a] <= grid->maximum[a]))
+            return cli_fail(error, NULL, "the grid ends before it begins: %c from %g to %g",
+                            "xyz"[a], (double)grid -> minimum[a], (double)grid -> maximum[a]);
+        extended = extended || grid->minimum[a] < grid->maximum[a];
+    }
+    return extended ||
+           cli_fail(error, NULL, "the grid has no extent (see --minimum and --maximum)");
+}
+
+static bool write_field(const field_options *o, const scene *world, const environment *around,
+                        const volume_settings *settings, cli_error *error) {
+    lmp_field *field;
+    if (environment_shines(around))
+        return cli_fail(error, o->output.path,
+                        "a .lmpf holds no environment (give the scene lights, or take "
+                        "--environment none)");
+    const bool ok = volume_make_field(world, settings, &field, error) &&
+                    volume_write_field(field, o->output.path, error);
+    lmp_field_destroy(field);
+    return ok;
+}
+
+static bool write_volume(const field_options *o, const scene *world, const environment *around,
+                         const volume_settings *settings, cli_error *error) {
+    volume made;
+    if (!volume_make(world, around, settings, &made, error))
+        return false;
+    const bool ok = volume_write(&made, &o->output, error);
+    volume_free(&made);
+    return ok;
+}
+
+static bool make(const field_options *o, const char *name, cli_error *error) {
+    scene world;
+    environment around = { .bands = 0 };
+    volume_settings settings = o->settings;
+    if (!o->shadows)
+        settings.rays = 0;
+    if (!scene_load(name, &o->load, &world, error))
+        return false;
+    const bool ok = place_grid(o, &world, &settings.grid, error) &&
+                    scene_apply_lights(&world, &o->lights, error) &&
+                    environment_open(&o->environment, &world, &around, error) &&
+                    environment_project(&around, settings.bands, error) &&
+                    (volume_file_of(o->output.path) == VOLUME_LMPF ? write_field : write_volume)(
+                        o, &world, &around, &settings, error);
+    environment_free(&around);
+    scene_free(&world);
+    return ok;
+}
+
+/* What the table of options cannot say. */
+static int check_options(const cli_command *command, const field_options *o, int operand_count) {
+    const int *counts = o->settings.grid.counts;
+    if (operand_count != 1)
+        return cli_usage(command, "one SCENE is needed, %d given", operand_count);
+    if (!o->output.path)
+        return cli_usage_output(command, "FILE");
+    const volume_file kind = volume_file_of(o->output.path);
+    if (kind == VOLUME_UNKNOWN)
+        return cli_usage(command, "%s: unknown kind of file (name it .lmpf, .json, .csv or .npy)",
+                         o->output.path);
+    if ((long)counts[0] * counts[1] * counts[2] > VOLUME_PROBES_MAX)
+        return cli_usage(command, "--grid %dx%dx%d: more than %d probes", counts[0], counts[1],
+                         counts[2], VOLUME_PROBES_MAX);
+    if (o->settings.preset != VOLUME_OWN && o->settings.bands != 3)
+        return cli_usage(command, "--bands %d: %s keeps 3", o->settings.bands,
+                         volume_presets()[o->settings.preset]);
+    if (kind == VOLUME_LMPF && (o->settings.preset != VOLUME_OWN || o->output.half ||
+                                o->output.layout != VOLUME_INTERLEAVED || o->shadows))
+        return cli_usage(command, "a .lmpf has no preset, layout, 16 bits or shadows");
+    if (kind == VOLUME_CSV && o->output.layout == VOLUME_PLANAR)
+        return cli_usage(command,
+                         "a table has a line a probe: --layout planar takes .json or .npy");
+    return CLI_OK;
+}
+
+static int run(const cli_command *command, int argc, char **argv) {
+    field_options o = {
+        .settings = { .grid = { .counts = { 16, 8, 16 } }, .bands = 3, .rays = 64 },
+        .environment = ENVIRONMENT_DEFAULTS,
+    };
+    const double length_max = (double)LMP_LENGTH_MAX;
+    const cli_option options[] = {
+        { "output", 'o', CLI_TEXT, &o.output.path, "FILE",
+          "the volume: .json, .csv, .npy, or .lmpf (the library's own)", 0, 0, NULL, NULL },
+        { "grid", 'g', CLI_GRID, o.settings.grid.counts, "NXxNYxNZ",
+          "probes along the scene's x, y and z", 2, LMP_FIELD_NODES_MAX, NULL, NULL },
+        { "minimum", 0, CLI_VEC3, o.settings.grid.minimum, "X,Y,Z",
+          "the first probe; without it a corner of the scene's bounds", -length_max, length_max,
+          NULL, &o.minimum_given },
+        { "maximum", 0, CLI_VEC3, o.settings.grid.maximum, "X,Y,Z",
+          "the last probe; without it the opposite corner", -length_max, length_max, NULL,
+          &o.maximum_given },
+        { "bands", 'n', CLI_INT, &o.settings.bands, "N", "bands of spherical harmonics", 1,
+          LMP_FIELD_BANDS_MAX, NULL, NULL },
+        { "preset", 0, CLI_CHOICE, &o.settings.preset, "ENGINE",
+          "whose axes, signs, order and factors: those of lampion are radiance as it is", 0, 0,
+          volume_presets(), NULL },
+        { "layout", 0, CLI_CHOICE, &o.output.layout, "LAYOUT",
+          "probe after probe, or value after value: a grid of each", 0, 0, volume_layouts, NULL },
+        { "half", 0, CLI_FLAG, &o.output.half, NULL, "round values to 16 bits", 0, 0, NULL, NULL },
+        { "shadows", 0, CLI_FLAG, &o.shadows, NULL, "let surfaces hide lights from probes, by rays",
+          0, 0, NULL, NULL },
+        { "shadow-rays", 0, CLI_INT, &o.settings.rays, "N", "rays of --shadows for each light", 1,
+          VOLUME_RAYS_MAX, NULL, NULL },
+        SCENE_LIGHTS_OPTION_ROWS(o.lights),
+        ENVIRONMENT_OPTION_ROWS(o.environment),
+        SCENE_LOAD_OPTION_ROWS(o.load),
+        { .name = NULL },
+    };
+    cli_error error;
+    int operand_count, status;
+    char **operands;
+    if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
+        return status;
+    status = check_options(command, &o, operand_count);
+    if (status != CLI_OK)
+        return status;
+    return make(&o, operands[0], &error) ? CLI_OK : cli_report(&error);
+}
+
+const cli_command command_field = {
+    .name = "field",
+    .operands = "SCENE",
+    .summary = "make an irradiance volume of a scene's lights for an engine",
+    .examples = "lampion field builtin:atrium --grid 32x16x32 --preset unity -o probes.json\n"
+                "lampion field scene.gltf --preset unreal --shadows -o probes.csv\n"
+                "lampion field scene.gltf --preset filament --layout planar --half -o probes.npy\n"
+                "lampion field scene.gltf --random-lights 1000 --bands 5 -o field.lmpf\n",
+    .run = run,
+    .kernels = true,
+};

@@ -1,0 +1,433 @@
+/* SPDX-License-Identifier: MIT */
+/* lampion field: its files, read by cJSON, by lines of CSV, by NumPy's specification and by the
+ * library, hold the same numbers; and what engines' shaders make of them is the light there is. */
+#include "tests/oracle/engines.h"
+#include "tests/program/folder.h"
+
+#include <cjson/cJSON.h>
+#include <lampion/field.h>
+#include <sys/wait.h>
+
+enum { NX = 4, NY = 3, NZ = 5, PROBES = NX * NY * NZ, VALUES_MAX = 75 };
+#define GRID "--grid 4x3x5 --minimum -2,0,-1 --maximum 1,1.5,3 "
+
+/* One probe after the other, whatever the file. */
+typedef struct probes {
+    double position[PROBES][3];
+    float values[PROBES][VALUES_MAX];
+    int value_count;
+} probes;
+
+static const lmp_light lights[] = {
+    { .position = { 3, 4, 1 }, .radius = 0.5f, .radiance = { 10, 8, 5 } },
+    { .position = { -4, 2, 2 }, .radius = 1.5f, .radiance = { 1, 2, 3 } },
+};
+enum { LIGHTS = sizeof lights / sizeof *lights };
+
+/* Runs `lampion field` of a wall that is at x = 1.5 from z = -9 to 0.5, with arguments for the
+ * shell; its status. */
+static int field(const char *arguments) {
+    char command[1024];
+    snprintf(command, sizeof command,
+             "cd '%s' && \"$LAMPION_PROGRAM\" field wall.obj --lights lights.json " GRID "%s 2>err",
+             folder, arguments);
+    const int status = system(command);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static char *read_text(const char *name, size_t *size) {
+    static char bytes[1 << 20];
+    FILE *file = fopen(in_folder(name), "rb");
+    assert_non_null(file);
+    *size = fread(bytes, 1, sizeof bytes - 1, file);
+    assert_true(*size < sizeof bytes - 1 && !ferror(file));
+    bytes[*size] = 0;
+    fclose(file);
+    return bytes;
+}
+
+/* --- readers ---------------------------------------------------------------------------------- */
+
+static double number_at(const cJSON *array, int i) {
+    const cJSON *item = cJSON_GetArrayItem(array, i);
+    assert_true(cJSON_IsNumber(item));
+    return item->valuedouble;
+}
+
+static const char *text_of(const cJSON *root, const char *name) {
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(root, name);
+    assert_true(cJSON_IsString(item));
+    return item->valuestring;
+}
+
+static void read_json_grid(const cJSON *root, probes *p) {
+    const cJSON *counts = cJSON_GetObjectItemCaseSensitive(root, "counts");
+    const cJSON *origin = cJSON_GetObjectItemCaseSensitive(root, "origin");
+    const cJSON *steps = cJSON_GetObjectItemCaseSensitive(root, "steps");
+    const int expected[3] = { NX, NY, NZ };
+    for (int a = 0; a < 3; a++)
+        assert_int_equal((int)number_at(counts, a), expected[a]);
+    for (int i = 0; i < PROBES; i++) {
+        const int node[3] = { i % NX, i / NX % NY, i / NX / NY };
+        for (int k = 0; k < 3; k++) {
+            p->position[i][k] = number_at(origin, k);
+            for (int a = 0; a < 3; a++)
+                p->position[i][k] += node[a] * number_at(cJSON_GetArrayItem(steps, a), k);
+        }
+    }
+}
+
+/* The schema is that of docs/formats.md. */
+static void read_json(const char *name, const char *preset, probes *p) {
+    size_t size;
+    cJSON *root = cJSON_Parse(read_text(name, &size));
+    assert_non_null(root);
+    assert_string_equal(text_of(root, "format"), "lampion-probes");
+    assert_string_equal(text_of(root, "preset"), preset);
+    assert_int_equal((int)cJSON_GetObjectItem(root, "version")->valuedouble, 1);
+    const bool planar = strcmp(text_of(root, "layout"), "planar") == 0;
+    const cJSON *values = cJSON_GetObjectItemCaseSensitive(root, "values");
+    p->value_count = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "names"));
+    assert_true(p->value_count > 0 && p->value_count <= VALUES_MAX);
+    assert_int_equal(cJSON_GetArraySize(values), PROBES * p->value_count);
+    read_json_grid(root, p);
+    int at = 0;
+    for (const cJSON *item = values->child; item; item = item->next, at++)
+        if (planar)
+            p->values[at % PROBES][at / PROBES] = (float)item->valuedouble;
+        else
+            p->values[at / p->value_count][at % p->value_count] = (float)item->valuedouble;
+    cJSON_Delete(root);
+}
+
+static void read_csv(const char *name, probes *p) {
+    size_t size;
+    char *line = strtok(read_text(name, &size), "\n");
+    assert_memory_equal(line, "x,y,z,r0,", 9);
+    p->value_count = -2;
+    for (const char *c = line; *c; c++)
+        p->value_count += *c == ',';
+    for (int i = 0; i < PROBES; i++) {
+        char *at = strtok(NULL, "\n");
+        assert_non_null(at);
+        for (int k = 0; k < 3 + p->value_count; k++) {
+            const double value = strtod(at, &at);
+            if (k < 3)
+                p->position[i][k] = value;
+            else
+                p->values[i][k - 3] = (float)value;
+            at += *at == ',';
+        }
+        assert_int_equal(*at, 0);
+    }
+    assert_null(strtok(NULL, "\n"));
+}
+
+/* IEEE 754 binary16. */
+static float half_value(const unsigned char *at) {
+    const int bits = at[0] | at[1] << 8, exponent = bits >> 10 & 31, mantissa = bits & 1023;
+    const double size =
+        exponent == 0 ? ldexp(mantissa, -24) : ldexp(1024 + mantissa, exponent - 25);
+    return (float)(bits & 0x8000 ? -size : size);
+}
+
+/* NumPy's format, version 1.0: 6 bytes, 2 of the version, the length of a line, the line. */
+static void read_npy(const char *name, bool half, bool planar, probes *p) {
+    size_t size;
+    const unsigned char *bytes = (const unsigned char *)read_text(name, &size);
+    assert_memory_equal(bytes, "\x93NUMPY\1\0", 8);
+    const size_t begin = 10 + bytes[8] + 256u * bytes[9], width = half ? 2 : 4;
+    char expected[128];
+    snprintf(expected, sizeof expected,
+             planar ? "{'descr': '<f%zu', 'fortran_order': False, 'shape': (27, 5, 3, 4), }"
+                    : "{'descr': '<f%zu', 'fortran_order': False, 'shape': (5, 3, 4, 27), }",
+             width);
+    assert_int_equal(begin % 64, 0);
+    assert_int_equal(bytes[begin - 1], '\n');
+    assert_memory_equal(bytes + 10, expected, strlen(expected));
+    assert_int_equal(size, begin + width * PROBES * 27);
+    for (size_t i = 0; i < PROBES * 27; i++) {
+        const unsigned char *at = bytes + begin + width * i;
+        float *to = planar ? &p->values[i % PROBES][i / PROBES] : &p->values[i / 27][i % 27];
+        if (half)
+            *to = half_value(at);
+        else
+            memcpy(to, at, sizeof *to);
+    }
+    p->value_count = 27;
+}
+
+/* --- what they hold --------------------------------------------------------------------------- */
+
+/* The scene's own position of a node, and in it what the lights reflect off a white surface. */
+static void node_position(int i, double position[3]) {
+    position[0] = -2 + i % NX;
+    position[1] = 0.75 * (i / NX % NY);
+    position[2] = -1 + i / NX / NY;
+}
+
+/* Of three bands, or exactly, where all lights are above the surface: false elsewhere. */
+static bool reflects(const double at[3], const double n[3], int c, bool exact, double *sum) {
+    *sum = 0;
+    for (int k = 0; k < LIGHTS; k++) {
+        const lmp_vec3 center = lights[k].position;
+        const double to[3] = { (double)center.x - at[0], (double)center.y - at[1],
+                               (double)center.z - at[2] };
+        const double d = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+        const double r = (double)lights[k].radius;
+        const double cosine = (to[0] * n[0] + to[1] * n[1] + to[2] * n[2]) / d;
+        const double radiance = (double)(&lights[k].radiance.r)[c];
+        if (exact && !(cosine > r / d))
+            return false;
+        *sum +=
+            radiance / ORACLE_PI *
+            (exact ? sphere_irradiance(r, d, cosine) : sphere_irradiance_of_3_bands(r, d, cosine));
+    }
+    return true;
+}
+
+static void expect_positions(const probes *p, lmp_probe_engine engine) {
+    for (int i = 0; i < PROBES; i++) {
+        double ours[3], theirs[3];
+        node_position(i, ours);
+        engine_direction(engine, ours, theirs);
+        for (int k = 0; k < 3; k++)
+            CHECK_WITHIN(
+                fabs(p->position[i][k] - theirs[k] * (engine == LMP_PROBE_UNREAL ? 100 : 1)), 1e-4);
+    }
+}
+
+static void shaders_of_engines_light_surfaces_as_the_lights_do(void **state) {
+    (void)state;
+    static probes p;
+    for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
+        const lmp_probe_engine engine = (lmp_probe_engine)e;
+        const char *name = lmp_probe_format_of(engine)->name;
+        char arguments[128];
+        snprintf(arguments, sizeof arguments, "--preset %s -o probes.json", name);
+        assert_int_equal(field(arguments), 0);
+        read_json("probes.json", name, &p);
+        assert_int_equal(p.value_count, 27);
+        expect_positions(&p, engine);
+        int judged = 0;
+        for (int i = 0; i < 8 * PROBES; i++) {
+            const lmp_vec3 random = check_random_direction();
+            const double n[3] = { (double)random.x, (double)random.y, (double)random.z };
+            double at[3], expected;
+            node_position(i % PROBES, at);
+            const double found = engine_reflects(engine, p.values[i % PROBES], i % 3, n);
+            reflects(at, n, i % 3, false, &expected);
+            CHECK_WITHIN(fabs(found - expected), 1e-5);
+            if (reflects(at, n, i % 3, true, &expected) && ++judged)
+                CHECK_WITHIN(fabs(found - expected), 0.1 * expected + 0.01);
+        }
+        assert_true(judged > PROBES / 4);
+    }
+}
+
+static void expect_same(const probes *a, const probes *b) {
+    assert_int_equal(a->value_count, b->value_count);
+    for (int i = 0; i < PROBES; i++)
+        for (int k = 0; k < a->value_count; k++)
+            assert_true(a->values[i][k] == b->values[i][k]);
+}
+
+static void every_file_holds_the_same_numbers(void **state) {
+    (void)state;
+    static probes json, other;
+    assert_int_equal(field("--preset filament -o probes.json"), 0);
+    read_json("probes.json", "filament", &json);
+    assert_int_equal(field("--preset filament -o probes.csv"), 0);
+    read_csv("probes.csv", &other);
+    expect_same(&json, &other);
+    expect_positions(&other, LMP_PROBE_FILAMENT);
+    assert_int_equal(field("--preset filament --layout planar -o planar.json"), 0);
+    read_json("planar.json", "filament", &other);
+    expect_same(&json, &other);
+    for (int planar = 0; planar < 2; planar++) {
+        assert_int_equal(field(planar ? "--preset filament --layout planar -o probes.npy"
+                                      : "--preset filament -o probes.npy"),
+                         0);
+        read_npy("probes.npy", false, planar, &other);
+        expect_same(&json, &other);
+    }
+}
+
+static void half_is_the_nearest_of_16_bits(void **state) {
+    (void)state;
+    static probes whole, text, binary;
+    assert_int_equal(field("-o probes.json"), 0);
+    read_json("probes.json", "lampion", &whole);
+    assert_int_equal(field("--half -o half.json"), 0);
+    read_json("half.json", "lampion", &text);
+    assert_int_equal(field("--half --layout planar -o half.npy"), 0);
+    read_npy("half.npy", true, true, &binary);
+    expect_same(&text, &binary);
+    for (int i = 0; i < PROBES; i++)
+        for (int k = 0; k < 27; k++)
+            CHECK_WITHIN(fabsf(whole.values[i][k] - text.values[i][k]),
+                         fmaxf(fabsf(whole.values[i][k]) * 0x1p-11f, 0x1p-25f));
+    folder_write_text("bright.json", "{ \"lights\": [ { \"position\": [0, 1, 0], \"radius\": 1, "
+                                     "\"radiance\": [1e6, 1, 1] } ] }");
+    assert_int_equal(field("--lights bright.json --half -o bright.npy"), 1);
+    assert_null(fopen(in_folder("bright.npy"), "rb"));
+}
+
+/* --- the library's own ------------------------------------------------------------------------ */
+
+static void the_own_preset_keeps_coefficients_of_any_bands(void **state) {
+    (void)state;
+    static probes p;
+    assert_int_equal(field("--bands 5 -o probes.json"), 0);
+    read_json("probes.json", "lampion", &p);
+    assert_int_equal(p.value_count, 75);
+    for (int i = 0; i < PROBES; i++) {
+        double at[3];
+        float sh[75];
+        node_position(i, at);
+        lmp_light_project(5, lights, LIGHTS,
+                          (lmp_vec3) { (float)at[0], (float)at[1], (float)at[2] }, sh);
+        for (int k = 0; k < 75; k++)
+            CHECK_WITHIN(fabsf(p.values[i][k] - sh[k]), 1e-6);
+    }
+}
+
+static void the_library_reads_its_field(void **state) {
+    (void)state;
+    static probes p;
+    size_t size;
+    lmp_field *read;
+    assert_int_equal(field("-o probes.json"), 0);
+    read_json("probes.json", "lampion", &p);
+    assert_int_equal(field("-o probes.lmpf"), 0);
+    const char *bytes = read_text("probes.lmpf", &size);
+    assert_int_equal(lmp_field_read(NULL, bytes, size, &read), LMP_OK);
+    assert_int_equal(lmp_field_describe(read).light_count, LIGHTS);
+    for (int i = 0; i < PROBES; i++) {
+        double at[3];
+        float sh[27];
+        node_position(i, at);
+        const lmp_vec3 point = { (float)at[0], (float)at[1], (float)at[2] };
+        lmp_field_eval_n(read, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, sh);
+        for (int k = 0; k < 27; k++)
+            CHECK_WITHIN(fabsf(p.values[i][k] - sh[k]), 1e-5);
+    }
+    lmp_field_destroy(read);
+}
+
+/* --- shadows ---------------------------------------------------------------------------------- */
+
+/* The wall ends at z = 0.5: it hides the first light from the probes whose rays to it all cross
+ * x = 1.5 below that, and not at all where they cross above; the second stands on the other side.
+ */
+static void walls_keep_light_from_probes(void **state) {
+    (void)state;
+    static probes open, shadowed;
+    assert_int_equal(field("-o open.json"), 0);
+    read_json("open.json", "lampion", &open);
+    assert_int_equal(field("--shadows -o shadowed.json"), 0);
+    read_json("shadowed.json", "lampion", &shadowed);
+    int hidden = 0, seen = 0;
+    for (int i = 0; i < PROBES; i++) {
+        double at[3];
+        float sh[27];
+        node_position(i, at);
+        const double cross = at[2] + (1.5 - at[0]) / (3 - at[0]) * (1 - at[2]) - 0.5;
+        lmp_light_project(3, lights + 1, 1, (lmp_vec3) { (float)at[0], (float)at[1], (float)at[2] },
+                          sh);
+        if (fabs(cross) < 0.4)
+            continue;
+        for (int k = 0; k < 27; k++) {
+            const float expected = cross < 0 ? sh[k] : open.values[i][k];
+            CHECK_WITHIN(fabsf(shadowed.values[i][k] - expected), 1e-6);
+        }
+        cross < 0 ? hidden++ : seen++;
+    }
+    assert_true(hidden > 0 && seen > 0);
+}
+
+static void the_environment_lights_every_probe(void **state) {
+    (void)state;
+    static probes dark, lit;
+    assert_int_equal(field("--environment none -o dark.json"), 0);
+    read_json("dark.json", "lampion", &dark);
+    assert_int_equal(field("--environment studio -o lit.json"), 0);
+    read_json("lit.json", "lampion", &lit);
+    for (int k = 0; k < 27; k++)
+        for (int i = 0; i < PROBES; i++) {
+            const float added = lit.values[i][k] - dark.values[i][k];
+            CHECK_WITHIN(fabsf(added - (lit.values[0][k] - dark.values[0][k])), 1e-4);
+            assert_true(k % 9 != 0 || added > 0.1f);
+        }
+    assert_int_equal(field("--environment studio -o lit.lmpf"), 1);
+}
+
+/* --- examples/read_probes.c ------------------------------------------------------------------- */
+
+static void read_at(const double at[3], const double n[3], double rgb[3]) {
+    char command[1024];
+    snprintf(command, sizeof command, "'%s' '%s/probes.csv' %.9g %.9g %.9g %.9g %.9g %.9g",
+             READ_PROBES, folder, at[0], at[1], at[2], n[0], n[1], n[2]);
+    FILE *output = popen(command, "r");
+    assert_non_null(output);
+    assert_int_equal(fscanf(output, "%lf %lf %lf", &rgb[0], &rgb[1], &rgb[2]), 3);
+    assert_int_equal(pclose(output), 0);
+}
+
+/* What the eight nodes around a point reflect, weighted by how near they are. */
+static double between_nodes(const double at[3], const double n[3], int c) {
+    static const double origin[3] = { -2, 0, -1 }, step[3] = { 1, 0.75, 1 };
+    double sum = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        double node[3], weight = 1, reflected;
+        for (int a = 0; a < 3; a++) {
+            const double cells = (at[a] - origin[a]) / step[a], fraction = cells - floor(cells);
+            const int up = corner >> a & 1;
+            node[a] = origin[a] + step[a] * (floor(cells) + up);
+            weight *= up ? fraction : 1 - fraction;
+        }
+        reflects(node, n, c, false, &reflected);
+        sum += weight * reflected;
+    }
+    return sum;
+}
+
+static void the_example_reads_probes_and_what_lies_between(void **state) {
+    (void)state;
+    assert_int_equal(field("--preset filament -o probes.csv"), 0);
+    const double n[3] = { 0.48, 0.8, 0.36 }, at[2][3] = { { -1, 0.75, 2 }, { -1.3, 0.5, 1.4 } };
+    for (int i = 0; i < 2; i++) {
+        double rgb[3];
+        read_at(at[i], n, rgb);
+        for (int c = 0; c < 3; c++)
+            CHECK_WITHIN(fabs(rgb[c] - between_nodes(at[i], n, c)), 2e-5);
+    }
+}
+
+static int make_scene(void **state) {
+    (void)state;
+    if (!mkdtemp(folder) || !getenv("LAMPION_PROGRAM"))
+        return -1;
+    folder_write_text("wall.obj",
+                      "v 1.5 -9 -9\nv 1.5 9 -9\nv 1.5 9 0.5\nv 1.5 -9 0.5\nf 1 2 3 4\n");
+    folder_write_text("lights.json",
+                      "{ \"lights\": [ { \"position\": [3, 4, 1], \"radius\": 0.5, "
+                      "\"radiance\": [10, 8, 5] }, { \"position\": [-4, 2, 2], \"radius\": 1.5, "
+                      "\"radiance\": [1, 2, 3] } ] }");
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shaders_of_engines_light_surfaces_as_the_lights_do),
+        cmocka_unit_test(every_file_holds_the_same_numbers),
+        cmocka_unit_test(half_is_the_nearest_of_16_bits),
+        cmocka_unit_test(the_own_preset_keeps_coefficients_of_any_bands),
+        cmocka_unit_test(the_library_reads_its_field),
+        cmocka_unit_test(walls_keep_light_from_probes),
+        cmocka_unit_test(the_environment_lights_every_probe),
+        cmocka_unit_test(the_example_reads_probes_and_what_lies_between),
+    };
+    return cmocka_run_group_tests(tests, make_scene, folder_remove);
+}
