@@ -34,6 +34,7 @@ static const struct {
     [LMP_BRDF_SGD] = { "SGD (fit of a MERL material)", NULL },
     [LMP_BRDF_MERL] = { "MERL .binary", print_cells },
     [LMP_BRDF_RGL] = { "RGL .bsdf tensor file", print_nodes },
+    [LMP_BRDF_SHEEN] = { "sheen", NULL },
 };
 static_assert(sizeof kinds / sizeof *kinds == LMP_BRDF_KINDS, "a row for each kind");
 

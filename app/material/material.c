@@ -92,6 +92,15 @@ static bool open_ggx(const char *name, const char *text, material *m, cli_error 
                   "ALPHA 0.001 to 1, F0 0 to 1, DIFFUSE at least 0", error);
 }
 
+static bool open_sheen(const char *name, const char *text, material *m, cli_error *error) {
+    lmp_sheen sheen = { .color = { 1, 1, 1 } };
+    if (take_numbers(&text, ',', 1, &sheen.roughness) != 1 || !take_color(&text, &sheen.color) ||
+        !take_color(&text, &sheen.diffuse))
+        return cli_fail(error, name, "is not sheen:ROUGHNESS[:COLOR[:DIFFUSE]]");
+    return finish(name, text, lmp_brdf_create_sheen(NULL, &sheen, &m->brdf),
+                  "ROUGHNESS 0.07 to 1, COLOR 0 to 1, DIFFUSE at least 0", error);
+}
+
 /* --- SGD -------------------------------------------------------------------------------------- */
 
 /* The SGD material of that name, or of one near it; NULL: none. */
@@ -134,7 +143,8 @@ static const struct {
     const char *name;
     bool (*open)(const char *name, const char *parameters, material *m, cli_error *error);
 } kinds[] = {
-    { "lambert", open_lambert }, { "phong", open_phong }, { "ggx", open_ggx }, { "sgd", open_sgd }
+    { "lambert", open_lambert }, { "phong", open_phong }, { "ggx", open_ggx },
+    { "sheen", open_sheen },     { "sgd", open_sgd },
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 

@@ -6,6 +6,7 @@
  *     lambert:COLOR                        albedo
  *     phong:EXPONENT[:COLOR]               reflectance 1
  *     ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]   F0 0.04, diffuse 0
+ *     sheen:ROUGHNESS[:COLOR[:DIFFUSE]]    color 1, diffuse 0
  *
  * A COLOR is one number or R,G,B. */
 #ifndef LAMPION_MATERIAL_H
@@ -17,7 +18,8 @@
 #include <lampion/preintegrated.h>
 
 #define MATERIAL_NAMES                                                                             \
-    "FILE.binary, FILE.bsdf, FILE.lmpt, sgd:NAME, lambert:COLOR, phong:EXPONENT or ggx:ALPHA"
+    "FILE.binary, FILE.bsdf, FILE.lmpt, sgd:NAME, lambert:COLOR, phong:EXPONENT, ggx:ALPHA or "    \
+    "sheen:ROUGHNESS"
 
 /* One of brdf and table is there. */
 typedef struct material {

@@ -40,9 +40,10 @@ typedef enum lmp_brdf_kind {
     LMP_BRDF_GGX,
     LMP_BRDF_SGD,
     LMP_BRDF_MERL,
-    LMP_BRDF_RGL
+    LMP_BRDF_RGL,
+    LMP_BRDF_SHEEN
 } lmp_brdf_kind;
-#define LMP_BRDF_KINDS (LMP_BRDF_RGL + 1) /* of the last one */
+#define LMP_BRDF_KINDS (LMP_BRDF_SHEEN + 1) /* of the last one */
 
 /* Frees any BRDF, through the host it was made with; accepts NULL. */
 LMP_API void lmp_brdf_destroy(lmp_brdf *brdf);
@@ -88,6 +89,17 @@ typedef struct lmp_ggx {
     lmp_rgb diffuse;        /* albedo of the diffuse part, >= 0 */
 } lmp_ggx;
 LMP_API lmp_result lmp_brdf_create_ggx(const lmp_host *host, const lmp_ggx *ggx, lmp_brdf **brdf);
+
+/* Cloth, as KHR_materials_sheen has it with the distribution and the visibility that it calls
+ * Charlie: fibers over a diffuse base, which has what they leave, 1 - max(color) E, E their albedo
+ * toward the light or the view, whichever is more. */
+typedef struct lmp_sheen {
+    float roughness; /* 0.07 … 1: how much the fibers diverge from the normal */
+    lmp_rgb color;   /* of the fibers, 0 … 1 */
+    lmp_rgb diffuse; /* albedo of the base, >= 0 */
+} lmp_sheen;
+LMP_API lmp_result lmp_brdf_create_sheen(const lmp_host *host, const lmp_sheen *sheen,
+                                         lmp_brdf **brdf);
 
 /* The shifted gamma distribution of Bagher, Soler and Holzschuch (2012), each member red, green,
  * blue; formula in docs/materials.md. */

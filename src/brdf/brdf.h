@@ -20,6 +20,12 @@ typedef struct brdf_ggx {
     double alpha_x, alpha_y, f0[3], diffuse[3];
 } brdf_ggx;
 
+/* Of white fibers: what they reflect of a uniform sky, by the angle of the view, 0 to pi/2. */
+#define BRDF_SHEEN_ALBEDOS 129
+typedef struct brdf_sheen {
+    double alpha, color[3], diffuse[3], albedo[BRDF_SHEEN_ALBEDOS];
+} brdf_sheen;
+
 typedef struct brdf_merl {
     int shape[3];
     float *samples; /* [theta_h][theta_d][phi_d][rgb], scaled to sr⁻¹ */
@@ -59,6 +65,7 @@ struct lmp_brdf {
         double lambert[3];
         brdf_phong phong;
         brdf_ggx ggx;
+        brdf_sheen sheen;
         lmp_sgd sgd;
         brdf_merl merl;
         brdf_rgl rgl;

@@ -45,6 +45,8 @@ refuse() {
 refuse 1 'sgd:gold-metallic-paint?' info sgd:gold-metalic-paint
 refuse 1 'ggx:ALPHA' info ggx:rough
 refuse 1 'out of range (ALPHA 0.001 to 1' info ggx:7
+refuse 1 'sheen:ROUGHNESS' info sheen:soft
+refuse 1 'out of range (ROUGHNESS 0.07 to 1' info sheen:0
 refuse 1 'out of range (EXPONENT and COLOR at least 0)' info phong:-1
 refuse 1 'nickel: does not exist (is it sgd:nickel?)' info nickel
 refuse 1 'missing.binary' info "$WORK/missing.binary"

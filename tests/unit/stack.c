@@ -190,6 +190,7 @@ static void shade_under_a_field(void) {
     X(lmp_sgd_find, lmp_sgd_find("chrome", &sgd)) \
     X(lmp_brdf_create_sgd, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_sgd(NULL, &sgd, &brdf))) \
     X(lmp_brdf_create_ggx, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_ggx(NULL, &(lmp_ggx) { 0.5f, 0, { 1, 1, 1 }, { 0, 0, 0 } }, &brdf))) \
+    X(lmp_brdf_create_sheen, MAKE(lmp_brdf_destroy, brdf, lmp_brdf_create_sheen(NULL, &(lmp_sheen) { 0.5f, { 1, 1, 1 }, { 0, 0, 0 } }, &brdf))) \
     X(lmp_brdf_describe, lmp_brdf_describe(brdf)) \
     X(lmp_brdf_eval, lmp_brdf_eval(brdf, up, up)) \
     X(lmp_brdf_eval_double, lmp_brdf_eval_double(brdf, doubles, doubles, (double[3]) { 0 })) \
