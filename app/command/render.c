@@ -133,7 +133,7 @@ static bool settle_tables(render_job *j, cli_error *error) {
 /* Chooses where to shade. */
 static bool settle_shading(render_job *j, cli_error *error) {
     const render_options *o = j->options;
-    const method_kind method = (method_kind)o->method;
+    const method_kind method = o->method;
     const bool tables = o->materials.count > 0 && environment_shines(&j->around);
     /* Methods are compared where all of them run. */
     j->shading = method_device(method, (device_kind)o->device_kind, tables,
@@ -176,7 +176,7 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
     j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
     j->frame.width = o->size[0];
     j->frame.height = o->size[1];
-    j->frame.method = (method_kind)o->method;
+    j->frame.method = o->method;
     j->frame.bands = o->bands;
     j->frame.window = (lmp_window)o->window;
     j->frame.samples = o->samples_given ? o->samples : default_samples(o);
@@ -202,8 +202,9 @@ static void close_job(render_job *j) {
     animation_close(j->path);
 }
 
-/* What the table of options cannot say. */
-static int check_options(const cli_command *command, const render_options *o, int operand_count) {
+/* Chooses the method, and refuses what the table of options cannot. */
+static int settle_options(const cli_command *command, render_options *o, int operand_count) {
+    o->method = method_chosen(o->method_choice, o->bands);
     const method_row *method = &method_table[o->method];
     const int bands_max = method->bands_max[o->device_kind];
     if (operand_count != 1 && !(o->from && operand_count == 0))
@@ -277,7 +278,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "the image: .png (tone-mapped) or .exr (linear)", 0, 0, NULL, NULL },
         { "size", 's', CLI_SIZE, o.size, "WxH", "pixels", 1, IMAGE_SIZE_MAX, NULL, NULL },
         { "bands", 'n', CLI_INT, &o.bands, "N", "number of bands", 1, LMP_BANDS_MAX, NULL, NULL },
-        { "method", 0, CLI_CHOICE, &o.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
+        METHOD_OPTION_ROW(o.method_choice),
         { "device", 0, CLI_CHOICE, &o.device_kind, "DEVICE", device_help(), 0, 0, device_names(),
           NULL },
         { "window", 0, CLI_CHOICE, &o.window, "WINDOW", "damps the ringing of few bands", 0, 0,
@@ -325,7 +326,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     char **operands;
     if (!cli_parse(command, options, argc, argv, &operand_count, &operands, &status))
         return status;
-    status = check_options(command, &o, operand_count);
+    status = settle_options(command, &o, operand_count);
     if (status != CLI_OK)
         return status;
     return o.from ? repeat_shot(&o, operand_count ? operands[0] : NULL) : render(&o, operands[0]);

@@ -15,7 +15,8 @@
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device, *animate, *from;
-    int size[2], bands, method, window, tone, device_kind, repeat, samples, pixels_max;
+    int size[2], bands, method_choice, window, tone, device_kind, repeat, samples, pixels_max;
+    method_kind method;      /* what the choice and the bands come to */
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
     bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;

@@ -38,7 +38,7 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], c
 
 /* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
 static bool compared(const render_job *j, method_kind method) {
-    if (method == (method_kind)j->options->method)
+    if (method == j->options->method)
         return true;
     return j->options->compare && method_table[method].bands_max[j->shading] >= j->options->bands;
 }

@@ -13,7 +13,8 @@ enum { FRAMES_MAX = 100000000 };
 
 /* What the command line says, beside what goes into the settings at once. */
 typedef struct view_arguments {
-    int size[2], bands, method, window;
+    int size[2], bands, method_choice, window;
+    method_kind method;
     float exposure, stops;
     bool exposure_given;
     int tone;
@@ -56,7 +57,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         s->height = a->size[1];
         s->shadows = a->shadow.on && !a->shadow.off;
         s->divider = 0.5f;
-        s->shading[0] = (view_shading) { (method_kind)a->method, a->bands, (lmp_window)a->window };
+        s->shading[0] = (view_shading) { a->method, a->bands, (lmp_window)a->window };
         s->shading[1] = s->shading[0];
     }
     if (name) {
@@ -86,7 +87,6 @@ static int view(const view_arguments *a, const char *name, view_options *o) {
 static int run(const cli_command *command, int argc, char **argv) {
     view_arguments a = { .size = { 1280, 720 },
                          .bands = LMP_SHADE_BANDS_DEFAULT,
-                         .method = METHOD_PREINTEGRATED,
                          .window = LMP_WINDOW_HANNING };
     view_options *o = calloc(1, sizeof *o);
     if (!o) {
@@ -101,7 +101,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "size", 's', CLI_SIZE, a.size, "WxH", "of the window", 1, 8192, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N", "bands of spherical harmonics", 1, LMP_BANDS_MAX,
           NULL, NULL },
-        { "method", 0, CLI_CHOICE, &a.method, "METHOD", method_help(), 0, 0, method_names(), NULL },
+        METHOD_OPTION_ROW(a.method_choice),
         { "window", 0, CLI_CHOICE, &a.window, "WINDOW", "damps the ringing of few bands", 0, 0,
           method_window_names(), NULL },
         SHADOW_SWITCH_ROWS(a.shadow),
@@ -135,6 +135,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int operand_count, status;
     char **operands;
     if (cli_parse(command, options, argc, argv, &operand_count, &operands, &status)) {
+        a.method = method_chosen(a.method_choice, a.bands);
         status = check_arguments(command, &a, operand_count);
         if (status == CLI_OK)
             status = view(&a, operand_count ? operands[0] : NULL, o);

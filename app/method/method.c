@@ -80,12 +80,27 @@ const char *const *method_names(void) {
     return names;
 }
 
+const char *const *method_choices(void) {
+    static const char *names[METHODS + 2] = { "auto" };
+    cli_row_names(&method_table[0].name, sizeof *method_table, METHODS, names + 1);
+    return names;
+}
+
+method_kind method_chosen(int choice, int bands) {
+    if (choice != 0)
+        return (method_kind)(choice - 1);
+    return bands <= method_table[METHOD_ZONAL].bands_max[DEVICE_GPU] ? METHOD_ZONAL
+                                                                     : METHOD_PREINTEGRATED;
+}
+
 const char *method_help(void) {
-    static char text[512];
-    size_t used = (size_t)snprintf(text, sizeof text, "how to shade");
+    static char text[640];
+    size_t used = (size_t)snprintf(text, sizeof text,
+                                   "how to shade; auto is zonal to %d bands, then preintegrated",
+                                   method_table[METHOD_ZONAL].bands_max[DEVICE_GPU]);
     for (int m = 0; m < METHODS; m++) {
         const method_row *row = &method_table[m];
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %s", m ? ", " : ": ",
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s %s", m ? ", " : "; ",
                                  row->name, row->help);
         if (row->bands_max[DEVICE_CPU] < LMP_BANDS_MAX)
             used += (size_t)snprintf(text + used, sizeof text - used, " (to %d bands)",

@@ -54,10 +54,20 @@ extern const method_row method_table[METHODS_TIMED];
 
 #define METHOD_GPU_BANDS_MAX 32 /* LMP_BANDS_GLSL_MAX of lampion.glsl */
 
-/* The names of the rows that options choose among, NULL-terminated, and the options' help, which
- * tells the limits of the devices. */
+/* The names of the rows, NULL-terminated. */
 const char *const *method_names(void);
+
+/* What --method takes in every command: auto, then the rows; and its help, which tells the rule of
+ * auto and the limits of the devices. */
+const char *const *method_choices(void);
 const char *method_help(void);
+
+#define METHOD_OPTION_ROW(choice)                                                                  \
+    { "method", 0, CLI_CHOICE, &(choice), "METHOD", method_help(), 0, 0, method_choices(), NULL }
+
+/* The row of a choice. auto: zonal, the exact sum, while every device takes the bands; from there
+ * on preintegrated, whose cost does not grow with them. */
+method_kind method_chosen(int choice, int bands);
 
 /* Where a frame is shaded. DEVICE_AUTO: on the GPU, but where OpenGL is software on the CPU if it
  * has batch kernels, and where the bands are too many for a shader; tables under an environment are

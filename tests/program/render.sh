@@ -54,6 +54,11 @@ for word in '"field"' '"nodes"' '"bytes"' '"update_milliseconds"' '"evaluate_mil
     grep -q "$word" "$WORK/stats" || fail "--stats of a field without $word"
 done
 "$PROGRAM" compare "$WORK/field.exr" "$WORK/sums.exr" --fail-above rmse=1e-3 || fail "a field's image is another"
+# the method of so many bands where none is asked for, in view as here
+for rule in "32 zonal" "33 preintegrated"; do
+    "$PROGRAM" render builtin:ball --size 8x8 --bands "${rule% *}" --stats --repeat 1 -o "$WORK/rule.png" >"$WORK/rule"
+    grep -q "\"method\":.*\"${rule#* }\"" "$WORK/rule" || fail "${rule% *} bands are not shaded by ${rule#* }"
+done
 "$PROGRAM" render builtin:balls $small --method field --device gpu -o "$WORK/no.png" 2>"$WORK/err" &&
     fail "a field on the GPU"
 grep -q 'field does not run on the GPU' "$WORK/err" || fail "a field on the GPU:" $(cat "$WORK/err")

@@ -80,7 +80,7 @@ shot() {
     --state state.json 2>view.err &
 viewer=$!
 trap 'kill $viewer 2>/dev/null || true' EXIT
-until_true "opening" is value method '"preintegrated"'
+until_true "opening by the method of render" is value method '"zonal"'
 until_true "opening" is value height 180
 xdotool mousemove 20 20
 shot
@@ -121,7 +121,7 @@ until_true "more bands" is value bands 11
 xdotool key g
 until_true "another window" is value window '"lanczos"'
 xdotool key m
-until_true "another method" is value method '"zonal"'
+until_true "another method" is value method '"coefficients"'
 xdotool key period
 until_true "brighter" isnt value exposure 1
 
