@@ -11,15 +11,15 @@
 typedef struct filter_pass {
     shadow_planes *planes;
     int first, count, step;
-    float narrowing; /* how much less far than penumbras are wide; 0: however far */
+    float narrowing; /* how much less far than shadows are even; 0: however far */
 } filter_pass;
 
-/* Neighbors this far off the plane of a pixel, in distances to it and in pixels' widths, and of
- * normals so different are of another surface. */
-static const float off_plane = 0.15f, off_pixel = 0.5f;
+/* Neighbors this far off the plane of a pixel, in distances to it and in pixels' widths, are of
+ * another surface. */
+static const float off_plane = 0.15f, off_pixel = 1;
 
-/* The part of a penumbra's width that is mixed. */
-static const float mixed_width = 0.25f;
+/* What is hidden differs by so much on the two sides of an edge, not by noise. */
+static const float jump = 0.25f;
 static const float tiny = 1e-30f;
 
 /* Where a row's taps at an offset lie: pixels begin ≤ x < end have one. */
@@ -39,7 +39,8 @@ static float positive(float x) {
     return 0.5f * (x + fabsf(x));
 }
 
-/* How far a row's taps at an offset count. Where nothing is hidden, wherever they are. */
+/* How far a row's taps at an offset count: not where the shadow may have changed much on the way,
+ * by the slopes here, nor where it has. */
 static void weigh(const filter_pass *pass, const span *at, float kernel, float *restrict weights) {
     const shadow_planes *p = pass->planes;
     const float *restrict px = p->position[0] + at->row, *restrict qx = p->position[0] + at->tap;
@@ -49,8 +50,11 @@ static void weigh(const filter_pass *pass, const span *at, float kernel, float *
     const float *restrict ny = p->normal[1] + at->row, *restrict my = p->normal[1] + at->tap;
     const float *restrict nz = p->normal[2] + at->row, *restrict mz = p->normal[2] + at->tap;
     const float *restrict footprint = p->footprint + at->row;
-    const float *restrict hidden = pass->planes->values[SHADOW_HIDDEN] + at->row;
-    const float *restrict width = pass->planes->values[SHADOW_HIDDEN_WIDTH] + at->row;
+    const float *restrict all = p->values[SHADOW_WEIGHT] + at->row;
+    const float *restrict slope = p->values[SHADOW_SLOPE] + at->row;
+    const float *restrict hidden = p->values[SHADOW_HIDDEN] + at->row;
+    const float *restrict tap_all = p->values[SHADOW_WEIGHT] + at->tap;
+    const float *restrict tap_hidden = p->values[SHADOW_HIDDEN] + at->tap;
     const float limit = pass->narrowing;
 #pragma omp simd
     for (int x = at->begin; x < at->end; x++) {
@@ -60,11 +64,12 @@ static void weigh(const filter_pass *pass, const span *at, float kernel, float *
         const float most = off_plane * off_plane * d2 + pixel * pixel;
         const float flat = positive(1 - off * off / most);
         const float facing = positive(nx[x] * mx[x] + ny[x] * my[x] + nz[x] * mz[x]);
-        const float f2 = facing * facing, f4 = f2 * f2, f8 = f4 * f4;
-        const float penumbra = mixed_width * width[x], least = 0.5f * pixel * hidden[x];
-        const float wide = penumbra * penumbra + least * least + tiny;
-        const float near = wide / (wide + limit * d2 * hidden[x] * hidden[x]);
-        weights[x] = kernel * f8 * flat * near;
+        const float own = 1 / (all[x] + tiny), tap = 1 / (tap_all[x] + tiny);
+        const float steep = slope[x] * own, apart = (hidden[x] * own - tap_hidden[x] * tap) / jump;
+        const float change = limit * d2 * steep * steep;
+        const float apart2 = limit * apart * apart, apart4 = apart2 * apart2;
+        const float even = 1 / (1 + change * change + apart4 * apart4);
+        weights[x] = kernel * facing * facing * flat * even;
     }
 }
 
@@ -125,16 +130,17 @@ static bool run_pass(const filter_pass *pass) {
     return ok;
 }
 
-/* Widths are known as far as values are mixed: else what lies just beyond an edge would cross it.
- * Of a mean of n, blur that falls as the fourth root falls as the root of n, and so does variance.
+/* Slopes and edges are looked at over a few pixels: far enough to tell them from noise, near enough
+ * to lie where they are. Of a mean of n, blur that falls as the fourth root falls as the root of n,
+ * and so does variance.
  */
 bool shadow_filter(shadow_planes *planes, int sample) {
-    enum { PASSES = 4 };
+    enum { LOOKS = 2, PASSES = 4 };
     const float narrowing = sqrtf((float)(sample + 1));
     bool ok = true;
+    for (int i = 0; i < LOOKS && ok; i++)
+        ok = run_pass(&(filter_pass) { planes, SHADOW_SLOPE, 3, 1, 0 });
     for (int i = 0; i < PASSES && ok; i++)
-        ok = run_pass(&(filter_pass) { planes, SHADOW_HIDDEN, 2, 1 << i, 0 });
-    for (int i = 0; i < PASSES && ok; i++)
-        ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_HIDDEN, 1 << i, narrowing });
+        ok = run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_SLOPE, 1 << i, narrowing });
     return ok;
 }

@@ -6,13 +6,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Light that would arrive and be reflected, and of it what is not hidden; what is hidden, and that
- * times the width of its penumbra. Sums over rays, whose scale does not matter. */
+/* Sums over rays, in parts of what the pixel is guessed to get, so that bright and dark ones count
+ * alike. */
 enum {
-    SHADOW_UNHIDDEN, /* red, green, blue: the numerator */
-    SHADOW_ALL = 3,  /* the denominator */
-    SHADOW_HIDDEN = 6,
-    SHADOW_HIDDEN_WIDTH = 7,
+    SHADOW_UNHIDDEN,   /* red, green, blue of what arrives and is reflected: the numerator */
+    SHADOW_ALL = 3,    /* of what would be: the denominator */
+    SHADOW_SLOPE = 6,  /* what is hidden, by the width of its penumbra */
+    SHADOW_HIDDEN = 7, /* what is hidden, the mean of the colors */
+    SHADOW_WEIGHT = 8, /* the mean of SHADOW_ALL */
     SHADOW_VALUES
 };
 
@@ -29,7 +30,7 @@ typedef struct shadow_planes {
 bool shadow_planes_resize(shadow_planes *planes, int width, int height);
 void shadow_planes_free(shadow_planes *planes);
 
-/* Mixes the values of neighbors on one surface, as far as penumbras are wide; less for samples
+/* Mixes the values of neighbors on one surface, as far as shadows are even; less for samples
  * 1, 2, … of a pixel, so that neither noise nor blur is left of the mean of many. False without
  * memory. */
 bool shadow_filter(shadow_planes *planes, int sample);

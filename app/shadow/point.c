@@ -118,13 +118,16 @@ void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, i
     for (int i = 0; i < SHADOW_LANES; i++) {
         const int x = first + i < width ? first + i : width - 1;
         p->lit[i] = first + i < width && row->kind[x] == GPU_KIND_SURFACE;
-        float along = 0;
+        float along = 0, d2 = 0;
         for (int c = 0; c < 3; c++) {
             p->position.of[c][i] = row->position[c][x];
             p->normal.of[c][i] = row->normal[c][x];
             p->view.of[c][i] = row->view[c][x];
             along += row->normal[c][x] * row->view[c][x];
+            const float d = row->position[c][x] - view->camera->eye[c];
+            d2 += d * d;
         }
+        p->footprint[i] = scene_camera_height(view->camera, sqrtf(d2)) / (float)view->height;
         for (int c = 0; c < 3; c++)
             p->mirror.of[c][i] = 2 * along * p->normal.of[c][i] - p->view.of[c][i];
         p->ambient[i] = row->ambient[x];

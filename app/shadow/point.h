@@ -17,8 +17,9 @@ typedef struct shadow_vectors {
 typedef struct shadow_points {
     bool lit[SHADOW_LANES]; /* a surface; the rest means nothing elsewhere */
     shadow_vectors position, normal, view, mirror;
-    shadow_vectors origin; /* of rays */
-    shadow_vectors smooth; /* the normal without its map */
+    shadow_vectors origin;  /* of rays */
+    shadow_vectors smooth;  /* the normal without its map */
+    shadow_lanes footprint; /* the width of a pixel there */
     /* Metallic-roughness, and how much of diffuse and specular light any material reflects. */
     shadow_vectors diffuse, f0;
     shadow_lanes f90, alpha2, albedo, shine;
@@ -32,6 +33,8 @@ typedef struct shadow_view {
     const scene *scene;
     const trace_bvh *bvh;
     float lift; /* of rays off their surface */
+    const scene_camera *camera;
+    int height; /* of the image */
     lmp_shade_settings settings;
 } shadow_view;
 

@@ -56,7 +56,6 @@ static SHADOW_WIDE void choose(const shadow_job *job, const float *weights, cons
 
 static void aim(const shadow_job *job, const shadow_points *p, const float *weights, int source,
                 shadow_lanes *u, int i, ray_shot *shot) {
-    const float total = weights[(job->source_count - 1) * SHADOW_LANES + (size_t)i];
     const float *sum = weights + source * SHADOW_LANES + i;
     const float weight = source > 0 ? sum[0] - sum[-SHADOW_LANES] : sum[0];
     shot->rays.length[i] = -1;
@@ -67,7 +66,7 @@ static void aim(const shadow_job *job, const shadow_points *p, const float *weig
     const shadow_sample sample = shadow_source_draw(&job->sources[source], at, u[1][i], u[2][i]);
     const lmp_rgb k = shadow_reflect(p, i, sample.direction);
     const float heeded = job->sources[source].kind == SHADOW_AROUND ? p->ambient[i] : 1;
-    const float scale = heeded * total / weight;
+    const float scale = heeded / weight;
     const lmp_rgb value = { sample.arrives.r * k.r * scale, sample.arrives.g * k.g * scale,
                             sample.arrives.b * k.b * scale };
     if (!(mean_of(value) > 0) || !isfinite(mean_of(value)))
@@ -82,28 +81,35 @@ static void aim(const shadow_job *job, const shadow_points *p, const float *weig
     shot->rays.direction[2][i] = sample.direction.z;
 }
 
+/* How wide the half-shadow is of what hides a light, at least half a pixel. */
+static float penumbra_of(const ray_shot *shot, int i, float distance, float footprint) {
+    const float length = shot->rays.length[i];
+    const float beyond = isfinite(length) ? length / (length - distance) : 1;
+    return 2 * shot->size[i] * distance * beyond + 0.6f * footprint;
+}
+
 /* Adds what the rays have found to the pixels' sums. */
 static size_t add_shot(const ray_shot *shot, const trace_hit hits[SHADOW_LANES],
-                       shadow_sums *sums) {
+                       const shadow_points *points, shadow_sums *sums) {
     size_t count = 0;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_rgb value = shot->value[i];
-        const float length = shot->rays.length[i], distance = hits[i].distance;
-        if (length < 0)
+        const float distance = hits[i].distance;
+        if (shot->rays.length[i] < 0)
             continue;
         count++;
-        const bool hidden = hits[i].mesh != TRACE_NOTHING && distance < length;
+        const bool hidden = hits[i].mesh != TRACE_NOTHING && distance < shot->rays.length[i];
         const float rgb[3] = { value.r, value.g, value.b };
         for (int c = 0; c < 3; c++) {
             sums->of[SHADOW_ALL + c][i] += rgb[c];
             sums->of[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : rgb[c];
         }
+        sums->of[SHADOW_WEIGHT][i] += mean_of(value);
         if (!hidden)
             continue;
-        const float beyond = isfinite(length) ? length / (length - distance) : 1;
-        const float penumbra = 2 * shot->size[i] * distance * fminf(beyond, 100);
         sums->of[SHADOW_HIDDEN][i] += mean_of(value);
-        sums->of[SHADOW_HIDDEN_WIDTH][i] += mean_of(value) * penumbra;
+        sums->of[SHADOW_SLOPE][i] +=
+            mean_of(value) / penumbra_of(shot, i, distance, points->footprint[i]);
     }
     return count;
 }
@@ -126,27 +132,22 @@ static size_t send_rays(const shadow_job *job, const shadow_points *points, int 
         for (int i = 0; i < SHADOW_LANES; i++)
             aim(job, points, weights, chosen[i], u, i, &shot);
         trace_nearest_n(job->view.bvh, TRACE_LIGHT, &shot.rays, hits);
-        count += add_shot(&shot, hits, sums);
+        count += add_shot(&shot, hits, points, sums);
     }
     return count;
 }
 
 /* What is no surface is 0, and so without weight for the filter. */
-static void store(const shadow_job *job, const shadow_points *points, const shadow_sums *sums,
-                  size_t first, int count, shadow_planes *planes) {
-    const float *eye = job->camera->eye;
+static void store(const shadow_points *points, const shadow_sums *sums, size_t first, int count,
+                  shadow_planes *planes) {
     for (int i = 0; i < count; i++) {
         const size_t pixel = first + (size_t)i;
         const bool lit = points->lit[i];
-        float d2 = 0;
         for (int c = 0; c < 3; c++) {
-            const float d = points->position.of[c][i] - eye[c];
-            d2 += d * d;
             planes->position[c][pixel] = lit ? points->position.of[c][i] : 0;
             planes->normal[c][pixel] = lit ? points->smooth.of[c][i] : 0;
         }
-        planes->footprint[pixel] =
-            lit ? scene_camera_height(job->camera, sqrtf(d2)) / (float)planes->height : 1;
+        planes->footprint[pixel] = lit ? points->footprint[i] : 1;
         for (int k = 0; k < SHADOW_VALUES; k++)
             planes->values[k][pixel] = lit ? sums->of[k][i] : 0;
     }
@@ -163,7 +164,7 @@ size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, float *
         shadow_points_set(&job->view, row, x, width, &points);
         if (job->source_count > 0)
             sent += send_rays(job, &points, x, y, weights, &sums);
-        store(job, &points, &sums, (size_t)y * (size_t)width + (size_t)x, count, planes);
+        store(&points, &sums, (size_t)y * (size_t)width + (size_t)x, count, planes);
     }
     return sent;
 }

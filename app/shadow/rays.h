@@ -12,7 +12,6 @@ typedef struct shadow_job {
     size_t source_count;
     int rays; /* a pixel */
     uint32_t seed;
-    const scene_camera *camera;
 } shadow_job;
 
 /* Fills row y of the planes; `weights` is memory for SHADOW_LANES floats a source. Returns how many

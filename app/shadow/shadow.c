@@ -68,11 +68,12 @@ static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *g
         .view = { .scene = s->scene,
                   .bvh = s->bvh,
                   .lift = (float)trace_lift(s->scene),
+                  .camera = &frame->camera,
+                  .height = frame->height,
                   .settings = { .bands = frame->bands, .window = frame->window } },
         .sources = s->sources,
         .rays = s->settings.rays,
         .seed = shadow_hash(s->settings.seed, (uint32_t)gpu_gbuffer_sample(gbuffer)),
-        .camera = &frame->camera,
     };
     job.source_count = shadow_sources_make(frame->lights, frame->light_count,
                                            shines ? &s->around : NULL, s->sources);
