@@ -30,20 +30,50 @@ static scene_camera camera_inside(lmp_vec3 middle, const space_room *room) {
     return camera;
 }
 
-/* From how far away in the direction `from` every triangle fits into the image. */
-static float framing_distance(const scene *s, lmp_vec3 center, lmp_vec3 from, float aspect) {
-    const lmp_vec3 right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), from), from);
-    const lmp_vec3 up = vec_cross(from, right);
+/* A model is seen along -from, by a pyramid of these slopes. Its planes touch the model where
+ * x + slope z and -x + slope z are largest, which says where its tip is between two of them. */
+typedef struct framing {
+    lmp_vec3 right, up, from;
+    float slope[2];    /* across, along up */
+    float touching[4]; /* right, left, top, bottom */
+    float radius;      /* of the model around its center */
+} framing;
+
+static framing framing_of(const scene *s, lmp_vec3 center, lmp_vec3 from, float aspect) {
     const float slope = FRAMING_PART * tanf(0.5f * DEFAULT_FOV);
-    float radius = 1e-6f, distance = 0.0f;
+    framing f = { .from = from, .slope = { slope * aspect, slope }, .radius = 1e-6f };
+    f.right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), from), from);
+    f.up = vec_cross(from, f.right);
+    for (int i = 0; i < 4; i++)
+        f.touching[i] = -INFINITY;
     for (size_t i = 0; i < s->index_count; i++) {
         const lmp_vec3 p = vec_sub(vec_load(s->vertices[s->indices[i]].position), center);
-        const float side = fmaxf(fabsf(vec_dot(right, p)) / aspect, fabsf(vec_dot(up, p)));
-        distance = fmaxf(distance, side / slope + vec_dot(from, p));
-        radius = fmaxf(radius, vec_length(p));
+        const float x = vec_dot(f.right, p), y = vec_dot(f.up, p), z = vec_dot(from, p);
+        const float sides[4] = { x + f.slope[0] * z, -x + f.slope[0] * z, y + f.slope[1] * z,
+                                 -y + f.slope[1] * z };
+        for (int k = 0; k < 4; k++)
+            f.touching[k] = fmaxf(f.touching[k], sides[k]);
+        f.radius = fmaxf(f.radius, vec_length(p));
     }
-    /* nor may the camera stand inside */
-    return fmaxf(distance, radius);
+    return f;
+}
+
+/* The model in the middle of the image, as near as fits; but the camera never stands inside. */
+static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect) {
+    const lmp_vec3 from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f));
+    const framing f = framing_of(s, center, from, aspect);
+    scene_camera camera = { .name = "framed", .up = { 0.0f, 1.0f, 0.0f }, .fov = DEFAULT_FOV };
+    lmp_vec3 target = center;
+    float distance = f.radius;
+    for (int axis = 0; axis < 2 && s->index_count > 0; axis++) {
+        const float *sides = f.touching + 2 * axis;
+        const lmp_vec3 along = axis == 0 ? f.right : f.up;
+        target = vec_add(target, vec_scale(along, 0.5f * (sides[0] - sides[1])));
+        distance = fmaxf(distance, 0.5f * (sides[0] + sides[1]) / f.slope[axis]);
+    }
+    vec_store(target, camera.target);
+    vec_store(vec_add(target, vec_scale(from, distance)), camera.eye);
+    return camera;
 }
 
 float scene_camera_height(const scene_camera *camera, float distance) {
@@ -66,13 +96,8 @@ scene_camera scene_default_camera(const scene *s, float aspect) {
     }
     const lmp_vec3 lo = vec_load(s->minimum), hi = vec_load(s->maximum);
     const lmp_vec3 center = vec_add(vec_scale(lo, 0.5f), vec_scale(hi, 0.5f));
-    const lmp_vec3 from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f));
     space_room room;
     if (space_is_building(s, center, &room))
         return camera_inside(center, &room);
-    const float distance = framing_distance(s, center, from, aspect > 0.0f ? aspect : 1.0f);
-    scene_camera camera = { .name = "framed", .up = { 0.0f, 1.0f, 0.0f }, .fov = DEFAULT_FOV };
-    vec_store(center, camera.target);
-    vec_store(vec_add(center, vec_scale(from, distance)), camera.eye);
-    return camera;
+    return camera_before(s, center, aspect > 0.0f ? aspect : 1.0f);
 }
