@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/compare/compare.h"
 #include "app/command/command.h"
+#include "app/figure/figure.h"
 #include "app/image/image.h"
 
 #include <math.h>
@@ -90,18 +91,63 @@ static void print(const compare_arguments *arguments, const image *pixels,
         printf("heatmap black is 0, white %.6g\n", white);
 }
 
+/* --- the heat map ----------------------------------------------------------------------------- */
+
+/* Under the map: the colors from 0 to the difference that is white, and numbers under them. */
+enum {
+    LEGEND = 28,
+    RAMP_TOP = 6,
+    RAMP_BOTTOM = 14,
+    LEGEND_MARGIN = 4,
+    LETTERS = 7,
+    LETTER_WIDTH = 6
+};
+
+static void draw_numbers(double white, image *legend) {
+    static const double parts[] = { 0, 0.5, 1 };
+    const int ramp = legend->width - 2 * LEGEND_MARGIN;
+    for (int i = 0; i < 3; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.3g", parts[i] * white);
+        const int width = LETTER_WIDTH * (int)strlen(text);
+        const int left = LEGEND_MARGIN + (int)(parts[i] * (ramp - width));
+        figure_text(legend, (figure_box) { left, RAMP_BOTTOM, width, LEGEND - RAMP_BOTTOM },
+                    LETTERS, (lmp_rgb) { 1, 1, 1 }, text);
+    }
+}
+
+static bool draw_legend(double white, int width, unsigned char *rgb8, cli_error *error) {
+    image numbers;
+    if (!image_create(&numbers, width, LEGEND, error))
+        return false;
+    memset(numbers.rgb, 0, 3 * sizeof(float) * LEGEND * (size_t)width);
+    draw_numbers(white, &numbers);
+    for (size_t i = 0; i < 3 * LEGEND * (size_t)width; i++)
+        rgb8[i] = numbers.rgb[i] > 0 ? 255 : 0;
+    for (int y = RAMP_TOP; y < RAMP_BOTTOM; y++)
+        for (int x = LEGEND_MARGIN; x < width - LEGEND_MARGIN; x++)
+            compare_heat_color((x - LEGEND_MARGIN + 0.5) / (width - 2 * LEGEND_MARGIN),
+                               rgb8 + 3 * ((size_t)y * (size_t)width + (size_t)x));
+    image_free(&numbers);
+    return true;
+}
+
 /* *white receives the difference that is white. */
 static bool write_heat_map(const compare_arguments *arguments, const image images[2], double *white,
                            cli_error *error) {
     const int width = images[0].width, height = images[0].height;
-    unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
+    const size_t row = 3 * (size_t)width;
+    unsigned char *rgb8 = malloc(row * ((size_t)height + LEGEND));
     if (!rgb8)
         return cli_fail(error, NULL, "out of memory");
     *white = compare_heat_map(&images[0], &images[1], (double)arguments->heat_scale, rgb8);
-    const bool ok = image_write_png8(rgb8, width, height, arguments->heat_map, error);
+    const bool ok = draw_legend(*white, width, rgb8 + row * (size_t)height, error) &&
+                    image_write_png8(rgb8, width, height + LEGEND, arguments->heat_map, error);
     free(rgb8);
     return ok;
 }
+
+/* --- all of it -------------------------------------------------------------------------------- */
 
 /* What a display shows of both, exposed as suits the reference. */
 static bool judge_shown(image images[2], bool linear, compare_result *result, cli_error *error) {
@@ -156,7 +202,8 @@ static int run(const cli_command *command, int argc, char **argv) {
           .kind = CLI_TEXT,
           .target = &a.heat_map,
           .argument = "FILE.png",
-          .help = "write the absolute difference as an image, black to white" },
+          .help =
+              "write the absolute difference as an image, black to white, with its scale below" },
         { .name = "heatmap-scale",
           .kind = CLI_FLOAT,
           .target = &a.heat_scale,

@@ -97,7 +97,7 @@ static const double heat[STOPS][3] = {
 };
 static const unsigned char bad_color[3] = { 0, 255, 0 };
 
-static void heat_color(double value, unsigned char rgb[3]) {
+void compare_heat_color(double value, unsigned char rgb[3]) {
     const double at = fmin(fmax(value, 0), 1) * (STOPS - 1);
     const int stop = at < STOPS - 1 ? (int)at : STOPS - 2;
     for (int c = 0; c < 3; c++)
@@ -125,7 +125,7 @@ double compare_heat_map(const image *candidate, const image *reference, double s
     for (size_t p = 0; p < pixels; p++) {
         const double difference = pixel_difference(candidate, reference, p);
         if (isfinite(difference))
-            heat_color(full > 0 ? difference / full : 0, rgb8 + 3 * p);
+            compare_heat_color(full > 0 ? difference / full : 0, rgb8 + 3 * p);
         else
             for (int c = 0; c < 3; c++)
                 rgb8[3 * p + (size_t)c] = bad_color[c];

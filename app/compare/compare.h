@@ -39,6 +39,9 @@ bool compare_shown(const image *candidate, const image *reference, compare_resul
 /* Encodes linear values by sRGB's transfer function, in place, held to 0 … 1. */
 void compare_to_display(image *candidate);
 
+/* The color of a difference, 0 black and 1 white. */
+void compare_heat_color(double value, unsigned char rgb[3]);
+
 /* Largest channel's absolute difference as color, from black over purple and orange to white at
  * `scale` and above (0: the largest there is), which is returned; bad values are green. rgb8
  * receives 3 * width * height bytes. */

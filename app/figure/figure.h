@@ -14,8 +14,8 @@ typedef struct figure_box {
 
 void figure_fill(image *pixels, figure_box box, lmp_rgb color);
 
-/* Writes digits, signs, blanks and the letters l and m, `height` pixels high, centerd in the box.
- */
+/* Writes digits, points, signs, blanks and the letters e, l and m, `height` pixels high, centered
+ * in the box. */
 void figure_text(image *pixels, figure_box box, int height, lmp_rgb color, const char *text);
 
 /* A function on the sphere as a surface: |radius(direction)| away from the center. */

@@ -31,7 +31,8 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
     >"$WORK/out" || fail "equal images are not equal"
 "$PROGRAM" compare "$WORK/one.exr" "$WORK/other.exr" --json --heatmap "$WORK/heat.png" \
     --fail-above rmse=1000 | grep -q '"bad_values": 0' || fail "no JSON"
-[ -s "$WORK/heat.png" ] || fail "no heat map"
+# the width and the height of a .png, after its signature and the head of its first chunk: 48x32 and the scale below
+[ "$(od -An -tx1 -j16 -N8 "$WORK/heat.png" | tr -d ' \n')" = 000000300000003c ] || fail "no heat map with its scale"
 "$PROGRAM" compare "$WORK/one.png" "$WORK/brighter.png" | grep -q display || fail "PNG is not display"
 
 refuses 1 'rmse is .*, limit 0' compare "$WORK/one.exr" "$WORK/other.exr" --fail-above rmse=0
