@@ -33,46 +33,61 @@ static scene_camera camera_inside(lmp_vec3 middle, const space_room *room) {
 /* A model is seen along -from, by a pyramid of these slopes. Its planes touch the model where
  * x + slope z and -x + slope z are largest, which says where its tip is between two of them. */
 typedef struct framing {
-    lmp_vec3 right, up, from;
+    lmp_vec3 center, right, up, from;
     float slope[2];    /* across, along up */
     float touching[4]; /* right, left, top, bottom */
     float radius;      /* of the model around its center */
 } framing;
 
-static framing framing_of(const scene *s, lmp_vec3 center, lmp_vec3 from, float aspect) {
-    const float slope = FRAMING_PART * tanf(0.5f * DEFAULT_FOV);
-    framing f = { .from = from, .slope = { slope * aspect, slope }, .radius = 1e-6f };
-    f.right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), from), from);
-    f.up = vec_cross(from, f.right);
+static void touch(const scene *s, framing *f) {
     for (int i = 0; i < 4; i++)
-        f.touching[i] = -INFINITY;
+        f->touching[i] = -INFINITY;
     for (size_t i = 0; i < s->index_count; i++) {
-        const lmp_vec3 p = vec_sub(vec_load(s->vertices[s->indices[i]].position), center);
-        const float x = vec_dot(f.right, p), y = vec_dot(f.up, p), z = vec_dot(from, p);
-        const float sides[4] = { x + f.slope[0] * z, -x + f.slope[0] * z, y + f.slope[1] * z,
-                                 -y + f.slope[1] * z };
+        const lmp_vec3 p = vec_sub(vec_load(s->vertices[s->indices[i]].position), f->center);
+        const float x = vec_dot(f->right, p), y = vec_dot(f->up, p), z = vec_dot(f->from, p);
+        const float sides[4] = { x + f->slope[0] * z, -x + f->slope[0] * z, y + f->slope[1] * z,
+                                 -y + f->slope[1] * z };
         for (int k = 0; k < 4; k++)
-            f.touching[k] = fmaxf(f.touching[k], sides[k]);
-        f.radius = fmaxf(f.radius, vec_length(p));
+            f->touching[k] = fmaxf(f->touching[k], sides[k]);
+        f->radius = fmaxf(f->radius, vec_length(p));
     }
-    return f;
 }
 
-/* The model in the middle of the image, as near as fits; but the camera never stands inside. */
-static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect) {
-    const lmp_vec3 from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f));
-    const framing f = framing_of(s, center, from, aspect);
-    scene_camera camera = { .name = "framed", .up = { 0.0f, 1.0f, 0.0f }, .fov = DEFAULT_FOV };
-    lmp_vec3 target = center;
-    float distance = f.radius;
-    for (int axis = 0; axis < 2 && s->index_count > 0; axis++) {
-        const float *sides = f.touching + 2 * axis;
-        const lmp_vec3 along = axis == 0 ? f.right : f.up;
-        target = vec_add(target, vec_scale(along, 0.5f * (sides[0] - sides[1])));
-        distance = fmaxf(distance, 0.5f * (sides[0] + sides[1]) / f.slope[axis]);
+static float half_width(const framing *f, int axis) {
+    return 0.5f * (f->touching[2 * axis] + f->touching[2 * axis + 1]);
+}
+
+/* From how far away every triangle fits into the image; but the camera never stands inside. Where
+ * there is room to spare, planes less steep touch from there. */
+static float fit(const scene *s, framing *f) {
+    enum { PASSES = 4 };
+    touch(s, f);
+    const float distance =
+        fmaxf(f->radius, fmaxf(half_width(f, 0) / f->slope[0], half_width(f, 1) / f->slope[1]));
+    for (int pass = 1; pass < PASSES; pass++) {
+        for (int axis = 0; axis < 2; axis++)
+            f->slope[axis] = half_width(f, axis) / distance;
+        touch(s, f);
     }
+    return distance;
+}
+
+/* The model in the middle of the image, as near as fits. */
+static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect) {
+    const float slope = FRAMING_PART * tanf(0.5f * DEFAULT_FOV);
+    framing f = { .center = center,
+                  .from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f)),
+                  .slope = { slope * aspect, slope },
+                  .radius = 1e-6f };
+    f.right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), f.from), f.from);
+    f.up = vec_cross(f.from, f.right);
+    scene_camera camera = { .name = "framed", .up = { 0.0f, 1.0f, 0.0f }, .fov = DEFAULT_FOV };
+    const float distance = s->index_count > 0 ? fit(s, &f) : f.radius;
+    const lmp_vec3 aside = vec_add(vec_scale(f.right, 0.5f * (f.touching[0] - f.touching[1])),
+                                   vec_scale(f.up, 0.5f * (f.touching[2] - f.touching[3])));
+    const lmp_vec3 target = vec_add(center, aside);
     vec_store(target, camera.target);
-    vec_store(vec_add(target, vec_scale(from, distance)), camera.eye);
+    vec_store(vec_add(target, vec_scale(f.from, distance)), camera.eye);
     return camera;
 }
 

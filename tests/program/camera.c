@@ -74,7 +74,7 @@ static void a_scene_without_cameras_fills_nine_tenths_of_the_image_in_its_middle
             const int across = sides[0] > sides[2];
             CHECK_NEAR(0.9, sides[across ? 0 : 2], 1e-3);
             CHECK_NEAR(0.9, sides[across ? 1 : 3], 1e-3);
-            CHECK_NEAR(sides[across ? 2 : 0], sides[across ? 3 : 1], 0.2);
+            CHECK_NEAR(sides[across ? 2 : 0], sides[across ? 3 : 1], 1e-2);
         }
         scene_free(&s);
     }
