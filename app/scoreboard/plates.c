@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { WIDTH = 192, HEIGHT = 96, PIXELS = WIDTH * HEIGHT, GAP = 6, COLUMNS = 4, STEPS = 64 };
+enum { WIDTH = 192, HEIGHT = 96, PIXELS = WIDTH * HEIGHT, GAP = 6, COLUMNS = 4, STEPS = 32 };
 
 static const lmp_vec3 camera = { 0, -3.2f, 1.1f }, center = { 0, 0.4f, 0.7f };
 static const float radius = 0.35f, roughness = 0.4f;
