@@ -52,8 +52,7 @@ lmp_vec3 check_random_direction(void);
 lmp_quat check_random_rotation(void);
 
 /* --- vector files -----------------------------------------------------------------------------
- * Reads vectors/NAME below $LAMPION_DATA (default ../shared). NULL when the file is absent, after
- * one line `skipped: …`: then return from the test. */
+ * Reads ruler/vectors/NAME, whose columns docs/formats-ruler.md has; the test fails without it. */
 typedef struct check_csv {
     int rows, columns; /* without the header line */
     char *text;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Rows of ruler/ruler.csv and ruler/bands.csv, drawn at random, are computed again: configurations are
-# the same text, and the old enclosure and the new one overlap. SEED repeats a draw.
+# Rows of ruler/ruler.csv, ruler/bands.csv and ruler/vectors/*.csv, drawn at random, are computed again: what
+# was asked is the same text, and the old enclosure and the new one overlap. SEED repeats a draw.
 set -eu
 . tests/checks/common.sh
 
@@ -10,6 +10,7 @@ if ! printf '#include <acb.h>\nint main(void) { return 0; }\n' >"$WORK/arb.c" ||
     exit 0
 fi
 ${CC:-cc} -std=c11 -O2 -I. ruler/*.c -lflint-arb -lflint -lm -o "$WORK/lampion_ruler"
+${CC:-cc} -std=c11 -O2 -I. ruler/vectors/*.c -lflint-arb -lflint -lm -o "$WORK/lampion_vectors"
 
 seed=${SEED:-$(date +%s)}
 count=24
@@ -44,3 +45,16 @@ overlap ruler/bands.csv "$WORK/bands.csv" 10 || fail "the truncated values are n
 sed '2s/,[0-9.e-]*,\([^,]*\)$/,123,\1/' "$WORK/rows.csv" >"$WORK/wrong.csv"
 ! overlap ruler/ruler.csv "$WORK/wrong.csv" 1 >/dev/null || fail "a wrong value goes unseen"
 
+# A hundredth of the vectors, by the number of columns that are asked for. A row of brdf_table takes seconds.
+vectors='basis 3,basis_128 4,sphere 7,sphere_inside 7,sphere_gradient 7,sphere_128 8,zonal 1,rotation 68,product 72,lobe 2,brdf_table 2'
+echo "$vectors" | tr , '\n' | while read -r name asked; do
+    wc -l <"ruler/vectors/$name.csv" | awk -v seed="$seed$asked" -v name="$name" -v asked="$asked" -v all="${LAMPION_LONG:-0}" '
+        { srand(seed); for (k = 1; k < $1; k++) if (rand() < (all == 1 ? 0.3 : 0.012)) print name, asked, k }'
+done >"$WORK/drawn"
+[ -s "$WORK/drawn" ] || echo "zonal 1 20" >"$WORK/drawn"
+while read -r name asked row; do
+    "$WORK/lampion_vectors" "$name" "$row" >"$WORK/vector.csv"
+    { head -n 1 "ruler/vectors/$name.csv"; sed -n "$((row + 1))p" "ruler/vectors/$name.csv"; } >"$WORK/kept.csv"
+    values=$(head -n 1 "$WORK/kept.csv" | awk -F, -v asked="$asked" '{ print NF - 1 - asked }')
+    overlap "$WORK/kept.csv" "$WORK/vector.csv" "$values" || fail "$name.csv, row $row, is not what its generator writes"
+done <"$WORK/drawn"

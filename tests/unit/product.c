@@ -24,6 +24,25 @@ static double pair_value(const double w[3], void *user) {
     return a * b;
 }
 
+static void multiplies_the_vector_file(void **state) {
+    (void)state;
+    enum { COUNT = LMP_SH_FEW_BANDS * LMP_SH_FEW_BANDS };
+    check_csv *csv = check_csv_open("product.csv");
+    for (int row = 0; row < csv->rows; row++) {
+        double in[2 * COUNT], expected[COUNT];
+        float a[COUNT], b[COUNT], c[COUNT];
+        check_csv_numbers(csv, row, 0, 2 * COUNT, in);
+        check_csv_numbers(csv, row, 2 * COUNT, COUNT, expected);
+        for (int k = 0; k < COUNT; k++) {
+            a[k] = (float)in[k];
+            b[k] = (float)in[COUNT + k];
+        }
+        lmp_sh_multiply_few(LMP_SH_FEW_BANDS, a, b, c);
+        CHECK_WITHIN(check_error(COUNT, expected, c), 2e-6);
+    }
+    check_csv_close(csv);
+}
+
 static void multiplies_as_quadrature_does(void **state) {
     (void)state;
     for (int bands = 1; bands <= 12; bands++) {
@@ -100,6 +119,7 @@ static void gives_back_all_memory_whichever_request_fails(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(multiplies_the_vector_file),
         cmocka_unit_test(multiplies_as_quadrature_does),
         cmocka_unit_test(by_one_changes_nothing_at_128_bands),
         cmocka_unit_test(refuses_impossible_bands),

@@ -23,16 +23,17 @@ static void matrix_of(lmp_quat q, double rotation[9]) {
 static void rotates_the_vector_file(void **state) {
     (void)state;
     check_csv *csv = check_csv_open("rotation.csv");
-    if (!csv)
-        return;
     float matrices[LMP_SH_ROTATION_COUNT(8)];
     for (int row = 0; row < csv->rows; row++) {
-        double rotation[9], in[64], expected[64];
-        float sh[64], rotated[64];
-        check_csv_numbers(csv, row, 0, 9, rotation);
-        check_csv_numbers(csv, row, 9, 64, in);
-        check_csv_numbers(csv, row, 73, 64, expected);
-        float matrix[9];
+        double q[4], rotation[9], in[64], expected[64];
+        float sh[64], rotated[64], matrix[9];
+        check_csv_numbers(csv, row, 0, 4, q);
+        check_csv_numbers(csv, row, 4, 64, in);
+        check_csv_numbers(csv, row, 68, 64, expected);
+        const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        for (int k = 0; k < 4; k++)
+            q[k] /= length;
+        oracle_quaternion_matrix(q, rotation);
         for (int k = 0; k < 64; k++)
             sh[k] = (float)in[k];
         for (int k = 0; k < 9; k++)

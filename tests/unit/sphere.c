@@ -14,8 +14,6 @@ static lmp_vec3 narrow(const double v[3]) {
 
 static void project_file(const char *name, int bands, double bound) {
     check_csv *csv = check_csv_open(name);
-    if (!csv)
-        return;
     for (int row = 0; row < csv->rows; row++) {
         double in[7], expected[100];
         float sh[100];
@@ -29,19 +27,17 @@ static void project_file(const char *name, int bands, double bound) {
 
 static void projects_the_vector_file(void **state) {
     (void)state;
-    project_file("sphere_light.csv", 10, 2e-5);
+    project_file("sphere.csv", 10, 2e-5);
 }
 
 static void projects_the_vector_file_of_points_inside(void **state) {
     (void)state;
-    project_file("sphere_light_inside.csv", 6, 1e-5);
+    project_file("sphere_inside.csv", 6, 1e-5);
 }
 
 static void derives_the_vector_file(void **state) {
     (void)state;
-    check_csv *csv = check_csv_open("sphere_light_gradient.csv");
-    if (!csv)
-        return;
+    check_csv *csv = check_csv_open("sphere_gradient.csv");
     for (int row = 0; row < csv->rows; row++) {
         double in[7], expected[108];
         float sh[36], gradient[108];
@@ -56,17 +52,44 @@ static void derives_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
-static void gives_zonal_coefficients_of_100_bands(void **state) {
+/* Every eleventh coefficient of some bands, 0 in columns past the band. */
+static void projects_spheres_and_derives_them_at_128_bands(void **state) {
     (void)state;
-    check_csv *csv = check_csv_open("zonal_high_bands.csv");
-    if (!csv)
-        return;
+    enum { KEPT = 23, STEP = 11, ALL = LMP_BANDS_MAX * LMP_BANDS_MAX };
+    static float sh[ALL], gradient[3 * ALL];
+    check_csv *csv = check_csv_open("sphere_128.csv");
     for (int row = 0; row < csv->rows; row++) {
-        double expected[100];
-        float zonal[100];
-        check_csv_numbers(csv, row, 1, 100, expected);
-        lmp_sphere_zonal(100, (float)check_csv_number(csv, row, 0), 1, zonal);
-        CHECK_WITHIN(check_error(100, expected, zonal), 4e-6);
+        double in[7], expected[4][KEPT];
+        float actual[4][KEPT] = { { 0 } };
+        check_csv_numbers(csv, row, 0, 7, in);
+        const int l = (int)check_csv_number(csv, row, 7);
+        lmp_sphere_project_gradient(LMP_BANDS_MAX, narrow(in), (float)in[3], narrow(in + 4), sh,
+                                    gradient);
+        for (int k = 0; k < KEPT; k++) {
+            const int m = STEP * (k - KEPT / 2);
+            if (m < -l || m > l)
+                continue;
+            actual[0][k] = sh[LMP_SH_INDEX(l, m)];
+            for (int axis = 0; axis < 3; axis++)
+                actual[1 + axis][k] = gradient[(size_t)axis * ALL + (size_t)LMP_SH_INDEX(l, m)];
+        }
+        for (int part = 0; part < 4; part++) {
+            check_csv_numbers(csv, row, 8 + KEPT * part, KEPT, expected[part]);
+            CHECK_WITHIN(check_error(KEPT, expected[part], actual[part]), 2e-4);
+        }
+    }
+    check_csv_close(csv);
+}
+
+static void gives_zonal_coefficients_of_128_bands(void **state) {
+    (void)state;
+    check_csv *csv = check_csv_open("zonal.csv");
+    for (int row = 0; row < csv->rows; row++) {
+        double expected[128];
+        float zonal[128];
+        check_csv_numbers(csv, row, 1, 128, expected);
+        lmp_sphere_zonal(128, (float)check_csv_number(csv, row, 0), 1, zonal);
+        CHECK_WITHIN(check_error(128, expected, zonal), 4e-6);
     }
     check_csv_close(csv);
 }
@@ -203,7 +226,8 @@ int main(void) {
         cmocka_unit_test(projects_the_vector_file),
         cmocka_unit_test(projects_the_vector_file_of_points_inside),
         cmocka_unit_test(derives_the_vector_file),
-        cmocka_unit_test(gives_zonal_coefficients_of_100_bands),
+        cmocka_unit_test(projects_spheres_and_derives_them_at_128_bands),
+        cmocka_unit_test(gives_zonal_coefficients_of_128_bands),
         cmocka_unit_test(projects_as_its_zonal_coefficients_rotated),
         cmocka_unit_test(is_continuous_across_the_surface),
         cmocka_unit_test(is_continuous_across_the_center),

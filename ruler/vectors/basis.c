@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: MIT */
+/* The basis, its rotation and its products. */
+#include "ruler/vectors/harmonics.h"
+#include "ruler/vectors/tables.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define BITS VECTORS_PRECISION
+
+/* --- values of the basis ---------------------------------------------------------------------- */
+
+/* Axes, then near the poles, then anywhere; of any length. */
+static void direction(int row, double w[3]) {
+    static const double axes[6][3] = { { 1, 0, 0 },  { -1, 0, 0 }, { 0, 1, 0 },
+                                       { 0, -1, 0 }, { 0, 0, 1 },  { 0, 0, -1 } };
+    static const double near[4] = { 0x1p-10, 0x1p-20, 0x1p-30, 0x1p-40 };
+    for (int k = 0; k < 3; k++)
+        w[k] = row <= 6 ? axes[row - 1][k] : 2 * vectors_fraction(row, k) - 1;
+    if (row > 6 && row <= 14) {
+        const double size = near[(row - 7) / 2];
+        w[0] *= size;
+        w[1] *= size;
+        w[2] = row % 2 ? 1 : -1;
+    }
+}
+
+static void print_band(const double w[3], int l, mag_t bound) {
+    arb_ptr v = _arb_vec_init(3);
+    arb_t y;
+    arb_init(y);
+    for (int k = 0; k < 3; k++)
+        arb_set_d(v + k, w[k]);
+    for (int m = -l; m <= l; m++) {
+        harmonics_at_real(y, l, m, v);
+        vectors_print_value(y, bound);
+    }
+    arb_clear(y);
+    _arb_vec_clear(v, 3);
+}
+
+void vectors_basis_header(void) {
+    printf("x,y,z,");
+    vectors_print_names("Y", 169);
+    printf("bound\n");
+}
+
+void vectors_basis_row(int row) {
+    double w[3];
+    mag_t bound;
+    mag_init(bound);
+    direction(row, w);
+    vectors_print_inputs(w, 3);
+    for (int l = 0; l < 13; l++)
+        print_band(w, l, bound);
+    vectors_print_bound(bound);
+    mag_clear(bound);
+}
+
+/* One band a row, as wide as the widest: empty columns are 0. */
+void vectors_basis_128_header(void) {
+    printf("x,y,z,l,");
+    vectors_print_names("Y", 255);
+    printf("bound\n");
+}
+
+void vectors_basis_128_row(int row) {
+    static const int degrees[3] = { 31, 64, 127 }, rows[8] = { 1, 5, 7, 14, 15, 16, 17, 18 };
+    const int l = degrees[(row - 1) % 3];
+    double w[3];
+    mag_t bound;
+    mag_init(bound);
+    direction(rows[(row - 1) / 3], w);
+    vectors_print_inputs(w, 3);
+    printf("%d,", l);
+    print_band(w, l, bound);
+    for (int k = 2 * l + 1; k < 255; k++)
+        printf("0,");
+    vectors_print_bound(bound);
+    mag_clear(bound);
+}
+
+/* --- rotations -------------------------------------------------------------------------------- */
+
+enum { ROTATED = 8 };
+
+typedef struct rotated {
+    arb_ptr matrix; /* of the rotation, row by row */
+    const double *in;
+    int l, m;
+} rotated;
+
+/* The matrix of a quaternion x, y, z, w of integers, of any length. */
+static void matrix_of(arb_ptr matrix, const double q[4]) {
+    const double x = q[0], y = q[1], z = q[2], w = q[3], all = x * x + y * y + z * z + w * w;
+    const double r[9] = { w * w + x * x - y * y - z * z, 2 * (x * y - z * w),
+                          2 * (x * z + y * w),           2 * (x * y + z * w),
+                          w * w - x * x + y * y - z * z, 2 * (y * z - x * w),
+                          2 * (x * z - y * w),           2 * (y * z + x * w),
+                          w * w - x * x - y * y + z * z };
+    for (int k = 0; k < 9; k++) {
+        arb_set_d(matrix + k, r[k]);
+        arb_div_si(matrix + k, matrix + k, (slong)all, BITS);
+    }
+}
+
+/* Band l of f(R' w), times Y_lm(w): other bands do not mix with it. */
+static void rotated_at(arb_t value, arb_srcptr w, void *user) {
+    const rotated *const r = user;
+    arb_ptr v = _arb_vec_init(3);
+    arb_t y, in;
+    arb_init(y);
+    arb_init(in);
+    for (int k = 0; k < 3; k++)
+        arb_dot(v + k, NULL, 0, r->matrix + k, 3, w, 1, 3, BITS);
+    arb_zero(value);
+    for (int m = -r->l; m <= r->l; m++) {
+        harmonics_at_real(y, r->l, m, v);
+        arb_set_d(in, r->in[r->l * r->l + r->l + m]);
+        arb_addmul(value, y, in, BITS);
+    }
+    harmonics_at_real(y, r->l, r->m, w);
+    arb_mul(value, value, y, BITS);
+    arb_clear(y);
+    arb_clear(in);
+    _arb_vec_clear(v, 3);
+}
+
+void vectors_rotation_header(void) {
+    printf("qx,qy,qz,qw,");
+    vectors_print_names("in", ROTATED * ROTATED);
+    vectors_print_names("out", ROTATED * ROTATED);
+    printf("bound\n");
+}
+
+void vectors_rotation_row(int row) {
+    static const double simple[4][4] = {
+        { 0, 0, 1, 1 }, { 1, 0, 0, 1 }, { 0, 1, 0, 0 }, { 1, 1, 1, 1 }
+    };
+    double q[4], in[ROTATED * ROTATED];
+    rotated r = { .matrix = _arb_vec_init(9), .in = in };
+    arb_t value;
+    mag_t bound;
+    arb_init(value);
+    mag_init(bound);
+    for (int k = 0; k < 4; k++)
+        q[k] = row <= 4 ? simple[row - 1][k] : floor(16 * vectors_fraction(row, k)) - 7;
+    for (int k = 0; k < ROTATED * ROTATED; k++)
+        in[k] = 2 * vectors_fraction(row, 4 + k) - 1;
+    matrix_of(r.matrix, q);
+    vectors_print_inputs(q, 4);
+    vectors_print_inputs(in, ROTATED * ROTATED);
+    for (r.l = 0; r.l < ROTATED; r.l++)
+        for (r.m = -r.l; r.m <= r.l; r.m++) {
+            harmonics_integrate(value, r.l + 1, rotated_at, &r);
+            vectors_print_value(value, bound);
+        }
+    vectors_print_bound(bound);
+    arb_clear(value);
+    mag_clear(bound);
+    _arb_vec_clear(r.matrix, 9);
+}
+
+/* --- products --------------------------------------------------------------------------------- */
+
+enum { FACTOR = 6, NODES = 8, DIRECTIONS = 2 * NODES * NODES };
+
+/* The basis at all directions of the quadrature, in the order in which it asks. */
+typedef struct product {
+    arb_ptr basis; /* DIRECTIONS times FACTOR² */
+    const double *a, *b;
+    int next, index;
+} product;
+
+static void product_fill(arb_t value, arb_srcptr w, void *user) {
+    product *const p = user;
+    arb_ptr row = p->basis + (slong)p->next++ * FACTOR * FACTOR;
+    for (int l = 0; l < FACTOR; l++)
+        for (int m = -l; m <= l; m++)
+            harmonics_at_real(row++, l, m, w);
+    arb_zero(value);
+}
+
+static void product_at(arb_t value, arb_srcptr w, void *user) {
+    product *const p = user;
+    arb_ptr row = p->basis + (slong)p->next++ * FACTOR * FACTOR;
+    arb_t b, in;
+    (void)w;
+    arb_init(b);
+    arb_init(in);
+    arb_zero(value);
+    for (int k = 0; k < FACTOR * FACTOR; k++) {
+        arb_set_d(in, p->a[k]);
+        arb_addmul(value, in, row + k, BITS);
+        arb_set_d(in, p->b[k]);
+        arb_addmul(b, in, row + k, BITS);
+    }
+    arb_mul(value, value, b, BITS);
+    arb_mul(value, value, row + p->index, BITS);
+    arb_clear(b);
+    arb_clear(in);
+}
+
+void vectors_product_header(void) {
+    vectors_print_names("a", FACTOR * FACTOR);
+    vectors_print_names("b", FACTOR * FACTOR);
+    vectors_print_names("c", FACTOR * FACTOR);
+    printf("bound\n");
+}
+
+void vectors_product_row(int row) {
+    double in[2 * FACTOR * FACTOR];
+    product p = { .basis = _arb_vec_init(DIRECTIONS * FACTOR * FACTOR),
+                  .a = in,
+                  .b = in + FACTOR * FACTOR };
+    arb_t value;
+    mag_t bound;
+    arb_init(value);
+    mag_init(bound);
+    for (int k = 0; k < 2 * FACTOR * FACTOR; k++)
+        in[k] = 2 * vectors_fraction(100 + row, k) - 1;
+    vectors_print_inputs(in, 2 * FACTOR * FACTOR);
+    harmonics_integrate(value, NODES, product_fill, &p);
+    for (p.index = 0; p.index < FACTOR * FACTOR; p.index++) {
+        p.next = 0;
+        harmonics_integrate(value, NODES, product_at, &p);
+        vectors_print_value(value, bound);
+    }
+    vectors_print_bound(bound);
+    arb_clear(value);
+    mag_clear(bound);
+    _arb_vec_clear(p.basis, DIRECTIONS * FACTOR * FACTOR);
+}
