@@ -181,8 +181,17 @@ LMP_API void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands,
                                      lmp_vec3_array points, size_t point_count,
                                      lmp_sh_layout layout, size_t stride, float *sh);
 
-/* The same, and the derivatives by the point's position, as lmp_sphere_project_gradient: gradient
- * receives 9 * LMP_SH_COUNT(bands) values an element, d/dx of red, green, blue, then d/dy, d/dz. */
+/* The same of what comes past your own blockers: visibility[i * point_count + p], 0 … 1, of sphere
+ * i at point p multiplies its light there; NULL: all comes, the same bits. */
+LMP_API void lmp_sphere_accumulate_visible_n(const lmp_scratch *scratch, int bands,
+                                             const lmp_spheres *spheres, size_t sphere_count,
+                                             const float *visibility, lmp_vec3_array points,
+                                             size_t point_count, lmp_sh_layout layout,
+                                             size_t stride, float *sh);
+
+/* lmp_sphere_accumulate_n, and the derivatives by the point's position, as
+ * lmp_sphere_project_gradient: gradient receives 9 * LMP_SH_COUNT(bands) values an element, d/dx of
+ * red, green, blue, then d/dy, d/dz. */
 LMP_API void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
                                               const lmp_spheres *spheres, size_t sphere_count,
                                               lmp_vec3_array points, size_t point_count,

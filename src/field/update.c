@@ -39,10 +39,10 @@ static lmp_kernel_lights kernel_lights(const field_sphere *spheres, size_t count
     const lmp_vec3 *center = &spheres->center;
     const lmp_rgb *radiance = &spheres->radiance;
     return (lmp_kernel_lights) {
-        { &center->x, &center->y, &center->z, sizeof *spheres },
-        { &spheres->radius, sizeof *spheres },
-        { &radiance->r, &radiance->g, &radiance->b, sizeof *spheres },
-        count,
+        .center = { &center->x, &center->y, &center->z, sizeof *spheres },
+        .radius = { &spheres->radius, sizeof *spheres },
+        .radiance = { &radiance->r, &radiance->g, &radiance->b, sizeof *spheres },
+        .count = count,
     };
 }
 

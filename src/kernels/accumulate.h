@@ -78,6 +78,16 @@ LMP_INLINE cap_lanes lights_cap(const lmp_kernel_lights *lights, size_t i, const
                     vf_set(lights_at(lights->radius.at, lights->radius.stride, i)), gradient);
 }
 
+/* Of what a light is at the points from `element` on, what comes. */
+LMP_INLINE void lights_hide(const lmp_kernel_lights *lights, size_t i, size_t element, size_t live,
+                            cap_lanes *cap) {
+    float LMP_ALIGNED visible[LMP_LANES] = { 0 };
+    const float *plane = lights->visibility + i * lights->visibility_stride + element;
+    memcpy(visible, plane, live * sizeof *plane);
+    cap->s2 = cap->s2 * vf_load(visible);
+    cap->t_full = cap->t_full * vf_load(visible);
+}
+
 /* Where a light stands: at column m R_m, as cap_radial has it (R_1 where m is 0), C_m and S_m. */
 typedef struct accumulate_light {
     vf x, y, z, t;
@@ -89,6 +99,7 @@ typedef struct accumulate_light {
 typedef struct accumulate_work {
     int bands, most; /* pairs of a tile */
     const lmp_kernel_lights *lights;
+    size_t element, live; /* the points */
     size_t kept_count;
     accumulate_light *kept;
     vf *waiting, *sums;
@@ -218,8 +229,12 @@ LMP_INLINE void accumulate_lights(const accumulate_work *work, accumulate_tile t
     if (kept && (tile.first > 0 || tile.low > 0)) {
         LMP_UNROLL for (int k = 0; k < at_once; k++) light[k] = kept[k];
     } else {
-        LMP_UNROLL for (int k = 0; k < at_once; k++) work->waiting[k] =
-            accumulate_begin(lights_cap(work->lights, first + (size_t)k, point, 0), &light[k]);
+        LMP_UNROLL for (int k = 0; k < at_once; k++) {
+            cap_lanes cap = lights_cap(work->lights, first + (size_t)k, point, 0);
+            if (work->lights->visibility)
+                lights_hide(work->lights, first + (size_t)k, work->element, work->live, &cap);
+            work->waiting[k] = accumulate_begin(cap, &light[k]);
+        }
         accumulate_advance(tile.first, at_once, light);
     }
     accumulate_radial(work->bands, tile, at_once, light, work->waiting);
@@ -363,7 +378,7 @@ static inline void accumulate_divide(accumulate_work *work, accumulate_memory me
 }
 
 LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const vf point[3],
-                                 const lmp_kernel_out *out, size_t element, size_t live) {
+                                 const lmp_kernel_out *out) {
     const accumulate_sets values = { 3, 0, 3 };
     const int bands = work->bands;
     for (accumulate_tile tile = accumulate_first(bands, work->most); tile.first < bands;
@@ -374,7 +389,8 @@ LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const v
             accumulate_lights(work, tile, monic, ACCUMULATE_LIGHTS, i, point);
         for (; i < work->lights->count; i++)
             accumulate_lights(work, tile, monic, 1, i, point);
-        accumulate_put(bands, tile, monic, values, work->sums, work->waiting, out, element, live);
+        accumulate_put(bands, tile, monic, values, work->sums, work->waiting, out, work->element,
+                       work->live);
     }
 }
 
@@ -386,12 +402,12 @@ static LMP_NOINLINE void accumulate_block(const lmp_scratch *scratch, int bands,
     const vf point[3] = { vf_load(points->x + element), vf_load(points->y + element),
                           vf_load(points->z + element) };
     vf stack[ACCUMULATE_STACK];
-    accumulate_work work = { .bands = bands, .lights = lights };
+    accumulate_work work = { .bands = bands, .lights = lights, .element = element, .live = live };
     accumulate_divide(&work, accumulate_lent(scratch, stack));
     if (bands <= LMP_TABLE_MONIC_BANDS)
-        accumulate_tiles(&work, 1, point, out, element, live);
+        accumulate_tiles(&work, 1, point, out);
     else
-        accumulate_tiles(&work, 0, point, out, element, live);
+        accumulate_tiles(&work, 0, point, out);
 }
 
 #endif

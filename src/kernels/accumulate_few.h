@@ -47,6 +47,16 @@ LMP_INLINE void few_add(few_sums *few, int count, size_t live) {
             (size_t)few->waiting * LMP_LANES * sizeof(float));
 }
 
+/* Of lights i, i + 1, … what comes to a point, element `element` of the call. */
+LMP_INLINE void few_hide(const lmp_kernel_lights *lights, size_t i, size_t live, size_t element,
+                         cap_lanes *caps) {
+    float LMP_ALIGNED visible[LMP_LANES] = { 0 };
+    for (size_t e = 0; e < live; e++)
+        visible[e] = lights->visibility[(i + e) * lights->visibility_stride + element];
+    caps->s2 = caps->s2 * vf_load(visible);
+    caps->t_full = caps->t_full * vf_load(visible);
+}
+
 /* Lights i, i + 1, …: their caps seen from `point`, and their radiance. Lanes past the last light
  * have that light again. */
 LMP_INLINE cap_lanes few_caps(const lmp_kernel_lights *lights, size_t i, size_t live,
@@ -71,12 +81,14 @@ LMP_INLINE cap_lanes few_caps(const lmp_kernel_lights *lights, size_t i, size_t 
 
 /* Adds `live` lights from light i on; sums follow one another by m, then l, then as in a tile. */
 LMP_INLINE void few_lights(int bands, int monic, const lmp_kernel_lights *lights, size_t i,
-                           const float point[3], few_sums *few) {
+                           const float point[3], size_t element, few_sums *few) {
     const size_t live = layout_live(lights->count, i);
     accumulate_light light;
     accumulate_column column;
     vf rgb[3], radial[FEW_BANDS];
-    const cap_lanes cap = few_caps(lights, i, live, point, rgb);
+    cap_lanes cap = few_caps(lights, i, live, point, rgb);
+    if (lights->visibility)
+        few_hide(lights, i, live, element, &cap);
     radial[0] = accumulate_begin(cap, &light);
     accumulate_radial(bands, accumulate_first(bands, FEW_SUMS), 1, &light, radial);
     column.z[0] = light.z;
@@ -113,7 +125,7 @@ static LMP_NOINLINE void accumulate_few(int bands, const lmp_kernel_lights *ligh
     few_sums few;
     memset(few.sums, 0, (size_t)(3 * bands * bands + LMP_LANES) * sizeof *few.sums);
     for (size_t i = 0; i < lights->count; i += LMP_LANES)
-        few_lights(bands, monic, lights, i, point, &few);
+        few_lights(bands, monic, lights, i, point, element, &few);
     const float *sum = few.sums;
     for (int m = 0; m < bands; m++)
         for (int l = m; l < bands; l++, sum += m == 0 ? 3 : 6) {

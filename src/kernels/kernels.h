@@ -44,6 +44,10 @@ typedef struct lmp_kernel_lights {
     lmp_float_array radius;
     lmp_vec3_array radiance;
     size_t count;
+    /* Of what accumulates: how much of light i comes to point p is at [i * stride + p]; NULL: all.
+     */
+    const float *visibility;
+    size_t visibility_stride;
 } lmp_kernel_lights;
 
 /* A preintegrated lobe (lampion/preintegrated.h), and where lobes lie in it

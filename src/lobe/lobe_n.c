@@ -12,8 +12,10 @@ void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array axes,
     assert(lmp_are_unit(axes, point_count) && lmp_are_finite(points, point_count));
     assert(lmp_are_spheres(spheres, sphere_count));
     const lmp_kernels *kernels = lmp_kernels_get();
-    const lmp_kernel_lights lights = { spheres->center, spheres->radius, spheres->radiance,
-                                       sphere_count };
+    const lmp_kernel_lights lights = { .center = spheres->center,
+                                       .radius = spheres->radius,
+                                       .radiance = spheres->radiance,
+                                       .count = sphere_count };
     lmp_batch_vec3 point_planes, axis_planes;
     for (size_t first = 0; first < point_count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(point_count, first);

@@ -116,6 +116,40 @@ static void a_point_alone_gets_the_bits_of_a_batch(void **test) {
     memcpy(lights + 1, before, sizeof before);
 }
 
+/* Each light by itself, times what comes of it; by lanes of points and, of one, of lights. */
+static void visibility_weighs_every_light_at_every_point(void **test) {
+    (void)test;
+    enum { SPHERES = 37, POINTS = 21, VALUES3 = 3 * VALUES };
+    static float visibility[SPHERES * POINTS], sums[POINTS * VALUES3], ones[POINTS * VALUES3];
+    const lmp_spheres spheres = lmp_spheres_of(lights);
+    const lmp_vec3_array at = lmp_vec3_array_of(points);
+    for (int i = 0; i < SPHERES * POINTS; i++)
+        visibility[i] = (float)(i * 7919 % 101) / 100;
+    lmp_sphere_accumulate_visible_n(NULL, BANDS, &spheres, SPHERES, visibility, at, POINTS,
+                                    LMP_SH_INTERLEAVED, 0, sums);
+    for (int p = 0; p < POINTS; p++) {
+        float sum[VALUES3] = { 0 }, one[VALUES3], alone[VALUES3], mine[SPHERES];
+        for (int i = 0; i < SPHERES; i++) {
+            mine[i] = visibility[i * POINTS + p];
+            lmp_light_project(BANDS, &lights[i], 1, points[p], one);
+            for (int v = 0; v < VALUES3; v++)
+                sum[v] += mine[i] * one[v];
+        }
+        check_same(sum, sums + p * VALUES3, VALUES3);
+        lmp_sphere_accumulate_visible_n(NULL, BANDS, &spheres, SPHERES, mine,
+                                        lmp_vec3_array_of(points + p), 1, LMP_SH_INTERLEAVED, 0,
+                                        alone);
+        assert_memory_equal(alone, sums + p * VALUES3, sizeof alone);
+    }
+    for (int i = 0; i < SPHERES * POINTS; i++)
+        visibility[i] = 1;
+    lmp_sphere_accumulate_visible_n(NULL, BANDS, &spheres, SPHERES, visibility, at, POINTS,
+                                    LMP_SH_INTERLEAVED, 0, ones);
+    lmp_sphere_accumulate_n(NULL, BANDS, &spheres, SPHERES, at, POINTS, LMP_SH_INTERLEAVED, 0,
+                            sums);
+    assert_memory_equal(ones, sums, sizeof sums);
+}
+
 static void accumulate_is_the_sum_of_the_lights(void **test) {
     (void)test;
     const lmp_spheres spheres = lmp_spheres_of(lights);
@@ -298,6 +332,7 @@ int main(void) {
         cmocka_unit_test(all_pairs_are_every_sphere_at_every_point),
         cmocka_unit_test(a_split_of_the_points_changes_no_bit),
         cmocka_unit_test(a_point_alone_gets_the_bits_of_a_batch),
+        cmocka_unit_test(visibility_weighs_every_light_at_every_point),
         cmocka_unit_test(accumulate_is_the_sum_of_the_lights),
         cmocka_unit_test(scratch_changes_no_bit_and_is_not_overrun),
         cmocka_unit_test(gradients_are_those_of_one_light),

@@ -302,10 +302,10 @@ static void run_shading(const lmp_kernels *k, kind which, int bands, const input
 
 static lmp_kernel_lights lights_of(const inputs *in) {
     return (lmp_kernel_lights) {
-        { in->center[0], in->center[1], in->center[2], sizeof(float) },
-        { in->radius, sizeof(float) },
-        { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
-        LIGHTS,
+        .center = { in->center[0], in->center[1], in->center[2], sizeof(float) },
+        .radius = { in->radius, sizeof(float) },
+        .radiance = { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
+        .count = LIGHTS,
     };
 }
 

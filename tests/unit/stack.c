@@ -158,6 +158,7 @@ static void shade_under_a_field(void) {
     X(lmp_sphere_zonal_n, LAYOUTS(lmp_sphere_zonal_n(N, floats, floats, COUNT, layout, 0, out))) \
     X(lmp_sphere_project_n, LAYOUTS(lmp_sphere_project_n(N, &spheres, points, LIGHTS, layout, 0, out))) \
     X(lmp_sphere_project_all, LAYOUTS(lmp_sphere_project_all(N, &spheres, LIGHTS, points, 5, layout, 0, out))) \
+    X(lmp_sphere_accumulate_visible_n, LAYOUTS(lmp_sphere_accumulate_visible_n(NULL, N, &spheres, LIGHTS, NULL, points, COUNT, layout, 0, out))) \
     X(lmp_sphere_accumulate_n, LAYOUTS(lmp_sphere_accumulate_n(NULL, N, &spheres, LIGHTS, points, COUNT, layout, 0, out))) \
     X(lmp_sphere_accumulate_gradient_n, LAYOUTS(lmp_sphere_accumulate_gradient_n(NULL, N, &spheres, LIGHTS, points, COUNT, layout, 0, out, 0, slopes))) \
     X(lmp_sphere_power_from_radiance, lmp_sphere_power_from_radiance(1, 1)) \
