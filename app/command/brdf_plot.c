@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { ROWS = 4, COLUMNS_MAX = 5, STEPS = 2000 };
 
@@ -111,19 +112,40 @@ static void draw_panel(const panels *p, int column, int row, figure_box box) {
     }
 }
 
+/* What a column shows: the material by its name, as much of the end of it as has room, or bands. */
+static void name_column(const panels *p, int column, figure_box box) {
+    char text[64];
+    const int room = box.width / FIGURE_LETTER_WIDTH, length = (int)strlen(p->material->name);
+    if (column > 0)
+        snprintf(text, sizeof text, "l=0-%d", p->bands[column] - 1);
+    else
+        snprintf(text, sizeof text, "%s", p->material->name + (length > room ? length - room : 0));
+    figure_text(p->pixels, box, column > 0 ? box.height / 3 : FIGURE_LETTER_HEIGHT, ink, text);
+}
+
+/* The angle of a row's view, and the largest value, which all its lobes are scaled by. */
+static void name_row(const panels *p, int row, figure_box box) {
+    char text[64];
+    snprintf(text, sizeof text, "%g deg, max %.3g", degrees[row],
+             1 / row_scale(p, degrees[row] * 1.5707963267949 / 90));
+    figure_text(p->pixels,
+                (figure_box) { box.x, box.y + box.height - 2 * FIGURE_LETTER_HEIGHT, box.width,
+                               FIGURE_LETTER_HEIGHT },
+                FIGURE_LETTER_HEIGHT, ink, text);
+}
+
 static void draw_all(const panels *p) {
     const int width = p->pixels->width / p->columns, head = p->pixels->height / 16;
     const int height = (p->pixels->height - head) / ROWS;
     figure_fill(p->pixels, (figure_box) { 0, 0, p->pixels->width, p->pixels->height }, paper);
     for (int column = 0; column < p->columns; column++) {
-        char text[16];
-        snprintf(text, sizeof text, "l=0-%d", p->bands[column] - 1);
-        if (column > 0)
-            figure_text(p->pixels, (figure_box) { column * width, 0, width, head }, head / 3, ink,
-                        text);
-        for (int row = 0; row < ROWS; row++)
-            draw_panel(p, column, row,
-                       (figure_box) { column * width, head + row * height, width, height });
+        name_column(p, column, (figure_box) { column * width, 0, width, head });
+        for (int row = 0; row < ROWS; row++) {
+            const figure_box box = { column * width, head + row * height, width, height };
+            draw_panel(p, column, row, box);
+            if (column == 0)
+                name_row(p, row, box);
+        }
     }
 }
 

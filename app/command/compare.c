@@ -109,10 +109,10 @@ static void draw_numbers(double white, image *legend) {
     for (int i = 0; i < 3; i++) {
         char text[32];
         snprintf(text, sizeof text, "%.3g", parts[i] * white);
-        const int width = LETTER_WIDTH * (int)strlen(text);
+        const int width = FIGURE_LETTER_WIDTH * (int)strlen(text);
         const int left = LEGEND_MARGIN + (int)(parts[i] * (ramp - width));
         figure_text(legend, (figure_box) { left, RAMP_BOTTOM, width, LEGEND - RAMP_BOTTOM },
-                    LETTERS, (lmp_rgb) { 1, 1, 1 }, text);
+                    FIGURE_LETTER_HEIGHT, (lmp_rgb) { 1, 1, 1 }, text);
     }
 }
 

@@ -14,8 +14,10 @@ typedef struct figure_box {
 
 void figure_fill(image *pixels, figure_box box, lmp_rgb color);
 
-/* Writes digits, points, signs, blanks and the letters e, l and m, `height` pixels high, centered
- * in the box. */
+/* Writes letters, all small, digits and signs, `height` pixels high, centered in the box; what it
+ * does not know is a blank. */
+#define FIGURE_LETTER_WIDTH  6 /* of letters FIGURE_LETTER_HEIGHT high, with the gap after them */
+#define FIGURE_LETTER_HEIGHT 7
 void figure_text(image *pixels, figure_box box, int height, lmp_rgb color, const char *text);
 
 /* A function on the sphere as a surface: |radius(direction)| away from the center. */

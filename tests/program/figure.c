@@ -68,11 +68,29 @@ static void what_lies_outside_of_the_image_is_not_drawn(void **state) {
     image_free(&pixels);
 }
 
+/* Names of materials are written whole. */
+static void every_character_of_a_name_has_a_shape_of_its_own(void **state) {
+    (void)state;
+    static const char known[] = "abcdefghijklmnopqrstuvwxyz0123456789+-=.:,/_";
+    enum { COUNT = sizeof known - 1, SIDE = 9 };
+    static float shapes[COUNT][3 * SIDE * SIDE];
+    for (size_t i = 0; i < COUNT; i++) {
+        const char text[2] = { known[i], 0 };
+        image pixels = { SIDE, SIDE, shapes[i] };
+        figure_text(&pixels, (figure_box) { 0, 0, SIDE, SIDE }, FIGURE_LETTER_HEIGHT, white, text);
+        const float blank[3 * SIDE * SIDE] = { 0 };
+        assert_memory_not_equal(shapes[i], blank, sizeof blank);
+        for (size_t k = 0; k < i; k++)
+            assert_memory_not_equal(shapes[i], shapes[k], sizeof blank);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(positive_is_above_and_negative_below_in_their_colors),
         cmocka_unit_test(a_ball_covers_the_area_of_a_disc_without_holes),
         cmocka_unit_test(what_lies_outside_of_the_image_is_not_drawn),
+        cmocka_unit_test(every_character_of_a_name_has_a_shape_of_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
