@@ -23,6 +23,8 @@ outputs() {
         -o "$folder/reference.exr" "$@"
     "$PROGRAM" brdf bake sgd:white-fabric --views 8 -o "$folder/table.lmpt" "$@"
     "$PROGRAM" project --batch "$WORK/lights.csv" $batches "$@" >"$folder/project.csv"
+    "$PROGRAM" field builtin:atrium --grid 4x3x5 --shadows -o "$folder/probes.csv" $batches "$@"
+    "$PROGRAM" field builtin:atrium --grid 4x3x5 -o "$folder/probes.lmpf" $batches "$@"
     rm -r "$folder/cache"
 }
 
@@ -33,7 +35,7 @@ same() {
 }
 
 outputs first >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
-[ "$(ls "$WORK/first" | wc -l)" = 5 ] || fail "not every command wrote its file"
+[ "$(ls "$WORK/first" | wc -l)" = 7 ] || fail "not every command wrote its file"
 same again
 for threads in 1 2 7; do
     export OMP_NUM_THREADS=$threads LP_NUM_THREADS=$threads

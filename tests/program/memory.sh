@@ -76,6 +76,8 @@ sweep basis --bands 2 --size 64x64 -o image.exr
 sweep brdf bake ggx:0.5 --bands 3 --views 8 -o image.lmpt
 sweep project --light 0,3,0 --radius 0.5 --bands 4
 sweep project --batch lights.csv --bands 3
+sweep field scene.gltf --random-lights 2 --grid 2x2x3 --preset unity --shadows -o image.json
+sweep field scene.gltf --random-lights 2 --grid 2x2x3 -o image.lmpf
 sweep reference scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --spp 1 --threads 1 -o image.exr
 sweep render scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --bands 3 --stats --repeat 1 -o image.png
 sweep render scene.gltf --eye 0,2,2 --target 0,0,0 --random-lights 2 --size 16x16 --bands 3 --shadows -o image.png

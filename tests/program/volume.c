@@ -1,22 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion field: its files, read by cJSON, by lines of CSV, by NumPy's specification and by the
  * library, hold the same numbers; and what engines' shaders make of them is the light there is. */
+#include "tests/program/volume.h"
 #include "tests/oracle/engines.h"
-#include "tests/program/folder.h"
 
-#include <cjson/cJSON.h>
 #include <lampion/field.h>
 #include <sys/wait.h>
-
-enum { NX = 4, NY = 3, NZ = 5, PROBES = NX * NY * NZ, VALUES_MAX = 75 };
-#define GRID "--grid 4x3x5 --minimum -2,0,-1 --maximum 1,1.5,3 "
-
-/* One probe after the other, whatever the file. */
-typedef struct probes {
-    double position[PROBES][3];
-    float values[PROBES][VALUES_MAX];
-    int value_count;
-} probes;
 
 static const lmp_light lights[] = {
     { .position = { 3, 4, 1 }, .radius = 0.5f, .radiance = { 10, 8, 5 } },
@@ -34,128 +23,6 @@ static int field(const char *arguments) {
     const int status = system(command);
     assert_true(WIFEXITED(status));
     return WEXITSTATUS(status);
-}
-
-static char *read_text(const char *name, size_t *size) {
-    static char bytes[1 << 20];
-    FILE *file = fopen(in_folder(name), "rb");
-    assert_non_null(file);
-    *size = fread(bytes, 1, sizeof bytes - 1, file);
-    assert_true(*size < sizeof bytes - 1 && !ferror(file));
-    bytes[*size] = 0;
-    fclose(file);
-    return bytes;
-}
-
-/* --- readers ---------------------------------------------------------------------------------- */
-
-static double number_at(const cJSON *array, int i) {
-    const cJSON *item = cJSON_GetArrayItem(array, i);
-    assert_true(cJSON_IsNumber(item));
-    return item->valuedouble;
-}
-
-static const char *text_of(const cJSON *root, const char *name) {
-    const cJSON *item = cJSON_GetObjectItemCaseSensitive(root, name);
-    assert_true(cJSON_IsString(item));
-    return item->valuestring;
-}
-
-static void read_json_grid(const cJSON *root, probes *p) {
-    const cJSON *counts = cJSON_GetObjectItemCaseSensitive(root, "counts");
-    const cJSON *origin = cJSON_GetObjectItemCaseSensitive(root, "origin");
-    const cJSON *steps = cJSON_GetObjectItemCaseSensitive(root, "steps");
-    const int expected[3] = { NX, NY, NZ };
-    for (int a = 0; a < 3; a++)
-        assert_int_equal((int)number_at(counts, a), expected[a]);
-    for (int i = 0; i < PROBES; i++) {
-        const int node[3] = { i % NX, i / NX % NY, i / NX / NY };
-        for (int k = 0; k < 3; k++) {
-            p->position[i][k] = number_at(origin, k);
-            for (int a = 0; a < 3; a++)
-                p->position[i][k] += node[a] * number_at(cJSON_GetArrayItem(steps, a), k);
-        }
-    }
-}
-
-/* The schema is that of docs/formats.md. */
-static void read_json(const char *name, const char *preset, probes *p) {
-    size_t size;
-    cJSON *root = cJSON_Parse(read_text(name, &size));
-    assert_non_null(root);
-    assert_string_equal(text_of(root, "format"), "lampion-probes");
-    assert_string_equal(text_of(root, "preset"), preset);
-    assert_int_equal((int)cJSON_GetObjectItem(root, "version")->valuedouble, 1);
-    const bool planar = strcmp(text_of(root, "layout"), "planar") == 0;
-    const cJSON *values = cJSON_GetObjectItemCaseSensitive(root, "values");
-    p->value_count = cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(root, "names"));
-    assert_true(p->value_count > 0 && p->value_count <= VALUES_MAX);
-    assert_int_equal(cJSON_GetArraySize(values), PROBES * p->value_count);
-    read_json_grid(root, p);
-    int at = 0;
-    for (const cJSON *item = values->child; item; item = item->next, at++)
-        if (planar)
-            p->values[at % PROBES][at / PROBES] = (float)item->valuedouble;
-        else
-            p->values[at / p->value_count][at % p->value_count] = (float)item->valuedouble;
-    cJSON_Delete(root);
-}
-
-static void read_csv(const char *name, probes *p) {
-    size_t size;
-    char *line = strtok(read_text(name, &size), "\n");
-    assert_memory_equal(line, "x,y,z,r0,", 9);
-    p->value_count = -2;
-    for (const char *c = line; *c; c++)
-        p->value_count += *c == ',';
-    for (int i = 0; i < PROBES; i++) {
-        char *at = strtok(NULL, "\n");
-        assert_non_null(at);
-        for (int k = 0; k < 3 + p->value_count; k++) {
-            const double value = strtod(at, &at);
-            if (k < 3)
-                p->position[i][k] = value;
-            else
-                p->values[i][k - 3] = (float)value;
-            at += *at == ',';
-        }
-        assert_int_equal(*at, 0);
-    }
-    assert_null(strtok(NULL, "\n"));
-}
-
-/* IEEE 754 binary16. */
-static float half_value(const unsigned char *at) {
-    const int bits = at[0] | at[1] << 8, exponent = bits >> 10 & 31, mantissa = bits & 1023;
-    const double size =
-        exponent == 0 ? ldexp(mantissa, -24) : ldexp(1024 + mantissa, exponent - 25);
-    return (float)(bits & 0x8000 ? -size : size);
-}
-
-/* NumPy's format, version 1.0: 6 bytes, 2 of the version, the length of a line, the line. */
-static void read_npy(const char *name, bool half, bool planar, probes *p) {
-    size_t size;
-    const unsigned char *bytes = (const unsigned char *)read_text(name, &size);
-    assert_memory_equal(bytes, "\x93NUMPY\1\0", 8);
-    const size_t begin = 10 + bytes[8] + 256u * bytes[9], width = half ? 2 : 4;
-    char expected[128];
-    snprintf(expected, sizeof expected,
-             planar ? "{'descr': '<f%zu', 'fortran_order': False, 'shape': (27, 5, 3, 4), }"
-                    : "{'descr': '<f%zu', 'fortran_order': False, 'shape': (5, 3, 4, 27), }",
-             width);
-    assert_int_equal(begin % 64, 0);
-    assert_int_equal(bytes[begin - 1], '\n');
-    assert_memory_equal(bytes + 10, expected, strlen(expected));
-    assert_int_equal(size, begin + width * PROBES * 27);
-    for (size_t i = 0; i < PROBES * 27; i++) {
-        const unsigned char *at = bytes + begin + width * i;
-        float *to = planar ? &p->values[i % PROBES][i / PROBES] : &p->values[i / 27][i % 27];
-        if (half)
-            *to = half_value(at);
-        else
-            memcpy(to, at, sizeof *to);
-    }
-    p->value_count = 27;
 }
 
 /* --- what they hold --------------------------------------------------------------------------- */
@@ -363,6 +230,34 @@ static void the_environment_lights_every_probe(void **state) {
     assert_int_equal(field("--environment studio -o lit.lmpf"), 1);
 }
 
+/* --- what is refused -------------------------------------------------------------------------- */
+
+static void what_cannot_be_written_is_refused_in_one_line(void **state) {
+    (void)state;
+    static const struct refusal {
+        const char *arguments, *text;
+        int status;
+    } refusals[] = {
+        { "", "-o FILE is needed", 2 },
+        { "-o p.txt", "unknown kind of file", 2 },
+        { "-o p.csv --layout planar", "--layout planar takes .json or .npy", 2 },
+        { "-o p.lmpf --preset unity", "a .lmpf has no preset", 2 },
+        { "-o p.lmpf --half", "a .lmpf has no preset", 2 },
+        { "-o p.lmpf --shadows", "a .lmpf has no preset", 2 },
+        { "-o p.json --preset godot --bands 4", "--bands 4: godot keeps 3", 2 },
+        { "-o p.json --grid 1024x1024x1024", "more than 16777216 probes", 2 },
+        { "-o p.json --minimum 5,0,0", "the grid ends before it begins: x from 5 to 1", 1 },
+        { "-o p.json --maximum -2,0,-1", "the grid has no extent", 1 },
+    };
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+        size_t size;
+        assert_int_equal(field(refusals[i].arguments), refusals[i].status);
+        const char *said = read_text("err", &size);
+        if (!strstr(said, refusals[i].text) || strchr(said, '\n') != said + size - 1)
+            fail_msg("%s: %s", refusals[i].arguments, said);
+    }
+}
+
 /* --- examples/read_probes.c ------------------------------------------------------------------- */
 
 static void read_at(const double at[3], const double n[3], double rgb[3]) {
@@ -427,6 +322,7 @@ int main(void) {
         cmocka_unit_test(the_library_reads_its_field),
         cmocka_unit_test(walls_keep_light_from_probes),
         cmocka_unit_test(the_environment_lights_every_probe),
+        cmocka_unit_test(what_cannot_be_written_is_refused_in_one_line),
         cmocka_unit_test(the_example_reads_probes_and_what_lies_between),
     };
     return cmocka_run_group_tests(tests, make_scene, folder_remove);

@@ -44,6 +44,10 @@ done
 refuses 'File too large' limited bake table.lmpt
 refuses 'File too large' limited "$PROGRAM" brdf convert sgd:red-fabric -o cloth.bsdf
 refuses 'File too large' limited "$PROGRAM" brdf convert sgd:red-fabric -o cloth.binary
+for kind in json csv npy lmpf; do
+    refuses 'File too large' limited "$PROGRAM" field builtin:atrium -o probes.$kind
+    [ ! -e probes.$kind ] || fail "a part of a volume appeared"
+done
 [ ! -e table.lmpt ] && [ ! -e cloth.bsdf ] && [ ! -e cloth.binary ] || fail "a part of a file appeared"
 full() { "$@" >/dev/full; }
 refuses 'No space left on device' full "$PROGRAM" completion bash
