@@ -13,6 +13,7 @@ static const char style[] =
     ".row{display:flex;flex-wrap:wrap;gap:0 1em}.row figure{flex:1 1 200px}"
     ".wide{overflow-x:auto}table{border-collapse:collapse;font-size:14px;margin:.6em 0}"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid #dde1e6;white-space:nowrap}"
+    ".wrapped th,.wrapped td{white-space:normal;text-align:left;vertical-align:top}"
     "th:first-child,td:first-child{text-align:left}th{background:#f1f3f5}"
     ".failed{background:#fde8e8;border-left:4px solid #c0392b;padding:.6em .8em}";
 
@@ -88,6 +89,14 @@ void page_image(paper_page *page, const char *file, const char *caption) {
             file, file, caption, caption);
 }
 
+void page_wrapped_begin(paper_page *page) {
+    fputs("<div class=\"wrapped\">\n", page->html);
+}
+
+void page_wrapped_end(paper_page *page) {
+    fputs("</div>\n", page->html);
+}
+
 /* --- tables ----------------------------------------------------------------------------------- */
 
 /* A cell of a CSV file (RFC 4180). */
@@ -133,7 +142,7 @@ bool page_table_begin(paper_page *page, page_table *table, const char *file, con
 }
 
 void page_table_row(page_table *table, const char *format, ...) {
-    char cells[512];
+    char cells[1024];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(cells, sizeof cells, format, arguments);

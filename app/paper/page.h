@@ -24,6 +24,10 @@ void page_row_begin(paper_page *page);
 void page_row_end(paper_page *page);
 void page_image(paper_page *page, const char *file, const char *caption);
 
+/* Tables between these break the lines of their cells. */
+void page_wrapped_begin(paper_page *page);
+void page_wrapped_end(paper_page *page);
+
 /* A table, written to FILE.csv too. Cells are separated by '|'. */
 typedef struct page_table {
     paper_page *page;

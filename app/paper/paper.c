@@ -116,6 +116,22 @@ static void run_steps(paper *p, int *failures) {
     cli_progress_end();
 }
 
+/* The verdict is known when all steps have run, and stands before them. */
+static bool write_page(paper *p, const char *sections, size_t size, cli_error *error) {
+    file_writer page;
+    if (!file_write_begin(&page, "index.html", error))
+        return false;
+    p->page.html = page.stream;
+    introduce(p);
+    if (p->claim_count > 0 && !paper_write_verdict(p, error)) {
+        file_write_abort(&page);
+        return false;
+    }
+    fwrite(sections, 1, size, page.stream);
+    page_end(&p->page);
+    return file_write_commit(&page, error);
+}
+
 bool paper_write(const paper_options *options, int *failures, cli_error *error) {
     paper p = { .options = options };
     *failures = 0;
@@ -123,12 +139,14 @@ bool paper_write(const paper_options *options, int *failures, cli_error *error) 
         return cli_fail(error, options->directory, "cannot be created: %s", strerror(errno));
     if (chdir(options->directory) != 0)
         return cli_fail(error, options->directory, "is no folder: %s", strerror(errno));
-    file_writer page;
-    if (!file_write_begin(&page, "index.html", error))
-        return false;
-    p.page.html = page.stream;
-    introduce(&p);
+    char *sections = NULL;
+    size_t size = 0;
+    p.page.html = open_memstream(&sections, &size);
+    if (!p.page.html)
+        return cli_fail(error, NULL, "out of memory");
     run_steps(&p, failures);
-    page_end(&p.page);
-    return file_write_commit(&page, error);
+    const bool ok = fclose(p.page.html) == 0 ? write_page(&p, sections, size, error)
+                                             : cli_fail(error, NULL, "out of memory");
+    free(sections);
+    return ok;
 }

@@ -29,10 +29,39 @@ bool paper_write(const paper_options *options, int *failures, cli_error *error);
 
 /* --- for the steps ---------------------------------------------------------------------------- */
 
+typedef enum paper_verdict {
+    PAPER_HOLDS,
+    PAPER_FAILS,
+    PAPER_ELSEWHERE /* a time on a GPU, where there is none */
+} paper_verdict;
+
+/* What the paper says, its number, and why it holds or not. */
+typedef struct paper_claim {
+    const char *text, *number, *why;
+} paper_claim;
+
+typedef struct paper_judged {
+    paper_claim claim;
+    paper_verdict verdict;
+    char here[256]; /* what was measured */
+} paper_judged;
+
+#define PAPER_CLAIMS_MAX 32
+
 typedef struct paper {
     const paper_options *options;
     paper_page page;
+    paper_judged claims[PAPER_CLAIMS_MAX];
+    int claim_count;
 } paper;
+
+/* Adds a claim to the verdict, with which the page begins; the format is of what was measured. */
+void paper_claim_add(paper *p, paper_verdict verdict, paper_claim claim, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+bool paper_write_verdict(paper *p, cli_error *error);
+
+/* A frame's time by its pixels, lights and bands. */
+double paper_nanoseconds(double milliseconds, const int size[2], int lights, int bands);
 
 typedef struct paper_step {
     const char *name, *title;

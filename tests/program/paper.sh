@@ -12,6 +12,14 @@ for form in 3,3,5 6,13,19; do
     grep -q "^closed forms (Sloan 2008),$form,0," "$WORK/page/operations.csv" ||
         fail "the closed forms' operations are not the paper's $form"
 done
+[ "$(grep -o '<h2>[^<]*' "$WORK/page/index.html" | head -1)" = "<h2>Verdict" ] || fail "the page does not begin with the verdict"
+verdict() {
+    grep -q "^$1.*,$2," "$WORK/page/verdict.csv" || fail "not \"$2\": $(grep "^$1" "$WORK/page/verdict.csv")"
+}
+verdict "beyond three bands the recurrence takes fewer operations.*,22 against 32" holds
+verdict "up to three bands the closed forms are as efficient.*,8 against 7" "does not hold"
+verdict "the projection is robust to lights far away" "does not hold" # of Eq. 12 as printed, in float32
+! grep -q 'measured materials' "$WORK/page/verdict.csv" || fail "a claim of a step that did not run"
 grep -q '^"library: fused with Eq. 13, by differences",3,' "$WORK/page/operations.csv" ||
     fail "a comma in a label is not the label's"
 grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$WORK/page/index.html" ||

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT */
+/* The verdict: what the paper claims beside what the steps have measured. */
+#include "app/paper/paper.h"
+
+#include <stdarg.h>
+
+static const char *const verdicts[] = {
+    [PAPER_HOLDS] = "holds",
+    [PAPER_FAILS] = "does not hold",
+    [PAPER_ELSEWHERE] = "not on this device",
+};
+
+void paper_claim_add(paper *p, paper_verdict verdict, paper_claim claim, const char *format, ...) {
+    if (p->claim_count == PAPER_CLAIMS_MAX)
+        return;
+    paper_judged *judged = &p->claims[p->claim_count++];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(judged->here, sizeof judged->here, format, arguments);
+    va_end(arguments);
+    judged->verdict = verdict;
+    judged->claim = claim;
+}
+
+double paper_nanoseconds(double milliseconds, const int size[2], int lights, int bands) {
+    return milliseconds * 1e6 / ((double)size[0] * size[1] * lights * bands);
+}
+
+bool paper_write_verdict(paper *p, cli_error *error) {
+    page_table table;
+    page_section(&p->page, "Verdict");
+    page_text(&p->page,
+              "What the paper claims, in translation, beside what this run has measured. Times are "
+              "nanoseconds a pixel, light and band, so that machines and sizes compare. Claims of "
+              "steps that were left out are not listed.");
+    page_wrapped_begin(&p->page);
+    if (!page_table_begin(&p->page, &table, "verdict", "claim|paper|here|verdict|why", error))
+        return false;
+    for (int i = 0; i < p->claim_count; i++) {
+        const paper_judged *judged = &p->claims[i];
+        page_table_row(&table, "%s|%s|%s|%s|%s", judged->claim.text, judged->claim.number,
+                       judged->here, verdicts[judged->verdict], judged->claim.why);
+    }
+    const bool ok = page_table_end(&table, error);
+    page_wrapped_end(&p->page);
+    return ok;
+}
