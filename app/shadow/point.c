@@ -109,12 +109,34 @@ static void set_material(const lmp_material *m, float least, int i, shadow_point
     p->alpha2[i] = m->roughness * m->roughness * m->roughness * m->roughness + least;
 }
 
+/* What is under a coat is seen through it; 0 where there is none. */
+static void set_coat(const gpu_row *row, int x, float least, int i, shadow_points *p) {
+    const lmp_coat *coat = &row->material[x].coat;
+    const bool coated = p->lit[i] && coat->weight > 0;
+    lmp_vec3 normal = { 0, 0, 0 }, mirror = { 0, 0, 0 };
+    p->coat[i] = p->coat_alpha2[i] = 0;
+    if (coated) {
+        const lmp_vec3 view = lane_of(&p->view, i);
+        normal = vec(row->coat_normal[0][x], row->coat_normal[1][x], row->coat_normal[2][x]);
+        p->coat[i] = lmp_material_coated(coat, normal, view);
+        p->coat_alpha2[i] =
+            coat->roughness * coat->roughness * coat->roughness * coat->roughness + least;
+        mirror = vec_sub(vec_scale(normal, 2 * vec_dot(normal, view)), view);
+        p->albedo[i] *= 1 - p->coat[i];
+        p->shine[i] *= 1 - p->coat[i];
+        p->coated = true;
+    }
+    set_lane(&p->coat_normal, i, normal);
+    set_lane(&p->coat_mirror, i, mirror);
+}
+
 void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, int width,
                        shadow_points *p) {
     static const lmp_material unlit = { 0 }; /* where nothing is, the row has no material */
     const float least = resolved(&view->settings);
     p->material = row->material + first;
     p->settings = &view->settings;
+    p->coated = false;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const int x = first + i < width ? first + i : width - 1;
         p->lit[i] = first + i < width && row->kind[x] == GPU_KIND_SURFACE;
@@ -132,6 +154,7 @@ void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, i
             p->mirror.of[c][i] = 2 * along * p->normal.of[c][i] - p->view.of[c][i];
         p->ambient[i] = row->ambient[x];
         set_material(p->lit[i] ? &row->material[x] : &unlit, least, i, p);
+        set_coat(row, x, least, i, p);
     }
     find_origins(view, p);
 }
@@ -142,28 +165,36 @@ static lmp_rgb reflect_series(const shadow_points *p, int lane, lmp_vec3 w) {
                               .irradiance = { 1, 1, 1 } };
     const lmp_surface surface = { .position = lane_of(&p->position, lane),
                                   .normal = lane_of(&p->normal, lane),
-                                  .view = lane_of(&p->view, lane) };
+                                  .view = lane_of(&p->view, lane),
+                                  .coat_normal = lane_of(&p->coat_normal, lane) };
     return lmp_shade(p->settings, &p->material[lane], &surface, &light, 1);
+}
+
+/* GGX and its masking, times the cosine of w. */
+static float glossy(lmp_vec3 n, lmp_vec3 v, lmp_vec3 w, float a2) {
+    const float in = vec_dot(n, w), out = fmaxf(vec_dot(n, v), 1e-3f);
+    const float nh = vec_dot(n, vec_normalize(vec_add(v, w), n)), peak = nh * nh * (a2 - 1) + 1;
+    const float masking =
+        in * sqrtf(out * out * (1 - a2) + a2) + out * sqrtf(in * in * (1 - a2) + a2);
+    return in > 0 ? in * a2 / (2 * PI * peak * peak * masking) : 0;
 }
 
 lmp_rgb shadow_reflect(const shadow_points *p, int lane, lmp_vec3 w) {
     if (p->material[lane].kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
         return reflect_series(p, lane, w);
     const lmp_vec3 n = lane_of(&p->normal, lane), v = lane_of(&p->view, lane);
-    const float in = vec_dot(n, w), out = fmaxf(vec_dot(n, v), 1e-3f), a2 = p->alpha2[lane];
-    if (!(in > 0))
-        return (lmp_rgb) { 0, 0, 0 };
-    const lmp_vec3 h = vec_normalize(vec_add(v, w), n);
-    const float nh = vec_dot(n, h), across = 1 - fminf(fabsf(vec_dot(v, h)), 1);
-    const float peak = nh * nh * (a2 - 1) + 1;
-    const float masking =
-        in * sqrtf(out * out * (1 - a2) + a2) + out * sqrtf(in * in * (1 - a2) + a2);
-    const float specular = in * a2 / (2 * PI * peak * peak * masking);
+    const float in = fmaxf(vec_dot(n, w), 0), coat = p->coat[lane];
+    const float across = 1 - fminf(fabsf(vec_dot(v, vec_normalize(vec_add(v, w), n))), 1);
     const float square = across * across, grazing = square * square * across;
+    const float specular = glossy(n, v, w, p->alpha2[lane]);
+    const float over =
+        coat > 0 ? coat * glossy(lane_of(&p->coat_normal, lane), v, w, p->coat_alpha2[lane]) : 0;
     float k[3];
     for (int c = 0; c < 3; c++) {
         const float f0 = p->f0.of[c][lane];
-        k[c] = p->diffuse.of[c][lane] / PI * in + specular * (f0 + (p->f90[lane] - f0) * grazing);
+        const float under =
+            p->diffuse.of[c][lane] / PI * in + specular * (f0 + (p->f90[lane] - f0) * grazing);
+        k[c] = (1 - coat) * under + over;
     }
     return rgb_load(k);
 }

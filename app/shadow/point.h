@@ -23,6 +23,10 @@ typedef struct shadow_points {
     /* Metallic-roughness, and how much of diffuse and specular light any material reflects. */
     shadow_vectors diffuse, f0;
     shadow_lanes f90, alpha2, albedo, shine;
+    /* Clear coats: what they reflect, and how they lie. */
+    bool coated; /* some of the points */
+    shadow_lanes coat, coat_alpha2;
+    shadow_vectors coat_normal, coat_mirror;
     shadow_lanes ambient;         /* how much of the environment comes: the occlusion map */
     const lmp_material *material; /* of each point */
     const lmp_shade_settings *settings;

@@ -156,12 +156,26 @@ static SHADOW_WIDE void weigh_caps(const cap_lanes *restrict caps, const shadow_
     }
 }
 
+/* Adds what coats reflect. */
+static SHADOW_WIDE void weigh_coats(const cap_lanes *restrict caps, const shadow_points *restrict p,
+                                    float *restrict weights) {
+    const shadow_lanes *n = p->coat_normal.of, *m = p->coat_mirror.of, *axis = caps->axis.of;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
+        const float mirrored = m[0][i] * axis[0][i] + m[1][i] * axis[1][i] + m[2][i] * axis[2][i];
+        const float s = caps->sine[i], a2 = p->coat_alpha2[i] + 0.25f * s * s;
+        const float off = a2 + larger(0.5f - 0.5f * mirrored, 0);
+        const float weight = caps->power[i] / PI * p->coat[i] * a2 / (4 * off * off);
+        weights[i] += p->coat[i] > 0 && along + s > 0 ? weight : 0;
+    }
+}
+
 void shadow_source_weigh(const shadow_source *source, const shadow_points *p,
                          shadow_lanes weights) {
     cap_lanes caps;
     if (source->kind == SHADOW_AROUND) {
         for (int i = 0; i < SHADOW_LANES; i++)
-            weights[i] = source->brightness * PI * (p->albedo[i] + p->shine[i]);
+            weights[i] = source->brightness * PI * (p->albedo[i] + p->shine[i] + p->coat[i]);
         return;
     }
     if (source->kind == SHADOW_SPHERE)
@@ -171,6 +185,8 @@ void shadow_source_weigh(const shadow_source *source, const shadow_points *p,
     else
         see_far(source, &caps);
     weigh_caps(&caps, p, weights);
+    if (p->coated)
+        weigh_coats(&caps, p, weights);
 }
 
 /* --- a direction ------------------------------------------------------------------------------ */

@@ -16,13 +16,19 @@
 
 enum { WIDTH = 96, HEIGHT = 64, PIXELS = WIDTH * HEIGHT, BANDS = 20 };
 
-static void add_material(scene_builder *builder, const char *name, float gray) {
+static void add_coated(scene_builder *builder, const char *name, float gray, float coat) {
     scene_material *material = builder_material(builder, name);
     assert_non_null(material);
     for (int c = 0; c < 3; c++)
         material->base_color[c] = gray;
     material->metallic = 0;
     material->roughness = 1;
+    material->coat = coat;
+    material->coat_roughness = 1;
+}
+
+static void add_material(scene_builder *builder, const char *name, float gray) {
+    add_coated(builder, name, gray, 0);
 }
 
 /* A texture of 8 x 8 holes and bars. */
@@ -75,10 +81,10 @@ static void open_scene(scene_builder *builder, scene *world) {
 }
 
 /* A floor with a box, three thin poles and the screen on it, before a wall. */
-static void make_scene(scene *world) {
+static void make_things(scene *world, float gray, float coat) {
     scene_builder builder = { .out_of_memory = false };
-    add_material(&builder, "floor", 0.8f);
-    add_material(&builder, "things", 0.6f);
+    add_coated(&builder, "floor", gray, coat);
+    add_coated(&builder, "things", 0.75f * gray, coat);
     add_screen(&builder);
     scene_shaper shaper = { .builder = &builder };
     shape_quad(&shaper, vec(-3, 0, 3), vec(3, 0, 3), vec(3, 0, -3), vec(-3, 0, -3));
@@ -92,6 +98,10 @@ static void make_scene(scene *world) {
     shaper_finish(&shaper);
     stand_screen(&builder);
     open_scene(&builder, world);
+}
+
+static void make_scene(scene *world) {
+    make_things(world, 0.8f, 0);
 }
 
 static const scene_camera camera = {
