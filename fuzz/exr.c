@@ -144,7 +144,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         add(&file, data, size);
     else
         describe(&file, &in);
-    const image_source source = { "input", file.bytes, file.size, 1 << 16 };
+    const image_source source = {
+        .path = "input", .data = file.bytes, .size = file.size, .pixels_max = 1 << 16
+    };
     image pixels;
     cli_error error;
     if (image_decode_exr(&source, &pixels, &error))

@@ -4,7 +4,9 @@
 #include "fuzz/file.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    const image_source source = { "input", data, size, 1 << 22 };
+    const image_source source = {
+        .path = "input", .data = data, .size = size, .pixels_max = 1 << 22
+    };
     image pixels;
     cli_error error;
     if (image_decode_hdr(&source, &pixels, &error))

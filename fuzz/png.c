@@ -7,7 +7,9 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const fuzz_png png = fuzz_png_make(data, size);
-    const image_source source = { "input", png.bytes, png.size, 1 << 16 };
+    const image_source source = {
+        .path = "input", .data = png.bytes, .size = png.size, .pixels_max = 1 << 16
+    };
     image pixels;
     cli_error error;
     if (png.bytes && image_decode_png(&source, &pixels, &error)) {

@@ -4,6 +4,7 @@
 #include "app/environment/environment.h"
 #include "app/method/method.h"
 #include "app/override/override.h"
+#include "app/reference/part.h"
 #include "app/reference/quadrature.h"
 
 #include <stdio.h>
@@ -22,6 +23,8 @@ typedef struct reference_arguments {
     float error, exposure, stops;
     bool exposure_given;
     int tone;
+    bool shard_given;
+    char *const *words; /* of the command line */
     /* One point instead of an image. */
     bool point_given;
     float point[3], normal[3], view[3], diffuse[3], specular[3], exponent;
@@ -29,10 +32,13 @@ typedef struct reference_arguments {
     scene_options load;
 } reference_arguments;
 
-/* A linear image carries its standard error as a second layer. */
-static bool write_image(const reference_arguments *a, const image *radiance,
-                        const image *standard_error, size_t light_count, cli_error *error) {
+/* A linear image carries its standard error as a second layer, a part also what merge needs. */
+static bool write_image(const reference_arguments *a, const scene *world, const image *radiance,
+                        const image *standard_error, cli_error *error) {
     const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
+    const size_t light_count = world->light_count;
+    if (a->shard_given)
+        return reference_part_write(a->output, &a->settings, world, a->words, layers, error);
     if (image_format_of(a->output) == IMAGE_EXR)
         return image_write_exr_layers(a->output, layers, 2, error);
     float exposure = a->exposure_given ? a->exposure
@@ -87,7 +93,7 @@ static bool render(reference_arguments *a, const char *name, cli_error *error) {
                     scene_place_camera(&world, &a->camera, a->size, &settings->camera, error) &&
                     choose_materials(a, &world, &all, &sources, error) &&
                     reference_render(&world, settings, &radiance, &standard_error, error) &&
-                    write_image(a, &radiance, &standard_error, world.light_count, error);
+                    write_image(a, &world, &radiance, &standard_error, error);
     image_free(&radiance);
     image_free(&standard_error);
     free(sources);
@@ -154,6 +160,13 @@ static int execute(const cli_command *command, reference_arguments *a, int count
         return cli_usage(command, "expected one scene");
     if (!a->output)
         return cli_usage_output(command, "FILE");
+    if (a->shard_given && (image_format_of(a->output) != IMAGE_EXR || a->bands || a->error > 0))
+        return cli_usage(command,
+                         "--shard writes .exr, of whole lobes and a fixed number of samples: "
+                         "without --bands and --error");
+    if (a->shard_given && reference_samples(&a->settings) < 1)
+        return cli_usage(command, "--shard: part %d of %d has no sample of --spp %d",
+                         a->settings.shard[0], a->settings.shard[1], a->settings.samples);
     return image_check_path(a->output, &error) && render(a, operands[0], &error)
                ? CLI_OK
                : cli_report(&error);
@@ -179,6 +192,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "error", 0, CLI_FLOAT, &a.error, "E",
           "stop a pixel when its standard error is below E times its value; 0 means never", 0, 1,
           NULL, NULL },
+        { "shard", 0, CLI_PART, a.settings.shard, "I/N",
+          "only part I of N, every N-th sample of each pixel: lampion merge joins the parts", 1,
+          REFERENCE_PARTS_MAX, NULL, &a.shard_given },
         { "noise-seed", 0, CLI_SEED, &a.settings.seed, "SEED",
           "seed of the noise: the same seed gives the same image", 0, 0, NULL, NULL },
         { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
@@ -213,6 +229,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     char **operands;
     if (!cli_parse(command, options, argc, argv, &count, &operands, &status))
         return status;
+    a.words = argv;
     return execute(command, &a, count, operands);
 }
 

@@ -10,6 +10,7 @@ extern const cli_command command_doctor;
 extern const cli_command command_field;
 extern const cli_command command_info;
 extern const cli_command command_man;
+extern const cli_command command_merge;
 extern const cli_command command_paper;
 extern const cli_command command_project;
 extern const cli_command command_reference;
@@ -19,10 +20,12 @@ extern const cli_command command_scoreboard;
 extern const cli_command command_view;
 
 const cli_command *const command_table[] = {
-    &command_render,     &command_view,  &command_info,      &command_project, &command_brdf,
-    &command_field,      &command_basis, &command_reference, &command_compare, &command_ruler,
-    &command_scoreboard, &command_paper, &command_bench,     &command_doctor,  &command_man,
-    &command_completion, NULL,
+    &command_render,  &command_view,       &command_info,
+    &command_project, &command_brdf,       &command_field,
+    &command_basis,   &command_reference,  &command_merge,
+    &command_compare, &command_ruler,      &command_scoreboard,
+    &command_paper,   &command_bench,      &command_doctor,
+    &command_man,     &command_completion, NULL,
 };
 
 const char command_program_summary[] =

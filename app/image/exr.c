@@ -136,15 +136,16 @@ bool image_write_exr_layers(const char *path, const image_layer *layers, int cou
 /* --- reading ---------------------------------------------------------------------------------- */
 
 /* Aims the R, G and B of a chunk at the image; other channels are skipped. */
-static exr_result_t set_decoder(exr_decode_pipeline_t *decoder, image *pixels, int64_t column,
-                                int64_t row) {
-    static const char *const names[3] = { "R", "G", "B" };
+static exr_result_t set_decoder(exr_decode_pipeline_t *decoder, const image_layer *layer,
+                                image *pixels, int64_t column, int64_t row) {
     int found = 0;
     for (int c = 0; c < decoder->channel_count; c++) {
         exr_coding_channel_info_t *channel = &decoder->channels[c];
         channel->decode_to_ptr = NULL;
         for (int i = 0; i < 3; i++) {
-            if (strcmp(channel->channel_name, names[i]) != 0)
+            char name[256];
+            channel_name(layer, i, name, sizeof name);
+            if (strcmp(channel->channel_name, name) != 0)
                 continue;
             if (channel->x_samples != 1 || channel->y_samples != 1 ||
                 channel->data_type == EXR_PIXEL_UINT || channel->width + column > pixels->width ||
@@ -163,11 +164,11 @@ static exr_result_t set_decoder(exr_decode_pipeline_t *decoder, image *pixels, i
 }
 
 static exr_result_t decode(exr_const_context_t context, const exr_chunk_info_t *chunk,
-                           image *pixels, int64_t column, int64_t row) {
+                           const image_layer *layer, image *pixels, int64_t column, int64_t row) {
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_result_t r = exr_decoding_initialize(context, 0, chunk, &decoder);
     if (r == EXR_ERR_SUCCESS)
-        r = set_decoder(&decoder, pixels, column, row);
+        r = set_decoder(&decoder, layer, pixels, column, row);
     if (r == EXR_ERR_SUCCESS)
         r = exr_decoding_choose_default_routines(context, 0, &decoder);
     if (r == EXR_ERR_SUCCESS)
@@ -176,19 +177,21 @@ static exr_result_t decode(exr_const_context_t context, const exr_chunk_info_t *
     return r;
 }
 
-static exr_result_t read_scanlines(exr_const_context_t context, int top, image *pixels) {
+static exr_result_t read_scanlines(exr_const_context_t context, int top, const image_layer *layer,
+                                   image *pixels) {
     exr_chunk_info_t chunk;
     int32_t step = 1;
     exr_result_t r = exr_get_scanlines_per_chunk(context, 0, &step);
     for (int row = 0; row < pixels->height && r == EXR_ERR_SUCCESS; row += step) {
         r = exr_read_scanline_chunk_info(context, 0, top + row, &chunk);
         if (r == EXR_ERR_SUCCESS)
-            r = decode(context, &chunk, pixels, 0, row);
+            r = decode(context, &chunk, layer, pixels, 0, row);
     }
     return r;
 }
 
-static exr_result_t read_tiles(exr_const_context_t context, image *pixels) {
+static exr_result_t read_tiles(exr_const_context_t context, const image_layer *layer,
+                               image *pixels) {
     exr_chunk_info_t chunk;
     int32_t width = 0, height = 0;
     exr_result_t r = exr_get_tile_sizes(context, 0, 0, 0, &width, &height);
@@ -198,7 +201,7 @@ static exr_result_t read_tiles(exr_const_context_t context, image *pixels) {
         for (int x = 0; r == EXR_ERR_SUCCESS && x * (int64_t)width < pixels->width; x++) {
             r = exr_read_tile_chunk_info(context, 0, x, y, 0, 0, &chunk);
             if (r == EXR_ERR_SUCCESS)
-                r = decode(context, &chunk, pixels, x * (int64_t)width, y * (int64_t)height);
+                r = decode(context, &chunk, layer, pixels, x * (int64_t)width, y * (int64_t)height);
         }
     return r;
 }
@@ -219,11 +222,14 @@ static bool decode_part(exr_const_context_t context, const image_source *source,
     if (!image_create_decoded(source, (long long)window.max.x - window.min.x + 1,
                               (long long)window.max.y - window.min.y + 1, pixels, error))
         return false;
-    r = storage == EXR_STORAGE_TILED ? read_tiles(context, pixels)
-                                     : read_scanlines(context, window.min.y, pixels);
+    const image_layer layer = { source->layer, pixels };
+    r = storage == EXR_STORAGE_TILED ? read_tiles(context, &layer, pixels)
+                                     : read_scanlines(context, window.min.y, &layer, pixels);
     if (r == EXR_ERR_SUCCESS)
         return true;
     image_free(pixels);
+    if (r == EXR_ERR_MISSING_REQ_ATTR && source->layer)
+        return cli_fail(error, path, "has no layer \"%s\"", source->layer);
     if (r == EXR_ERR_MISSING_REQ_ATTR || r == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
         return cli_fail(error, path, "needs channels R, G and B of half or float");
     return cli_fail(error, path, "damaged OpenEXR: %s", exr_get_default_error_message(r));

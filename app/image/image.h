@@ -30,6 +30,8 @@ bool image_check_path(const char *path, cli_error *error);
  * in a sandbox. */
 #define IMAGE_READ_PIXELS (1 << 25) /* unless a user wants more: 8K */
 bool image_read(const char *path, long long pixels_max, image *image, cli_error *error);
+/* The same of a named layer of a .exr, as image_write_exr_layers writes it. */
+bool image_read_layer(const char *path, const char *layer, image *image, cli_error *error);
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error);
 
 #endif

@@ -23,6 +23,7 @@ typedef struct image_source {
     const unsigned char *data;
     size_t size;
     long long pixels_max; /* of the image, at most IMAGE_PIXELS_MAX */
+    const char *layer;    /* of an .exr: NAME of channels NAME.R …; NULL: R, G and B */
 } image_source;
 
 /* image_create for the size that a file claims. */

@@ -109,18 +109,28 @@ static image_decoder *decoder_of(const char *path) {
     return NULL;
 }
 
-bool image_read(const char *path, long long pixels_max, image *pixels, cli_error *error) {
-    decoding d = { .source.pixels_max = pixels_max, .decoder = decoder_of(path) };
+static bool read_pixels(decoding *d, const char *path, image *pixels, cli_error *error) {
     void *block;
     size_t size;
     memset(pixels, 0, sizeof *pixels);
-    if (!d.decoder)
-        return cli_fail(error, path, "unknown kind of image (.png, .exr and .hdr are read)");
-    if (!decode(&d, path, &block, &size, error))
+    if (!decode(d, path, &block, &size, error))
         return false;
-    const bool ok = take_image(&d, block, size, pixels, error);
+    const bool ok = take_image(d, block, size, pixels, error);
     munmap(block, size);
     return ok;
+}
+
+bool image_read(const char *path, long long pixels_max, image *pixels, cli_error *error) {
+    decoding d = { .source.pixels_max = pixels_max, .decoder = decoder_of(path) };
+    if (!d.decoder)
+        return cli_fail(error, path, "unknown kind of image (.png, .exr and .hdr are read)");
+    return read_pixels(&d, path, pixels, error);
+}
+
+bool image_read_layer(const char *path, const char *layer, image *pixels, cli_error *error) {
+    decoding d = { .source = { .pixels_max = IMAGE_READ_PIXELS, .layer = layer },
+                   .decoder = image_decode_exr };
+    return read_pixels(&d, path, pixels, error);
 }
 
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error) {

@@ -361,6 +361,7 @@ static double variance_of_mean(double sum, double sum2, int n) {
 reference_result reference_estimate(const reference_estimator *estimator,
                                     const reference_surface *surface, const reference_stop *stop,
                                     uint64_t key) {
+    const int step = stop->step ? stop->step : 1;
     reference_result result = { .samples = 0 };
     double sum[3] = { 0 }, sum2[3] = { 0 };
     plan p;
@@ -371,7 +372,7 @@ reference_result reference_estimate(const reference_estimator *estimator,
         return result;
     for (int n = 0; n < stop->samples;) {
         double value[3], error = 0, mean = 0;
-        take_sample(estimator, &p, key, n++, value);
+        take_sample(estimator, &p, key, stop->first + n++ * step, value);
         for (int c = 0; c < 3; c++) {
             sum[c] += value[c];
             sum2[c] += value[c] * value[c];

@@ -29,6 +29,8 @@ void reference_estimator_free(reference_estimator *estimator);
 typedef struct reference_stop {
     int samples;  /* > 0: as many, or at most as many if error > 0 */
     double error; /* stop when the standard error falls below this part of the mean */
+    int first;    /* number of the first sample */
+    int step;     /* from a sample's number to the next one's; 0 means 1 */
 } reference_stop;
 
 typedef struct reference_result {

@@ -15,6 +15,7 @@ typedef struct reference_settings {
     int width, height;
     scene_camera camera;
     int samples;   /* light samples a pixel; the most if error > 0 */
+    int shard[2];  /* part I of N: every N-th sample of these, from I - 1 on; N 0: all of them */
     double error;  /* stop a pixel when its standard error falls below this part of it; 0: off */
     uint64_t seed; /* of the noise: the same seed gives the same bits on any thread count */
     int threads;   /* 0 means all cores */
@@ -24,6 +25,9 @@ typedef struct reference_settings {
     const reference_material_source *materials; /* instead of the scene's, one for each of them;
                                                    NULL: none */
 } reference_settings;
+
+/* How many samples a pixel takes: all, or those of the shard. */
+int reference_samples(const reference_settings *settings);
 
 /* Radiance through the center of every pixel, and its standard error. Triangles and the glowing
  * spheres are seen; where there is neither, the backdrop of the environment is, or nothing. Both

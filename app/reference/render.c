@@ -182,7 +182,10 @@ static double opacity_of(const frame *f, const reference_hit *hit) {
 
 static void see_surface(const frame *f, worker *own, const reference_hit *hit,
                         reference_vec direction, uint64_t key, sight *seen) {
-    const reference_stop stop = { f->settings->samples, f->settings->error };
+    const reference_settings *const s = f->settings;
+    const bool whole = s->shard[1] == 0;
+    const reference_stop stop = { reference_samples(s), s->error, whole ? 0 : s->shard[0] - 1,
+                                  s->shard[1] };
     reference_surface surface;
     double emission[3];
     describe(f, own, hit, reference_scale(-1, direction), &surface, emission);
@@ -272,6 +275,11 @@ static bool trace_rows(const frame *f, int threads) {
     }
     cli_progress_end();
     return ok;
+}
+
+int reference_samples(const reference_settings *settings) {
+    const int step = settings->shard[1];
+    return step ? (settings->samples - settings->shard[0] + step) / step : settings->samples;
 }
 
 bool reference_render(const scene *world, const reference_settings *settings, image *radiance,

@@ -25,7 +25,9 @@ static void put_text(file *f, const char *text) {
 }
 
 static bool decodes(const file *f, image *pixels, cli_error *error) {
-    const image_source source = { "input.hdr", f->bytes, f->size, 1 << 20 };
+    const image_source source = {
+        .path = "input.hdr", .data = f->bytes, .size = f->size, .pixels_max = 1 << 20
+    };
     *error = (cli_error) { .text = "" };
     return image_decode_hdr(&source, pixels, error);
 }

@@ -34,7 +34,7 @@ static reference_surface surface_of(const reference_band_limit *limit,
 static reference_result estimate(const reference_surface *surface, const scene_light *lights,
                                  size_t count, int samples, uint64_t key) {
     reference_estimator estimator;
-    const reference_stop stop = { samples, 0 };
+    const reference_stop stop = { .samples = samples };
     assert_true(reference_estimator_create(&estimator, lights, count));
     const reference_result result = reference_estimate(&estimator, surface, &stop, key);
     reference_estimator_free(&estimator);
@@ -190,7 +190,7 @@ static void a_light_behind_a_wall_is_hidden(void **state) {
                                     light_at(1, 1, 0, 0.3) };
     const reference_surface surface = surface_of(&whole, &white, up);
     reference_estimator estimator;
-    const reference_stop stop = { 4096, 0 };
+    const reference_stop stop = { .samples = 4096 };
     const double e = (irradiance(&lights[1]) + irradiance(&lights[2])) / REFERENCE_PI;
     const double truth[3] = { e, 2 * e, 4 * e };
     assert_true(reference_estimator_create(&estimator, lights, 3));
@@ -205,7 +205,7 @@ static void sampling_stops_at_the_wanted_error(void **state) {
     const scene_light light = light_at(1, 0, 0, 0.5);
     const reference_surface surface = surface_of(&whole, &white, up);
     reference_estimator estimator;
-    const reference_stop stop = { 100000, 0.01 };
+    const reference_stop stop = { .samples = 100000, .error = 0.01 };
     assert_true(reference_estimator_create(&estimator, &light, 1));
     const reference_result result = reference_estimate(&estimator, &surface, &stop, 3);
     reference_estimator_free(&estimator);

@@ -27,7 +27,7 @@ static reference_result estimate(const reference_ggx *ggx, const reference_band_
                                  double view, const scene_light *light, int samples) {
     reference_surface surface = { .position = origin, .ray_origin = origin };
     reference_estimator estimator;
-    const reference_stop stop = { samples, 0 };
+    const reference_stop stop = { .samples = samples };
     reference_surface_shine(&surface, limit, ggx, up, direction(view, REFERENCE_PI));
     assert_true(reference_estimator_create(&estimator, light, 1));
     const reference_result result =
@@ -207,7 +207,7 @@ static void visible_lights_give_the_same_series(void **state) {
     const reference_result plain = estimate(&ggx, &limit, 0.6, &light, 20000);
     reference_surface surface = { .position = origin, .ray_origin = origin };
     reference_estimator estimator;
-    const reference_stop stop = { 20000, 0 };
+    const reference_stop stop = { .samples = 20000 };
     reference_surface_shine(&surface, &limit, &ggx, up, direction(0.6, REFERENCE_PI));
     assert_true(reference_estimator_create(&estimator, &light, 1));
     estimator.visibility = never;

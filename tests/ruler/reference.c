@@ -62,7 +62,7 @@ static void quadrature_of_lobes_is_within_the_bounds(void **state) {
 
 static reference_result estimate(const ruler_row *row, int samples) {
     const scene_light light = { .emitter = light_of_row(row) };
-    const reference_stop stop = { samples, 0 };
+    const reference_stop stop = { .samples = samples };
     reference_estimator estimator;
     reference_surface surface;
     reference_ggx ggx;
