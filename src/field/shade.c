@@ -42,7 +42,7 @@ static __attribute__((noinline)) void shade_far(const field_shading *shading, si
             sums.specular[k][c] = chunk->sums.specular[k][c] + first;
     }
     for (size_t i = 0; i < count; i++)
-        points[i] = lmp_batch_get(&chunk->point, first + i);
+        points[i] = lmp_batch_get(&chunk->surfaces.point, first + i);
     if (count < FIELD_BRICK)
         memset(planes, 0, FIELD_BRICK * field->values * sizeof *planes);
     const lmp_kernel_out out = { planes, FIELD_BRICK, 1 };
@@ -66,9 +66,9 @@ static float distance(lmp_vec3 a, lmp_vec3 b) {
 }
 
 static chunk_ball ball_of(const shade_chunk *chunk) {
-    lmp_vec3 low = lmp_batch_get(&chunk->point, 0), high = low;
+    lmp_vec3 low = lmp_batch_get(&chunk->surfaces.point, 0), high = low;
     for (size_t i = 1; i < chunk->count; i++) {
-        const lmp_vec3 p = lmp_batch_get(&chunk->point, i);
+        const lmp_vec3 p = lmp_batch_get(&chunk->surfaces.point, i);
         low = (lmp_vec3) { fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z) };
         high = (lmp_vec3) { fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z) };
     }
@@ -97,7 +97,7 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
     lmp_field_set_clear(field, &near);
     for (size_t i = 0; i < chunk->count; i++) {
         field_place place;
-        (void)lmp_field_find(field, lmp_batch_get(&chunk->point, i), &place);
+        (void)lmp_field_find(field, lmp_batch_get(&chunk->surfaces.point, i), &place);
         const uint32_t block = lmp_field_block(field, place.cell);
         if (block != last)
             lmp_field_set_add(field, block, &near);
@@ -185,7 +185,7 @@ static __attribute__((noinline)) void shade_chunks(const field_shading *shading,
             shade_far(shading, first, &chunk);
         shade_near(shading, &chunk);
         lmp_shade_sum_planes(chunk.count, chunk.phong_count, chunk.ambient, &chunk.planes);
-        lmp_shade_store_chunk(&chunk, stride, rgb);
+        lmp_shade_store(&chunk.planes, chunk.at, chunk.count, stride, rgb);
     }
 }
 

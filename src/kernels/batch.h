@@ -26,16 +26,29 @@ static inline size_t lmp_batch_count(size_t count, size_t first) {
     return count - first < LMP_BATCH ? count - first : LMP_BATCH;
 }
 
-/* Elements first … first+count-1; the lanes past them are 0. */
-static inline void lmp_batch_floats(const float *array, size_t stride, size_t first, size_t count,
-                                    lmp_batch_plane *plane) {
+/* Whether elements are where the kernels can read them, in a plane of whole registers. */
+static inline bool lmp_batch_is_there(size_t stride, size_t count) {
+    return stride == sizeof(float) && count % LMP_KERNEL_LANES_MAX == 0;
+}
+
+/* Elements first … first+count-1: where they are, or copied to `plane`, whose lanes past them are
+ * 0. */
+static inline const float *lmp_batch_floats(const float *array, size_t stride, size_t first,
+                                            size_t count, lmp_batch_plane *plane) {
+    if (lmp_batch_is_there(stride, count))
+        return array + first;
     if (stride == sizeof(float))
         memcpy(plane->at, array + first, count * sizeof(float));
     else
         for (size_t i = 0; i < count; i++)
-            memcpy(&plane->at[i], (const char *)array + (first + i) * stride, sizeof(float));
+            plane->at[i] = lmp_element(array, stride, first + i);
     for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
         plane->at[i] = 0;
+    return plane->at;
+}
+
+static inline lmp_kernel_vec3 lmp_batch_planes(const lmp_batch_vec3 *planes) {
+    return (lmp_kernel_vec3) { planes->x.at, planes->y.at, planes->z.at };
 }
 
 static inline void lmp_batch_set(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
@@ -44,8 +57,8 @@ static inline void lmp_batch_set(float x, float y, float z, lmp_batch_vec3 *plan
     planes->z.at[i] = z;
 }
 
-static inline lmp_vec3 lmp_batch_get(const lmp_batch_vec3 *planes, size_t i) {
-    return (lmp_vec3) { planes->x.at[i], planes->y.at[i], planes->z.at[i] };
+static inline lmp_vec3 lmp_batch_get(const lmp_kernel_vec3 *vectors, size_t i) {
+    return (lmp_vec3) { vectors->x[i], vectors->y[i], vectors->z[i] };
 }
 
 /* Element i of the caller's at `to`. */
@@ -64,17 +77,16 @@ static inline void lmp_batch_fill(lmp_batch_vec3 *planes, size_t count) {
 /* The same of vectors; where their members are not planes, in one pass over them. */
 static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, size_t first,
                                                 size_t count, lmp_batch_vec3 *planes) {
-    const lmp_kernel_vec3 vectors = { planes->x.at, planes->y.at, planes->z.at };
-    if (array->stride == sizeof(float)) {
-        lmp_batch_floats(array->x, array->stride, first, count, &planes->x);
-        lmp_batch_floats(array->y, array->stride, first, count, &planes->y);
-        lmp_batch_floats(array->z, array->stride, first, count, &planes->z);
-        return vectors;
-    }
+    if (array->stride == sizeof(float))
+        return (lmp_kernel_vec3) {
+            lmp_batch_floats(array->x, array->stride, first, count, &planes->x),
+            lmp_batch_floats(array->y, array->stride, first, count, &planes->y),
+            lmp_batch_floats(array->z, array->stride, first, count, &planes->z)
+        };
     for (size_t i = 0; i < count; i++)
         lmp_batch_load(array, first + i, planes, i);
     lmp_batch_fill(planes, count);
-    return vectors;
+    return lmp_batch_planes(planes);
 }
 
 /* A caller's stride, in bytes and 0 for tight, as the kernels': in floats. */

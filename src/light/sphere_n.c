@@ -21,50 +21,37 @@ void lmp_sphere_zonal_n(int bands, lmp_float_array radii, lmp_float_array distan
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_out out =
             lmp_batch_out(zonal, (size_t)bands, count, layout == LMP_SH_PLANAR, stride, first);
-        lmp_batch_floats(radii.at, radii.stride, first, n, &radius);
-        lmp_batch_floats(distances.at, distances.stride, first, n, &distance);
-        kernels->zonal(bands, radius.at, distance.at, n, &out);
+        const float *r = lmp_batch_floats(radii.at, radii.stride, first, n, &radius);
+        const float *d = lmp_batch_floats(distances.at, distances.stride, first, n, &distance);
+        kernels->zonal(bands, r, d, n, &out);
     }
-}
-
-static void batch_project(int bands, const batch_pairs *pairs, size_t count,
-                          const lmp_kernel_out *out) {
-    const lmp_kernel_pairs in = {
-        { pairs->center.x.at, pairs->center.y.at, pairs->center.z.at },
-        { pairs->point.x.at, pairs->point.y.at, pairs->point.z.at },
-        pairs->radius.at,
-    };
-    lmp_kernels_get()->project(bands, &in, count, out);
 }
 
 void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array points,
                           size_t count, lmp_sh_layout layout, size_t stride, float *sh) {
     assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
     assert(lmp_are_spheres(spheres, count) && lmp_are_finite(points, count));
-    batch_pairs pairs;
+    const lmp_kernels *kernels = lmp_kernels_get();
+    batch_pairs planes;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_out out =
             lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
-        lmp_batch_vectors(&spheres->center, first, n, &pairs.center);
-        lmp_batch_vectors(&points, first, n, &pairs.point);
-        lmp_batch_floats(spheres->radius.at, spheres->radius.stride, first, n, &pairs.radius);
-        batch_project(bands, &pairs, n, &out);
+        const lmp_kernel_pairs pairs = {
+            lmp_batch_vectors(&spheres->center, first, n, &planes.center),
+            lmp_batch_vectors(&points, first, n, &planes.point),
+            lmp_batch_floats(spheres->radius.at, spheres->radius.stride, first, n, &planes.radius)
+        };
+        kernels->project(bands, &pairs, n, &out);
     }
 }
 
 /* Copies sphere `sphere` and point `point` to element i. */
 static void batch_pair(const lmp_spheres *spheres, size_t sphere, const lmp_vec3_array *points,
                        size_t point, size_t i, batch_pairs *pairs) {
-    const size_t center = sphere * spheres->center.stride, at = point * points->stride;
-    memcpy(&pairs->center.x.at[i], (const char *)spheres->center.x + center, sizeof(float));
-    memcpy(&pairs->center.y.at[i], (const char *)spheres->center.y + center, sizeof(float));
-    memcpy(&pairs->center.z.at[i], (const char *)spheres->center.z + center, sizeof(float));
-    memcpy(&pairs->radius.at[i], (const char *)spheres->radius.at + sphere * spheres->radius.stride,
-           sizeof(float));
-    memcpy(&pairs->point.x.at[i], (const char *)points->x + at, sizeof(float));
-    memcpy(&pairs->point.y.at[i], (const char *)points->y + at, sizeof(float));
-    memcpy(&pairs->point.z.at[i], (const char *)points->z + at, sizeof(float));
+    lmp_batch_load(&spheres->center, sphere, &pairs->center, i);
+    lmp_batch_load(points, point, &pairs->point, i);
+    pairs->radius.at[i] = lmp_element(spheres->radius.at, spheres->radius.stride, sphere);
 }
 
 void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere_count,
@@ -76,19 +63,21 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
     assert(lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
     size_t sphere = 0, point = 0;
     /* Zero: the lanes past the last pair are read too. */
-    batch_pairs pairs = { 0 };
+    batch_pairs planes = { 0 };
+    const lmp_kernel_pairs pairs = { lmp_batch_planes(&planes.center),
+                                     lmp_batch_planes(&planes.point), planes.radius.at };
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_out out =
             lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
         for (size_t i = 0; i < n; i++) {
-            batch_pair(spheres, sphere, &points, point, i, &pairs);
+            batch_pair(spheres, sphere, &points, point, i, &planes);
             if (++sphere == sphere_count) {
                 sphere = 0;
                 point++;
             }
         }
-        batch_project(bands, &pairs, n, &out);
+        lmp_kernels_get()->project(bands, &pairs, n, &out);
     }
 }
 

@@ -30,21 +30,11 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
     return others;
 }
 
-static lmp_kernel_vec3 load_vectors(const lmp_vec3_array *array, const shade_chunk *chunk,
-                                    lmp_batch_vec3 *planes) {
-    const size_t first = chunk->at[0], count = chunk->count;
-    if (chunk->at[count - 1] - first == count - 1)
-        return lmp_batch_vectors(array, first, count, planes);
-    for (size_t i = 0; i < count; i++)
-        lmp_batch_load(array, chunk->at[i], planes, i);
-    lmp_batch_fill(planes, count);
-    return (lmp_kernel_vec3) { planes->x.at, planes->y.at, planes->z.at };
-}
-
 static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {
     shade_planes *planes = &chunk->planes;
     const int lobes = chunk->phong_count;
-    lmp_shade_load(surfaces, chunk->at, chunk->count, lobes, &chunk->normal, &chunk->view, planes);
+    lmp_shade_load(surfaces, chunk->at, chunk->count, lobes, &chunk->surfaces.normal,
+                   &chunk->surfaces.view, planes);
     chunk->surfaces.lobe_count = lobes;
     for (int k = 0; k < lobes; k++) {
         shade_lobe_planes *lobe = &planes->lobe[k];
@@ -58,24 +48,18 @@ static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {
 }
 
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
-    chunk->surfaces.point = load_vectors(&surfaces->position, chunk, &chunk->point);
-    chunk->surfaces.normal = load_vectors(&surfaces->normal, chunk, &chunk->normal);
-    chunk->surfaces.view = load_vectors(&surfaces->view, chunk, &chunk->view);
+    chunk->surfaces.point =
+        lmp_shade_vectors(&surfaces->position, chunk->at, chunk->count, &chunk->point);
+    chunk->surfaces.normal =
+        lmp_shade_vectors(&surfaces->normal, chunk->at, chunk->count, &chunk->normal);
+    chunk->surfaces.view =
+        lmp_shade_vectors(&surfaces->view, chunk->at, chunk->count, &chunk->view);
     if (!chunk->source.preintegrated)
         load_lobes(surfaces, chunk);
     memset(chunk->planes.accumulated, 0, sizeof chunk->planes.accumulated);
     memset(chunk->ambient, 0, sizeof chunk->ambient);
     for (int c = 0; c < 3; c++)
         chunk->sums.diffuse[c] = chunk->planes.accumulated[c].at;
-}
-
-void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb) {
-    const lmp_batch_plane *sum = chunk->planes.accumulated;
-    for (size_t i = 0; i < chunk->count; i++) {
-        float *to = (float *)(void *)((char *)rgb + chunk->at[i] * stride);
-        for (int c = 0; c < 3; c++)
-            to[c] = lmp_shade_clamped(sum[c].at[i]);
-    }
 }
 
 /* --- lights ----------------------------------------------------------------------------------- */
@@ -91,7 +75,7 @@ static void take_cone(const lmp_light *light, const shade_chunk *chunk, float *s
     plain = white;
     plain.kind = LMP_LIGHT_POINT;
     for (size_t i = 0; i < chunk->count; i++) {
-        const lmp_vec3 at = lmp_batch_get(&chunk->point, i);
+        const lmp_vec3 at = lmp_batch_get(&chunk->surfaces.point, i);
         lmp_cap cone, full;
         lmp_light_cap(&white, at, &cone);
         lmp_light_cap(&plain, at, &full);

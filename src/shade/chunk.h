@@ -31,9 +31,6 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
 /* Of the surfaces taken all that a kernel reads; nothing is accumulated yet. */
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk);
 
-/* What the lobes and the diffuse one have accumulated, already weighted, clamped at 0. */
-void lmp_shade_store_chunk(const shade_chunk *chunk, size_t stride, float *rgb);
-
 static inline void lmp_shade_take_sphere(const lmp_light *light, lmp_kernel_light *taken) {
     const lmp_vec3 p = light->position;
     *taken = (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL, 0 };

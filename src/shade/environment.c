@@ -47,24 +47,12 @@ typedef struct environment_chunk {
     shade_planes lobes;
 } environment_chunk;
 
-static void take_vectors(const lmp_vec3_array *array, const environment_chunk *chunk,
-                         lmp_batch_vec3 *planes) {
-    for (size_t i = 0; i < chunk->count || i % LMP_KERNEL_LANES_MAX; i++) {
-        const lmp_vec3 v =
-            i < chunk->count ? lmp_vec3_element(array, chunk->at[i]) : (lmp_vec3) { 0, 0, 0 };
-        planes->x.at[i] = v.x;
-        planes->y.at[i] = v.y;
-        planes->z.at[i] = v.z;
-    }
-}
-
 static void accumulate(const environment_method *method, const float *factors,
-                       const float *exponents, const lmp_batch_vec3 *axes, size_t count,
+                       const float *exponents, const lmp_kernel_vec3 *axes, size_t count,
                        lmp_batch_plane accumulated[3]) {
-    const lmp_kernel_vec3 directions = { axes->x.at, axes->y.at, axes->z.at };
     const lmp_kernel_out out = { accumulated[0].at, LMP_BATCH, 1 };
-    lmp_kernels_get()->reconstruct(method->bands, factors, exponents, method->planes, &directions,
-                                   count, &out);
+    lmp_kernels_get()->reconstruct(method->bands, factors, exponents, method->planes, axes, count,
+                                   &out);
 }
 
 static void shade_lobes_of_chunk(const environment_method *method, const lmp_surfaces *surfaces,
@@ -73,22 +61,18 @@ static void shade_lobes_of_chunk(const environment_method *method, const lmp_sur
     static const float no_light[3] = { 0, 0, 0 };
     shade_planes *lobes = &chunk->lobes;
     const size_t count = chunk->count;
-    take_vectors(&surfaces->normal, chunk, &chunk->normal);
-    take_vectors(&surfaces->view, chunk, &chunk->view);
-    lmp_shade_load(surfaces, chunk->at, count, lobe_count, &chunk->normal, &chunk->view, lobes);
-    accumulate(method, method->diffuse, NULL, &chunk->normal, count, lobes->accumulated);
+    const lmp_kernel_vec3 normal =
+        lmp_shade_vectors(&surfaces->normal, chunk->at, count, &chunk->normal);
+    const lmp_kernel_vec3 view = lmp_shade_vectors(&surfaces->view, chunk->at, count, &chunk->view);
+    lmp_shade_load(surfaces, chunk->at, count, lobe_count, &normal, &view, lobes);
+    accumulate(method, method->diffuse, NULL, &normal, count, lobes->accumulated);
     for (int k = 0; k < lobe_count; k++) {
         shade_lobe_planes *lobe = &lobes->lobe[k];
-        accumulate(method, method->window, lobe->exponent.at, &lobe->axis, count,
-                   lobe->accumulated);
+        const lmp_kernel_vec3 axis = lmp_batch_planes(&lobe->axis);
+        accumulate(method, method->window, lobe->exponent.at, &axis, count, lobe->accumulated);
     }
     lmp_shade_sum_planes(count, lobe_count, no_light, lobes);
-    for (size_t i = 0; i < count; i++) {
-        const lmp_rgb color = { lmp_shade_clamped(lobes->accumulated[0].at[i]),
-                                lmp_shade_clamped(lobes->accumulated[1].at[i]),
-                                lmp_shade_clamped(lobes->accumulated[2].at[i]) };
-        memcpy((char *)rgb + chunk->at[i] * stride, &color, sizeof color);
-    }
+    lmp_shade_store(lobes, chunk->at, count, stride, rgb);
 }
 
 /* --- surfaces --------------------------------------------------------------------------------- */

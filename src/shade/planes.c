@@ -12,9 +12,19 @@ static float *plane_of(lmp_batch_vec3 *planes, size_t c) {
     return c == 0 ? planes->x.at : c == 1 ? planes->y.at : planes->z.at;
 }
 
+lmp_kernel_vec3 lmp_shade_vectors(const lmp_vec3_array *array, const size_t *at, size_t count,
+                                  lmp_batch_vec3 *planes) {
+    if (at[count - 1] - at[0] == count - 1)
+        return lmp_batch_vectors(array, at[0], count, planes);
+    for (size_t i = 0; i < count; i++)
+        lmp_batch_load(array, at[i], planes, i);
+    lmp_batch_fill(planes, count);
+    return lmp_batch_planes(planes);
+}
+
 /* Of a material that has one lobe, its own. */
 static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t count,
-                       const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
+                       const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
                        shade_planes *planes) {
     shade_lobe_planes *lobe = &planes->lobe[0];
     for (size_t i = 0; i < count; i++) {
@@ -41,7 +51,7 @@ static void scale(const float *factors, size_t count, float *values) {
 }
 
 static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobe_count,
-                     const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
+                     const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
                      shade_planes *planes) {
     lmp_batch_plane roughness, passed, f0_part[LMP_GGX_LOBES], f90_part[LMP_GGX_LOBES];
     lmp_batch_vec3 f0;
@@ -64,8 +74,8 @@ static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t coun
                                            f0_part[k].at,
                                            f90_part[k].at };
     }
-    const float *const n[3] = { normal->x.at, normal->y.at, normal->z.at };
-    const float *const v[3] = { view->x.at, view->y.at, view->z.at };
+    const float *const n[3] = { normal->x, normal->y, normal->z };
+    const float *const v[3] = { view->x, view->y, view->z };
     lmp_lobe_ggx_n(n, v, roughness.at, count, lobe_count, lobes, passed.at);
     for (size_t i = 0; i < count; i++)
         passed.at[i] = lmp_shade_passed(&layers[i], passed.at[i]);
@@ -80,7 +90,7 @@ static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t coun
 }
 
 void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobes,
-                    const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view,
+                    const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
                     shade_planes *planes) {
     if (lobes == 1)
         load_phong(surfaces, at, count, normal, view, planes);
@@ -105,5 +115,15 @@ void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade
             for (size_t i = 0; i < count; i++)
                 sum[i] += weight[i] * (lobe->accumulated[c].at[i] + ambient[c]);
         }
+    }
+}
+
+void lmp_shade_store(const shade_planes *planes, const size_t *at, size_t count, size_t stride,
+                     float *rgb) {
+    const lmp_batch_plane *sum = planes->accumulated;
+    for (size_t i = 0; i < count; i++) {
+        float *to = (float *)(void *)((char *)rgb + at[i] * stride);
+        for (int c = 0; c < 3; c++)
+            to[c] = lmp_shade_clamped(sum[c].at[i]);
     }
 }

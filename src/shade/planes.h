@@ -27,12 +27,21 @@ typedef struct shade_planes {
     shade_lobe_planes lobe[LMP_KERNEL_LOBES_MAX];
 } shade_planes;
 
+/* Vectors of surfaces at[0 … count-1], which rise: where they are, or in these planes. */
+lmp_kernel_vec3 lmp_shade_vectors(const lmp_vec3_array *array, const size_t *at, size_t count,
+                                  lmp_batch_vec3 *planes);
+
 /* The lobes of the surfaces at[0 … count-1], `lobes` Phong ones each; what they accumulate
  * is not set. */
 void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobes,
-                    const lmp_batch_vec3 *normal, const lmp_batch_vec3 *view, shade_planes *planes);
+                    const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
+                    shade_planes *planes);
 
 /* What the lobes have accumulated and ambient light, weighted: into what the diffuse one has. */
 void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade_planes *planes);
+
+/* What the diffuse lobe has, clamped at 0, as the colors of the surfaces at[0 … count-1]. */
+void lmp_shade_store(const shade_planes *planes, const size_t *at, size_t count, size_t stride,
+                     float *rgb);
 
 #endif

@@ -79,7 +79,7 @@ static void shade_by_kernels(const shade_prepared *prepared, const lmp_surfaces 
     }
     if (chunk->phong_count)
         lmp_shade_sum_planes(chunk->count, chunk->phong_count, chunk->ambient, &chunk->planes);
-    lmp_shade_store_chunk(chunk, stride, rgb);
+    lmp_shade_store(&chunk->planes, chunk->at, chunk->count, stride, rgb);
 }
 
 void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
