@@ -10,6 +10,7 @@
 #include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
 #include "src/kernels/reconstruct.h"
+#include "src/kernels/rows.h"
 #include "src/kernels/shade_zonal.h"
 #include "src/kernels/vectors.h"
 
@@ -30,6 +31,8 @@ const lmp_kernels LMP_KERNELS = {
     .name = "neon",
 #endif
     .lanes = LMP_LANES,
+    .load_rows = kernel_load_rows,
+    .store_colors = kernel_store_colors,
     .eval = kernel_eval,
     .eval_gradient = kernel_eval_gradient,
     .dot = kernel_dot,

@@ -32,6 +32,13 @@ typedef struct lmp_kernel_vec3 {
     const float *x, *y, *z;
 } lmp_kernel_vec3;
 
+/* Rows anywhere: that of element e begins at[e] * stride bytes after the first. at is readable like
+ * planes, and what is read past `count` names rows, too. */
+typedef struct lmp_kernel_rows {
+    const size_t *at;
+    size_t stride;
+} lmp_kernel_rows;
+
 /* One sphere of radiance 1 an element. */
 typedef struct lmp_kernel_pairs {
     lmp_kernel_vec3 center, point;
@@ -147,6 +154,11 @@ typedef struct lmp_kernels {
     const char *name;
     int lanes;
 
+    /* `values` planes, 4 and up, of as many floats a row; rows of three planes, clamped at 0. */
+    void (*load_rows)(size_t values, const float *first, const lmp_kernel_rows *rows, size_t count,
+                      float *const *planes);
+    void (*store_colors)(const float *const planes[3], size_t count, const lmp_kernel_rows *rows,
+                         float *first);
     /* bands^2 values: Y_lm. */
     void (*eval)(int bands, const lmp_kernel_vec3 *directions, size_t count,
                  const lmp_kernel_out *out);

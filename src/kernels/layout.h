@@ -70,6 +70,19 @@ LMP_INLINE void layout_rows4(const float *block, float *row, size_t stride) {
     }
 }
 
+/* Of four planes three, without what follows a row. */
+LMP_INLINE void layout_rows3(const float *block, float *row, size_t stride) {
+    vf t[4];
+    LMP_UNROLL for (int i = 0; i < 3; i++) t[i] = vf_load(block + i * LMP_LANES);
+    t[3] = t[2];
+    layout_transpose4(t);
+    LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
+        memcpy(row, (const char *)&t[e % 4] + 16 * (e / 4), 3 * sizeof(float));
+        row += stride;
+        LMP_OPAQUE(row);
+    }
+}
+
 #if LMP_LANES == 8
 #define LAYOUT_GROUP 8
 LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
@@ -125,6 +138,10 @@ static inline void layout_rows(const float *block, size_t values, float *rows, s
         /* The last four again, rather than what is left of them one by one. */
         if (v < values)
             layout_rows4(block + (values - 4) * LMP_LANES, rows + values - 4, stride);
+        return;
+    }
+    if (live == LMP_LANES && values == 3) {
+        layout_rows3(block, rows, stride);
         return;
     }
 #endif

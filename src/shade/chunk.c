@@ -5,27 +5,42 @@
 
 static const float pi = 3.14159265f;
 
+/* What a surface is shaded from and by how many lobes. */
+typedef struct shade_likeness {
+    shade_source source;
+    int phong_count;
+} shade_likeness;
+
+static shade_likeness likeness_of(const lmp_surfaces *surfaces, bool preintegrated, size_t at) {
+    const lmp_material *material = lmp_material_at(surfaces, at);
+    return (shade_likeness) { lmp_shade_source(material, preintegrated),
+                              lmp_shade_phong_count(material,
+                                                    lmp_vec3_element(&surfaces->normal, at),
+                                                    lmp_vec3_element(&surfaces->view, at)) };
+}
+
 size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
                             size_t count, shade_chunk *chunk) {
+    const shade_likeness first = likeness_of(surfaces, preintegrated, left[0]);
+    const bool own_lobe = lmp_material_at(surfaces, left[0])->kind == LMP_MATERIAL_LOBES;
     size_t taken = 0, others = 0;
     for (size_t i = 0; i < count; i++) {
         const size_t at = left[i];
-        const lmp_material *material = lmp_material_at(surfaces, at);
-        const shade_source source = lmp_shade_source(material, preintegrated);
-        const int phong_count =
-            lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, at),
-                                  lmp_vec3_element(&surfaces->view, at));
-        if (i == 0) {
-            chunk->source = source;
-            chunk->phong_count = phong_count;
+        bool alike = lmp_material_at(surfaces, at)->kind == LMP_MATERIAL_LOBES;
+        if (!alike || !own_lobe) {
+            const shade_likeness this = likeness_of(surfaces, preintegrated, at);
+            alike = this.source.table == first.source.table &&
+                    this.source.preintegrated == first.source.preintegrated &&
+                    this.phong_count == first.phong_count;
         }
-        if (source.table == chunk->source.table &&
-            source.preintegrated == chunk->source.preintegrated &&
-            phong_count == chunk->phong_count)
+        if (alike)
             chunk->at[taken++] = at;
         else
             left[others++] = at;
     }
+    lmp_shade_fill(chunk->at, taken);
+    chunk->source = first.source;
+    chunk->phong_count = first.phong_count;
     chunk->count = taken;
     return others;
 }

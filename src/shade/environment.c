@@ -118,8 +118,10 @@ void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
                     shade_one(surfaces, i, environment, lmp_shade_source(material, false).table,
                               stride, rgb);
             }
-            if (chunk.count > 0)
-                shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);
+            if (chunk.count == 0)
+                continue;
+            lmp_shade_fill(chunk.at, chunk.count);
+            shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);
         }
     }
 }

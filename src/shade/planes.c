@@ -22,17 +22,20 @@ lmp_kernel_vec3 lmp_shade_vectors(const lmp_vec3_array *array, const size_t *at,
     return lmp_batch_planes(planes);
 }
 
+static_assert(offsetof(lmp_material, specular) == offsetof(lmp_material, diffuse) + 12 &&
+                  offsetof(lmp_material, exponent) == offsetof(lmp_material, diffuse) + 24,
+              "a lobe of its own is seven floats of a material");
+
 /* Of a material that has one lobe, its own. */
 static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t count,
                        const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
                        shade_planes *planes) {
     shade_lobe_planes *lobe = &planes->lobe[0];
-    for (size_t i = 0; i < count; i++) {
-        const lmp_material *m = lmp_material_at(surfaces, at[i]);
-        lmp_batch_set(m->diffuse.r, m->diffuse.g, m->diffuse.b, &planes->diffuse, i);
-        lmp_batch_set(m->specular.r, m->specular.g, m->specular.b, &lobe->weight, i);
-        lobe->exponent.at[i] = m->exponent;
-    }
+    float *const to[7] = { planes->diffuse.x.at, planes->diffuse.y.at, planes->diffuse.z.at,
+                           lobe->weight.x.at,    lobe->weight.y.at,    lobe->weight.z.at,
+                           lobe->exponent.at };
+    const lmp_kernel_rows rows = { at, surfaces->material_stride };
+    lmp_kernels_get()->load_rows(7, &surfaces->material->diffuse.r, &rows, count, to);
     for (size_t i = 0; i < count; i++) {
         const lmp_vec3 axis = lmp_shade_mirrored(lmp_batch_get(normal, i), lmp_batch_get(view, i));
         lmp_batch_set(axis.x, axis.y, axis.z, &lobe->axis, i);
@@ -121,9 +124,7 @@ void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade
 void lmp_shade_store(const shade_planes *planes, const size_t *at, size_t count, size_t stride,
                      float *rgb) {
     const lmp_batch_plane *sum = planes->accumulated;
-    for (size_t i = 0; i < count; i++) {
-        float *to = (float *)(void *)((char *)rgb + at[i] * stride);
-        for (int c = 0; c < 3; c++)
-            to[c] = lmp_shade_clamped(sum[c].at[i]);
-    }
+    const float *const colors[3] = { sum[0].at, sum[1].at, sum[2].at };
+    const lmp_kernel_rows rows = { at, stride };
+    lmp_kernels_get()->store_colors(colors, count, &rows, rgb);
 }

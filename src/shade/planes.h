@@ -27,7 +27,14 @@ typedef struct shade_planes {
     shade_lobe_planes lobe[LMP_KERNEL_LOBES_MAX];
 } shade_planes;
 
-/* Vectors of surfaces at[0 … count-1], which rise: where they are, or in these planes. */
+/* Past the last index of a chunk's surfaces, that one again: kernels read whole registers. */
+static inline void lmp_shade_fill(size_t *at, size_t count) {
+    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
+        at[i] = at[count - 1];
+}
+
+/* Vectors of surfaces at[0 … count-1], which rise and are filled: where they are,
+ * or in these planes. */
 lmp_kernel_vec3 lmp_shade_vectors(const lmp_vec3_array *array, const size_t *at, size_t count,
                                   lmp_batch_vec3 *planes);
 

@@ -4,8 +4,10 @@
 #include "src/kernels/kernels.h"
 #include "tests/oracle/check.h"
 
+#include <lampion/cpu.h>
 #include <lampion/lampion.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -325,6 +327,50 @@ static void the_mask_chooses_the_kernels(void **test) {
     assert_true(lmp_cpu_mask(LMP_CPU_ALL) * 2 > all);
 }
 
+/* Rows of seven floats in any order as planes, and three planes as colors beside what stays. */
+static void rows_are_planes_wherever_they_are(void **test) {
+    (void)test;
+    enum { ROWS = 48, WIDTH = 9, TAKEN = 37, COLOR = 5 };
+    static const float clamped[5][2] = {
+        { 2, 2 }, { -2, 0 }, { 0, 0 }, { -0.0f, 0 }, { NAN, NAN }
+    };
+    float rows[ROWS * WIDTH], planes[7][ROWS], sums[3][ROWS], *to[7];
+    size_t at[ROWS];
+    for (size_t i = 0; i < ROWS; i++) {
+        at[i] = (i < TAKEN ? i : TAKEN - 1) * 7 % ROWS;
+        for (size_t v = 0; v < WIDTH; v++)
+            rows[i * WIDTH + v] = (float)(100 * i + v);
+        for (size_t c = 0; c < 3; c++)
+            sums[c][i] = clamped[(i + c) % 5][0];
+    }
+    for (size_t v = 0; v < 7; v++)
+        to[v] = planes[v];
+    const lmp_kernel_rows from = { at, WIDTH * sizeof(float) };
+    const lmp_kernel_rows into = { at, COLOR * sizeof(float) };
+    const float *const sum[3] = { sums[0], sums[1], sums[2] };
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+        lmp_kernels kernels;
+        float colors[ROWS * COLOR];
+        size_t written = 0;
+        (void)lmp_kernels_init(&kernels, flag);
+        memset(planes, 0, sizeof planes);
+        for (size_t i = 0; i < ROWS * COLOR; i++)
+            colors[i] = 77;
+        kernels.load_rows(7, rows, &from, TAKEN, to);
+        kernels.store_colors(sum, TAKEN, &into, colors);
+        for (size_t i = 0; i < TAKEN; i++) {
+            for (size_t v = 0; v < 7; v++)
+                assert_memory_equal(&planes[v][i], &rows[at[i] * WIDTH + v], sizeof(float));
+            for (size_t c = 0; c < 3; c++)
+                assert_memory_equal(&colors[at[i] * COLOR + c], &clamped[(i + c) % 5][1],
+                                    sizeof(float));
+        }
+        for (size_t i = 0; i < ROWS * COLOR; i++)
+            written += !(colors[i] >= 77 && colors[i] <= 77);
+        assert_int_equal(written, 3 * TAKEN);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(project_takes_structures_and_gives_rows),
@@ -340,6 +386,7 @@ int main(void) {
         cmocka_unit_test(basis_zonal_rotation_and_dot_are_the_scalar_ones),
         cmocka_unit_test(slopes_of_the_basis_are_those_of_one_direction),
         cmocka_unit_test(images_have_the_same_bits_by_every_mask),
+        cmocka_unit_test(rows_are_planes_wherever_they_are),
         cmocka_unit_test(the_mask_chooses_the_kernels),
     };
     return cmocka_run_group_tests(tests, fill, NULL);

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT */
+/* rows.h - between planes and rows that lie anywhere: what surfaces reflect by, and their colors.
+ */
+#ifndef LAMPION_KERNELS_ROWS_H
+#define LAMPION_KERNELS_ROWS_H
+
+#include "src/kernels/layout.h"
+
+LMP_INLINE size_t rows_offset(const lmp_kernel_rows *rows, size_t e) {
+    return rows->at[e] * rows->stride;
+}
+
+#if LMP_LANES > 1
+
+/* Four floats of rows e, e + 4, e + 8 …, a quarter each. */
+LMP_INLINE vf rows_quarters(const float *const *row, size_t v) {
+#if LMP_LANES == 16
+    __m512 quarters = _mm512_castps128_ps512(_mm_loadu_ps(row[0] + v));
+    quarters = _mm512_insertf32x4(quarters, _mm_loadu_ps(row[4] + v), 1);
+    quarters = _mm512_insertf32x4(quarters, _mm_loadu_ps(row[8] + v), 2);
+    return (vf)_mm512_insertf32x4(quarters, _mm_loadu_ps(row[12] + v), 3);
+#elif LMP_LANES == 8
+    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[0] + v)),
+                                    _mm_loadu_ps(row[4] + v), 1);
+#else
+    return vf_load(row[0] + v);
+#endif
+}
+
+LMP_INLINE void rows_load4(const float *const *row, size_t v, size_t e, float *const *planes) {
+    vf t[4];
+    LMP_UNROLL for (int i = 0; i < 4; i++) t[i] = rows_quarters(row + i, v);
+    layout_transpose4(t);
+    LMP_UNROLL for (size_t i = 0; i < 4; i++) vf_store(planes[v + i] + e, t[i]);
+}
+
+static void kernel_load_rows(size_t values, const float *first, const lmp_kernel_rows *rows,
+                             size_t count, float *const *planes) {
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        const float *row[LMP_LANES];
+        LMP_UNROLL for (size_t i = 0; i < LMP_LANES; i++) row[i] =
+            (const float *)(const void *)((const char *)first + rows_offset(rows, e + i));
+        for (size_t v = 0; v + 4 <= values; v += 4)
+            rows_load4(row, v, e, planes);
+        /* The last four again, rather than what is left of them one by one. */
+        if (values % 4 != 0)
+            rows_load4(row, values - 4, e, planes);
+    }
+}
+
+#else
+
+static void kernel_load_rows(size_t values, const float *first, const lmp_kernel_rows *rows,
+                             size_t count, float *const *planes) {
+    for (size_t e = 0; e < count; e++)
+        for (size_t v = 0; v < values; v++)
+            planes[v][e] =
+                ((const float *)(const void *)((const char *)first + rows_offset(rows, e)))[v];
+}
+
+#endif
+
+/* A truncated series rings below 0; NaN stays. */
+static void kernel_store_colors(const float *const planes[3], size_t count,
+                                const lmp_kernel_rows *rows, float *first) {
+    size_t e = 0;
+#if LMP_LANES > 1
+    for (; e + LMP_LANES <= count; e += LMP_LANES) {
+        const vf zero = vf_set(0);
+        vf t[4];
+        LMP_UNROLL for (int i = 0; i < 3; i++) t[i] = vf_max(zero, vf_load(planes[i] + e)) + zero;
+        t[3] = zero;
+        layout_transpose4(t);
+        LMP_UNROLL for (int i = 0; i < LMP_LANES; i++)
+            memcpy((char *)first + rows_offset(rows, e + (size_t)i),
+                   (const char *)&t[i % 4] + 16 * (i / 4), 3 * sizeof(float));
+    }
+#endif
+    for (; e < count; e++) {
+        float *to = (float *)(void *)((char *)first + rows_offset(rows, e));
+        for (int i = 0; i < 3; i++)
+            to[i] = planes[i][e] <= 0 ? 0 : planes[i][e];
+    }
+}
+
+#endif
