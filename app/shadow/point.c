@@ -39,7 +39,7 @@ static void leave_triangle(const shadow_view *view, const trace_hit *hit, int la
     for (int i = 0; i < 3; i++) {
         const lmp_vec3 normal = vec_scale(vec_load(corners[i]->normal), side);
         const float below = vec_dot(vec_sub(at, vec_load(corners[i]->position)), normal);
-        if (below < 0)
+        if (below < 0 && !view->facets)
             bulge = vec_sub(bulge, vec_scale(normal, (float)weights[i] * below));
     }
     set_lane(&p->smooth, lane, vec_normalize(smooth, vec_scale(face, side)));

@@ -11,6 +11,7 @@ typedef struct shadow_settings {
     int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
     uint32_t seed; /* of the noise: the same seed gives the same bits on any number of threads */
     bool raw;      /* without the filter */
+    bool facets;   /* rays leave flat triangles, as the reference's do, whose edges show at dusk */
 } shadow_settings;
 #define SHADOW_RAYS_MAX     1024
 #define SHADOW_RAYS_DEFAULT 2

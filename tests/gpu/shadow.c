@@ -42,7 +42,9 @@ static void average(stage *s, const environment *around, int seeds, double *mean
     memset(mean, 0, 3 * PIXELS * sizeof *mean);
     memset(variance, 0, 3 * PIXELS * sizeof *variance);
     for (int seed = 0; seed < seeds; seed++) {
-        const shadow_settings settings = { .rays = 16, .seed = (uint32_t)seed, .raw = true };
+        const shadow_settings settings = {
+            .rays = 16, .seed = (uint32_t)seed, .raw = true, .facets = true
+        };
         image pixels = draw_shadows(s, around, &settings);
         for (int i = 0; i < 3 * PIXELS; i++) {
             const double value = (double)pixels.rgb[i];
