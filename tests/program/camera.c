@@ -30,7 +30,7 @@ static void cameras_out_of_reach_are_refused(void **state) {
 static void measure(const scene *s, const scene_camera *camera, double aspect, double sides[4]) {
     double f[3], r[3], u[3], length = 0;
     for (int i = 0; i < 4; i++)
-        sides[i] = -INFINITY;
+        sides[i] = -(double)INFINITY;
     for (int k = 0; k < 3; k++)
         f[k] = (double)camera->target[k] - (double)camera->eye[k];
     for (int k = 0; k < 3; k++)
