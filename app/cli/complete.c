@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* What may be written next: words, and one of the kinds below. */
-typedef enum kind { NOTHING, FILES, FOLDERS, SCENES, COMMANDS } kind;
+typedef enum kind { NOTHING, FILES, FOLDERS, SCENES, COMMANDS, MATERIALS, OVERRIDES } kind;
 typedef struct candidates {
     char words[1024]; /* divided by blanks */
     kind kind;
@@ -19,9 +19,9 @@ static kind kind_of(const char *name, size_t length) {
         const char *name;
         kind kind;
     } known[] = {
-        { "FILE", FILES },      { "DIR", FOLDERS },        { "SCENE", SCENES },
-        { "IMAGE", FILES },     { "REFERENCE", FILES },    { "MATERIAL", FILES },
-        { "MATERIAL…", FILES }, { "[COMMAND]", COMMANDS },
+        { "FILE", FILES },          { "DIR", FOLDERS },        { "SCENE", SCENES },
+        { "IMAGE", FILES },         { "REFERENCE", FILES },    { "MATERIAL", MATERIALS },
+        { "MATERIAL…", MATERIALS }, { "[COMMAND]", COMMANDS }, { "NAME=MATERIAL", OVERRIDES },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strlen(known[i].name) == length && memcmp(known[i].name, name, length) == 0)
@@ -87,7 +87,8 @@ static bool offers(const cli_option *option) {
 }
 
 static void print_bash_candidates(const candidates *p) {
-    static const char *const kinds[] = { "nothing", "files", "folders", "scenes", "commands" };
+    static const char *const kinds[] = { "nothing",  "files",     "folders",  "scenes",
+                                         "commands", "materials", "overrides" };
     if (p->kind != NOTHING)
         printf("kind=%s ", kinds[p->kind]);
     if (p->words[0])
@@ -148,8 +149,13 @@ void option_bash(const cli_command *command, const cli_option *options) {
 /* --- zsh -------------------------------------------------------------------------------------- */
 
 static void print_zsh_candidates(const char *name, const candidates *p) {
-    static const char *const kinds[] = { " ", "_files", "_files -/", "_lampion_scenes",
-                                         "_lampion_commands" };
+    static const char *const kinds[] = { " ",
+                                         "_files",
+                                         "_files -/",
+                                         "_lampion_scenes",
+                                         "_lampion_commands",
+                                         "_lampion_materials",
+                                         "_lampion_overrides" };
     putchar(':');
     print_escaped(name, ":[]", "'\\''");
     if (p->words[0])
@@ -193,9 +199,13 @@ void option_zsh(const cli_command *command, const cli_option *options) {
 /* --- fish ------------------------------------------------------------------------------------- */
 
 static void print_fish_candidates(const candidates *p) {
-    static const char *const kinds[] = { " -x", " -r -F", " -x -a '(__fish_complete_directories)'",
+    static const char *const kinds[] = { " -x",
+                                         " -r -F",
+                                         " -x -a '(__fish_complete_directories)'",
                                          " -r -F -a '(__lampion_scenes)'",
-                                         " -x -a '(__lampion_commands)'" };
+                                         " -x -a '(__lampion_commands)'",
+                                         " -r -F -a '(__lampion_materials)'",
+                                         " -x -a '(__lampion_overrides)'" };
     fputs(kinds[p->kind], stdout);
     if (p->words[0])
         printf(" -a '%s'", p->words);

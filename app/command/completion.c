@@ -4,6 +4,8 @@
 #include "app/command/command.h"
 #include "app/scene/scene.h"
 
+#include <lampion/brdf.h>
+
 #include <stdio.h>
 #include <string.h>
 
@@ -17,6 +19,11 @@ static void print_commands(void) {
 static void print_scenes(void) {
     for (size_t i = 0; scene_builtin_name(i); i++)
         printf("%sbuiltin:%s", i ? " " : "", scene_builtin_name(i));
+}
+
+static void print_materials(void) {
+    for (size_t i = 0; lmp_sgd_name(i); i++)
+        printf("%ssgd:%s", i ? " " : "", lmp_sgd_name(i));
 }
 
 /* A line 'NAME<between>SUMMARY' for each command. */
@@ -44,6 +51,8 @@ static void begin_bash(void) {
     print_commands();
     printf("help' scenes='");
     print_scenes();
+    printf("' materials='");
+    print_materials();
     printf("'\n"
            "    local line=${COMP_LINE:0:COMP_POINT} kind=nothing words= options= operand=\n"
            "    local -a typed\n"
@@ -64,6 +73,8 @@ static void end_bash(void) {
          "    case $kind in\n"
          "    commands) words=$commands ;;\n"
          "    scenes) words=\"$words $scenes\" kind=files ;;\n"
+         "    materials) words=$materials kind=files ;;\n"
+         "    overrides) [[ $word == *=* ]] && words=$materials kind=files word=${word#*=} ;;\n"
          "    esac\n"
          "    mapfile -t COMPREPLY < <(\n"
          "        compgen -W \"$words\" -- \"$word\"\n"
@@ -72,7 +83,7 @@ static void end_bash(void) {
          "        folders) compgen -d -- \"$word\" ;;\n"
          "        esac\n"
          "    )\n"
-         "    if [[ $kind == f* && ${COMPREPLY[0]} != builtin:* ]]; then\n"
+         "    if [[ $kind == f* && ${COMPREPLY[0]} != @(builtin|sgd):* ]]; then\n"
          "        compopt -o filenames 2>/dev/null\n"
          "    fi\n"
          "    if [[ $word == *:* && $COMP_WORDBREAKS == *:* ]]; then\n"
@@ -98,6 +109,15 @@ static void begin_zsh(void) {
     print_scenes();
     printf("\n"
            "    _files\n"
+           "}\n\n"
+           "_lampion_materials() {\n"
+           "    compadd -- ");
+    print_materials();
+    printf("\n"
+           "    _files\n"
+           "}\n\n"
+           "_lampion_overrides() {\n"
+           "    compset -P '*=' && _lampion_materials\n"
            "}\n\n"
            "_lampion() {\n"
            "    if ((CURRENT == 2)); then\n"
@@ -127,6 +147,15 @@ static void begin_fish(void) {
            "    string split ' ' '");
     print_scenes();
     printf("'\n"
+           "end\n\n"
+           "function __lampion_materials\n"
+           "    string split ' ' '");
+    print_materials();
+    printf("'\n"
+           "end\n\n"
+           "function __lampion_overrides # NAME=: what it may become\n"
+           "    set -l name (string match -r '^[^=]*=' -- (commandline -ct))\n"
+           "    and printf '%%s\\n' $name(__lampion_materials)\n"
            "end\n\n"
            "function __lampion_commands\n");
     print_summaries("    echo ", "\t");

@@ -78,7 +78,15 @@ completes 'lampion bench ' 'cpu gpu'
 completes 'lampion completion z' 'zsh'
 completes 'lampion render sce' 'scene.gltf'
 completes 'lampion render --lights sc' 'scene.gltf'
+if [ "$shells" != bash ]; then
+    shells=fish
+    completes 'lampion brdf info sgd:gold-p' 'sgd:gold-paint'
+    completes 'lampion render x.gltf --material floor=sgd:two-layer-g' 'floor=sgd:two-layer-gold'
+fi
 shells=bash
+completes 'lampion brdf info sgd:gold-p' 'gold-paint'
+completes 'lampion render x.gltf --material floor=sgd:two-layer-g' 'two-layer-gold'
+completes 'lampion render x.gltf --material flo' ''
 completes 'lampion render --window=ha' 'hanning' # as readline wants it, what follows = or : alone
 completes 'lampion render builtin:at' 'atrium'
 completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls folder scene.gltf with blank.png'
