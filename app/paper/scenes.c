@@ -56,7 +56,7 @@ static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli
                                "bands|method|shading, ms|frame, ms|shading, ns|paper, ms|paper, ns",
                                error);
     for (int i = 0; ok && f->shown[i]; i++) {
-        double least = INFINITY;
+        double least = HUGE_VAL;
         for (size_t m = 0; ok && m < sizeof methods / sizeof *methods; m++) {
             const gpu_frame frame = { .width = f->width,
                                       .height = f->height,
