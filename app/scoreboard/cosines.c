@@ -59,9 +59,12 @@ float formula_cosines(const formula_query *q, const lmp_shade_settings *settings
     lookup(q->roughness, nv, node);
     const lmp_vec3 x =
         vec_normalize(vec_sub(q->view, vec_scale(q->normal, nv)), vec_across(q->normal));
-    const cosines_vector axis = { vec_dot(q->light, x), vec_dot(q->light, vec_cross(q->normal, x)),
-                                  vec_dot(q->light, q->normal) };
-    cosines_vector rows[3] = { { node[0], 0, node[1] }, { 0, 1, 0 }, { node[2], 0, node[3] } };
+    const lmp_vec3 y = vec_cross(q->normal, x);
+    const cosines_vector axis = { (double)vec_dot(q->light, x), (double)vec_dot(q->light, y),
+                                  (double)vec_dot(q->light, q->normal) };
+    cosines_vector rows[3] = { { (double)node[0], 0, (double)node[1] },
+                               { 0, 1, 0 },
+                               { (double)node[2], 0, (double)node[3] } };
     const float weight = gltf_f0(q) * node[4] + (1 - gltf_f0(q)) * node[5];
-    return gltf_layers(q, weight * cosines_over_disk(rows, axis, sin2), diffuse, q->light);
+    return gltf_layers(q, weight * cosines_over_disk(rows, axis, (double)sin2), diffuse, q->light);
 }
