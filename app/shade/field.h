@@ -15,8 +15,11 @@ typedef struct shade_field_options {
     bool moves;
 } shade_field_options;
 
+/* More than the library's default: it does not show under many lights, and fewer are near. */
+#define SHADE_FIELD_ERROR 0.08f
+
 #define SHADE_FIELD_DEFAULTS                                                                       \
-    { .error = LMP_FIELD_ERROR_DEFAULT }
+    { .error = SHADE_FIELD_ERROR }
 
 /* The rows of a command's option table that fill a shade_field_options variable, which begins as
  * SHADE_FIELD_DEFAULTS. */

@@ -93,11 +93,12 @@ static size_t entry_count(const lmp_field *field) {
         around *= blocks < (float)field->blocks[a] ? (size_t)blocks : field->blocks[a];
     }
     const size_t lights = (size_t)desc->light_max;
-    const size_t most = 256 * field->block_count + lights;
-    return lights * around < most ? lights * around : most;
+    const size_t most = 256 * field->block_count, all = lights * around;
+    return (all < most ? all : most) / FIELD_ENTRY + field->block_count +
+           2 * (lights / FIELD_ENTRY + 1);
 }
 
-static size_t divide(lmp_field *field, size_t entries, unsigned char *memory) {
+static size_t divide(lmp_field *field, unsigned char *memory) {
     const size_t lights = (size_t)field->info.desc.light_max;
     const size_t brick = FIELD_BRICK * field->info.node_bytes;
     size_t used = 0;
@@ -109,7 +110,7 @@ static size_t divide(lmp_field *field, size_t entries, unsigned char *memory) {
     field->spheres = take(memory, &used, lights * sizeof *field->spheres);
     field->everywhere = take(memory, &used, lights);
     field->lists = take(memory, &used, (field->block_count + 1) * sizeof *field->lists);
-    field->entries = take(memory, &used, entries * sizeof *field->entries);
+    field->entries = take(memory, &used, field->entry_count * sizeof *field->entries);
     return used;
 }
 
@@ -129,19 +130,16 @@ lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, 
         plan.block_count *= plan.blocks[a];
     }
     plan.scratch_count = plan.brick_count < FIELD_SCRATCH ? plan.brick_count : FIELD_SCRATCH;
-    const size_t entries = entry_count(&plan);
-    plan.free_count = (uint32_t)entries;
-    plan.info.bytes = divide(&plan, entries, NULL);
+    plan.entry_count = entry_count(&plan);
+    plan.info.bytes = divide(&plan, NULL);
     unsigned char *memory = lmp_allocate(&plan.host, plan.info.bytes);
     *field = (lmp_field *)(void *)memory;
     if (!memory)
         return LMP_ERROR_MEMORY;
-    divide(&plan, entries, memory);
+    divide(&plan, memory);
     **field = plan;
     memset(plan.nodes, 0, plan.brick_count * FIELD_BRICK * plan.info.node_bytes);
-    for (size_t i = 0; i < entries; i++)
-        plan.entries[i].next = i + 1 < entries ? (uint32_t)(i + 1) : FIELD_NONE;
-    memset(plan.lists, 0xff, (plan.block_count + 1) * sizeof *plan.lists);
+    lmp_field_unlist_all(*field);
     lmp_field_set_states(*field, FIELD_READY);
     return LMP_OK;
 }

@@ -28,9 +28,11 @@ enum {
 
 #define FIELD_NONE UINT32_MAX
 
-/* One light of one block's list. */
+/* Some lights of one block's list: 64 bytes, for a list is read as fast as it comes from memory.
+ * All but a list's first are full. */
+enum { FIELD_ENTRY = 14 };
 typedef struct field_entry {
-    uint32_t light, next;
+    uint32_t next, count, lights[FIELD_ENTRY];
 } field_entry;
 
 /* A light as the kernels read it, dark if it is not interpolated. */
@@ -58,9 +60,9 @@ struct lmp_field {
     /* Lists of blocks, then of the lights that are near everywhere; and of unused entries. */
     uint32_t *lists;
     field_entry *entries;
+    size_t entry_count;
     uint32_t free, free_count;
-    size_t listed_count; /* lights */
-    uint64_t changed;    /* lights, since the nodes were computed */
+    uint64_t changed; /* lights, since the nodes were computed */
 };
 
 /* A desc with every default filled in, or false if a member is outside its range. */
@@ -80,9 +82,10 @@ void lmp_field_set_states(lmp_field *field, unsigned char state);
 /* Whether lights of its kind are interpolated, but near them. */
 bool lmp_field_fades(const lmp_light *light);
 
-/* Puts a light into the lists of the blocks that it is near to, takes it from them. */
+/* Puts a light into the lists of the blocks that it is near to, takes it from them; empties all. */
 void lmp_field_list(lmp_field *field, uint32_t light);
 void lmp_field_unlist(lmp_field *field, uint32_t light);
+void lmp_field_unlist_all(lmp_field *field);
 
 /* Where a point lies in the grid: its cell, and how far along its edges; false if outside. */
 typedef struct field_place {
@@ -124,6 +127,14 @@ bool lmp_field_set_find(const lmp_field *field, lmp_vec3 point, field_set *set);
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
                            const lmp_kernel_out *out);
 void lmp_field_rows(const lmp_field *field, const lmp_vec3 *points, size_t count, float *rows);
+
+/* --- surfaces (sort.c) ------------------------------------------------------------------------ */
+
+/* Surfaces that are sorted together. */
+enum { FIELD_SORTED = 1024 };
+
+/* Sorts indices below FIELD_SORTED by the block of each, equal ones as they are. */
+void lmp_field_sort(const uint32_t *blocks, size_t count, uint16_t *order);
 
 /* --- nodes ------------------------------------------------------------------------------------ */
 

@@ -79,27 +79,47 @@ static void none(lmp_field *field, uint32_t light, size_t list) {
 }
 
 static void put(lmp_field *field, uint32_t light, size_t list) {
-    const uint32_t entry = field->free;
-    field->free = field->entries[entry].next;
-    field->free_count--;
-    field->entries[entry] = (field_entry) { light, field->lists[list] };
-    field->lists[list] = entry;
+    uint32_t at = field->lists[list];
+    if (at == FIELD_NONE || field->entries[at].count == FIELD_ENTRY) {
+        const uint32_t next = at;
+        at = field->free;
+        field->free = field->entries[at].next;
+        field->free_count--;
+        field->entries[at].next = next;
+        field->entries[at].count = 0;
+        field->lists[list] = at;
+    }
+    field_entry *entry = &field->entries[at];
+    entry->lights[entry->count++] = light;
 }
 
+/* The list's position of a light. */
+static uint32_t *position(const lmp_field *field, uint32_t light, size_t list) {
+    for (uint32_t at = field->lists[list];; at = field->entries[at].next) {
+        field_entry *entry = &field->entries[at];
+        for (uint32_t i = 0; i < entry->count; i++)
+            if (entry->lights[i] == light)
+                return &entry->lights[i];
+    }
+}
+
+/* The first entry's last light takes its place. */
 static void take(lmp_field *field, uint32_t light, size_t list) {
-    uint32_t *link = &field->lists[list];
-    while (field->entries[*link].light != light)
-        link = &field->entries[*link].next;
-    const uint32_t entry = *link;
-    *link = field->entries[entry].next;
-    field->entries[entry].next = field->free;
-    field->free = entry;
+    const uint32_t first = field->lists[list];
+    field_entry *entry = &field->entries[first];
+    uint32_t *const gone = position(field, light, list);
+    *gone = entry->lights[--entry->count];
+    if (entry->count > 0)
+        return;
+    field->lists[list] = entry->next;
+    entry->next = field->free;
+    field->free = first;
     field->free_count++;
 }
 
-/* An entry is kept for every light that is not listed: it might be near everywhere. */
+/* As many entries are kept as all lights need that might be near everywhere. */
 void lmp_field_list(lmp_field *field, uint32_t light) {
-    const size_t kept = (size_t)field->info.desc.light_max - ++field->listed_count;
+    const size_t kept = (size_t)field->info.desc.light_max / FIELD_ENTRY + 1;
     near_ball ball;
     const bool bounded = find_ball(field, light, &ball);
     field->everywhere[light] =
@@ -112,12 +132,19 @@ void lmp_field_list(lmp_field *field, uint32_t light) {
 
 void lmp_field_unlist(lmp_field *field, uint32_t light) {
     near_ball ball;
-    field->listed_count--;
     find_ball(field, light, &ball);
     if (field->everywhere[light])
         take(field, light, field->block_count);
     else
         each_list(field, light, &ball, take);
+}
+
+void lmp_field_unlist_all(lmp_field *field) {
+    for (size_t i = 0; i < field->entry_count; i++)
+        field->entries[i].next = i + 1 < field->entry_count ? (uint32_t)(i + 1) : FIELD_NONE;
+    memset(field->lists, 0xff, (field->block_count + 1) * sizeof *field->lists);
+    field->free = 0;
+    field->free_count = (uint32_t)field->entry_count;
 }
 
 /* --- points ----------------------------------------------------------------------------------- */
@@ -155,9 +182,10 @@ void lmp_field_set_clear(const lmp_field *field, field_set *set) {
 }
 
 static void add_list(const lmp_field *field, size_t list, field_set *set) {
-    for (uint32_t i = field->lists[list]; i != FIELD_NONE; i = field->entries[i].next) {
-        const uint32_t light = field->entries[i].light;
-        set->bits[light / 64] |= (uint64_t)1 << light % 64;
+    for (uint32_t at = field->lists[list]; at != FIELD_NONE; at = field->entries[at].next) {
+        const field_entry *entry = &field->entries[at];
+        for (uint32_t i = 0; i < entry->count; i++)
+            set->bits[entry->lights[i] / 64] |= (uint64_t)1 << entry->lights[i] % 64;
     }
 }
 

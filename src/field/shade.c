@@ -189,14 +189,33 @@ static __attribute__((noinline)) void shade_chunks(const field_shading *shading,
     }
 }
 
-/* Whether the field and zonal sums have all that a surface reflects. */
-static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size_t i) {
+/* Whether the field and zonal sums have all that a surface reflects; then its block. */
+static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size_t i,
+                      uint32_t *block) {
     const lmp_material *material = lmp_material_at(surfaces, i);
     field_place place;
-    return (material->kind == LMP_MATERIAL_LOBES ||
-            material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS) &&
-           !(material->coat.weight > 0) &&
-           lmp_field_find(field, lmp_vec3_element(&surfaces->position, i), &place);
+    if ((material->kind != LMP_MATERIAL_LOBES &&
+         material->kind != LMP_MATERIAL_METALLIC_ROUGHNESS) ||
+        material->coat.weight > 0 ||
+        !lmp_field_find(field, lmp_vec3_element(&surfaces->position, i), &place))
+        return false;
+    *block = lmp_field_block(field, place.cell);
+    return true;
+}
+
+/* Those of FIELD_SORTED surfaces that have lobes, sorted, and behind them the others; returns how
+ * many they are. A function of its own, for its blocks are not wanted on the stack below. */
+static __attribute__((noinline)) size_t sort(const lmp_field *field, const lmp_surfaces *surfaces,
+                                             size_t first, size_t count, uint16_t *order) {
+    uint32_t blocks[FIELD_SORTED];
+    size_t sorted = 0, others = count;
+    for (size_t i = 0; i < count; i++)
+        if (has_lobes(field, surfaces, first + i, &blocks[i]))
+            order[sorted++] = (uint16_t)i;
+        else
+            order[--others] = (uint16_t)i;
+    lmp_field_sort(blocks, sorted, order);
+    return sorted;
 }
 
 static field_shading prepare(const lmp_shade_settings *settings, const lmp_field *field) {
@@ -217,13 +236,18 @@ void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *fiel
     const field_shading shading = prepare(settings, field);
     assert(lmp_are_surfaces(surfaces, count));
     assert(stride >= sizeof(lmp_rgb) && stride % sizeof(float) == 0);
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        size_t left[LMP_BATCH], left_count = 0;
-        for (size_t i = first; i < first + lmp_batch_count(count, first); i++)
-            if (has_lobes(field, surfaces, i))
-                left[left_count++] = i;
-            else
-                shade_one(&shading, surfaces, i, stride, rgb);
-        shade_chunks(&shading, surfaces, left, left_count, stride, rgb);
+    for (size_t first = 0; first < count; first += FIELD_SORTED) {
+        const size_t some = count - first < FIELD_SORTED ? count - first : FIELD_SORTED;
+        uint16_t order[FIELD_SORTED];
+        const size_t sorted = sort(field, surfaces, first, some, order);
+        for (size_t i = sorted; i < some; i++)
+            shade_one(&shading, surfaces, first + order[i], stride, rgb);
+        for (size_t begin = 0; begin < sorted; begin += LMP_BATCH) {
+            size_t left[LMP_BATCH];
+            const size_t left_count = lmp_batch_count(sorted, begin);
+            for (size_t i = 0; i < left_count; i++)
+                left[i] = first + order[begin + i];
+            shade_chunks(&shading, surfaces, left, left_count, stride, rgb);
+        }
     }
 }

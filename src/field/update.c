@@ -130,8 +130,7 @@ lmp_result lmp_field_reset(lmp_field *field, const lmp_light *lights, size_t cou
     if (count > (size_t)field->info.desc.light_max)
         return LMP_ERROR_ARGUMENT;
     assert(lmp_are_lights(lights, count));
-    for (uint32_t i = 0; i < field->info.light_count; i++)
-        lmp_field_unlist(field, i);
+    lmp_field_unlist_all(field);
     for (uint32_t i = 0; i < count; i++)
         lmp_field_set_light(field, i, &lights[i]);
     field->info.light_count = count;

@@ -24,6 +24,7 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
     const shade_likeness first = likeness_of(surfaces, preintegrated, left[0]);
     const bool own_lobe = lmp_material_at(surfaces, left[0])->kind == LMP_MATERIAL_LOBES;
     size_t taken = 0, others = 0;
+    bool in_a_row = true;
     for (size_t i = 0; i < count; i++) {
         const size_t at = left[i];
         bool alike = lmp_material_at(surfaces, at)->kind == LMP_MATERIAL_LOBES;
@@ -33,15 +34,19 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
                     this.source.preintegrated == first.source.preintegrated &&
                     this.phong_count == first.phong_count;
         }
-        if (alike)
-            chunk->at[taken++] = at;
-        else
+        if (!alike) {
             left[others++] = at;
+            continue;
+        }
+        chunk->at[taken] = at;
+        in_a_row = in_a_row && at == chunk->at[0] + taken;
+        taken++;
     }
     lmp_shade_fill(chunk->at, taken);
     chunk->source = first.source;
     chunk->phong_count = first.phong_count;
     chunk->count = taken;
+    chunk->in_a_row = in_a_row;
     return others;
 }
 
@@ -63,12 +68,12 @@ static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {
 }
 
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
-    chunk->surfaces.point =
-        lmp_shade_vectors(&surfaces->position, chunk->at, chunk->count, &chunk->point);
-    chunk->surfaces.normal =
-        lmp_shade_vectors(&surfaces->normal, chunk->at, chunk->count, &chunk->normal);
+    chunk->surfaces.point = lmp_shade_vectors(&surfaces->position, chunk->at, chunk->count,
+                                              chunk->in_a_row, &chunk->point);
+    chunk->surfaces.normal = lmp_shade_vectors(&surfaces->normal, chunk->at, chunk->count,
+                                               chunk->in_a_row, &chunk->normal);
     chunk->surfaces.view =
-        lmp_shade_vectors(&surfaces->view, chunk->at, chunk->count, &chunk->view);
+        lmp_shade_vectors(&surfaces->view, chunk->at, chunk->count, chunk->in_a_row, &chunk->view);
     if (!chunk->source.preintegrated)
         load_lobes(surfaces, chunk);
     memset(chunk->planes.accumulated, 0, sizeof chunk->planes.accumulated);

@@ -16,7 +16,8 @@ typedef struct shade_chunk {
     shade_source source;
     int phong_count; /* 0: no lobes, but a table or a BRDF */
     size_t count;
-    size_t at[LMP_BATCH]; /* among the caller's; rising */
+    size_t at[LMP_BATCH]; /* among the caller's */
+    bool in_a_row;        /* at[i] = at[0] + i */
     lmp_batch_vec3 point, normal, view;
     shade_planes planes;
     float ambient[3];

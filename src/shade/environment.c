@@ -61,9 +61,11 @@ static void shade_lobes_of_chunk(const environment_method *method, const lmp_sur
     static const float no_light[3] = { 0, 0, 0 };
     shade_planes *lobes = &chunk->lobes;
     const size_t count = chunk->count;
+    const bool in_a_row = chunk->at[count - 1] - chunk->at[0] == count - 1; /* they rise */
     const lmp_kernel_vec3 normal =
-        lmp_shade_vectors(&surfaces->normal, chunk->at, count, &chunk->normal);
-    const lmp_kernel_vec3 view = lmp_shade_vectors(&surfaces->view, chunk->at, count, &chunk->view);
+        lmp_shade_vectors(&surfaces->normal, chunk->at, count, in_a_row, &chunk->normal);
+    const lmp_kernel_vec3 view =
+        lmp_shade_vectors(&surfaces->view, chunk->at, count, in_a_row, &chunk->view);
     lmp_shade_load(surfaces, chunk->at, count, lobe_count, &normal, &view, lobes);
     accumulate(method, method->diffuse, NULL, &normal, count, lobes->accumulated);
     for (int k = 0; k < lobe_count; k++) {

@@ -13,8 +13,8 @@ static float *plane_of(lmp_batch_vec3 *planes, size_t c) {
 }
 
 lmp_kernel_vec3 lmp_shade_vectors(const lmp_vec3_array *array, const size_t *at, size_t count,
-                                  lmp_batch_vec3 *planes) {
-    if (at[count - 1] - at[0] == count - 1)
+                                  bool in_a_row, lmp_batch_vec3 *planes) {
+    if (in_a_row)
         return lmp_batch_vectors(array, at[0], count, planes);
     for (size_t i = 0; i < count; i++)
         lmp_batch_load(array, at[i], planes, i);

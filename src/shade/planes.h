@@ -8,7 +8,7 @@
 #ifdef NDEBUG
 #define LMP_BATCH 64
 #else
-#define LMP_BATCH 48
+#define LMP_BATCH 32
 #endif
 
 #include "src/kernels/batch.h"
@@ -33,10 +33,10 @@ static inline void lmp_shade_fill(size_t *at, size_t count) {
         at[i] = at[count - 1];
 }
 
-/* Vectors of surfaces at[0 … count-1], which rise and are filled: where they are,
- * or in these planes. */
+/* Vectors of surfaces at[0 … count-1], which are filled: where they are, if those are in a row, or
+ * in these planes. */
 lmp_kernel_vec3 lmp_shade_vectors(const lmp_vec3_array *array, const size_t *at, size_t count,
-                                  lmp_batch_vec3 *planes);
+                                  bool in_a_row, lmp_batch_vec3 *planes);
 
 /* The lobes of the surfaces at[0 … count-1], `lobes` Phong ones each; what they accumulate
  * is not set. */

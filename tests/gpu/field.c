@@ -24,7 +24,7 @@ static void open_world(const char *name, int lights) {
 
 static shade_field *open_field(int bands, bool moves) {
     cli_error error = { "" };
-    const shade_field_options options = { .error = LMP_FIELD_ERROR_DEFAULT, .moves = moves };
+    const shade_field_options options = { .error = SHADE_FIELD_ERROR, .moves = moves };
     shade_field *field = shade_field_create(&world, &options, bands, &error);
     expect(field != NULL, &error);
     return field;

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* sort.c - surfaces in the order of their blocks: those that are shaded together then read the same
+ * nodes, and the same lights are near them. */
+#include "src/field/field.h"
+
+#include <string.h>
+
+/* A key is a block, then the surface's index in the low bits. */
+enum { INDEX = 10, DIGIT = 11, DIGITS = 1 << DIGIT };
+static_assert(1 << INDEX == FIELD_SORTED && INDEX + 2 * DIGIT == 32, "a key has two digits");
+
+/* By one digit, stably. */
+static void sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *to) {
+    uint16_t start[DIGITS] = { 0 }, next = 0;
+    for (size_t i = 0; i < count; i++)
+        start[from[i] >> shift & (DIGITS - 1)]++;
+    for (size_t d = 0; d < DIGITS; d++) {
+        const uint16_t some = start[d];
+        start[d] = next;
+        next = (uint16_t)(next + some);
+    }
+    for (size_t i = 0; i < count; i++)
+        to[start[from[i] >> shift & (DIGITS - 1)]++] = from[i];
+}
+
+void lmp_field_sort(const uint32_t *blocks, size_t count, uint16_t *order) {
+    uint32_t keys[FIELD_SORTED] = { 0 }, sorted[FIELD_SORTED];
+    for (size_t i = 0; i < count; i++)
+        keys[i] = blocks[order[i]] << INDEX | order[i];
+    sort_digit(keys, count, INDEX, sorted);
+    sort_digit(sorted, count, INDEX + DIGIT, keys);
+    for (size_t i = 0; i < count; i++)
+        order[i] = (uint16_t)(keys[i] & (FIELD_SORTED - 1));
+}
