@@ -6,7 +6,7 @@ set -eu
 
 export SOURCE_DATE_EPOCH=0
 {
-    cmake --preset package && cmake --build --preset package --target lampion lampion_other &&
+    cmake --preset package && cmake --build --preset package --target lampion lampion_other lampion_hlsl lampion_metal &&
         for component in library development; do
             cmake --install build/package --prefix "$WORK/usr" --component $component || exit 1
         done
