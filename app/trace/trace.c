@@ -6,6 +6,9 @@
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 /* One Embree geometry a mesh. */
 typedef struct trace_mesh {
@@ -160,9 +163,26 @@ static bool build(trace_bvh *bvh, const scene *world) {
     return rtcGetDeviceError(bvh->device) == RTC_ERROR_NONE;
 }
 
+/* What Embree and its threads take at most, in bytes: its allocator asks for 128 MiB at once. */
+#define ROOM          ((size_t)192 << 20)
+#define ROOM_THREAD   ((size_t)16 << 20)
+#define ROOM_TRIANGLE 256
+
+/* Whether all of it is there where the address space is limited: Embree is C++, and its threads end
+ * the program where memory is refused to them. */
+static bool has_room(const scene *world) {
+    const size_t threads = (size_t)sysconf(_SC_NPROCESSORS_ONLN);
+    const size_t room = ROOM + ROOM_THREAD * threads + ROOM_TRIANGLE * (world->index_count / 3);
+    struct rlimit space;
+    if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY)
+        return true;
+    void *memory = mmap(NULL, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return memory != MAP_FAILED && munmap(memory, room) == 0;
+}
+
 trace_bvh *trace_create(const scene *world) {
     trace_bvh *bvh = calloc(1, sizeof *bvh);
-    if (bvh && build(bvh, world))
+    if (bvh && has_room(world) && build(bvh, world))
         return bvh;
     trace_destroy(bvh);
     return NULL;

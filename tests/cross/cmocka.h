@@ -11,6 +11,7 @@
 #define print_message                    printf
 #define print_error(...)                 fprintf(stderr, __VA_ARGS__)
 #define _fail(file, line)                (print_error("%s:%d: failed\n", file, line), exit(1))
+#define fail_msg(...)                    (print_error(__VA_ARGS__), _fail(__FILE__, __LINE__))
 #define assert_true(holds)               ((holds) ? (void)0 : (void)_fail(__FILE__, __LINE__))
 #define assert_null(pointer)             assert_true(!(pointer))
 #define assert_non_null(pointer)         assert_true(pointer)
