@@ -158,6 +158,146 @@ static void spectral_lines_have_the_color_of_the_observer(void **state) {
     CHECK_WITHIN(worst, 0.012);
 }
 
+/* --- the parameterization --------------------------------------------------------------------- */
+
+/* A bilinear function on the unit square, values row after row. */
+static double bilinear(const float *values, int width, int height, double x, double y) {
+    const double u = x * (width - 1), v = y * (height - 1);
+    const int i = u < width - 2 ? (int)u : width - 2, j = v < height - 2 ? (int)v : height - 2;
+    const float *at = values + j * width + i;
+    const double s = u - i, t = v - j;
+    return (1 - t) * ((1 - s) * (double)at[0] + s * (double)at[1]) +
+           t * ((1 - s) * (double)at[width] + s * (double)at[width + 1]);
+}
+
+/* ∫ along x from 0 to `end` of a row at y: pieces are linear, so that their middles serve. */
+static double row_integral(const float *values, int width, int height, double end, double y) {
+    double sum = 0;
+    for (int i = 0; i < width - 1; i++) {
+        const double low = (double)i / (width - 1), high = fmin((double)(i + 1) / (width - 1), end);
+        if (high > low)
+            sum += (high - low) * bilinear(values, width, height, (low + high) / 2, y);
+    }
+    return sum;
+}
+
+/* ∫ of the rows from y = 0 to `end`, which are linear between nodes, too. */
+static double area_integral(const float *values, int width, int height, double end) {
+    double sum = 0;
+    for (int j = 0; j < height - 1; j++) {
+        const double low = (double)j / (height - 1);
+        const double high = fmin((double)(j + 1) / (height - 1), end);
+        if (high > low)
+            sum += (high - low) * row_integral(values, width, height, 1, (low + high) / 2);
+    }
+    return sum;
+}
+
+enum { THETAS = 4, PHIS = 5, DENSITY_X = 5, DENSITY_Y = 6, VALUE_SIZE = 4 };
+
+/* A file of random values: anisotropic over a whole turn, or isotropic. Rows of density at the
+ * bottom of a slice may be 0. */
+static tensor random_tensor(int phis, int zero_rows) {
+    tensor t = { 0 };
+    field *theta = add(&t, "theta_i", F32, SHAPE(THETAS), 0);
+    for (int i = 0; i < THETAS; i++)
+        theta->values[i] = 1.5f * (float)(i * i + i) / (THETAS * (THETAS - 1));
+    field *phi = add(&t, "phi_i", F32, SHAPE((uint64_t)phis), 0);
+    for (int i = 0; i < phis; i++)
+        phi->values[i] = phis > 1 ? (float)(ORACLE_PI * (2.0 * i / (phis - 1) - 1)) : 0;
+    add(&t, "ndf", F32, SHAPE(7, 5), 0);
+    add(&t, "sigma", F32, SHAPE(3, 4), 0);
+    add(&t, "vndf", F32, SHAPE((uint64_t)phis, THETAS, DENSITY_Y, DENSITY_X), 0);
+    add(&t, "rgb", F32, SHAPE((uint64_t)phis, THETAS, 3, VALUE_SIZE, VALUE_SIZE), 0);
+    for (int f = 2; f < 6; f++)
+        for (size_t i = 0; i < field_count(&t.fields[f]); i++)
+            t.fields[f].values[i] = (float)check_random_between(0.2, 2);
+    field *density = find(&t, "vndf");
+    for (size_t i = 0; i < field_count(density); i++)
+        if ((int)(i / DENSITY_X) % DENSITY_Y < zero_rows)
+            density->values[i] = 0;
+    add(&t, "jacobian", U8, SHAPE(1), 1);
+    return t;
+}
+
+/* The nodes around an angle and how far it is from the first of them. */
+static double between(const float *nodes, int count, double angle, int *first) {
+    for (*first = 0; *first < count - 2 && (double)nodes[*first + 1] <= angle;)
+        ++*first;
+    if (count < 2)
+        return 0;
+    const double low = (double)nodes[*first], high = (double)nodes[*first + 1];
+    return fmin(fmax((angle - low) / (high - low), 0), 1);
+}
+
+/* Dupuy and Jakob (2018), by the integrals that define it: half vectors are spread over the square
+ * by the density of visible normals, each slice's integral 1, of the four slices around a. */
+static void value_by_integrals(tensor *t, const double a[3], const double b[3], double rgb[3]) {
+    const int phis = (int)find(t, "phi_i")->shape[0];
+    const double length = sqrt((a[0] + b[0]) * (a[0] + b[0]) + (a[1] + b[1]) * (a[1] + b[1]) +
+                               (a[2] + b[2]) * (a[2] + b[2]));
+    const double m[3] = { (a[0] + b[0]) / length, (a[1] + b[1]) / length, (a[2] + b[2]) / length };
+    const double theta = acos(a[2]), phi = atan2(a[1], a[0]);
+    const double phi_m = atan2(m[1], m[0]) - (phis == 1 ? phi : 0);
+    const double turns = (phi_m + ORACLE_PI) / (2 * ORACLE_PI);
+    const double x = sqrt(acos(m[2]) * 2 / ORACLE_PI), y = turns - floor(turns);
+    int i, j;
+    const double p = between(find(t, "phi_i")->values, phis, phi, &i);
+    const double q = between(find(t, "theta_i")->values, THETAS, theta, &j);
+    double row = 0, part = 0, below = 0, value[3] = { 0 };
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < (phis == 1 ? 2 : 4); k++) {
+            const double weight = (k & 1 ? q : 1 - q) * (k & 2 ? p : 1 - p);
+            const int slice = (i + k / 2) * THETAS + j + k % 2;
+            const float *density = find(t, "vndf")->values + slice * DENSITY_X * DENSITY_Y;
+            const double scale = weight / area_integral(density, DENSITY_X, DENSITY_Y, 1);
+            if (pass == 0) {
+                row += scale * row_integral(density, DENSITY_X, DENSITY_Y, 1, y);
+                part += scale * row_integral(density, DENSITY_X, DENSITY_Y, x, y);
+                below += scale * area_integral(density, DENSITY_X, DENSITY_Y, y);
+                continue;
+            }
+            for (int c = 0; c < 3; c++)
+                value[c] +=
+                    weight *
+                    bilinear(find(t, "rgb")->values + (3 * slice + c) * VALUE_SIZE * VALUE_SIZE,
+                             VALUE_SIZE, VALUE_SIZE, row > 0 ? part / row : x, below);
+        }
+    const double ndf = bilinear(find(t, "ndf")->values, 5, 7, x, y);
+    const double sigma = bilinear(find(t, "sigma")->values, 4, 3, sqrt(theta * 2 / ORACLE_PI),
+                                  (phi + ORACLE_PI) / (2 * ORACLE_PI));
+    for (int c = 0; c < 3; c++)
+        rgb[c] = value[c] * ndf / (4 * sigma) / b[2];
+}
+
+static void values_follow_the_density_of_visible_normals(void **state) {
+    (void)state;
+    for (int kind = 0; kind < 6; kind++) {
+        tensor t = random_tensor(kind % 2 ? PHIS : 1, kind / 2);
+        size_t size = 0;
+        unsigned char *bytes = bytes_of(&t, &size);
+        lmp_brdf *brdf = read_bytes(bytes, size);
+        double worst = 0;
+        for (int n = 0; n < 2000; n++) {
+            double a[3], b[3], expected[3], rgb[3];
+            random_pair(a, b);
+            const double scale = 1 / sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+            for (int k = 0; k < 3; k++)
+                a[k] *= scale;
+            lmp_brdf_eval_double(brdf, a, b, rgb);
+            value_by_integrals(&t, a, b, expected);
+            for (int c = 0; c < 3; c++)
+                worst = fmax(worst, fabs(rgb[c] / expected[c] - 1));
+        }
+        print_message("%s, %d rows without density: %.1e\n", kind % 2 ? "anisotropic" : "isotropic",
+                      kind / 2, worst);
+        CHECK_WITHIN(worst, 2e-6);
+        lmp_brdf_destroy(brdf);
+        free(bytes);
+        drop(&t);
+    }
+}
+
 /* --- folding ---------------------------------------------------------------------------------- */
 
 /* Takes a written file apart. */
@@ -259,6 +399,7 @@ int main(void) {
         cmocka_unit_test(unknown_fields_are_skipped),
         cmocka_unit_test(flat_spectra_are_grey),
         cmocka_unit_test(spectral_lines_have_the_color_of_the_observer),
+        cmocka_unit_test(values_follow_the_density_of_visible_normals),
         cmocka_unit_test(parts_of_a_turn_are_folded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
