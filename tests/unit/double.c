@@ -140,6 +140,22 @@ static void second_derivatives_are_those_of_the_gradient(void **state) {
     }
 }
 
+/* The derivatives of one column come with the columns after it, which few bands do not have. */
+static void few_bands_are_the_first_of_many(void **state) {
+    (void)state;
+    static double many[6 * COUNT], few[6 * COUNT];
+    for (int bands = 1; bands < BANDS; bands++) {
+        const size_t count = (size_t)bands * (size_t)bands;
+        double w[3];
+        random_direction(w);
+        lmp_sh_eval_hessian_double(BANDS, w, many);
+        lmp_sh_eval_hessian_double(bands, w, few);
+        for (size_t plane = 0; plane < 6; plane++)
+            for (size_t i = 0; i < count; i++)
+                CHECK_WITHIN(fabs(few[plane * count + i] - many[plane * COUNT + i]), 1e-12);
+    }
+}
+
 static void rotated_coefficients_are_those_of_the_rotated_direction(void **state) {
     (void)state;
     static double matrices[LMP_SH_ROTATION_COUNT(BANDS)];
@@ -170,6 +186,7 @@ int main(void) {
         cmocka_unit_test(agrees_with_the_oracle_at_any_number_of_bands),
         cmocka_unit_test(gradients_are_those_of_differences),
         cmocka_unit_test(second_derivatives_are_those_of_the_gradient),
+        cmocka_unit_test(few_bands_are_the_first_of_many),
         cmocka_unit_test(rotated_coefficients_are_those_of_the_rotated_direction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

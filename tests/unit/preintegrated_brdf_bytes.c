@@ -32,6 +32,7 @@ static void tasks_in_any_order_give_the_same_bytes(void **state) {
     void *bytes = written(plain, &size), *other_bytes = written(other, &other_size);
     assert_int_equal(size, other_size);
     assert_memory_equal(bytes, other_bytes, size);
+    assert_memory_equal(bytes, "LMPS\r\n\x1a\n\1\0\0\0\5\0\0\0", 16); /* docs/formats.md */
     free(bytes);
     free(other_bytes);
     lmp_preintegrated_brdf_destroy(plain);

@@ -274,6 +274,9 @@ static void samples_of_a_series_give_it_back(void **state) {
     sample(&s, 3, sh, 200, true); /* half a sphere is enough for a few bands */
     assert_int_equal(lmp_probe_fit(NULL, 3, 0, &s.samples, fitted), LMP_OK);
     CHECK_WITHIN(check_error(9, expected, fitted), 1e-4);
+    sample(&s, 1, sh, 1, false);
+    assert_int_equal(lmp_probe_fit(NULL, 1, 0, &s.samples, fitted), LMP_OK);
+    CHECK_WITHIN(check_error(1, expected, fitted), 1e-6);
 }
 
 static void a_weight_of_two_is_a_sample_twice(void **state) {
