@@ -70,12 +70,12 @@ static void mark(FILE *svg, const axis *a, bool vertical, double value) {
     if (vertical)
         fprintf(svg,
                 "<path d=\"M%d %.1fH%d\" stroke=\"#e3e6ea\"/><text x=\"%d\" y=\"%.1f\" "
-                "text-anchor=\"end\">%.3g</text>\n",
+                "text-anchor=\"end\">%g</text>\n",
                 LEFT, at, WIDTH - RIGHT, LEFT - 8, at + 4, value);
     else
         fprintf(svg,
                 "<path d=\"M%.1f %dV%d\" stroke=\"#e3e6ea\"/><text x=\"%.1f\" y=\"%d\" "
-                "text-anchor=\"middle\">%.3g</text>\n",
+                "text-anchor=\"middle\">%g</text>\n",
                 at, TOP, HEIGHT - BOTTOM, at, HEIGHT - BOTTOM + 18, value);
 }
 
