@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* atrium_lanterns.c - paper lanterns around sphere lights. */
+/* atrium_lanterns.c - paper lanterns around sphere lights, and strings of small ones. */
 #include "app/scene/atrium.h"
 
 #include "app/scene/random.h"
@@ -70,10 +70,56 @@ static void hang_in_aisle(court_plan *court, int number) {
     add_light(court, center, radius, 190.0f, 0.25f);
 }
 
-void atrium_hang_lanterns(court_plan *court, int count) {
+/* --- strings ---------------------------------------------------------------------------------- */
+
+/* More lanterns than these would be in each other's way: the rest are small ones on strings. */
+enum { LARGE_ALONE = 200, LARGE_BESIDE = 30 };
+
+/* Strings cross the court in layers, and sag. */
+enum { STRING_LANTERNS = 32, LAYERS = 5 };
+
+static void put_small_lantern(court_plan *court, lmp_vec3 center, float radius) {
+    const shape_point cap[] = { { 0.5f * radius, 0.9f * radius },
+                                { 0.3f * radius, 1.2f * radius },
+                                { 0.01f, 1.5f * radius } };
+    court->shaper.material = BRONZE;
+    atrium_revolve(&court->shaper, cap, sizeof cap / sizeof *cap, center, 8);
+    add_light(court, center, radius, 8.0f, 0.85f);
+}
+
+static void hang_string(court_plan *court, int number, int strings, int count) {
+    uint64_t *random = &court->random;
+    const float t = ((float)number + 0.5f) / (float)strings;
+    const float z = (court->half_length - 0.6f) * (1.0f - 2.0f * t);
+    const float high = 5.0f + 0.9f * (float)(number % LAYERS);
+    const float sag = random_between(random, 0.5f, 0.7f), half = HALF_WIDTH - 0.5f;
+    for (int i = 0; i < count; i++) {
+        const float u = 2.0f * ((float)i + 0.5f) / STRING_LANTERNS - 1.0f;
+        const float radius = random_between(random, 0.03f, 0.05f);
+        put_small_lantern(court, vec(half * u, high - sag * (1.0f - u * u), z), radius);
+    }
+}
+
+static void hang_strings(court_plan *court, int count) {
+    const int strings = (count + STRING_LANTERNS - 1) / STRING_LANTERNS;
+    for (int i = 0; i < strings; i++) {
+        const int left = count - i * STRING_LANTERNS;
+        hang_string(court, i, strings, left < STRING_LANTERNS ? left : STRING_LANTERNS);
+    }
+}
+
+/* --- all -------------------------------------------------------------------------------------- */
+
+static void hang_large(court_plan *court, int count) {
     const int over_court = (2 * count + 4) / 5;
     for (int i = 0; i < over_court; i++)
         hang_in_court(court, i, over_court);
     for (int i = over_court; i < count; i++)
         hang_in_aisle(court, i - over_court);
+}
+
+void atrium_hang_lanterns(court_plan *court, int count) {
+    const int large = count > LARGE_ALONE ? LARGE_BESIDE : count;
+    hang_large(court, large);
+    hang_strings(court, count - large);
 }

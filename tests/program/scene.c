@@ -285,6 +285,24 @@ static void built_in_scenes_are_valid(void **state) {
     }
 }
 
+static void many_lanterns_hang_on_strings(void **state) {
+    (void)state;
+    scene s = load("builtin:atrium:lanterns=1000", false);
+    assert_unit_and_inside(&s);
+    assert_int_equal(s.light_count, 1000);
+    for (size_t i = 30; i < s.light_count; i++) {
+        const lmp_light *a = &s.lights[i].emitter;
+        assert_true(a->radius <= 0.05f);
+        for (size_t j = 30; j < i; j++) {
+            const lmp_light *b = &s.lights[j].emitter;
+            const float x = a->position.x - b->position.x, y = a->position.y - b->position.y;
+            assert_true(hypotf(hypotf(x, y), a->position.z - b->position.z) >
+                        a->radius + b->radius);
+        }
+    }
+    scene_free(&s);
+}
+
 static void the_atrium_is_the_same_for_a_seed_and_another_for_another(void **state) {
     (void)state;
     scene a = load("builtin:atrium:seed=5", false), b = load("builtin:atrium:seed=5", false);
@@ -376,6 +394,7 @@ int main(void) {
         cmocka_unit_test(a_cached_scene_is_the_same_and_damage_is_noticed),
         cmocka_unit_test(a_scene_whose_z_is_up_stands),
         cmocka_unit_test(built_in_scenes_are_valid),
+        cmocka_unit_test(many_lanterns_hang_on_strings),
         cmocka_unit_test(the_atrium_is_the_same_for_a_seed_and_another_for_another),
         cmocka_unit_test(random_lights_are_the_same_everywhere),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
