@@ -43,12 +43,19 @@ typedef struct ruler_table {
     int count;
 } ruler_table;
 
-/* Which rows: those of the materials and lights named, NULL-terminated; NULL means all. */
+/* Which rows: those of the materials and lights named; an empty list means all. */
 typedef struct ruler_choice {
     bool light[RULER_LIGHTS], material[RULER_MATERIALS];
 } ruler_choice;
 bool ruler_choose(const cli_list *lights, const cli_list *materials, ruler_choice *choice,
                   cli_error *error);
+
+/* The row of a command's option table that fills such a list of materials. */
+#define RULER_MATERIAL_OPTION_ROW(variable)                                                        \
+    {                                                                                              \
+        .name = "material", .kind = CLI_LIST, .target = &(variable), .argument = "NAME",           \
+        .help = "only rows of lambert, phong, metal or dielectric; may be repeated"                \
+    }
 
 bool ruler_table_open(const ruler_choice *choice, ruler_table *table, cli_error *error);
 void ruler_table_free(ruler_table *table);
