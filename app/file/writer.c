@@ -24,31 +24,48 @@ void file_remove_temporaries(void) {
             unlink(pending_path[i]);
 }
 
+static const int interrupts[] = { SIGINT, SIGTERM, SIGHUP };
+
+/* The main thread writes the files, so it alone removes them: it makes none meanwhile. */
 static void remove_pending(int number) {
+    if (gettid() != getpid()) {
+        tgkill(getpid(), getpid(), number);
+        return;
+    }
     file_remove_temporaries();
     signal(number, SIG_DFL);
     raise(number);
 }
 
 static void catch_interrupts(void) {
-    static const int signals[] = { SIGINT, SIGTERM, SIGHUP };
     static bool done;
-    for (size_t i = 0; !done && i < sizeof signals / sizeof *signals; i++) {
+    for (size_t i = 0; !done && i < sizeof interrupts / sizeof *interrupts; i++) {
         struct sigaction old;
-        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
-            signal(signals[i], remove_pending);
+        if (sigaction(interrupts[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
+            signal(interrupts[i], remove_pending);
     }
     done = true;
 }
 
-static void remember(const char *temporary) {
+/* A temporary that exists is remembered: no interrupt comes between the two. */
+static int make_temporary(char *name) {
+    sigset_t held, before;
+    sigemptyset(&held);
+    for (size_t i = 0; i < sizeof interrupts / sizeof *interrupts; i++)
+        sigaddset(&held, interrupts[i]);
     catch_interrupts();
-    for (int i = 0; i < PENDING_MAX; i++)
+    pthread_sigmask(SIG_BLOCK, &held, &before);
+    const int descriptor = mkostemp(name, O_CLOEXEC);
+    const int reason = errno;
+    for (int i = 0; descriptor >= 0 && i < PENDING_MAX; i++)
         if (!pending_used[i]) {
-            strcpy(pending_path[i], temporary);
+            strcpy(pending_path[i], name);
             pending_used[i] = 1;
-            return;
+            break;
         }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    errno = reason;
+    return descriptor;
 }
 
 static void forget(const char *temporary) {
@@ -167,12 +184,11 @@ static bool open_temporary(file_writer *writer) {
     const cookie_io_functions_t functions = { .write = write_bytes,
                                               .seek = seek_to,
                                               .close = close_descriptor };
-    writer->descriptor = mkostemp(writer->temporary, O_CLOEXEC);
+    writer->descriptor = make_temporary(writer->temporary);
     if (writer->descriptor < 0) {
         writer->temporary[0] = 0;
         return false;
     }
-    remember(writer->temporary);
     flock(writer->descriptor, LOCK_EX | LOCK_NB);
     writer->stream = fopencookie(writer, "wb", functions);
     if (!writer->stream)
