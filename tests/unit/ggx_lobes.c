@@ -172,8 +172,8 @@ static void plates_look_as_the_specification_says(void **state) {
             const apart worst = compare_plates(&s, &all);
             print_message(" %.3f %.2f %.3f |", worst.rms, worst.largest, worst.energy);
             const bool chalk = metal && plate_roughnesses[r] > 0.9 && degrees > 70;
-            CHECK_WITHIN(worst.rms, chalk ? 0.045 : 0.035);
-            CHECK_WITHIN(worst.largest, chalk ? 0.15 : 0.125);
+            CHECK_WITHIN(worst.rms, chalk ? 0.05 : 0.035);
+            CHECK_WITHIN(worst.largest, 0.12);
             CHECK_WITHIN(fabs(worst.energy - 1), 0.05);
         }
         print_message("\n");

@@ -5,10 +5,10 @@
  * A node of the table, a view angle and a roughness, is a least-squares fit of Phong lobes to what
  * caps of three sizes and a whole sky reflect by glTF's GGX. The sizes follow the width of the
  * lobe, so that mirrors are fitted as closely as chalk. Errors of some hundredths of a peak count
- * by their fourth power, and what all caps of a size reflect together counts besides. Nodes are
- * first fitted along a path, each from its neighbor's result, then again under a pull to the mean
- * of their neighbors, which falls from sweep to sweep: lobes keep their identity, and the table can
- * be interpolated. */
+ * by their fourth power, those of rough metals by their sixth, and what all caps of a size reflect
+ * together counts besides. Nodes are first fitted along a path, each from its neighbor's result,
+ * then again under a pull to the mean of their neighbors, which falls from sweep to sweep: lobes
+ * keep their identity, and the table can be interpolated. */
 #include "src/lobe/generate/node.h"
 
 #include <math.h>

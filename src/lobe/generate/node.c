@@ -134,14 +134,18 @@ static void model_cap(const fit_node *node, const double p[PARAMETERS], int cap,
     }
 }
 
-/* Adds the errors of a cap: beyond LARGE they count by their fourth power. */
+/* Adds the errors of a cap: beyond LARGE they count by their fourth power, and by their
+ * sixth on rough metals, whose reflection ends at the horizon as no lobe does; that of a dielectric
+ * is seen over a diffuse base. */
 static void add_cap(const fit_node *node, int m, int cap, const cap_model *model, equations *e) {
     const double peak = node->peak[m][cap / (DISTANCES * AZIMUTHS)];
     const double error = model->value[m] - node->target[m][cap];
-    const double square = (error / peak / LARGE) * (error / peak / LARGE), root = sqrt(1 + square);
+    const double square = (error / peak / LARGE) * (error / peak / LARGE);
+    const double rough = m == 0 ? 0.3 * pow(node->view.alpha, 4) : 0;
+    const double steep = rough * square * square, root = sqrt(1 + square + steep);
     double row[PARAMETERS];
     for (int i = 0; i < PARAMETERS; i++)
-        row[i] = node->weight[m][cap] * model->row[m][i] * (1 + 2 * square) / root;
+        row[i] = node->weight[m][cap] * model->row[m][i] * (1 + 2 * square + 3 * steep) / root;
     equations_add(e, row, node->weight[m][cap] * error * root);
 }
 
