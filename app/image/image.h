@@ -34,4 +34,7 @@ bool image_read(const char *path, long long pixels_max, image *image, cli_error 
 bool image_read_layer(const char *path, const char *layer, image *image, cli_error *error);
 bool image_read_png_text(const char *path, const char *key, char **text, cli_error *error);
 
+/* The key of the viewer's settings in its screenshots. */
+#define IMAGE_SETTINGS_KEY "lampion"
+
 #endif

@@ -174,7 +174,14 @@ scene_material scene_material_plain(void);
 /* Whether the material has more than glTF's core: a coat, or a map that tints f0. */
 bool scene_is_layered(const scene_material *material);
 
-/* Adds the lights of a JSON file (docs/lights.md); none of them on failure. */
+/* Reads the lights of a JSON file (docs/lights.md), or of a screenshot or state of the viewer, of
+ * which there is room for so many. */
+bool scene_read_lights(const char *path, size_t room, scene_light *lights, size_t *count,
+                       cli_error *error);
+bool scene_write_lights(const char *path, const scene_light *lights, size_t count,
+                        cli_error *error);
+
+/* Adds those to the scene's; none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);
 
 /* Adds `count` seeded random lights where there is room, sized to the scene: the same on any
@@ -199,7 +206,7 @@ typedef struct scene_lights_options {
       .kind = CLI_TEXT,                                                                            \
       .target = &(variable).file,                                                                  \
       .argument = "FILE",                                                                          \
-      .help = "lights from a JSON file, instead of the scene's own" },                             \
+      .help = "lights from a JSON file or a screenshot, instead of the scene's own" },             \
         { .name = "random-lights",                                                                 \
           .kind = CLI_INT,                                                                         \
           .target = &(variable).random_count,                                                      \

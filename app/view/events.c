@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* events.c - what the pointer, the keys, dropped files and time do to the state. */
+#include "app/view/panel.h"
 #include "app/view/state.h"
 
-#include "app/material/material.h"
 #include "app/scene/vector.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define RADIANS_A_HEIGHT 3.0   /* of rotation, when the pointer crosses the image */
@@ -15,6 +14,7 @@
 #define DIVIDER_PIXELS   8.0
 #define FLY_SPEED        0.15f /* diagonals of the scene a second */
 #define FLY_FAST         4.0f
+#define WALK_STEP        0.02f /* of the diagonal, a step of the wheel */
 
 static float scene_diagonal(const scene *world) {
     return vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
@@ -99,7 +99,7 @@ static void press(view_state *s, const view_event *event) {
         return;
     }
     const int light = light_at_pointer(s);
-    s->drag = VIEW_DRAG_ORBIT;
+    s->drag = s->walking ? VIEW_DRAG_LOOK : VIEW_DRAG_ORBIT;
     s->selected = -1;
     if (light >= 0)
         grab_light(s, light);
@@ -132,12 +132,14 @@ static void move(view_state *s, double x, double y) {
     }
 }
 
-/* Zooms, or takes a dragged light nearer and farther. */
+/* Zooms, walks, or takes a dragged light nearer and farther. */
 static void scroll(view_state *s, double steps) {
     const float factor = powf(ZOOM_STEP, (float)steps);
     if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
         s->grab_depth /= factor;
         drag_light(s);
+    } else if (s->walking && s->now.camera.height == 0) {
+        view_fly(&s->now.camera, 0, 0, (float)steps * WALK_STEP * scene_diagonal(s->world));
     } else {
         view_dolly(&s->now.camera, factor, 0.01f * scene_diagonal(s->world));
     }
@@ -146,6 +148,8 @@ static void scroll(view_state *s, double steps) {
 /* --- keys and files --------------------------------------------------------------------------- */
 
 static void press_key(view_state *s, const char *name) {
+    if (view_panel_take_key(s, name))
+        return;
     for (const view_key *key = view_keys; key->key || key->shown; key++)
         if (key->key && strcmp(key->key, name) == 0) {
             key->act(s, key->argument);
@@ -158,34 +162,22 @@ static void hold(view_state *s, char letter, bool down, bool fast) {
     const char *at = letter ? strchr(letters, letter) : NULL;
     s->fast = fast;
     if (at)
-        s->held[at - letters] = down;
+        s->held[at - letters] = down && s->panel.kind == VIEW_PANEL_CLOSED;
     else if (!letter)
         memset(s->held, 0, sizeof s->held);
 }
 
-/* The file becomes the material of the object under the pointer. */
+static void type(view_state *s, const char *text) {
+    for (; *text; text++) {
+        const char letter[2] = { *text, '\0' };
+        press_key(s, *text == ' ' ? "space" : letter);
+    }
+}
+
 static void drop(view_state *s, const char *file) {
-    const view_ray ray = pointer_ray(s);
-    const view_hit hit = view_pick_surface(&ray, s->world);
     cli_error error;
-    material opened;
-    const char *base = strrchr(file, '/') ? strrchr(file, '/') + 1 : file;
-    if (hit.mesh < 0) {
-        view_say(s, "Drop %s onto an object", base);
-        return;
-    }
-    const char *replaced = s->world->materials[s->world->meshes[hit.mesh].material].name;
-    if (!material_open(file, &opened, &error)) {
+    if (!view_take_file(s, file, &error))
         view_say(s, "%s", error.text);
-        return;
-    }
-    material_close(&opened);
-    if (!view_set_material(&s->now, replaced, file)) {
-        view_say(s, "%s cannot be replaced: too many materials, or too long a name", replaced);
-        return;
-    }
-    snprintf(s->dropped, sizeof s->dropped, "%s", file);
-    view_say(s, "%s is now %s", replaced, base);
 }
 
 static void resize(view_state *s, int width, int height) {
@@ -219,10 +211,15 @@ void view_handle(view_state *s, const view_event *event) {
     case VIEW_DROP:
         drop(s, event->text);
         break;
+    case VIEW_TYPE:
+        type(s, event->text);
+        break;
     case VIEW_SIZE:
         resize(s, (int)event->x, (int)event->y);
         break;
     }
+    if (s->drag == VIEW_DRAG_NONE && event->kind != VIEW_MOVE && event->kind != VIEW_SIZE)
+        view_history_keep(&s->history, &s->now, s->numbers);
 }
 
 void view_advance(view_state *s, double seconds) {

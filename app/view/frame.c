@@ -91,6 +91,7 @@ static bool changes_over(viewer *v) {
     now.overlay = s->overlay;
     now.playing = s->playing;
     now.selected = s->selected;
+    memcpy(&now.panel, &s->panel, sizeof s->panel);
     memcpy(now.message, s->message, strlen(s->message));
     const bool changed = memcmp(&now, &v->over, sizeof now) != 0;
     v->over = now;

@@ -2,6 +2,7 @@
 /* keys.c - what every key does, and the help that says so. */
 #include "app/scene/vector.h"
 #include "app/view/lights.h"
+#include "app/view/panel.h"
 
 #include <math.h>
 #include <string.h>
@@ -114,6 +115,7 @@ static const char *const materials[] = { "lambert:0.8",       "phong:50:0.8",   
 static void change_material(view_state *s, int step) {
     const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
     const view_hit hit = view_pick_surface(&ray, s->world);
+    cli_error error;
     if (hit.mesh < 0) {
         view_say(s, "Point at an object to change its material");
         return;
@@ -129,11 +131,8 @@ static void change_material(view_state *s, int step) {
     for (int i = 1; i < count; i++)
         if (current && strcmp(current, choices[i]) == 0)
             at = i;
-    const char *next = choices[(at + step + count) % count];
-    if (view_set_material(&s->now, name, next))
-        view_say(s, "%s is %s", name, next ? next : "as the scene has it");
-    else
-        view_say(s, "%s cannot be replaced: too many materials, or too long a name", name);
+    if (!view_replace_material(s, name, choices[(at + step + count) % count], &error))
+        view_say(s, "%s", error.text);
 }
 
 /* --- camera and window ------------------------------------------------------------------------ */
@@ -172,6 +171,13 @@ static void toggle_overlay(view_state *s, int unused) {
     s->overlay = !s->overlay;
 }
 
+static void toggle_walking(view_state *s, int unused) {
+    (void)unused;
+    s->walking = !s->walking;
+    view_say(s, s->walking ? "Inside: the left button looks around"
+                           : "Outside: the left button goes around");
+}
+
 static void step_back(view_state *s, int unused) {
     (void)unused;
     if (s->help)
@@ -182,21 +188,23 @@ static void step_back(view_state *s, int unused) {
         view_say(s, "Ctrl+Q closes the window");
 }
 
-enum { WISH_QUIT, WISH_SHOT, WISH_RECORD, WISH_RELOAD, WISH_RESTART, WISH_FULLSCREEN };
+enum { WISH_QUIT, WISH_SHOT, WISH_RECORD, WISH_RELOAD, WISH_RESTART, WISH_FULLSCREEN, WISH_SAVE };
 
 static void wish(view_state *s, int what) {
     bool *const wishes[] = { &s->wishes.quit,   &s->wishes.shot,    &s->wishes.record,
-                             &s->wishes.reload, &s->wishes.restart, &s->wishes.fullscreen };
+                             &s->wishes.reload, &s->wishes.restart, &s->wishes.fullscreen,
+                             &s->wishes.save };
     *wishes[what] = true;
 }
 
 const view_key view_keys[] = {
     { NULL, "Camera", NULL, NULL, 0 },
-    { NULL, "left drag", "orbit", NULL, 0 },
+    { NULL, "left drag", "go around, inside look around", NULL, 0 },
     { NULL, "Shift + left, middle drag", "pan", NULL, 0 },
     { NULL, "right drag", "look around", NULL, 0 },
     { NULL, "wheel", "nearer, farther", NULL, 0 },
     { NULL, "W A S D  Q E", "fly (Shift: faster)", NULL, 0 },
+    { "F2", "F2", "inside, outside", toggle_walking, 0 },
     { "f", "F", "frame everything", frame_all, 0 },
     { "F", "Shift F", "frame the selected light", view_frame_light, 0 },
     { "c", "C", "next camera of the scene", next_camera, 1 },
@@ -219,7 +227,13 @@ const view_key view_keys[] = {
     { "z", "Z", "shadows on, off", toggle_shadows, 0 },
     { "t", "T", "material of the object pointed at", change_material, 1 },
     { "T", NULL, NULL, change_material, -1 },
-    { NULL, "drop a file", "its material: .binary .bsdf .lmpt", NULL, 0 },
+
+    { NULL, "Values and files", NULL, NULL, 0 },
+    { "Enter", "Enter", "values of the light, of materials", view_toggle_panel, 0 },
+    { "Ctrl+Z", "Ctrl Z  Ctrl Y", "undo, redo lights and materials", view_undo, -1 },
+    { "Ctrl+Y", NULL, NULL, view_undo, 1 },
+    { "Ctrl+O", "Ctrl O, drop a file", "scene, lights, material", view_ask_file, 0 },
+    { "Ctrl+S", "Ctrl S", "save the lights", wish, WISH_SAVE },
 
     { NULL, "Compare", NULL, NULL, 0 },
     { "v", "V", "split; drag the divider", split, GPU_SPLIT_DIVIDED },

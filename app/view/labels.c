@@ -2,6 +2,7 @@
 /* labels.c - what is drawn over the image: statistics, help, messages, the selected light's ring.
  */
 #include "app/view/overlay.h"
+#include "app/view/panel.h"
 #include "app/view/viewer.h"
 
 #include <math.h>
@@ -12,7 +13,15 @@
 #define PANEL_SECONDS 0.25 /* between updates of the statistics */
 enum { PANEL_ROWS = 16 };
 
-enum { DRAWING_PANEL, DRAWING_HELP, DRAWING_MESSAGE, DRAWING_RING, DRAWING_LEFT, DRAWING_RIGHT };
+enum {
+    DRAWING_PANEL,
+    DRAWING_HELP,
+    DRAWING_MESSAGE,
+    DRAWING_RING,
+    DRAWING_LEFT,
+    DRAWING_RIGHT,
+    DRAWING_VALUES
+};
 
 static void add_row(view_row *rows, int *count, const char *name, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -21,6 +30,7 @@ static void add_row(view_row *rows, int *count, const char *name, const char *fo
     va_list arguments;
     va_start(arguments, format);
     view_row *row = &rows[(*count)++];
+    row->chosen = false;
     snprintf(row->name, sizeof row->name, "%s", name);
     vsnprintf(row->value, sizeof row->value, format, arguments);
     va_end(arguments);
@@ -180,6 +190,18 @@ static void draw_help(viewer *v, double scale) {
     put(v, DRAWING_HELP, (v->drawn->width - l->width) / 2, (v->drawn->height - l->height) / 2);
 }
 
+/* The panel for values, in the upper right corner. */
+static void draw_values(viewer *v, double scale) {
+    view_row rows[VIEW_PANEL_ROWS];
+    const int count = view_panel_rows(&v->state, rows);
+    if (count == 0)
+        return;
+    view_drawing drawing = view_draw_panel(rows, count, scale);
+    upload(v, DRAWING_VALUES, &drawing);
+    put(v, DRAWING_VALUES, (int)(v->drawn->width - v->labels[DRAWING_VALUES].width - 12 * scale),
+        (int)(12 * scale));
+}
+
 void view_draw_labels(viewer *v, const char *announcement) {
     const double scale = view_window_scale(v->window);
     const char *message = announcement ? announcement : v->state.message;
@@ -190,6 +212,8 @@ void view_draw_labels(viewer *v, const char *announcement) {
     }
     if (v->state.help)
         draw_help(v, scale);
+    else
+        draw_values(v, scale);
     if (message[0])
         draw_line(v, DRAWING_MESSAGE, message, scale, (int)(0.9 * v->drawn->width),
                   0.5 * v->drawn->width, v->drawn->height - 56 * scale);

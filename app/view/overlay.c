@@ -131,7 +131,8 @@ view_drawing view_draw_panel(const view_row *rows, int count, double scale) {
     for (int i = 0; i < count; i++) {
         const double y = margin + i * line;
         const bool heading = !rows[i].value[0];
-        put_text(cairo, &w, margin, y, rows[i].name, heading, heading ? accent : pale);
+        const color name = heading || rows[i].chosen ? accent : pale;
+        put_text(cairo, &w, margin, y, rows[i].name, heading, name);
         put_text(cairo, &w, margin + names, y, rows[i].value, false, ink);
     }
     end(cairo, &drawing);

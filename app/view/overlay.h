@@ -17,6 +17,7 @@ void view_drawing_free(view_drawing *drawing);
 /* A row of a panel: a name and what it is; without `value` a heading. */
 typedef struct view_row {
     char name[32], value[160];
+    bool chosen;
 } view_row;
 
 /* scale: of a pixel of 96 a inch, here and below. */

@@ -2,6 +2,7 @@
 /* reload.c - the viewer's scene, read again when its file changes. */
 #include "app/view/viewer.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -23,14 +24,14 @@ static bool same_version(version a, version b) {
     return a.seconds == b.seconds && a.nanoseconds == b.nanoseconds && a.size == b.size;
 }
 
-scene *view_load_scene(const view_options *o, cli_error *error) {
+scene *view_load_scene(const char *name, const scene_options *load,
+                       const scene_lights_options *lights, cli_error *error) {
     scene *world = calloc(1, sizeof *world);
     if (!world) {
         cli_fail(error, NULL, "out of memory");
         return NULL;
     }
-    if (scene_load(o->settings.scene, &o->load, world, error) &&
-        scene_apply_lights(world, &o->lights, error))
+    if (scene_load(name, load, world, error) && scene_apply_lights(world, lights, error))
         return world;
     scene_free(world);
     free(world);
@@ -56,31 +57,73 @@ static void drop_lost_materials(view_state *state) {
     }
 }
 
-void view_reload(viewer *v) {
-    cli_error error;
-    scene *world = view_load_scene(v->options, &error);
-    view_compositor *compositor = world ? view_compositor_create(&v->context, world, &error) : NULL;
-    if (!compositor || !view_state_replace_scene(&v->state, world, &error)) {
-        view_compositor_destroy(compositor);
-        view_free_scene(world);
-        view_say(&v->state, "%s", error.text);
-        return;
-    }
+bool view_choose_environment(viewer *v, cli_error *error) {
+    const view_options *o = v->options;
+    view_settings *now = &v->state.now;
+    if (o->keep_lights && !v->another)
+        return true;
+    const char *name = environment_choose(&o->environment, v->world);
+    if (strlen(name) >= sizeof now->environment)
+        return cli_fail(error, name, "is too long a name");
+    strcpy(now->environment, name);
+    now->environment_rotation = o->environment.rotation;
+    now->environment_strength = o->environment.strength;
+    return true;
+}
+
+void view_show_title(viewer *v) {
+    char title[VIEW_PATH_SIZE + 16];
+    snprintf(title, sizeof title, "%s - Lampion", v->state.now.scene);
+    view_window_title(v->window, title);
+}
+
+/* Draws the new scene from now on. */
+static void replace_world(viewer *v, scene *world, view_compositor *compositor) {
     view_compositor_destroy(v->compositor);
     view_free_scene(v->world);
+    world->origin = v->state.now.scene;
     v->world = world;
     v->compositor = compositor;
     v->fresh = true;
     memset(v->labels, 0, sizeof v->labels);
+}
+
+static void begin_other(viewer *v) {
+    cli_error error;
+    v->another = true;
+    v->seen = v->candidate = view_version_of(v->state.now.scene);
+    view_show_title(v);
+    if (!view_choose_environment(v, &error))
+        view_say(&v->state, "%s", error.text);
+}
+
+void view_reload(viewer *v) {
+    static const scene_lights_options own = { .file = NULL };
+    const view_options *o = v->options;
+    const bool other = v->state.other[0];
+    const char *name = other ? v->state.other : v->state.now.scene;
+    cli_error error;
+    scene *world = view_load_scene(name, &o->load, other || v->another ? &own : &o->lights, &error);
+    view_compositor *compositor = world ? view_compositor_create(&v->context, world, &error) : NULL;
+    if (!compositor || !view_state_replace_scene(&v->state, world, &error)) {
+        view_compositor_destroy(compositor);
+        view_free_scene(world);
+        v->state.other[0] = '\0';
+        view_say(&v->state, "%s", error.text);
+        return;
+    }
+    replace_world(v, world, compositor);
+    if (other)
+        begin_other(v);
     drop_lost_materials(&v->state);
-    view_say(&v->state, "%s: read again", v->options->settings.scene);
+    view_say(&v->state, other ? "%s" : "%s: read again", v->state.now.scene);
 }
 
 void view_watch(viewer *v) {
-    if (!is_file(v->options->settings.scene) || v->clock < v->watched_at + WATCH_SECONDS)
+    if (!is_file(v->state.now.scene) || v->clock < v->watched_at + WATCH_SECONDS)
         return;
     v->watched_at = v->clock;
-    const version now = view_version_of(v->options->settings.scene);
+    const version now = view_version_of(v->state.now.scene);
     const bool rests = same_version(now, v->candidate);
     v->candidate = now;
     if (same_version(now, v->seen) || !rests || now.size < 0)

@@ -20,14 +20,17 @@ typedef struct words {
     bool is_number[WORDS_MAX];
 } words;
 
-/* Cuts a line at blanks; a file's name, the last word of drop and shot, may hold some. */
+static bool takes_the_rest(const char *what) {
+    return strcmp(what, "drop") == 0 || strcmp(what, "shot") == 0 || strcmp(what, "type") == 0;
+}
+
+/* Cuts a line at blanks; the last word of drop, shot and type may hold some. */
 static void split_words(char *line, words *w) {
     *w = (words) { .count = 0 };
     for (size_t length = strlen(line); length > 0 && strchr(" \t", line[length - 1]); length--)
         line[length - 1] = '\0';
     for (char *at = line + strspn(line, " \t"); *at && w->count < WORDS_MAX;) {
-        const bool rest =
-            w->count == 2 && (strcmp(w->text[1], "drop") == 0 || strcmp(w->text[1], "shot") == 0);
+        const bool rest = w->count == 2 && takes_the_rest(w->text[1]);
         char *end = rest ? at + strlen(at) : at + strcspn(at, " \t");
         w->text[w->count] = at;
         w->is_number[w->count] = cli_number(at, (size_t)(end - at), &w->numbers[w->count]);
@@ -91,8 +94,8 @@ static bool read_event(const words *w, view_script_line *line) {
         line->kind = VIEW_SCRIPT_SHOT;
         return image_format_of(line->text) == IMAGE_PNG;
     }
-    e->kind = what[0] == 'k' ? VIEW_KEY : VIEW_DROP;
-    if (strcmp(what, "drop") == 0)
+    e->kind = what[0] == 'k' ? VIEW_KEY : what[0] == 'd' ? VIEW_DROP : VIEW_TYPE;
+    if (strcmp(what, "drop") == 0 || strcmp(what, "type") == 0)
         return true;
     for (const view_key *key = view_keys; key->key || key->shown; key++)
         if (key->key && strcmp(key->key, line->text) == 0)

@@ -272,14 +272,12 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
 
 /* --- screenshots ------------------------------------------------------------------------------ */
 
-#define SHOT_KEY "lampion"
-
 bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const char *path,
                      cli_error *error) {
     char *text = file_json_text(view_settings_to_json(s), false, path, error);
     if (!text)
         return false;
-    const image_text chunk = { SHOT_KEY, text };
+    const image_text chunk = { IMAGE_SETTINGS_KEY, text };
     const bool ok = image_write_png8_text(rgb8, s->width, s->height, &chunk, path, error);
     free(text);
     return ok;
@@ -288,7 +286,7 @@ bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const ch
 bool view_read_shot(const char *path, view_settings *s, cli_error *error) {
     memset(s, 0, sizeof *s);
     char *text = NULL;
-    if (!image_read_png_text(path, SHOT_KEY, &text, error))
+    if (!image_read_png_text(path, IMAGE_SETTINGS_KEY, &text, error))
         return false;
     cJSON *root = file_parse_json(path, text, strlen(text), error);
     free(text);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* shots.c - what the viewer writes: screenshots, recordings, its state. */
 #include "app/file/file.h"
+#include "app/view/panel.h"
 #include "app/view/viewer.h"
 
 #include <cjson/cJSON.h>
@@ -23,15 +24,34 @@ static bool write_shot(viewer *v, const view_settings *settings, const char *pat
     return ok && view_compositor_write(v->compositor, settings, path, error);
 }
 
+/* The first of numbered names that no file has yet; false if all are taken. */
+static bool find_name(const char *beginning, const char *ending, char *name, size_t size) {
+    struct stat status;
+    for (int i = 1; i < SHOTS_MAX; i++) {
+        snprintf(name, size, "%s-%04d%s", beginning, i, ending);
+        if (stat(name, &status) != 0 && errno == ENOENT)
+            return true;
+    }
+    return false;
+}
+
+void view_save_lights(viewer *v) {
+    const view_settings *now = &v->state.now;
+    char name[64];
+    cli_error error;
+    if (!find_name("lampion-lights", ".json", name, sizeof name))
+        view_say(&v->state, "There are too many files of lights here");
+    else if (scene_write_lights(name, now->lights, now->light_count, &error))
+        view_say(&v->state, "%s: --lights reads it, or drop it here", name);
+    else
+        view_say(&v->state, "%s", error.text);
+}
+
 bool view_take_shot(viewer *v, const char *path, cli_error *error) {
     const bool scripted = path;
     char name[64];
-    struct stat status;
-    for (int i = 1; !path && i < SHOTS_MAX; i++) {
-        snprintf(name, sizeof name, "lampion-%04d.png", i);
-        if (stat(name, &status) != 0 && errno == ENOENT)
-            path = name;
-    }
+    if (!path && find_name("lampion", ".png", name, sizeof name))
+        path = name;
     if (!path)
         view_say(&v->state, "There are too many screenshots here");
     else if (write_shot(v, v->drawn, path, error))
@@ -68,6 +88,17 @@ bool view_record_frame(viewer *v, cli_error *error) {
     return !v->options->record;
 }
 
+/* The chosen row of the panel, as it is drawn. */
+static void add_panel(cJSON *ui, const view_state *s) {
+    view_row rows[VIEW_PANEL_ROWS];
+    const int count = view_panel_rows(s, rows);
+    for (int i = 0; i < count; i++)
+        if (rows[i].chosen) {
+            cJSON_AddStringToObject(ui, "panel", rows[i].name);
+            cJSON_AddStringToObject(ui, "value", rows[i].value);
+        }
+}
+
 bool view_write_state(viewer *v, cli_error *error) {
     const view_state *s = &v->state;
     cJSON *root = view_settings_to_json(v->drawn);
@@ -80,6 +111,8 @@ bool view_write_state(viewer *v, cli_error *error) {
     cJSON_AddNumberToObject(ui, "side", view_side(s));
     cJSON_AddBoolToObject(ui, "help", s->help);
     cJSON_AddBoolToObject(ui, "overlay", s->overlay);
+    cJSON_AddBoolToObject(ui, "walking", s->walking);
+    add_panel(ui, s);
     cJSON_AddBoolToObject(ui, "recording", s->recording);
     cJSON_AddNumberToObject(ui, "recorded", v->recorded);
     cJSON_AddStringToObject(ui, "message", s->message);

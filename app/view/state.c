@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/state.h"
 
+#include "app/scene/space.h"
+#include "app/scene/vector.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -48,15 +51,30 @@ static bool open_paths(view_state *s, const char *animate, cli_error *error) {
     return add_path(s, animate, error);
 }
 
-static void take_lights(view_state *s) {
-    s->now.light_count = s->world->light_count;
+void view_put_lights(view_state *s, const scene_light *lights, size_t count) {
     memset(s->now.lights, 0, sizeof s->now.lights);
-    memcpy(s->now.lights, s->world->lights, s->now.light_count * sizeof *s->now.lights);
-    for (size_t i = 0; i < s->now.light_count; i++)
+    memcpy(s->now.lights, lights, count * sizeof *lights);
+    s->now.light_count = count;
+    for (size_t i = 0; i < count; i++)
         s->numbers[i] = i;
-    s->next_number = s->now.light_count;
-    s->lights_edited = false;
+    s->next_number = count;
+    s->lights_edited = true;
     s->selected = -1;
+    s->drag = VIEW_DRAG_NONE;
+}
+
+/* Those of the scene; there is nothing to undo yet. */
+static void take_lights(view_state *s) {
+    view_put_lights(s, s->world->lights, s->world->light_count);
+    s->lights_edited = false;
+    view_history_clear(&s->history);
+    view_history_keep(&s->history, &s->now, s->numbers);
+}
+
+static bool is_building(const scene *world) {
+    const lmp_vec3 lo = vec_load(world->minimum), hi = vec_load(world->maximum);
+    return space_is_building(world, vec_scale(vec_add(lo, hi), 0.5f),
+                             &(space_room) { .back = { 0 } });
 }
 
 bool view_state_open(const scene *world, const view_settings *settings, const char *animate,
@@ -67,6 +85,7 @@ bool view_state_open(const scene *world, const view_settings *settings, const ch
     s->overlay = true;
     s->playing = animate != NULL;
     s->x = s->y = -1;
+    s->walking = is_building(world);
     take_lights(s);
     if (open_paths(s, animate, error))
         return true;
@@ -76,6 +95,22 @@ bool view_state_open(const scene *world, const view_settings *settings, const ch
 
 void view_state_close(view_state *s) {
     close_paths(s);
+    view_history_clear(&s->history);
+}
+
+/* Another scene begins as if the viewer had been started with it. */
+static void begin_other(view_state *s) {
+    strcpy(s->now.scene, s->other);
+    s->other[0] = '\0';
+    memset(s->now.materials, 0, sizeof s->now.materials);
+    s->now.material_count = 0;
+    s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
+    s->camera = 0;
+    s->seconds = 0;
+    s->panel = (view_panel) { .kind = VIEW_PANEL_CLOSED };
+    s->walking = is_building(s->world);
+    s->wishes.expose = true;
+    take_lights(s);
 }
 
 bool view_state_replace_scene(view_state *s, const scene *world, cli_error *error) {
@@ -94,9 +129,22 @@ bool view_state_replace_scene(view_state *s, const scene *world, cli_error *erro
     }
     for (int i = 0; i < before.path_count; i++)
         animation_close(before.paths[i]);
-    if (!s->lights_edited)
+    if (s->other[0])
+        begin_other(s);
+    else if (!s->lights_edited)
         take_lights(s);
     return true;
+}
+
+void view_undo(view_state *s, int step) {
+    if (!view_history_step(&s->history, step, &s->now, s->numbers)) {
+        view_say(s, step < 0 ? "Nothing to undo" : "Nothing was undone");
+        return;
+    }
+    s->lights_edited = true;
+    if (s->selected >= (int)s->now.light_count)
+        s->selected = -1;
+    s->drag = VIEW_DRAG_NONE;
 }
 
 /* --- what is shown ---------------------------------------------------------------------------- */

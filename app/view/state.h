@@ -5,6 +5,7 @@
 
 #include "app/animation/animation.h"
 #include "app/view/camera.h"
+#include "app/view/history.h"
 #include "app/view/settings.h"
 
 /* --- events ----------------------------------------------------------------------------------- */
@@ -14,10 +15,11 @@ typedef enum view_event_kind {
     VIEW_PRESS,   /* a button */
     VIEW_RELEASE, /* a button */
     VIEW_SCROLL,  /* by y steps, forward > 0 */
-    VIEW_KEY,     /* a key of view_keys, by its name */
+    VIEW_KEY,     /* a key of view_keys, by its name, or a letter for the panel */
     VIEW_HOLD,    /* one of the letters wasdqe, by its position on a US keyboard */
     VIEW_FREE,    /* the same, let go; 0: all of them */
     VIEW_DROP,    /* a file, onto where the pointer is */
+    VIEW_TYPE,    /* the letters of a text, one after the other, as keys */
     VIEW_SIZE     /* the image has x times y pixels; none: it cannot be seen */
 } view_event_kind;
 
@@ -29,14 +31,14 @@ typedef struct view_event {
     view_button button;
     bool shift;       /* with a button or a held letter */
     char letter;      /* of VIEW_HOLD and VIEW_FREE */
-    const char *text; /* the key, or the file */
+    const char *text; /* the key, the file, or what is typed */
 } view_event;
 
 /* --- the state -------------------------------------------------------------------------------- */
 
 /* What the window has to do; the state machine sets them, who does it clears them. */
 typedef struct view_wishes {
-    bool quit, shot, record, reload, restart, fullscreen, expose, redraw;
+    bool quit, shot, record, reload, restart, fullscreen, expose, redraw, save;
 } view_wishes;
 
 typedef enum view_drag {
@@ -47,6 +49,23 @@ typedef enum view_drag {
     VIEW_DRAG_LIGHT,
     VIEW_DRAG_DIVIDER
 } view_drag;
+
+/* Which panel of values is open (app/view/panel.h), and what is typed into it. */
+enum { VIEW_TYPED_SIZE = 1024 };
+typedef enum view_panel_kind {
+    VIEW_PANEL_CLOSED,
+    VIEW_PANEL_LIGHT,
+    VIEW_PANEL_MATERIALS,
+    VIEW_PANEL_OPEN,
+    VIEW_PANELS
+} view_panel_kind;
+
+typedef struct view_panel {
+    view_panel_kind kind;
+    int row;     /* the one that is chosen */
+    bool typing; /* its value is what has been typed so far */
+    char typed[VIEW_TYPED_SIZE];
+} view_panel;
 
 enum { VIEW_PATHS_MAX = 4, VIEW_MESSAGE_SIZE = 256 };
 
@@ -60,6 +79,7 @@ typedef struct view_state {
     double seconds;                                /* of the animation */
     size_t numbers[SCENE_LIGHTS_MAX], next_number; /* of each light, for animation_move */
     bool lights_edited;
+    view_history history;
     int selected; /* a light, or -1 */
     view_drag drag;
     lmp_vec3 grab;         /* from the dragged light's shown position to that at rest */
@@ -67,9 +87,12 @@ typedef struct view_state {
     double grab_x, grab_y; /* from its center in the image to the pointer */
     double x, y;           /* the pointer */
     bool held[6], fast;    /* wasdqe; shift with them */
+    bool walking;          /* inside a building: the left button looks around */
+    view_panel panel;
     bool help, overlay, recording;
     int camera;                   /* the scene's camera last taken */
     char dropped[VIEW_PATH_SIZE]; /* the last material dropped */
+    char other[VIEW_PATH_SIZE];   /* another scene to be opened, or empty */
     char message[VIEW_MESSAGE_SIZE];
     double message_until, clock; /* seconds */
     view_wishes wishes;
@@ -82,8 +105,11 @@ bool view_state_open(const scene *world, const view_settings *settings, const ch
                      view_state *state, cli_error *error);
 void view_state_close(view_state *state);
 
+/* These in place of all lights. */
+void view_put_lights(view_state *state, const scene_light *lights, size_t count);
+
 /* Puts another version of the scene in place of the one before, whose lights stay if they were
- * edited. */
+ * edited. Of another scene nothing stays but the shading. */
 bool view_state_replace_scene(view_state *state, const scene *world, cli_error *error);
 
 void view_handle(view_state *state, const view_event *event);
@@ -97,8 +123,26 @@ void view_shown(const view_state *state, view_settings *settings);
 /* The side that keys act on: where the pointer is. */
 int view_side(const view_state *state);
 
+/* --- files.c: what files do --------------------------------------------------------------------
+ */
+
+/* A scene, lights or a material: dropped, or by its name in the panel. */
+bool view_take_file(view_state *state, const char *file, cli_error *error);
+
+/* Has the scene's material of that name replaced, or with NULL be itself again. */
+bool view_replace_material(view_state *state, const char *name, const char *replacement,
+                           cli_error *error);
+
+/* The index of the material pointed at, or 0. */
+int view_material_at_pointer(const view_state *state);
+
+/* --- messages --------------------------------------------------------------------------------- */
+
 /* Shows a line for some seconds. */
 void view_say(view_state *state, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Back by -1, forward by 1. */
+void view_undo(view_state *state, int step);
 
 /* --- keys ------------------------------------------------------------------------------------- */
 

@@ -14,12 +14,14 @@
 /* --- the window's graphics -------------------------------------------------------------------- */
 
 static bool open_graphics(viewer *v, cli_error *error) {
-    char title[VIEW_PATH_SIZE + 16];
-    snprintf(title, sizeof title, "%s - Lampion", v->options->settings.scene);
-    v->window = view_window_open(title, v->state.now.width, v->state.now.height, &v->state, error);
+    v->window =
+        view_window_open("Lampion", v->state.now.width, v->state.now.height, &v->state, error);
     memset(v->labels, 0, sizeof v->labels);
     v->fresh = true;
-    return v->window && gpu_context_adopt(&v->context, error) &&
+    if (!v->window)
+        return false;
+    view_show_title(v);
+    return gpu_context_adopt(&v->context, error) &&
            (v->compositor = view_compositor_create(&v->context, v->world, error));
 }
 
@@ -49,6 +51,8 @@ static bool grant_wishes(viewer *v, cli_error *error) {
         view_window_toggle_fullscreen(v->window);
     if (wishes.expose && !view_expose(v, error))
         view_say(&v->state, "%s", error->text);
+    if (wishes.save)
+        view_save_lights(v);
     if (wishes.record)
         view_toggle_recording(v);
     return !wishes.shot || view_take_shot(v, NULL, error);
@@ -114,20 +118,6 @@ static bool loop(viewer *v, cli_error *error) {
     return true;
 }
 
-static bool choose_environment(viewer *v, cli_error *error) {
-    const view_options *o = v->options;
-    view_settings *now = &v->state.now;
-    if (o->keep_lights)
-        return true;
-    const char *name = environment_choose(&o->environment, v->world);
-    if (strlen(name) >= sizeof now->environment)
-        return cli_fail(error, name, "is too long a name");
-    strcpy(now->environment, name);
-    now->environment_rotation = o->environment.rotation;
-    now->environment_strength = o->environment.strength;
-    return true;
-}
-
 static bool open_viewer(viewer *v, cli_error *error) {
     const view_options *o = v->options;
     view_settings settings = o->settings;
@@ -140,21 +130,17 @@ static bool open_viewer(viewer *v, cli_error *error) {
     if (o->script && !view_script_read(o->script, &v->script, error))
         return false;
     v->seen = v->candidate = view_version_of(settings.scene);
-    v->world = view_load_scene(o, error);
+    v->world = view_load_scene(o->settings.scene, &o->load, &o->lights, error);
     if (!v->world ||
         (o->camera_wanted &&
          !scene_place_camera(v->world, &o->camera, size, &settings.camera, error)) ||
         !view_state_open(v->world, &settings, o->animate, &v->state, error))
         return false;
-    if (!choose_environment(v, error))
+    if (!view_choose_environment(v, error))
         return false;
     if (o->keep_lights) {
-        memcpy(v->state.now.lights, settings.lights, sizeof settings.lights);
-        v->state.now.light_count = settings.light_count;
-        v->state.lights_edited = true;
-        for (size_t i = 0; i < settings.light_count; i++)
-            v->state.numbers[i] = i;
-        v->state.next_number = settings.light_count;
+        view_put_lights(&v->state, settings.lights, settings.light_count);
+        view_history_keep(&v->state.history, &v->state.now, v->state.numbers);
     }
     if (o->record && mkdir(o->record, 0777) != 0 && errno != EEXIST)
         return cli_fail(error, o->record, "cannot be made: %s", strerror(errno));

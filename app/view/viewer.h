@@ -27,6 +27,7 @@ typedef struct label {
 typedef struct drawn_over {
     bool help, overlay, playing;
     int selected;
+    view_panel panel;
     char message[VIEW_MESSAGE_SIZE];
 } drawn_over;
 
@@ -49,6 +50,7 @@ typedef struct viewer {
     double show_seconds; /* of these, scaling, drawing over it and the window */
     view_statistics statistics;
     version seen, candidate; /* of the scene file */
+    bool another;            /* scene than that of the options: its lights are its own */
     double watched_at, panel_at, clock;
     int frame, recorded;
     char record[VIEW_PATH_SIZE];
@@ -61,12 +63,19 @@ typedef struct viewer {
 
 version view_version_of(const char *path);
 
-/* The scene that the options name, with its lights; NULL on failure. */
-scene *view_load_scene(const view_options *options, cli_error *error);
+/* A scene with the lights that are asked for; NULL on failure. */
+scene *view_load_scene(const char *name, const scene_options *load,
+                       const scene_lights_options *lights, cli_error *error);
 void view_free_scene(scene *world);
 
-/* A scene that does not load leaves the one before. */
+/* The scene again, or another one. A scene that does not load leaves the one before. */
 void view_reload(viewer *v);
+
+/* The window's, by the scene. */
+void view_show_title(viewer *v);
+
+/* What surrounds the scene, by the options. */
+bool view_choose_environment(viewer *v, cli_error *error);
 
 /* Wishes to read the scene again once its file has changed and rests. */
 void view_watch(viewer *v);
@@ -77,6 +86,9 @@ void view_watch(viewer *v);
 bool view_take_shot(viewer *v, const char *path, cli_error *error);
 
 void view_toggle_recording(viewer *v);
+
+/* The lights as they rest, into a file that --lights reads. */
+void view_save_lights(viewer *v);
 
 /* Without --record a failure only ends the recording. */
 bool view_record_frame(viewer *v, cli_error *error);

@@ -58,10 +58,19 @@ static void on_scroll(GLFWwindow *glfw, double x, double y) {
     view_handle(state_of(glfw), &(view_event) { .kind = VIEW_SCROLL, .y = y });
 }
 
+static bool write_utf8(unsigned character, char text[5]) {
+    const int more = character < 0x80 ? 0 : character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
+    static const unsigned char leads[] = { 0, 0xC0, 0xE0, 0xF0 };
+    text[0] = (char)(leads[more] | character >> 6 * more);
+    for (int i = 1; i <= more; i++)
+        text[i] = (char)(0x80 | (character >> 6 * (more - i) & 0x3F));
+    return character < 0x110000;
+}
+
 /* Letters and signs as they are typed, whatever the keyboard. */
 static void on_character(GLFWwindow *glfw, unsigned character) {
-    const char text[2] = { character < 128 ? (char)character : '\0', '\0' };
-    if (character > ' ' && text[0])
+    char text[5] = "";
+    if (character > ' ' && write_utf8(character, text))
         view_handle(state_of(glfw), &(view_event) { .kind = VIEW_KEY, .text = text });
 }
 
@@ -82,14 +91,25 @@ static const char *name_of(int key) {
     static const struct {
         int key;
         const char *name;
-    } names[] = { { GLFW_KEY_F1, "F1" },           { GLFW_KEY_F5, "F5" },
-                  { GLFW_KEY_F11, "F11" },         { GLFW_KEY_F12, "F12" },
-                  { GLFW_KEY_UP, "Up" },           { GLFW_KEY_DOWN, "Down" },
-                  { GLFW_KEY_LEFT, "Left" },       { GLFW_KEY_RIGHT, "Right" },
-                  { GLFW_KEY_PAGE_UP, "Page_Up" }, { GLFW_KEY_PAGE_DOWN, "Page_Down" },
-                  { GLFW_KEY_HOME, "Home" },       { GLFW_KEY_TAB, "Tab" },
-                  { GLFW_KEY_DELETE, "Delete" },   { GLFW_KEY_BACKSPACE, "Backspace" },
-                  { GLFW_KEY_ESCAPE, "Escape" },   { GLFW_KEY_SPACE, "space" } };
+    } names[] = { { GLFW_KEY_F1, "F1" },
+                  { GLFW_KEY_F5, "F5" },
+                  { GLFW_KEY_F2, "F2" },
+                  { GLFW_KEY_ENTER, "Enter" },
+                  { GLFW_KEY_KP_ENTER, "Enter" },
+                  { GLFW_KEY_F11, "F11" },
+                  { GLFW_KEY_F12, "F12" },
+                  { GLFW_KEY_UP, "Up" },
+                  { GLFW_KEY_DOWN, "Down" },
+                  { GLFW_KEY_LEFT, "Left" },
+                  { GLFW_KEY_RIGHT, "Right" },
+                  { GLFW_KEY_PAGE_UP, "Page_Up" },
+                  { GLFW_KEY_PAGE_DOWN, "Page_Down" },
+                  { GLFW_KEY_HOME, "Home" },
+                  { GLFW_KEY_TAB, "Tab" },
+                  { GLFW_KEY_DELETE, "Delete" },
+                  { GLFW_KEY_BACKSPACE, "Backspace" },
+                  { GLFW_KEY_ESCAPE, "Escape" },
+                  { GLFW_KEY_SPACE, "space" } };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (names[i].key == key)
             return names[i].name;
@@ -102,8 +122,9 @@ static void on_key(GLFWwindow *glfw, int key, int position, int action, int modi
     const bool shift = modifiers & GLFW_MOD_SHIFT, control = modifiers & GLFW_MOD_CONTROL;
     const char letter = flying_letter(key);
     const char *typed = glfwGetKeyName(key, 0);
-    if (control && action == GLFW_PRESS && typed && strcmp(typed, "q") == 0) {
-        view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = "Ctrl+Q" });
+    if (control && action == GLFW_PRESS && typed && typed[0] >= 'a' && typed[0] <= 'z') {
+        const char text[] = { 'C', 't', 'r', 'l', '+', (char)(typed[0] - 'a' + 'A'), '\0' };
+        view_handle(state, &(view_event) { .kind = VIEW_KEY, .text = text });
         return;
     }
     if (letter && action != GLFW_REPEAT && !(control && action == GLFW_PRESS))

@@ -223,6 +223,39 @@ cmp shaded.png repeated.png || fail "an image with shadows is repeated otherwise
 "$PROGRAM" view $roof --shadows --no-shadows --script shade.txt || fail "--no-shadows ends in $?"
 cmp unshaded.png repeated.png || fail "shadows do not go"
 
+# values that are typed, undo, lights saved and read again, another scene
+cat >edit.txt <<'EDIT'
+0    key Tab
+0.1  key Enter
+0.2  key Down
+0.3  type 0.5
+0.4  key Enter
+0.5  key Escape
+0.6  key n
+0.7  key Ctrl+Z
+0.8  key Ctrl+S
+0.9  shot edited.png
+1.0  drop builtin:ball
+1.2  shot other.png
+1.3  key Ctrl+O
+1.4  type lampion-lights-0001.json
+1.5  key Enter
+1.6  key Ctrl+Q
+EDIT
+edit="--eye 0,1,6 --target 0,1,0 --size 160x90 --samples 1"
+"$PROGRAM" view room.obj --lights lights.json $edit --script edit.txt --state state.json || fail "editing ends in $?"
+is value scene '"builtin:ball"' || fail "the dropped scene is not opened: $(value scene)"
+[ "$(grep -c '"radius": 0.5$\|"radius":[[:space:]]*0.5,' lampion-lights-0001.json)" = 1 ] ||
+    fail "the typed radius is not saved: $(cat lampion-lights-0001.json)"
+[ "$(grep -c '"kind"' lampion-lights-0001.json)" = 2 ] || fail "not two lights are saved"
+[ "$(grep -c '"kind"' state.json)" = 2 ] || fail "the saved lights are not read by Ctrl+O"
+"$PROGRAM" render --from other.png -o again.png
+cmp other.png again.png || fail "an image of the dropped scene is repeated otherwise"
+for lights in edited.png lampion-lights-0001.json; do
+    "$PROGRAM" render room.obj --lights "$lights" --size 32x18 -o "${lights%.*}-lit.png" || fail "--lights $lights: $?"
+done
+cmp edited-lit.png lampion-lights-0001-lit.png || fail "a screenshot and a file give other lights"
+
 # refusals
 refused() {
     status=0
@@ -246,5 +279,6 @@ printf '0 shot first.png\n1 key Ctrl+Q\n' >first.txt
 [ -s first.png ] || fail "no image of the first frame"
 "$PROGRAM" render room.obj --size 8x8 -o plain.png 2>/dev/null
 refused render --from plain.png -o x.png
+refused render room.obj --lights plain.png -o x.png
 refused render --from one/dropped.png -o x.exr
 [ ! -e x.png ] || fail "a refusal left an image"

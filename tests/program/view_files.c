@@ -89,17 +89,19 @@ static bool read_script(const char *text, view_script *script) {
 static void scripts_are_read_strictly(void **unused) {
     (void)unused;
     view_script script;
-    assert_true(
-        read_script("# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
-                    "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
-                    "4 drop a file.binary  # gold\n5 size 320 200\n6 shot out.png\n7 key Ctrl+Q",
-                    &script));
-    assert_int_equal(script.count, 11);
+    assert_true(read_script(
+        "# a demonstration\n0 move 10 20.5\n0.5 press left shift\n\n"
+        "1 release left # let go\n1 key ?\n2 hold w\n2 free w\n3 scroll -2\n"
+        "4 drop a file.binary  # gold\n4 type 1, 2\n5 size 320 200\n6 shot out.png\n7 key Ctrl+Q",
+        &script));
+    assert_int_equal(script.count, 12);
     CHECK_NEAR(20.5, script.lines[0].event.y, 0);
     assert_true(script.lines[1].event.shift);
     assert_string_equal(script.lines[3].event.text, "?");
     assert_string_equal(script.lines[7].event.text, "a file.binary");
-    assert_int_equal(script.lines[9].kind, VIEW_SCRIPT_SHOT);
+    assert_int_equal(script.lines[8].event.kind, VIEW_TYPE);
+    assert_string_equal(script.lines[8].event.text, "1, 2");
+    assert_int_equal(script.lines[10].kind, VIEW_SCRIPT_SHOT);
     view_script_free(&script);
     static const char *const bad[] = { "x",
                                        "1",
@@ -162,7 +164,8 @@ static void drafts_have_fewer_triangles_in_the_same_bounds(void **unused) {
 
 static void drawings_fit_and_grow_with_the_scale(void **unused) {
     (void)unused;
-    const view_row rows[] = { { "Lampion", "" }, { "Scene", "a name with ü, 漢字 and \xff" } };
+    const view_row rows[] = { { .name = "Lampion" },
+                              { .name = "Scene", .value = "a name with ü, 漢字 and \xff" } };
     view_drawing one = view_draw_panel(rows, 2, 1), two = view_draw_panel(rows, 2, 2);
     assert_non_null(one.pixels);
     CHECK_WITHIN(fabs(two.width / (double)one.width - 2), 0.2);

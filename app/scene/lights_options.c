@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: MIT */
+/* lights_options.c - the lights that a command line asks for. */
+#include "app/scene/scene.h"
+#include "app/scene/vector.h"
+
+/* Points become spheres and parallel rays suns, of the same intensity and irradiance. */
+static void widen_lights(scene *s, const scene_lights_options *options) {
+    const float angle = options->sun_angle * PI / 180.0f;
+    for (size_t i = 0; i < s->light_count; i++) {
+        lmp_light *light = &s->lights[i].emitter;
+        const scene_light_kind *kind = &scene_light_kinds[light->kind];
+        if (kind->widen)
+            kind->widen(light, options->point_radius, angle);
+    }
+}
+
+bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error *error) {
+    widen_lights(s, options);
+    s->lights_chosen = options->file || options->random_count > 0;
+    if (s->lights_chosen && !options->keep)
+        scene_clear_lights(s);
+    if (options->keep && !s->lights_chosen)
+        cli_note("--keep-lights", "changes nothing without --lights or --random-lights");
+    if (options->seed && options->random_count == 0)
+        cli_note("--seed", "changes nothing without --random-lights");
+    const size_t before = s->light_count;
+    if (options->file && !scene_add_lights_file(s, options->file, error))
+        return false;
+    if (options->file && s->light_count == before)
+        cli_note(options->file, "has no lights");
+    if (options->random_count > 0 &&
+        !scene_add_random_lights(s, options->random_count, options->seed, error))
+        return false;
+    for (size_t i = 0; options->hide && i < s->light_count; i++)
+        s->lights[i].hidden = 1;
+    return true;
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+/* files.c - what files do that are dropped onto the window, or opened by name. */
+#include "app/image/image.h"
+#include "app/material/material.h"
+#include "app/view/state.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *base_name(const char *file) {
+    const char *slash = strrchr(file, '/');
+    return slash ? slash + 1 : file;
+}
+
+/* --- materials -------------------------------------------------------------------------------- */
+
+static view_hit hit_at_pointer(const view_state *s) {
+    const view_ray ray = view_ray_through(&s->now.camera, s->now.width, s->now.height, s->x, s->y);
+    return view_pick_surface(&ray, s->world);
+}
+
+int view_material_at_pointer(const view_state *s) {
+    const view_hit hit = hit_at_pointer(s);
+    return hit.mesh < 0 ? 0 : (int)s->world->meshes[hit.mesh].material;
+}
+
+bool view_replace_material(view_state *s, const char *name, const char *replacement,
+                           cli_error *error) {
+    material opened;
+    if (replacement) {
+        if (!material_open(replacement, &opened, error))
+            return false;
+        material_close(&opened);
+    }
+    if (!view_set_material(&s->now, name, replacement))
+        return cli_fail(error, name, "cannot be replaced: too many materials, or too long a name");
+    view_say(s, "%s is %s", name, replacement ? base_name(replacement) : "as the scene has it");
+    return true;
+}
+
+/* It becomes that of the object under the pointer. */
+static bool take_material(view_state *s, const char *file, cli_error *error) {
+    const view_hit hit = hit_at_pointer(s);
+    if (hit.mesh < 0)
+        return cli_fail(error, base_name(file), "is a material: drop it onto an object");
+    if (!view_replace_material(s, s->world->materials[s->world->meshes[hit.mesh].material].name,
+                               file, error))
+        return false;
+    snprintf(s->dropped, sizeof s->dropped, "%s", file);
+    return true;
+}
+
+/* --- lights and scenes ------------------------------------------------------------------------ */
+
+static bool take_lights(view_state *s, const char *file, cli_error *error) {
+    size_t count;
+    scene_light *lights = calloc(SCENE_LIGHTS_MAX, sizeof *lights);
+    const bool ok = lights ? scene_read_lights(file, SCENE_LIGHTS_MAX, lights, &count, error)
+                           : cli_fail(error, NULL, "out of memory");
+    if (ok) {
+        view_put_lights(s, lights, count);
+        view_say(s, "%s: %zu light%s", base_name(file), count, count == 1 ? "" : "s");
+    }
+    free(lights);
+    return ok;
+}
+
+static bool take_scene(view_state *s, const char *file, cli_error *error) {
+    if (strlen(file) >= sizeof s->other)
+        return cli_fail(error, file, "is too long a name");
+    strcpy(s->other, file);
+    s->wishes.reload = true;
+    return true;
+}
+
+static const struct {
+    const char *ending;
+    bool (*take)(view_state *state, const char *file, cli_error *error);
+} kinds[] = {
+    { ".json", take_lights },   { ".png", take_lights },    { ".binary", take_material },
+    { ".bsdf", take_material }, { ".lmpt", take_material },
+};
+
+/* A colon divides the parameters of a material. */
+bool view_take_file(view_state *s, const char *file, cli_error *error) {
+    const char *base = base_name(file), *dot = strrchr(base, '.');
+    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
+        if (strcmp(dot, kinds[i].ending) == 0)
+            return kinds[i].take(s, file, error);
+    const bool named = strchr(base, ':') && strncmp(file, "builtin:", 8) != 0;
+    return named ? take_material(s, file, error) : take_scene(s, file, error);
+}
