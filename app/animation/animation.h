@@ -32,4 +32,17 @@ void animation_move_all(const animation *path, const scene *scene, double second
 #define ANIMATION_NAMES    "orbit, bounce, scene or FILE.json"
 #define ANIMATION_ARGUMENT "orbit|bounce|scene|FILE"
 
+/* The rows of a sequence's options --animate and --fps. */
+#define ANIMATION_OPTION_ROWS(path, rate)                                                          \
+    { .name = "animate",                                                                           \
+      .kind = CLI_TEXT,                                                                            \
+      .target = &(path),                                                                           \
+      .argument = ANIMATION_ARGUMENT,                                                              \
+      .help = "how they move: " ANIMATION_NAMES                                                    \
+              " (without it, scene if the file moves its lights, else orbit)" },                   \
+    {                                                                                              \
+        .name = "fps", .kind = CLI_FLOAT, .target = &(rate), .argument = "RATE",                   \
+        .help = "frames a second", .minimum = 0.01, .maximum = 1000                                \
+    }
+
 #endif

@@ -303,11 +303,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "shard", 0, CLI_PART, o.shard, "I/N",
           "of --frames, only part I of N: to split them among machines", 1, FRAME_MAX, NULL,
           &o.shard_given },
-        { "animate", 0, CLI_TEXT, &o.animate, ANIMATION_ARGUMENT,
-          "how they move: " ANIMATION_NAMES " (without it, scene if the file moves its lights, "
-          "else orbit)",
-          0, 0, NULL, NULL },
-        { "fps", 0, CLI_FLOAT, &o.fps, "RATE", "frames a second", 0.01, 1000, NULL, NULL },
+        ANIMATION_OPTION_ROWS(o.animate, o.fps),
         { "samples", 0, CLI_INT, &o.samples, "N",
           "samples a pixel; without it 8, of a .exr the one in its middle, as reference has it", 1,
           SAMPLES_MAX, NULL, &o.samples_given },

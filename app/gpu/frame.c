@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the shaders are told of a frame: its camera, sample and lights. */
+#include "app/gpu/block.h"
 #include "app/gpu/internal.h"
 
 #include <math.h>
@@ -106,7 +107,7 @@ bool gpu_fill_frame(const gpu_renderer *r, const gpu_frame *frame, int index, sh
 }
 
 void gpu_upload_lights(gpu_renderer *r, const gpu_frame *frame) {
-    r->shaded_lights = gpu_take_lights(frame, r->lights);
+    r->shaded_lights = gpu_take_lights(frame->lights, frame->light_count, r->lights);
     if (r->shaded_lights)
         glNamedBufferSubData(r->lights_block, 0, (GLsizeiptr)(r->shaded_lights * sizeof *r->lights),
                              r->lights);

@@ -170,12 +170,6 @@ bool gpu_gbuffer_read(const gpu_renderer *renderer, const shared_frame *block,
                       const gpu_frame *frame, gpu_gbuffer *gbuffer, cli_error *error);
 void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
 
-/* --- lights.c --------------------------------------------------------------------------------- */
-
-/* The frame's lights, each at its own index, and one more if some are ambient; returns
- * how many the shaders have to take. */
-size_t gpu_take_lights(const gpu_frame *frame, shared_light *lights);
-
 /* --- the renderer ----------------------------------------------------------------------------- */
 
 struct gpu_renderer {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* lights.c - lights of every kind as the shaders take them: spheres, or caps that are fixed. */
-#include "app/gpu/internal.h"
+#include "app/gpu/block.h"
 
 #include <math.h>
 
@@ -59,12 +59,11 @@ static shared_light take_light(const scene_light *light, lmp_rgb *ambient) {
     return make(e->direction, 1, above, 1, SHARED_LIGHT_FIXED);
 }
 
-size_t gpu_take_lights(const gpu_frame *frame, shared_light *lights) {
+size_t gpu_take_lights(const scene_light *lights, size_t count, shared_light *block) {
     lmp_rgb ambient = { 0, 0, 0 };
-    size_t count = frame->light_count;
     for (size_t i = 0; i < count; i++)
-        lights[i] = take_light(&frame->lights[i], &ambient);
+        block[i] = take_light(&lights[i], &ambient);
     if (ambient.r > 0 || ambient.g > 0 || ambient.b > 0)
-        lights[count++] = make((lmp_vec3) { 0, 0, 1 }, 2, ambient, 1, SHARED_LIGHT_FIXED);
+        block[count++] = make((lmp_vec3) { 0, 0, 1 }, 2, ambient, 1, SHARED_LIGHT_FIXED);
     return count;
 }

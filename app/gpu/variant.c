@@ -50,8 +50,8 @@ static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *err
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
              "#define TABLE_ENVIRONMENT %d\n%s%s%s",
-             row->defines, row->function, v->bands, weights, v->environment_bands,
-             table_defines[v->tables],
+             row->defines ? row->defines : "", row->function, v->bands, weights,
+             v->environment_bands, table_defines[v->tables],
              v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "",
              layered ? "#define PIXEL_LAYERED\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };

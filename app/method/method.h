@@ -45,7 +45,7 @@ typedef struct method_row {
     const char *shader;      /* its file */
     bool fragment;        /* the shader is a full screen's fragment shader, not a compute shader */
     const char *function; /* that the shader calls for a pixel */
-    const char *defines;  /* put before the shader */
+    const char *defines;  /* put before the shader, or NULL */
     const char *speedup;  /* NULL, or the statistic that tells its speed against this method's: */
     method_kind compared;
 } method_row;
