@@ -66,7 +66,8 @@ make_page() {
     source=$1
     page=$(page_of "$source")
     ROOT=$(dirname "$page" | sed 's,[^/.][^/]*,..,g; s,^\.$,,; s,..*,&/,')
-    export ROOT
+    PAGE=$page
+    export ROOT PAGE
     mkdir -p "$out/$(dirname "$page")"
     sed "s,@ROOT@,$ROOT,g; s,<a href=\"$ROOT$page\",& aria-current=\"page\"," "$work/navigation" >"$work/here"
     case $source in
@@ -99,8 +100,12 @@ copy_linked() {
 find "$out" -mindepth 1 -maxdepth 1 ! -name demo -exec rm -rf {} + 2>/dev/null || true # that is of ./dev web
 mkdir -p "$out"
 make_navigation >"$work/navigation"
-for source in $home $API_SOURCES CONTRIBUTING.md CHANGELOG.md docs/*.md; do
+export SEARCH_INDEX="$work/sections"
+for source in $home $API_SOURCES CONTRIBUTING.md docs/*.md; do
     make_page "$source"
 done
+unset SEARCH_INDEX # what changed is nothing to search in
+make_page CHANGELOG.md
 copy_linked
+{ echo 'globalThis.sections = ['; cat "$work/sections"; echo '];'; } >"$out/docs/site/sections.js"
 echo "$out/index.html"

@@ -62,5 +62,42 @@ local function title(document)
     end
 end
 
+-- A string of JavaScript.
+local function quote(text)
+    return '"' .. text:gsub('[%c"\\]', function(c)
+        return ('\\u%04x'):format(c:byte())
+    end) .. '"'
+end
+
+local function plain(blocks)
+    local text = pandoc.walk_block(pandoc.Div(blocks), { Math = function(math) return pandoc.Str(math.text) end })
+    return pandoc.write(pandoc.Pandoc({ text }), 'plain', { wrap_text = 'none' })
+end
+
+-- What the search finds, a line a section: its page, anchor, heading and text.
+local function list_sections(document)
+    local index = os.getenv('SEARCH_INDEX')
+    if not index then
+        return nil
+    end
+    local file = assert(io.open(index, 'a'))
+    local section = { anchor = '', heading = document.meta.title, blocks = {} }
+    local function write()
+        local heading = pandoc.utils.stringify(section.heading)
+        file:write('[', quote(os.getenv('PAGE')), ',', quote(section.anchor), ',', quote(heading), ',',
+            quote(plain(section.blocks)), '],\n')
+    end
+    for _, block in ipairs(document.blocks) do
+        if block.t == 'Header' and block.level > 1 then
+            write()
+            section = { anchor = block.identifier, heading = block.content, blocks = {} }
+        elseif block.t ~= 'Header' then
+            table.insert(section.blocks, block)
+        end
+    end
+    write()
+    file:close()
+end
+
 -- traverse = 'topdown' needs pandoc 2.17
-return { { Pandoc = title }, links, names, looks }
+return { { Pandoc = title }, { Pandoc = list_sections }, links, names, looks }

@@ -54,6 +54,21 @@ while read -r page; do
 done <"$WORK/pages" >"$WORK/dead"
 [ ! -s "$WORK/dead" ] || fail "dead links, or things of the network: $(cat "$WORK/dead")"
 
+# what the search finds is there, and is found
+sed -n 's/^\["\([^"]*\)","\([^"]*\)",.*/\1#\2/p; ' "$site/docs/site/sections.js" | sed 's/#$//' >"$WORK/found"
+[ "$(wc -l <"$WORK/found")" -gt 200 ] || fail "the search knows only $(wc -l <"$WORK/found") sections"
+grep -vxF -f "$WORK/targets" "$WORK/found" && fail "the search leads nowhere"
+if command -v node >/dev/null; then
+    cat >"$WORK/search.mjs" <<SEARCH
+await import('$site/docs/site/sections.js');
+await import('$site/docs/site/search.js');
+for (const words of ['undo lights', 'LMP_SH_ROTATE', 'a(b', 'zebra crossing'])
+    console.log(findSections(sections, words)[0]?.[0] ?? 'nothing');
+SEARCH
+    node "$WORK/search.mjs" >"$WORK/log" 2>&1 || fail "$(cat "$WORK/log")"
+    printf 'docs/viewer.html\ninclude/lampion/sh.h.html\nnothing\nnothing\n' | diff - "$WORK/log" || fail "the search finds something else"
+fi
+
 for image in docs/images/*; do
     grep -qF "images/$(basename "$image")" README.md docs/*.md || fail "no document shows $image"
 done
