@@ -4,6 +4,7 @@
 #include "app/scene/scene.h"
 
 #include "tests/program/folder.h"
+#include "tests/program/load.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -17,65 +18,16 @@
 #define CHECK_NEAR(expected, actual, bound)                                                        \
     CHECK_WITHIN(fabs((double)(actual) - (double)(expected)), bound)
 
-static scene load(const char *name, bool no_cache) {
+/* From the cache where it lies there already. */
+static scene load_cached(const char *name) {
     scene loaded;
     cli_error error = { 0 };
-    if (!scene_load(name, &(scene_options) { .no_cache = no_cache }, &loaded, &error))
+    if (!scene_load(name, &(scene_options) { 0 }, &loaded, &error))
         fail_msg("%s", error.text);
     return loaded;
 }
 
-static void assert_unit_and_inside(const scene *s) {
-    for (size_t i = 0; i < s->index_count; i++)
-        assert_true(s->indices[i] < s->vertex_count);
-    for (size_t i = 0; i < s->vertex_count; i++) {
-        const float *n = s->vertices[i].normal, *t = s->vertices[i].tangent;
-        CHECK_NEAR(1.0, n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1e-5);
-        CHECK_NEAR(1.0, t[0] * t[0] + t[1] * t[1] + t[2] * t[2], 1e-5);
-        CHECK_NEAR(0.0, n[0] * t[0] + n[1] * t[1] + n[2] * t[2], 1e-3);
-        CHECK_NEAR(1.0, fabsf(t[3]), 0.0);
-    }
-}
-
 /* --- files ------------------------------------------------------------------------------------ */
-
-static void files_hold_what_the_facts_say(void **state) {
-    (void)state;
-    const char *data = getenv("LAMPION_DATA") ? getenv("LAMPION_DATA") : "../shared";
-    char path[1024], line[1024];
-    snprintf(path, sizeof path, "%s/data/facts.csv", data);
-    FILE *facts = fopen(path, "r");
-    if (!facts) {
-        printf("skipped: %s is not there\n", path);
-        return;
-    }
-    int checked = 0;
-    assert_non_null(fgets(line, sizeof line, facts));
-    for (; fgets(line, sizeof line, facts); checked++) {
-        char name[512];
-        double lo[3], hi[3], area;
-        size_t triangles;
-        assert_int_equal(sscanf(line, "%511[^,],%zu,%lf,%lf,%lf,%lf,%lf,%lf,%lf", name, &triangles,
-                                &lo[0], &lo[1], &lo[2], &hi[0], &hi[1], &hi[2], &area),
-                         9);
-        snprintf(path, sizeof path, "%s/data/%s", data, name);
-        scene s = load(path, true);
-        assert_int_equal(s.index_count / 3, triangles);
-        /* The facts have six digits: of the largest extent. */
-        double size = 0.0;
-        for (int k = 0; k < 3; k++)
-            size = fmax(size, fmax(fabs(lo[k]), fabs(hi[k])));
-        for (int k = 0; k < 3; k++) {
-            CHECK_NEAR(lo[k], s.minimum[k], 1e-5 * size);
-            CHECK_NEAR(hi[k], s.maximum[k], 1e-5 * size);
-        }
-        CHECK_NEAR(area, s.area, 1e-5 * area);
-        assert_unit_and_inside(&s);
-        scene_free(&s);
-    }
-    fclose(facts);
-    assert_true(checked >= 8);
-}
 
 /* A square of side 2 in the plane z = 0, as an OBJ with one quad, without normals. */
 static const char square_obj[] = "mtllib square.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
@@ -87,7 +39,7 @@ static void an_obj_is_read_with_its_materials(void **state) {
     folder_write_text("square.obj", square_obj);
     folder_write_text("square.mtl",
                       "newmtl glow\nKd 0.5 0.25 0.125\nKs 0.1 0.1 0.1\nNs 98\nKe 2 3 4\n");
-    scene s = load(in_folder("square.obj"), true);
+    scene s = load(in_folder("square.obj"));
     assert_int_equal(s.index_count, 6);
     assert_int_equal(s.vertex_count, 4);
     assert_unit_and_inside(&s);
@@ -136,7 +88,7 @@ static const char full_gltf[] =
 static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) {
     (void)state;
     folder_write_text("full.gltf", full_gltf);
-    scene s = load(in_folder("full.gltf"), true);
+    scene s = load(in_folder("full.gltf"));
     assert_int_equal(s.index_count, 3);
     /* x is mirrored: -2 (1 + 0 … 1). The winding follows, so that the front still looks to +z. */
     CHECK_NEAR(-4.0, s.minimum[0], 1e-6);
@@ -191,8 +143,8 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
     char cached_path[1024];
     folder_write_text("square.obj", square_obj);
     folder_write_text("square.mtl", "newmtl glow\nKd 0.5 0.25 0.125\n");
-    scene first = load(in_folder("square.obj"), false);
-    scene second = load(in_folder("square.obj"), false);
+    scene first = load_cached(in_folder("square.obj"));
+    scene second = load_cached(in_folder("square.obj"));
     assert_false(first.cached);
     assert_true(second.cached);
     assert_int_equal(first.block_size, second.block_size);
@@ -208,18 +160,18 @@ static void a_cached_scene_is_the_same_and_damage_is_noticed(void **state) {
         fseek(file, (long)at, SEEK_SET);
         fputc(byte ^ 0x55, file);
         fclose(file);
-        scene mended = load(in_folder("square.obj"), false);
+        scene mended = load_cached(in_folder("square.obj"));
         assert_false(mended.cached);
         assert_memory_equal(first.block, mended.block, first.block_size);
         scene_free(&mended);
     }
     assert_int_equal(truncate(cached_path, 100), 0);
-    scene truncated = load(in_folder("square.obj"), false);
+    scene truncated = load_cached(in_folder("square.obj"));
     assert_false(truncated.cached);
     scene_free(&truncated);
     /* A file it refers to changes. */
     folder_write_text("square.mtl", "newmtl glow\nKd 0.5 0.75 0.125\n");
-    scene changed = load(in_folder("square.obj"), false);
+    scene changed = load_cached(in_folder("square.obj"));
     assert_false(changed.cached);
     CHECK_NEAR(0.75, changed.materials[changed.meshes[0].material].base_color[1], 1e-6);
     scene_free(&changed);
@@ -239,7 +191,7 @@ static void a_scene_whose_z_is_up_stands(void **state) {
     cli_error error;
     folder_write_text("lying.gltf", full_gltf);
     for (int time = 0; time < 2; time++) {
-        scene lying = load(in_folder("lying.gltf"), false), standing;
+        scene lying = load_cached(in_folder("lying.gltf")), standing;
         assert_true(scene_load(in_folder("lying.gltf"), &(scene_options) { .up = SCENE_UP_Z },
                                &standing, &error));
         assert_int_equal(standing.cached, time);
@@ -272,7 +224,7 @@ static void built_in_scenes_are_valid(void **state) {
     static const char *const names[] = { "builtin:atrium", "builtin:atrium:tiles=2,lanterns=7",
                                          "builtin:balls", "builtin:ball" };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        scene s = load(names[i], false);
+        scene s = load_cached(names[i]);
         assert_unit_and_inside(&s);
         assert_int_equal(s.camera_count, 1);
         if (i == 0) {
@@ -287,7 +239,7 @@ static void built_in_scenes_are_valid(void **state) {
 
 static void many_lanterns_hang_on_strings(void **state) {
     (void)state;
-    scene s = load("builtin:atrium:lanterns=1000", false);
+    scene s = load_cached("builtin:atrium:lanterns=1000");
     assert_unit_and_inside(&s);
     assert_int_equal(s.light_count, 1000);
     for (size_t i = 30; i < s.light_count; i++) {
@@ -305,8 +257,8 @@ static void many_lanterns_hang_on_strings(void **state) {
 
 static void the_atrium_is_the_same_for_a_seed_and_another_for_another(void **state) {
     (void)state;
-    scene a = load("builtin:atrium:seed=5", false), b = load("builtin:atrium:seed=5", false);
-    scene c = load("builtin:atrium:seed=6", false);
+    scene a = load_cached("builtin:atrium:seed=5"), b = load_cached("builtin:atrium:seed=5");
+    scene c = load_cached("builtin:atrium:seed=6");
     assert_int_equal(a.block_size, b.block_size);
     assert_memory_equal(a.block, b.block, a.block_size);
     assert_memory_not_equal(a.lights, c.lights, a.light_count * sizeof *a.lights);
@@ -327,7 +279,7 @@ static void random_lights_are_the_same_everywhere(void **state) {
     };
     folder_write_text("square.obj", square_obj);
     folder_write_text("square.mtl", "newmtl glow\n");
-    scene s = load(in_folder("square.obj"), true);
+    scene s = load(in_folder("square.obj"));
     cli_error error = { 0 };
     scene_clear_lights(&s);
     assert_true(scene_add_random_lights(&s, 30, 7, &error));
@@ -357,7 +309,7 @@ static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
                       "{\"lights\":[{\"position\":[1,2,3],\"radius\":0.5,\"radiance\":[1,2,3]},"
                       "{\"position\":[0,0,0],\"radius\":2,\"power\":100},"
                       "{\"position\":[0,0,0],\"radius\":2,\"intensity\":[100,0,1]}]}");
-    scene s = load("builtin:ball", false);
+    scene s = load_cached("builtin:ball");
     cli_error error = { 0 };
     assert_int_equal(s.light_count, 10);
     scene_lights_options options = { .file = in_folder("lights.json"), .keep = true };
@@ -388,7 +340,6 @@ static int make_folder(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(files_hold_what_the_facts_say),
         cmocka_unit_test(an_obj_is_read_with_its_materials),
         cmocka_unit_test(a_gltf_is_read_with_lights_cameras_and_mirrored_nodes),
         cmocka_unit_test(a_cached_scene_is_the_same_and_damage_is_noticed),
