@@ -30,9 +30,8 @@ typedef struct shadow_planes {
 bool shadow_planes_resize(shadow_planes *planes, int width, int height);
 void shadow_planes_free(shadow_planes *planes);
 
-/* Mixes the values of neighbors on one surface, as far as shadows are even; less for samples
- * 1, 2, … of a pixel, so that neither noise nor blur is left of the mean of many. False without
- * memory. */
-bool shadow_filter(shadow_planes *planes, int sample);
+/* Mixes the values of neighbors on one surface, as far as shadows are even, and the less far the
+ * larger `narrowing` is, which is about the square of a factor on distances. */
+void shadow_filter(shadow_planes *planes, float narrowing);
 
 #endif

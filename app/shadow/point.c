@@ -130,30 +130,37 @@ static void set_coat(const gpu_row *row, int x, float least, int i, shadow_point
     set_lane(&p->coat_mirror, i, mirror);
 }
 
-void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, int width,
+float shadow_footprint(const shadow_view *view, const gpu_row *row, int x) {
+    float d2 = 0;
+    for (int c = 0; c < 3; c++) {
+        const float d = row->position[c][x] - view->camera->eye[c];
+        d2 += d * d;
+    }
+    return scene_camera_height(view->camera, sqrtf(d2)) / (float)view->height;
+}
+
+void shadow_points_set(const shadow_view *view, const gpu_row *row, const int *pixels, int count,
                        shadow_points *p) {
     static const lmp_material unlit = { 0 }; /* where nothing is, the row has no material */
     const float least = resolved(&view->settings);
-    p->material = row->material + first;
     p->settings = &view->settings;
     p->coated = false;
     for (int i = 0; i < SHADOW_LANES; i++) {
-        const int x = first + i < width ? first + i : width - 1;
-        p->lit[i] = first + i < width && row->kind[x] == GPU_KIND_SURFACE;
-        float along = 0, d2 = 0;
+        const int x = pixels[i < count ? i : 0];
+        p->lit[i] = i < count;
+        p->material[i] = p->lit[i] ? &row->material[x] : &unlit;
+        float along = 0;
         for (int c = 0; c < 3; c++) {
             p->position.of[c][i] = row->position[c][x];
             p->normal.of[c][i] = row->normal[c][x];
             p->view.of[c][i] = row->view[c][x];
             along += row->normal[c][x] * row->view[c][x];
-            const float d = row->position[c][x] - view->camera->eye[c];
-            d2 += d * d;
         }
-        p->footprint[i] = scene_camera_height(view->camera, sqrtf(d2)) / (float)view->height;
         for (int c = 0; c < 3; c++)
             p->mirror.of[c][i] = 2 * along * p->normal.of[c][i] - p->view.of[c][i];
+        p->footprint[i] = shadow_footprint(view, row, x);
         p->ambient[i] = row->ambient[x];
-        set_material(p->lit[i] ? &row->material[x] : &unlit, least, i, p);
+        set_material(p->material[i], least, i, p);
         set_coat(row, x, least, i, p);
     }
     find_origins(view, p);
@@ -167,7 +174,7 @@ static lmp_rgb reflect_series(const shadow_points *p, int lane, lmp_vec3 w) {
                                   .normal = lane_of(&p->normal, lane),
                                   .view = lane_of(&p->view, lane),
                                   .coat_normal = lane_of(&p->coat_normal, lane) };
-    return lmp_shade(p->settings, &p->material[lane], &surface, &light, 1);
+    return lmp_shade(p->settings, p->material[lane], &surface, &light, 1);
 }
 
 /* GGX and its masking, times the cosine of w. */
@@ -180,7 +187,7 @@ static float glossy(lmp_vec3 n, lmp_vec3 v, lmp_vec3 w, float a2) {
 }
 
 lmp_rgb shadow_reflect(const shadow_points *p, int lane, lmp_vec3 w) {
-    if (p->material[lane].kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
+    if (p->material[lane]->kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
         return reflect_series(p, lane, w);
     const lmp_vec3 n = lane_of(&p->normal, lane), v = lane_of(&p->view, lane);
     const float in = fmaxf(vec_dot(n, w), 0), coat = p->coat[lane];

@@ -15,7 +15,7 @@ typedef struct shadow_vectors {
 } shadow_vectors;
 
 typedef struct shadow_points {
-    bool lit[SHADOW_LANES]; /* a surface; the rest means nothing elsewhere */
+    bool lit[SHADOW_LANES]; /* there is one; the rest means nothing elsewhere */
     shadow_vectors position, normal, view, mirror;
     shadow_vectors origin;  /* of rays */
     shadow_vectors smooth;  /* the normal without its map */
@@ -27,8 +27,8 @@ typedef struct shadow_points {
     bool coated; /* some of the points */
     shadow_lanes coat, coat_alpha2;
     shadow_vectors coat_normal, coat_mirror;
-    shadow_lanes ambient;         /* how much of the environment comes: the occlusion map */
-    const lmp_material *material; /* of each point */
+    shadow_lanes ambient; /* how much of the environment comes: the occlusion map */
+    const lmp_material *material[SHADOW_LANES];
     const lmp_shade_settings *settings;
 } shadow_points;
 
@@ -43,8 +43,12 @@ typedef struct shadow_view {
     lmp_shade_settings settings;
 } shadow_view;
 
-/* The points of the row's pixels from `first` on, at most SHADOW_LANES and up to `width`. */
-void shadow_points_set(const shadow_view *view, const gpu_row *row, int first, int width,
+/* How wide a pixel of the row is on its surface. */
+float shadow_footprint(const shadow_view *view, const gpu_row *row, int x);
+
+/* The points of `count` pixels of the row, at most SHADOW_LANES, all of which show a surface; the
+ * first of `pixels` stands for those that are missing. */
+void shadow_points_set(const shadow_view *view, const gpu_row *row, const int *pixels, int count,
                        shadow_points *points);
 
 /* f_r cos(theta) of light from the unit direction w at one of the points, never negative: glTF's

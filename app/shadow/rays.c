@@ -21,18 +21,6 @@ static float mean_of(lmp_rgb rgb) {
     return (rgb.r + rgb.g + rgb.b) / 3;
 }
 
-/* The sources' weights, each with those before it, from lane to lane. */
-static void accumulate_weights(const shadow_job *job, const shadow_points *points, float *weights) {
-    shadow_lanes sum = { 0 }, weight;
-    for (size_t s = 0; s < job->source_count; s++) {
-        shadow_source_weigh(&job->sources[s], points, weight);
-        for (int i = 0; i < SHADOW_LANES; i++) {
-            sum[i] += weight[i] > 0 ? weight[i] : 0;
-            weights[s * SHADOW_LANES + (size_t)i] = sum[i];
-        }
-    }
-}
-
 /* The next numbers in 0 … 1 of every pixel. */
 static SHADOW_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -44,20 +32,19 @@ static SHADOW_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, sha
 }
 
 /* The sources that numbers fall on. */
-static SHADOW_WIDE void choose(const shadow_job *job, const float *weights, const float *u,
+static SHADOW_WIDE void choose(const shadow_job *job, shadow_lanes *weights, const float *u,
                                int *chosen) {
-    const float *total = weights + (job->source_count - 1) * SHADOW_LANES;
+    const size_t last = job->source_count - 1;
     for (int i = 0; i < SHADOW_LANES; i++)
         chosen[i] = 0;
-    for (const float *sum = weights; sum < total; sum += SHADOW_LANES)
+    for (size_t s = 0; s < last; s++)
         for (int i = 0; i < SHADOW_LANES; i++)
-            chosen[i] += sum[i] <= u[i] * total[i];
+            chosen[i] += weights[s][i] <= u[i] * weights[last][i];
 }
 
-static void aim(const shadow_job *job, const shadow_points *p, const float *weights, int source,
+static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *weights, int source,
                 shadow_lanes *u, int i, ray_shot *shot) {
-    const float *sum = weights + source * SHADOW_LANES + i;
-    const float weight = source > 0 ? sum[0] - sum[-SHADOW_LANES] : sum[0];
+    const float weight = weights[source][i] - (source > 0 ? weights[source - 1][i] : 0);
     shot->rays.length[i] = -1;
     shot->value[i] = (lmp_rgb) { 0, 0, 0 };
     if (!p->lit[i] || !(weight > 0))
@@ -114,14 +101,14 @@ static size_t add_shot(const ray_shot *shot, const trace_hit hits[SHADOW_LANES],
     return count;
 }
 
-static size_t send_rays(const shadow_job *job, const shadow_points *points, int x, int y,
-                        float *weights, shadow_sums *sums) {
+static size_t send_rays(const shadow_job *job, const shadow_points *points, const int *pixels,
+                        int y, shadow_lanes *weights, shadow_sums *sums) {
     shadow_sequence sequences[SHADOW_LANES];
     size_t count = 0;
-    accumulate_weights(job, points, weights);
+    shadow_sources_weigh(job->sources, job->source_count, points, weights);
     for (int i = 0; i < SHADOW_LANES; i++)
         sequences[i] =
-            shadow_sequence_of((uint32_t)(x + i), (uint32_t)y, (uint32_t)job->rays, job->seed);
+            shadow_sequence_of((uint32_t)pixels[i], (uint32_t)y, (uint32_t)job->rays, job->seed);
     for (int ray = 0; ray < job->rays; ray++) {
         shadow_lanes u[3];
         int chosen[SHADOW_LANES];
@@ -137,34 +124,72 @@ static size_t send_rays(const shadow_job *job, const shadow_points *points, int 
     return count;
 }
 
-/* What is no surface is 0, and so without weight for the filter. */
-static void store(const shadow_points *points, const shadow_sums *sums, size_t first, int count,
-                  shadow_planes *planes) {
-    for (int i = 0; i < count; i++) {
-        const size_t pixel = first + (size_t)i;
-        const bool lit = points->lit[i];
+/* --- a row ------------------------------------------------------------------------------------ */
+
+/* Whether the filter would mix two pixels of a row. */
+static bool alike(const gpu_row *row, int a, int b, float footprint) {
+    float off = 0, facing = 0;
+    if (row->kind[b] != GPU_KIND_SURFACE)
+        return false;
+    for (int c = 0; c < 3; c++) {
+        off += row->normal[c][a] * (row->position[c][b] - row->position[c][a]);
+        facing += row->normal[c][a] * row->normal[c][b];
+    }
+    return fabsf(off) < 0.5f * footprint && facing > 0.9f;
+}
+
+/* Whether it takes what its neighbors find: one of every two, the other one in the next sample. */
+static bool borrows(const shadow_job *job, const gpu_row *row, int x, int y,
+                    const shadow_planes *planes) {
+    const float footprint = planes->footprint[(size_t)y * (size_t)planes->width + (size_t)x];
+    return job->sparse && (x + y + job->sample) % 2 != 0 &&
+           ((x > 0 && alike(row, x, x - 1, footprint)) ||
+            (x + 1 < planes->width && alike(row, x, x + 1, footprint)));
+}
+
+/* Pixels without rays. What is no surface is 0, and so without weight for the filter. */
+static void store_row(const shadow_job *job, const gpu_row *row, int y, shadow_planes *planes) {
+    for (int x = 0; x < planes->width; x++) {
+        const size_t pixel = (size_t)y * (size_t)planes->width + (size_t)x;
+        const bool lit = row->kind[x] == GPU_KIND_SURFACE;
         for (int c = 0; c < 3; c++) {
-            planes->position[c][pixel] = lit ? points->position.of[c][i] : 0;
-            planes->normal[c][pixel] = lit ? points->smooth.of[c][i] : 0;
+            planes->position[c][pixel] = lit ? row->position[c][x] : 0;
+            planes->normal[c][pixel] = lit ? row->normal[c][x] : 0;
         }
-        planes->footprint[pixel] = lit ? points->footprint[i] : 1;
+        planes->footprint[pixel] = lit ? shadow_footprint(&job->view, row, x) : 1;
         for (int k = 0; k < SHADOW_VALUES; k++)
-            planes->values[k][pixel] = lit ? sums->of[k][i] : 0;
+            planes->values[k][pixel] = 0;
     }
 }
 
-size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, float *weights,
+static void store(const shadow_points *points, const shadow_sums *sums, size_t first,
+                  const int *pixels, shadow_planes *planes) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const size_t pixel = first + (size_t)pixels[i];
+        if (!points->lit[i])
+            continue;
+        for (int c = 0; c < 3; c++)
+            planes->normal[c][pixel] = points->smooth.of[c][i];
+        for (int k = 0; k < SHADOW_VALUES; k++)
+            planes->values[k][pixel] = sums->of[k][i];
+    }
+}
+
+size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, shadow_lanes *weights,
                        shadow_planes *planes) {
-    const int width = planes->width;
+    const size_t first = (size_t)y * (size_t)planes->width;
     size_t sent = 0;
-    for (int x = 0; x < width; x += SHADOW_LANES) {
-        const int count = width - x < SHADOW_LANES ? width - x : SHADOW_LANES;
+    store_row(job, row, y, planes);
+    for (int x = 0; job->source_count > 0 && x < planes->width;) {
+        int pixels[SHADOW_LANES] = { 0 }, count = 0;
+        for (; x < planes->width && count < SHADOW_LANES; x++)
+            if (row->kind[x] == GPU_KIND_SURFACE && !borrows(job, row, x, y, planes))
+                pixels[count++] = x;
         shadow_sums sums = { { { 0 } } };
         shadow_points points;
-        shadow_points_set(&job->view, row, x, width, &points);
-        if (job->source_count > 0)
-            sent += send_rays(job, &points, x, y, weights, &sums);
-        store(&points, &sums, (size_t)y * (size_t)width + (size_t)x, count, planes);
+        shadow_points_set(&job->view, row, pixels, count, &points);
+        sent += send_rays(job, &points, pixels, y, weights, &sums);
+        store(&points, &sums, first, pixels, planes);
     }
     return sent;
 }

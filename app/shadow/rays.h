@@ -10,13 +10,15 @@ typedef struct shadow_job {
     shadow_view view;
     const shadow_source *sources;
     size_t source_count;
-    int rays; /* a pixel */
+    int rays;    /* a pixel */
+    bool sparse; /* of every second pixel alone, where its neighbor may speak for it */
+    int sample;  /* of the frame: which ones */
     uint32_t seed;
 } shadow_job;
 
-/* Fills row y of the planes; `weights` is memory for SHADOW_LANES floats a source. Returns how many
+/* Fills row y of the planes; `weights` is memory for as many as there are sources. Returns how many
  * rays toward lights were sent. */
-size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, float *weights,
+size_t shadow_rays_row(const shadow_job *job, const gpu_row *row, int y, shadow_lanes *weights,
                        shadow_planes *planes);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/shadow/shadow.h"
 
-#include "app/reference/environment.h"
 #include "app/scene/vector.h"
 #include "app/shadow/rays.h"
+#include "app/shadow/reuse.h"
 #include "app/shadow/sequence.h"
 #include "app/timing/timing.h"
 
@@ -14,7 +14,7 @@ struct shadow {
     const scene *scene;
     shadow_settings settings;
     trace_bvh *bvh;
-    reference_environment around;
+    shadow_around around;
     shadow_source *sources;
     shadow_planes planes;
     shadow_statistics statistics;
@@ -42,17 +42,16 @@ shadow *shadow_create(const scene *world, const environment *surroundings,
 }
 
 bool shadow_surround(shadow *s, const environment *surroundings, cli_error *error) {
-    reference_environment_free(&s->around);
+    shadow_around_free(&s->around);
     memset(&s->around, 0, sizeof s->around);
-    return reference_environment_create(surroundings, &s->around) ||
-           fail_memory(s->scene->origin, error);
+    return shadow_around_create(surroundings, &s->around) || fail_memory(s->scene->origin, error);
 }
 
 void shadow_destroy(shadow *s) {
     if (!s)
         return;
     trace_destroy(s->bvh);
-    reference_environment_free(&s->around);
+    shadow_around_free(&s->around);
     shadow_planes_free(&s->planes);
     free(s->sources);
     free(s);
@@ -62,8 +61,19 @@ shadow_statistics shadow_describe(const shadow *s) {
     return s->statistics;
 }
 
+/* Whether every second sample of a pixel takes its shadows from the one before. */
+static bool alternates(const shadow *s) {
+    return s->settings.sparse && !s->settings.apart && !s->settings.raw;
+}
+
+/* Which of the samples that send rays it is, from 0. */
+static int sample_of(const shadow *s, const gpu_gbuffer *gbuffer) {
+    const int sample = gpu_gbuffer_sample(gbuffer);
+    return alternates(s) ? sample / 2 : sample;
+}
+
 static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *gbuffer) {
-    const bool shines = reference_environment_shines(&s->around);
+    const bool shines = shadow_around_shines(&s->around);
     shadow_job job = {
         .view = { .scene = s->scene,
                   .bvh = s->bvh,
@@ -74,7 +84,9 @@ static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *g
                   .settings = { .bands = frame->bands, .window = frame->window } },
         .sources = s->sources,
         .rays = s->settings.rays,
-        .seed = shadow_hash(s->settings.seed, (uint32_t)gpu_gbuffer_sample(gbuffer)),
+        .sparse = s->settings.sparse && !s->settings.raw,
+        .sample = sample_of(s, gbuffer),
+        .seed = shadow_hash(s->settings.seed, (uint32_t)sample_of(s, gbuffer)),
     };
     job.source_count = shadow_sources_make(frame->lights, frame->light_count,
                                            shines ? &s->around : NULL, s->sources);
@@ -87,7 +99,7 @@ static bool send_rays(shadow *s, const shadow_job *job, const gpu_gbuffer *gbuff
 #pragma omp parallel reduction(&& : ok) reduction(+ : rays)
     {
         gpu_row row;
-        float *weights = malloc((job->source_count + 1) * sizeof(shadow_lanes));
+        shadow_lanes *weights = malloc((job->source_count + 1) * sizeof *weights);
         const bool mine = gpu_row_create(s->planes.width, &row);
         ok = mine && weights;
 #pragma omp for schedule(dynamic, 4)
@@ -129,19 +141,49 @@ static void apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
     }
 }
 
+/* Less for samples 1, 2, … of a pixel: of a mean of n, blur that falls as the fourth root falls as
+ * the root of n, and so does variance. More for few rays. */
+static float narrowing_of(const shadow_job *job) {
+    return sqrtf((float)(job->sample + 1)) * (job->sparse ? 0.7f : 1);
+}
+
+static bool cast(shadow *s, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba) {
+    const double start = timing_now();
+    const shadow_job job = job_of(s, frame, gbuffer);
+    if (!shadow_planes_resize(&s->planes, frame->width, frame->height) ||
+        !send_rays(s, &job, gbuffer))
+        return false;
+    const double sent = timing_now();
+    if (!s->settings.raw)
+        shadow_filter(&s->planes, narrowing_of(&job));
+    apply(s, gbuffer, rgba);
+    s->statistics.rays_milliseconds = 1e3 * (sent - start);
+    s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
+    return true;
+}
+
+static bool reuse(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
+    bool ok = true;
+#pragma omp parallel reduction(&& : ok)
+    {
+        gpu_row row;
+        const bool mine = ok = gpu_row_create(s->planes.width, &row);
+#pragma omp for schedule(dynamic, 4)
+        for (int y = 0; y < s->planes.height; y++)
+            if (mine) {
+                gpu_gbuffer_row(gbuffer, y, &row);
+                shadow_reuse_row(&s->planes, &row, y, rgba);
+            }
+        if (mine)
+            gpu_row_free(&row);
+    }
+    return ok;
+}
+
 bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
                   cli_error *error) {
     shadow *s = user;
-    const double start = timing_now();
-    const shadow_job job = job_of(s, frame, gbuffer);
-    bool ok = shadow_planes_resize(&s->planes, frame->width, frame->height) &&
-              send_rays(s, &job, gbuffer);
-    const double sent = timing_now();
-    if (!s->settings.raw)
-        ok = ok && shadow_filter(&s->planes, gpu_gbuffer_sample(gbuffer));
-    if (ok)
-        apply(s, gbuffer, rgba);
-    s->statistics.rays_milliseconds = 1e3 * (sent - start);
-    s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
-    return ok || fail_memory(NULL, error);
+    const bool again = alternates(s) && gpu_gbuffer_sample(gbuffer) % 2 != 0;
+    return (again ? reuse(s, gbuffer, rgba) : cast(s, frame, gbuffer, rgba)) ||
+           fail_memory(NULL, error);
 }

@@ -11,6 +11,8 @@ typedef struct shadow_settings {
     int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
     uint32_t seed; /* of the noise: the same seed gives the same bits on any number of threads */
     bool raw;      /* without the filter */
+    bool sparse;   /* of two neighbors one sends rays, and of two samples of a pixel */
+    bool apart;    /* samples know nothing of those before: all of them send rays */
     bool facets;   /* rays leave flat triangles, as the reference's do, whose edges show at dusk */
 } shadow_settings;
 #define SHADOW_RAYS_MAX     1024
@@ -40,13 +42,18 @@ typedef struct shadow_options {
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.raw,                                                      \
           .help = "leave the noise of --shadows, whose mean over many samples is exact" },         \
+        { .name = "shadow-sparse",                                                                 \
+          .kind = CLI_FLAG,                                                                        \
+          .target = &(variable).settings.sparse,                                                   \
+          .help = "rays of --shadows from one of two neighbors and of two samples: a third of "    \
+                  "the time" },                                                                    \
     {                                                                                              \
         .name = "shadow-rays", .kind = CLI_INT, .target = &(variable).settings.rays,               \
         .argument = "N", .help = "rays of --shadows for each sample of a pixel", .minimum = 1,     \
         .maximum = SHADOW_RAYS_MAX                                                                 \
     }
 
-/* Of the last frame's last sample. */
+/* Of the last sample that sent rays. */
 typedef struct shadow_statistics {
     size_t rays; /* toward lights */
     double rays_milliseconds, filter_milliseconds;

@@ -45,15 +45,13 @@ static size_t add_light(const lmp_light *light, shadow_source *sources) {
     return 0;
 }
 
-size_t shadow_sources_make(const scene_light *lights, size_t count,
-                           const reference_environment *around, shadow_source *sources) {
+size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow_around *around,
+                           shadow_source *sources) {
     size_t made = 0;
     for (size_t i = 0; i < count; i++)
         made += add_light(&lights[i].emitter, sources + made);
     if (around) {
-        const double *mean = around->mean;
-        sources[made] = source_of(SHADOW_AROUND, NULL,
-                                  (lmp_rgb) { (float)mean[0], (float)mean[1], (float)mean[2] });
+        sources[made] = source_of(SHADOW_AROUND, NULL, around->mean);
         sources[made++].around = around;
     }
     return made;
@@ -90,31 +88,30 @@ static float larger(float a, float b) {
     return 0.5f * (a + b + fabsf(a - b));
 }
 
-/* Caps beside each other, and the irradiance across them. */
+/* Caps beside each other, and the irradiance across them over pi. */
 typedef struct cap_lanes {
     shadow_vectors axis;
     shadow_lanes sine, power;
 } cap_lanes;
 
-static SHADOW_WIDE void see_spheres(const shadow_source *source, const shadow_points *p,
-                                    cap_lanes *caps) {
+static void see_sphere(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
     const lmp_light *light = source->light;
     const lmp_vec3 center = light->position;
     const float r = light->radius, least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float x = center.x - p->position.of[0][i], y = center.y - p->position.of[1][i];
         const float z = center.z - p->position.of[2][i];
-        const float d2 = larger(x * x + y * y + z * z, least), scale = 1 / sqrtf(d2);
-        const float sin2 = r * r / larger(d2, r * r);
+        const float scale = 1 / sqrtf(larger(x * x + y * y + z * z, least));
+        const float sine = 1 - larger(1 - r * scale, 0);
         caps->axis.of[0][i] = x * scale;
         caps->axis.of[1][i] = y * scale;
         caps->axis.of[2][i] = z * scale;
-        caps->sine[i] = sqrtf(sin2);
-        caps->power[i] = source->brightness * PI * sin2; /* inside up to four times as much */
+        caps->sine[i] = sine;
+        caps->power[i] = source->brightness * sine * sine; /* inside up to four times as much */
     }
 }
 
-static void see_points(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+static void see_point(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
     const lmp_vec3 center = source->light->position;
     const float least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
     for (int i = 0; i < SHADOW_LANES; i++) {
@@ -126,7 +123,7 @@ static void see_points(const shadow_source *source, const shadow_points *p, cap_
         caps->axis.of[1][i] = axis.y;
         caps->axis.of[2][i] = axis.z;
         caps->sine[i] = 0;
-        caps->power[i] = source->brightness / d2 * spot_falloff(source->light, axis);
+        caps->power[i] = source->brightness / (PI * d2) * spot_falloff(source->light, axis);
     }
 }
 
@@ -137,41 +134,39 @@ static void see_far(const shadow_source *source, cap_lanes *caps) {
         caps->axis.of[1][i] = source->axis.y;
         caps->axis.of[2][i] = source->axis.z;
         caps->sine[i] = sine_of(source->one_minus_cos);
-        caps->power[i] = source->brightness * (solid_angle > 0 ? solid_angle : 1);
+        caps->power[i] = source->brightness / PI * (solid_angle > 0 ? solid_angle : 1);
     }
 }
 
-static SHADOW_WIDE void weigh_caps(const cap_lanes *restrict caps, const shadow_points *restrict p,
-                                   float *restrict weights) {
+/* A cap's part above the horizon, about (cos + sine) / (1 + sine), and a lobe that it widens. */
+static void weigh_caps(const cap_lanes *caps, const shadow_points *p, float *weights) {
     const shadow_lanes *n = p->normal.of, *m = p->mirror.of, *axis = caps->axis.of;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
         const float mirrored = m[0][i] * axis[0][i] + m[1][i] * axis[1][i] + m[2][i] * axis[2][i];
         const float s = caps->sine[i], a2 = p->alpha2[i] + 0.25f * s * s;
         const float off = a2 + larger(0.5f - 0.5f * mirrored, 0);
-        const float facing = larger((along + s) / (1 + s), 0);
+        const float facing = larger(along + s, 0) * (1 - 0.5f * s);
         const float specular = p->shine[i] * a2 / (4 * off * off);
-        const float weight = caps->power[i] / PI * (p->albedo[i] * facing + specular);
+        const float weight = caps->power[i] * (p->albedo[i] * facing + specular);
         weights[i] = facing > 0 ? weight : 0;
     }
 }
 
 /* Adds what coats reflect. */
-static SHADOW_WIDE void weigh_coats(const cap_lanes *restrict caps, const shadow_points *restrict p,
-                                    float *restrict weights) {
+static void weigh_coats(const cap_lanes *caps, const shadow_points *p, float *weights) {
     const shadow_lanes *n = p->coat_normal.of, *m = p->coat_mirror.of, *axis = caps->axis.of;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
         const float mirrored = m[0][i] * axis[0][i] + m[1][i] * axis[1][i] + m[2][i] * axis[2][i];
         const float s = caps->sine[i], a2 = p->coat_alpha2[i] + 0.25f * s * s;
         const float off = a2 + larger(0.5f - 0.5f * mirrored, 0);
-        const float weight = caps->power[i] / PI * p->coat[i] * a2 / (4 * off * off);
+        const float weight = caps->power[i] * p->coat[i] * a2 / (4 * off * off);
         weights[i] += p->coat[i] > 0 && along + s > 0 ? weight : 0;
     }
 }
 
-void shadow_source_weigh(const shadow_source *source, const shadow_points *p,
-                         shadow_lanes weights) {
+static void weigh(const shadow_source *source, const shadow_points *p, float *weights) {
     cap_lanes caps;
     if (source->kind == SHADOW_AROUND) {
         for (int i = 0; i < SHADOW_LANES; i++)
@@ -179,14 +174,24 @@ void shadow_source_weigh(const shadow_source *source, const shadow_points *p,
         return;
     }
     if (source->kind == SHADOW_SPHERE)
-        see_spheres(source, p, &caps);
+        see_sphere(source, p, &caps);
     else if (source->kind == SHADOW_POINT)
-        see_points(source, p, &caps);
+        see_point(source, p, &caps);
     else
         see_far(source, &caps);
     weigh_caps(&caps, p, weights);
     if (p->coated)
         weigh_coats(&caps, p, weights);
+}
+
+SHADOW_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
+                                      const shadow_points *points, shadow_lanes *sums) {
+    shadow_lanes sum = { 0 }, weights;
+    for (size_t s = 0; s < count; s++) {
+        weigh(&sources[s], points, weights);
+        for (int i = 0; i < SHADOW_LANES; i++)
+            sums[s][i] = sum[i] += weights[i] > 0 ? weights[i] : 0;
+    }
 }
 
 /* --- a direction ------------------------------------------------------------------------------ */
@@ -235,15 +240,9 @@ static shadow_sample draw_far(const shadow_source *source, float u, float v) {
 }
 
 static shadow_sample draw_around(const shadow_source *source, float u, float v) {
-    double radiance[3] = { 0 };
-    const reference_vec w = reference_environment_draw(source->around, (double)u, (double)v);
-    const double density = reference_environment_at(source->around, w, radiance);
-    const float scale = density > 0 ? (float)(1 / density) : 0;
-    const lmp_rgb rgb = { (float)radiance[0], (float)radiance[1], (float)radiance[2] };
-    return (shadow_sample) { .direction = vec((float)w.x, (float)w.y, (float)w.z),
-                             .length = INFINITY,
-                             .size = 1,
-                             .arrives = rgb_scale(rgb, scale) };
+    shadow_sample sample = { .length = INFINITY, .size = 1 };
+    sample.direction = shadow_around_draw(source->around, u, v, &sample.arrives);
+    return sample;
 }
 
 shadow_sample shadow_source_draw(const shadow_source *source, lmp_vec3 point, float u, float v) {

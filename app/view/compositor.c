@@ -260,11 +260,11 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
 
 static bool settle_shadows(view_compositor *s, const view_settings *settings, gpu_host_pass *pass,
                            cli_error *error) {
-    static const shadow_settings plain = { .rays = SHADOW_RAYS_DEFAULT };
+    static const shadow_settings quick = { .rays = 1, .sparse = true, .apart = true };
     if (!settings->shadows)
         return true;
     if (!s->shadows)
-        s->shadows = shadow_create(s->world, &s->around, &plain, error);
+        s->shadows = shadow_create(s->world, &s->around, &quick, error);
     *pass = (gpu_host_pass) { shadow_frame, s->shadows };
     return s->shadows;
 }

@@ -9,7 +9,7 @@
 struct volume_visibility {
     const scene *world;
     trace_bvh *bvh;
-    reference_environment around;
+    shadow_around around;
     int rays;
     float lift;
 };
@@ -23,7 +23,7 @@ volume_visibility *volume_visibility_create(const scene *world, const environmen
     v->rays = rays;
     v->lift = (float)trace_lift(world);
     v->bvh = trace_create(world);
-    if (v->bvh && reference_environment_create(surroundings, &v->around))
+    if (v->bvh && shadow_around_create(surroundings, &v->around))
         return v;
     volume_visibility_destroy(v);
     return NULL;
@@ -33,7 +33,7 @@ void volume_visibility_destroy(volume_visibility *v) {
     if (!v)
         return;
     trace_destroy(v->bvh);
-    reference_environment_free(&v->around);
+    shadow_around_free(&v->around);
     free(v);
 }
 
@@ -90,7 +90,7 @@ float volume_visible_lights(const volume_visibility *v, lmp_vec3 point, lmp_ligh
             *color = rgb_scale(*color, visible_fraction(v, &sources[k], point));
         }
     }
-    if (!reference_environment_shines(&v->around))
+    if (!shadow_around_shines(&v->around))
         return 1;
     shadow_sources_make(NULL, 0, &v->around, sources);
     return visible_fraction(v, &sources[0], point);

@@ -62,6 +62,27 @@ static void many_filtered_samples_come_to_the_truth(void **state) {
     close_stage(&s);
 }
 
+/* A quarter of the rays, of which the filter and the samples after make the rest. */
+static void neighbors_and_samples_share_their_rays(void **state) {
+    (void)state;
+    stage s;
+    open_stage(&s);
+    set_lights(
+        &s, &(lmp_light) { .position = { 0.5f, 2.5f, 2 }, .radius = 0.4f, .radiance = { 9, 9, 9 } },
+        1);
+    s.frame.samples = 8;
+    image truth = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 64, .seed = 9, .raw = true });
+    image all = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2 });
+    image sparse = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2, .sparse = true });
+    const double error = relative_error(&sparse, &truth), least = relative_error(&all, &truth);
+    print_message("relative error %.2e, %.2e of all rays\n", error, least);
+    assert_true(error < 2 * least);
+    image_free(&truth);
+    image_free(&all);
+    image_free(&sparse);
+    close_stage(&s);
+}
+
 /* A roof above a floor. */
 static void make_roof(scene *world) {
     scene_builder builder = { .out_of_memory = false };
@@ -150,12 +171,91 @@ static void edges_of_a_small_far_light_stay_within_a_pixel(void **state) {
     close_stage(&s);
 }
 
+/* The stump of a column on a floor. */
+static void make_column(scene *world) {
+    scene_builder builder = { .out_of_memory = false };
+    static const shape_point profile[] = { { 0.3f, 0 }, { 0.3f, 0.6f } };
+    add_material(&builder, "stone", 0.8f);
+    scene_shaper shaper = { .builder = &builder };
+    shape_quad(&shaper, vec(-3, 0, 3), vec(3, 0, 3), vec(3, 0, -3), vec(-3, 0, -3));
+    shape_revolve(&shaper, &(shape_revolution) { .profile = profile,
+                                                 .point_count = 2,
+                                                 .origin = { 0, 0, 0 },
+                                                 .axis = 'y',
+                                                 .segments = 32 });
+    shaper_finish(&shaper);
+    open_scene(&builder, world);
+}
+
+/* Of what would arrive without shadows: red of a pixel and of those around it; the least, the most.
+ */
+static void find_parts(const image *drawn, const image *all, int x, int y, float part[2]) {
+    part[0] = INFINITY;
+    part[1] = -INFINITY;
+    for (int k = 0; k < 9; k++) {
+        const int i = 3 * ((y + k / 3 - 1) * all->width + x + k % 3 - 1);
+        const float value = all->rgb[i] > 0 ? drawn->rgb[i] / all->rgb[i] : 0;
+        part[0] = fminf(part[0], value);
+        part[1] = fmaxf(part[1], value);
+    }
+}
+
+/* Filtered light must not arrive where no ray does, as behind the foot, and must where all do, as
+ * before it. */
+static void check_foot(const image *drawn, const image *exact, const image *all) {
+    double leak = 0, lost = 0;
+    int dark = 0, lit = 0;
+    for (int y = 1; y + 1 < all->height; y++)
+        for (int x = 1; x + 1 < all->width; x++) {
+            const int i = 3 * (y * all->width + x);
+            float part[2];
+            find_parts(exact, all, x, y, part);
+            if (all->rgb[i] > 0 && part[1] == 0) {
+                leak += (double)(drawn->rgb[i] / all->rgb[i]);
+                dark++;
+            }
+            if (part[0] == 1) {
+                lost += (double)(1 - drawn->rgb[i] / all->rgb[i]);
+                lit++;
+            }
+        }
+    print_message("of %d dark pixels %.1e leaks, of %d lit ones %.1e is lost\n", dark, leak / dark,
+                  lit, lost / lit);
+    assert_in_range(dark, 300, 4 * PIXELS);
+    assert_in_range(lit, PIXELS, 4 * PIXELS);
+    assert_true(leak <= 0.01 * dark && lost <= 0.01 * lit);
+}
+
+static void the_foot_of_a_column_leaks_no_light(void **state) {
+    (void)state;
+    stage s;
+    open_scene_stage(&s, make_column);
+    s.frame.width *= 2;
+    s.frame.height *= 2;
+    set_lights(
+        &s, &(lmp_light) { .position = { -2, 1.5f, 0 }, .radius = 0.1f, .radiance = { 9, 9, 9 } },
+        1);
+    image all = render_image(s.renderer, &s.frame);
+    image exact = draw_shadows(&s, NULL, &(shadow_settings) { .rays = 256, .raw = true });
+    for (int sparse = 0; sparse < 2; sparse++) {
+        image drawn =
+            draw_shadows(&s, NULL, &(shadow_settings) { .rays = 2, .sparse = sparse != 0 });
+        check_foot(&drawn, &exact, &all);
+        image_free(&drawn);
+    }
+    image_free(&all);
+    image_free(&exact);
+    close_stage(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_filter_takes_nine_tenths_of_the_error),
         cmocka_unit_test(many_filtered_samples_come_to_the_truth),
+        cmocka_unit_test(neighbors_and_samples_share_their_rays),
         cmocka_unit_test(wide_penumbras_are_mixed_widely),
         cmocka_unit_test(edges_of_a_small_far_light_stay_within_a_pixel),
+        cmocka_unit_test(the_foot_of_a_column_leaks_no_light),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
