@@ -22,6 +22,8 @@ static const paper_step steps[] = {
     { "materials", "Figure 6: measured materials", paper_step_materials },
     { "cost", "What band limiting costs", paper_step_cost },
     { "preintegrated", "What preintegrated lobes cost", paper_step_preintegrated },
+    { "gradients", "Beyond the paper: gradients", paper_step_gradients },
+    { "fields", "Beyond the paper: fields of many lights", paper_step_fields },
 };
 #define STEPS ((int)(sizeof steps / sizeof *steps))
 

@@ -3,7 +3,7 @@
 set -eu
 . tests/checks/common.sh
 
-"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated >"$WORK/out" ||
+"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated --step gradients --step fields >"$WORK/out" ||
     fail "the quick steps fail"
 [ "$(cat "$WORK/out")" = "$WORK/page/index.html" ] || fail "the page's name is not printed"
 grep -q '</html>' "$WORK/page/index.html" || fail "the page is truncated"
@@ -26,10 +26,18 @@ grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$W
     fail "the page hides what contradicts the paper"
 awk -F, '!/^form|^"?largest/ { if ($(NF - 1) + 0 > $NF + 0) exit 1 }' "$WORK/page/tabulated.csv" ||
     fail "a part of the angles has a larger error than all of them"
-for file in figure4.svg accuracy.csv tabulated.csv preintegrated.csv preintegrated-memory.svg; do
+for file in figure4.svg accuracy.csv tabulated.csv preintegrated.csv preintegrated-memory.svg gradients.svg fields-cost.csv fields.svg; do
     [ -s "$WORK/page/$file" ] || fail "$file is missing"
     grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"
 done
+
+# derivatives: half the step, a quarter of the error; constants: half of it
+awk -F, '$1 == "as they are" { constant[++n] = $3 } $1 == "with derivatives" { x[++m] = $2; linear[m] = $3 }
+    END { exit !(n == m && m > 9 && linear[1] < constant[1] / 50 && constant[4] / constant[1] < 1.01 * x[4] / x[1] &&
+        linear[4] / linear[1] > 0.98 * (x[4] / x[1]) ^ 2) }' "$WORK/page/gradients.csv" ||
+    fail "derivatives gain nothing: $(cat "$WORK/page/gradients.csv")"
+awk -F, '!/^lights/ && !($5 + 0 > 0 && $5 + 0 < 5 && $6 + 0 < $5 + 0) { exit 1 }' "$WORK/page/fields-cost.csv" ||
+    fail "a field is far from the sum: $(cat "$WORK/page/fields-cost.csv")"
 
 echo nonsense >"$WORK/broken.gltf"
 status=0
