@@ -10,10 +10,15 @@
 #define RULER_DARK 0.1
 double ruler_error(const ruler_row *row, double value);
 
+/* The same in parts of the greater of value and truth: from -1, all is missing, to 1. What is too
+ * bright by a factor is as wrong as what is too dark by it. */
+double ruler_balanced_error(const ruler_row *row, double value);
+
 /* Of some of the rows. */
 typedef struct ruler_figures {
     int count;
     double rms, largest; /* of the errors */
+    double balanced;     /* root mean square of the balanced errors */
     double energy;       /* sum of the values over that of the truths, both in parts of the scale */
 } ruler_figures;
 

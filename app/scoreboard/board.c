@@ -30,6 +30,20 @@ ruler_figures board_figures(const board *b, const board_score *score, const boar
     return ruler_figures_of(b->table, score->values, in_cell, cell);
 }
 
+static int compare(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double board_median(const board *b, const board_score *score, const board_cell *cell) {
+    size_t count = 0;
+    for (int i = 0; i < b->table->count; i++)
+        if (in_cell(&b->table->rows[i], cell))
+            b->errors[count++] = fabs(ruler_error(&b->table->rows[i], score->values[i]));
+    qsort(b->errors, count, sizeof *b->errors, compare);
+    return count ? (b->errors[(count - 1) / 2] + b->errors[count / 2]) / 2 : 0;
+}
+
 const ruler_row *board_worst(const board *b, const board_score *score, const board_cell *cell) {
     const ruler_row *worst = NULL;
     double largest = -1;
@@ -126,8 +140,11 @@ bool board_create(const ruler_table *table, const cli_list *names, board *result
     if (!check_names(names, error))
         return false;
     result->scores = calloc((size_t)formula_count, sizeof *result->scores);
-    if (!result->scores)
+    result->errors = malloc(((size_t)table->count + 1) * sizeof *result->errors);
+    if (!result->scores || !result->errors) {
+        board_free(result);
         return cli_fail(error, NULL, "out of memory");
+    }
     for (int k = 0; k < formula_count; k++) {
         cli_progress("judging", (double)k / formula_count);
         if (is_chosen(names, formula_table[k].name) && !add(result, &formula_table[k], error)) {
@@ -143,5 +160,6 @@ void board_free(board *b) {
     for (int k = 0; k < b->count; k++)
         free(b->scores[k].values);
     free(b->scores);
+    free(b->errors);
     *b = (board) { .count = 0 };
 }

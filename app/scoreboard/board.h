@@ -17,6 +17,7 @@ typedef struct board {
     const ruler_table *table;
     board_score *scores;
     int count;
+    double *errors; /* space for a cell's */
 } board;
 
 /* Judges the formulas of these names, all if there are none. */
@@ -30,8 +31,10 @@ typedef struct board_cell {
 } board_cell;
 board_cell board_all(const board_score *score);
 
-/* The figures of a cell, and the row of the largest error (NULL: there is none). */
+/* The figures of a cell, the median of its errors without their signs, and the row of the largest
+ * (NULL: there is none). */
 ruler_figures board_figures(const board *b, const board_score *score, const board_cell *cell);
+double board_median(const board *b, const board_score *score, const board_cell *cell);
 const ruler_row *board_worst(const board *b, const board_score *score, const board_cell *cell);
 
 #endif

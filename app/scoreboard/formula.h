@@ -20,8 +20,9 @@ typedef struct formula_query {
 /* The radiance that is reflected. */
 typedef float formula_radiance(const formula_query *query, const lmp_shade_settings *settings);
 
-formula_radiance formula_point, formula_representative, formula_widened, formula_sphere,
-    formula_gaussian, formula_anisotropic, formula_cosines, formula_irradiance, formula_lampion;
+formula_radiance formula_black, formula_point, formula_representative, formula_widened,
+    formula_sphere, formula_gaussian, formula_anisotropic, formula_cosines, formula_irradiance,
+    formula_lampion;
 
 typedef struct formula {
     const char *name, *source;

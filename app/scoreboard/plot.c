@@ -7,7 +7,7 @@ _Static_assert(FORMULAS_MAX <= FIGURE_SERIES_MAX, "each formula is a series");
 
 bool board_plot(const board *b, ruler_material material, const char *path, cli_error *error) {
     figure_series series[FORMULAS_MAX];
-    double cost[FORMULAS_MAX], rms[FORMULAS_MAX];
+    double cost[FORMULAS_MAX], balanced[FORMULAS_MAX];
     char title[96];
     int count = 0;
     for (int k = 0; k < b->count; k++) {
@@ -17,8 +17,8 @@ bool board_plot(const board *b, ruler_material material, const char *path, cli_e
             continue;
         cell.group[RULER_BY_MATERIAL] = (int)material;
         cost[count] = score->nanoseconds[material];
-        rms[count] = board_figures(b, score, &cell).rms;
-        series[count] = (figure_series) { score->by->name, &cost[count], &rms[count], 1 };
+        balanced[count] = board_figures(b, score, &cell).balanced;
+        series[count] = (figure_series) { score->by->name, &cost[count], &balanced[count], 1 };
         count++;
     }
     snprintf(title, sizeof title, "sphere lights on %s", ruler_material_names[material]);
@@ -27,7 +27,7 @@ bool board_plot(const board *b, ruler_material material, const char *path, cli_e
         return false;
     figure_plot_draw(file.stream, &(figure_plot) { .title = title,
                                                    .x_label = "ns an evaluation, one core",
-                                                   .y_label = "rms of the errors",
+                                                   .y_label = "balanced rms of the errors",
                                                    .log_x = true,
                                                    .log_y = true,
                                                    .y_floor = 1e-8,

@@ -14,17 +14,20 @@ static void print_material(const board *b, int material) {
         if (f.count == 0)
             continue;
         if (!titled++)
-            printf("%s, %d rows\n  %-15s %9s %9s %9s %9s  %s\n", ruler_material_names[material],
-                   f.count, "formula", "rms", "max", "energy", "ns", "worst row");
-        printf("  %-15s %9.3g %9.3g %9.4f %9.1f  %d\n", score->by->name, f.rms, f.largest, f.energy,
+            printf("%s, %d rows\n  %-15s %9s %9s %9s %9s %9s %9s  %s\n",
+                   ruler_material_names[material], f.count, "formula", "rms", "balanced", "median",
+                   "max", "energy", "ns", "worst row");
+        printf("  %-15s %9.3g %9.3g %9.3g %9.3g %9.4f %9.1f  %d\n", score->by->name, f.rms,
+               f.balanced, board_median(b, score, &cell), f.largest, f.energy,
                score->nanoseconds[material], board_worst(b, score, &cell)->id);
     }
 }
 
-/* The root mean square of the errors of metals. */
+/* The root mean square of the balanced errors of metals. */
 static void print_grouping(const board *b, int grouping) {
     const ruler_grouping *const by = &ruler_groupings[grouping];
-    printf("rms of %s by %s\n  %-15s", ruler_material_names[RULER_METAL], by->name, "formula");
+    printf("balanced rms of %s by %s\n  %-15s", ruler_material_names[RULER_METAL], by->name,
+           "formula");
     for (int g = 0; g < by->count; g++) {
         char name[32];
         ruler_group_name(by, g, name, sizeof name);
@@ -41,7 +44,7 @@ static void print_grouping(const board *b, int grouping) {
             cell.group[grouping] = g;
             const ruler_figures f = board_figures(b, &b->scores[k], &cell);
             if (f.count)
-                printf(" %12.3g", f.rms);
+                printf(" %12.3g", f.balanced);
             else
                 printf(" %12s", "-");
         }
@@ -116,12 +119,14 @@ static void print_line(const board *b, const board_score *score, const board_cel
     printf("%s,%s", score->by->name, ruler_material_names[material]);
     for (int c = 0; c < COLUMNS; c++)
         printf(",%s", name_of(cell, columns[c], names[c]));
-    printf(",%d,%.6g,%.6g,%d,%.6g,%.6g\n", f->count, f->rms, f->largest,
-           board_worst(b, score, cell)->id, f->energy, score->nanoseconds[material]);
+    printf(",%d,%.6g,%.6g,%.6g,%.6g,%d,%.6g,%.6g\n", f->count, f->rms, f->balanced,
+           board_median(b, score, cell), f->largest, board_worst(b, score, cell)->id, f->energy,
+           score->nanoseconds[material]);
 }
 
 void board_print_csv(const board *b) {
-    printf("formula,material,roughness,half_angle,view_angle,rows,rms,max,worst,energy,ns\n");
+    printf("formula,material,roughness,half_angle,view_angle,rows,rms,balanced,median,max,worst,"
+           "energy,ns\n");
     print_records(b, print_line);
 }
 
@@ -131,12 +136,14 @@ static void print_object(const board *b, const board_score *score, const board_c
     char names[COLUMNS][32];
     printf(
         "%s\n{ \"formula\": \"%s\", \"material\": \"%s\", \"roughness\": \"%s\", \"half_angle\": "
-        "\"%s\", \"view_angle\": \"%s\", \"rows\": %d, \"rms\": %.6g, \"max\": %.6g, "
+        "\"%s\", \"view_angle\": \"%s\", \"rows\": %d, \"rms\": %.6g, "
+        "\"balanced\": %.6g, \"median\": %.6g, \"max\": %.6g, "
         "\"worst\": %d, \"energy\": %.6g, \"ns\": %.6g }",
         first ? "" : ",", score->by->name, ruler_material_names[material],
         name_of(cell, columns[0], names[0]), name_of(cell, columns[1], names[1]),
-        name_of(cell, columns[2], names[2]), f->count, f->rms, f->largest,
-        board_worst(b, score, cell)->id, f->energy, score->nanoseconds[material]);
+        name_of(cell, columns[2], names[2]), f->count, f->rms, f->balanced,
+        board_median(b, score, cell), f->largest, board_worst(b, score, cell)->id, f->energy,
+        score->nanoseconds[material]);
 }
 
 void board_print_json(const board *b) {

@@ -8,6 +8,7 @@
     { [RULER_LAMBERT] = true, [RULER_METAL] = true, [RULER_DIELECTRIC] = true }
 
 const formula formula_table[] = {
+    { .name = "black", .source = "no light at all", .radiance = formula_black, .applies = ALL },
     { .name = "point",
       .source = "the light's center alone",
       .radiance = formula_point,

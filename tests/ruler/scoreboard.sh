@@ -12,7 +12,7 @@ grep -A 4 '^lambert, [0-9]* rows' "$WORK/text" | grep -q '^  point  *0.222 ' || 
 
 "$PROGRAM" scoreboard --formula cosines --format csv >"$WORK/all.csv"
 # the rows of all cells of a material are those of the material
-awk -F, 'NR == 1 { exit ($0 != "formula,material,roughness,half_angle,view_angle,rows,rms,max,worst,energy,ns") }
+awk -F, 'NR == 1 { exit ($0 != "formula,material,roughness,half_angle,view_angle,rows,rms,balanced,median,max,worst,energy,ns") }
     ' "$WORK/all.csv" || fail "the header is another"
 awk -F, 'NR > 1 && $5 == "all" { whole[$2] = $6; next } NR > 1 { sum[$2] += $6 }
     END { for (m in whole) if (sum[m] != whole[m]) { print m, sum[m], whole[m]; bad = 1 } exit bad }' "$WORK/all.csv" ||
