@@ -38,9 +38,19 @@ static void print_summaries(const char *before, const char *between) {
 
 /* --- shells ----------------------------------------------------------------------------------- */
 
-/* The words of the line are read anew, for bash takes : and = for ends of words. */
+/* The words of the line are read anew, for bash takes : and = for ends of words. Materials are
+ * those of the scenes that the line names so far. */
 static void begin_bash(void) {
     printf("# bash completion of lampion, printed by `lampion completion bash`\n"
+           "_lampion_overrides() { # BEGUN WORD…: NAME= of the materials that begin so\n"
+           "    local begun=$1 word name\n"
+           "    for word in \"${@:2}\"; do\n"
+           "        [[ $word == builtin:* || -f $word ]] || continue\n"
+           "        while read -r name; do\n"
+           "            [[ $name == \"$begun\"* ]] && printf '%%q=\\n' \"$name\"\n"
+           "        done < <(lampion info --materials \"$word\" 2>/dev/null)\n"
+           "    done\n"
+           "}\n\n"
            "_lampion_begun() { # WORDS LINE: whether one of the words is in the line\n"
            "    local word\n"
            "    for word in $1; do [[ $2 == *\" $word \"* ]] && return; done\n"
@@ -81,8 +91,10 @@ static void end_bash(void) {
          "        case $kind in\n"
          "        files) compgen -f -- \"$word\" ;;\n"
          "        folders) compgen -d -- \"$word\" ;;\n"
+         "        overrides) _lampion_overrides \"$word\" \"${typed[@]:2}\" ;;\n"
          "        esac\n"
          "    )\n"
+         "    [[ $kind == overrides ]] && compopt -o nospace 2>/dev/null\n"
          "    if [[ $kind == f* && ${COMPREPLY[0]} != @(builtin|sgd):* ]]; then\n"
          "        compopt -o filenames 2>/dev/null\n"
          "    fi\n"
@@ -116,8 +128,16 @@ static void begin_zsh(void) {
     printf("\n"
            "    _files\n"
            "}\n\n"
-           "_lampion_overrides() {\n"
-           "    compset -P '*=' && _lampion_materials\n"
+           "_lampion_overrides() { # materials of the scenes that the line names, then what they "
+           "become\n"
+           "    local word\n"
+           "    local -a names\n"
+           "    compset -P '*=' && _lampion_materials && return\n"
+           "    for word in \"${(@Q)words[2,CURRENT-1]}\"; do\n"
+           "        [[ $word == builtin:* || -f $word ]] &&\n"
+           "            names+=(\"${(@f)$(lampion info --materials $word 2>/dev/null)}\")\n"
+           "    done\n"
+           "    compadd -S = -- $names\n"
            "}\n\n"
            "_lampion() {\n"
            "    if ((CURRENT == 2)); then\n"
@@ -153,9 +173,15 @@ static void begin_fish(void) {
     print_materials();
     printf("'\n"
            "end\n\n"
-           "function __lampion_overrides # NAME=: what it may become\n"
+           "function __lampion_overrides # a material of the scene, then what it becomes\n"
            "    set -l name (string match -r '^[^=]*=' -- (commandline -ct))\n"
            "    and printf '%%s\\n' $name(__lampion_materials)\n"
+           "    and return\n"
+           "    for word in (commandline -opc)[3..-1]\n"
+           "        if string match -q 'builtin:*' -- $word; or test -f $word\n"
+           "            lampion info --materials $word 2>/dev/null | string replace -r '$' =\n"
+           "        end\n"
+           "    end\n"
            "end\n\n"
            "function __lampion_commands\n");
     print_summaries("    echo ", "\t");

@@ -134,11 +134,20 @@ static void print_text(const scene *s) {
     print_lights(s);
 }
 
+static void print_materials(const scene *s) {
+    for (size_t i = 0; i < s->material_count; i++)
+        puts(s->materials[i].name);
+}
+
 static int run(const cli_command *command, int argc, char **argv) {
-    bool json = false;
+    bool json = false, materials = false;
     scene_options load = { 0 };
     const cli_option options[] = {
         { .name = "json", .kind = CLI_FLAG, .target = &json, .help = "print everything as JSON" },
+        { .name = "materials",
+          .kind = CLI_FLAG,
+          .target = &materials,
+          .help = "print the names of its materials, a line each" },
         { .name = "no-cache",
           .kind = CLI_FLAG,
           .target = &load.no_cache,
@@ -159,6 +168,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     status = CLI_OK;
     if (json)
         status = print_json(&loaded);
+    else if (materials)
+        print_materials(&loaded);
     else
         print_text(&loaded);
     scene_free(&loaded);

@@ -42,6 +42,11 @@ refuse completion tcsh
 
 mkdir "$WORK/files"
 touch "$WORK/files/scene.gltf" "$WORK/files/with blank.png"
+mkdir "$WORK/bin" "$WORK/rooms"
+ln -s "$PROGRAM" "$WORK/bin/lampion"
+PATH=$WORK/bin:$PATH
+printf 'newmtl floor\nnewmtl flowers\nnewmtl wall\n' >"$WORK/rooms/room.mtl"
+printf 'mtllib room.mtl\nusemtl floor\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl flowers\nf 1 3 2\n' >"$WORK/rooms/room.obj"
 mkdir "$WORK/files/folder"
 
 # bash: `completes LINE WORD…` for the words that are offered
@@ -78,6 +83,8 @@ completes 'lampion bench ' 'cpu gpu'
 completes 'lampion completion z' 'zsh'
 completes 'lampion render sce' 'scene.gltf'
 completes 'lampion render --lights sc' 'scene.gltf'
+completes "lampion render $WORK/rooms/room.obj --material fl" 'floor= flowers='
+completes "lampion view $WORK/rooms/room.obj --bands 3 --material floo" 'floor='
 if [ "$shells" != bash ]; then
     shells=fish
     completes 'lampion brdf info sgd:gold-p' 'sgd:gold-paint'
