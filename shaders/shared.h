@@ -38,8 +38,9 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_LAYERS             10 /* of the G-buffer */
 #define SHARED_COAT               11
 #define SHARED_TINT               12
+#define SHARED_SHEEN              13
 #define SHARED_OCCLUSION          10 /* of materials, from here on one after another */
-#define SHARED_MAPS               10
+#define SHARED_MAPS               12
 #define SHARED_HDR                5
 
 /* Maps by their index in the block: as scene_material has them. */
@@ -49,6 +50,8 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_MAP_COAT           7
 #define SHARED_MAP_COAT_ROUGHNESS 8
 #define SHARED_MAP_COAT_NORMAL    9
+#define SHARED_MAP_SHEEN_COLOR    10
+#define SHARED_MAP_SHEEN_ROUGH    11
 
 /* Fragment outputs, in the order of the G-buffer's attachments (22 bytes a pixel, and depth):
  *   0  RGBA16          root of the base color, metallic
@@ -56,9 +59,10 @@ typedef float mat4[16]; /* column-major */
  *   2  RG16            roughness, kind
  *   3  R11F_G11F_B10F  emitted radiance, as seen through a coat
  *   4  RG8             how much of the ambient light comes, a factor on the dielectric's reflection
- * and, of a scene that has such layers, written and read for materials with one alone (12 bytes):
+ * and, of a scene that has such layers, written and read for materials with one alone (16 bytes):
  *   5  RGBA16          of a coat: octahedral normal, weight, roughness
  *   6  RGBA8           root of a factor on the dielectric's F0
+ *   7  RGBA8           root of the color of a sheen, its roughness; the host alone reads them
  * The root keeps dark colors: of 0.0005 to 7e-4, of brighter ones to less. Every device squares it
  * alike. */
 #define SHARED_KIND_NONE     0
@@ -160,6 +164,7 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 vertex;   /* x: 1 where the vertices' colors count; y: strength of the occlusion map; z: 1
                       where alpha blends */
     vec4 coat;     /* weight, roughness, normal scale */
+    vec4 sheen;    /* color, roughness */
     vec4 more[2];  /* maps: those after the first four */
     vec4 matrix[SHARED_MAPS];
     vec4 offset[SHARED_MAPS];
@@ -197,9 +202,9 @@ static_assert(offsetof(shared_frame, eye) == 64, "std140");
 static_assert(offsetof(shared_frame, size_lights) == 144, "std140");
 static_assert(sizeof(shared_frame) == 192, "std140");
 static_assert(sizeof(shared_light) == 48, "std140");
-static_assert(offsetof(shared_material, matrix) == 128, "std140");
-static_assert(offsetof(shared_material, offset) == 288, "std140");
-static_assert(sizeof(shared_material) == 448, "std140");
+static_assert(offsetof(shared_material, matrix) == 144, "std140");
+static_assert(offsetof(shared_material, offset) == 336, "std140");
+static_assert(sizeof(shared_material) == 528, "std140");
 static_assert(sizeof(shared_pixel) == 128, "std430");
 static_assert(sizeof(shared_reflector) == 32, "std430");
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials into the G-buffer. SURFACE_MASKED: discard by alpha (a variant, for discarding costs
  * the early depth test): by the cutoff, or of what blends as many samples as let pass what is
- * behind. SURFACE_LAYERED: of materials with a coat or a tint. */
+ * behind. SURFACE_LAYERED: of materials with a coat, a sheen or a tint. */
 #include "gbuffer.glsl"
 #include "shared.h"
 #ifdef SURFACE_LAYERED
@@ -22,6 +22,7 @@ layout(location = 4) out vec2 out_layers;
 #ifdef SURFACE_LAYERED
 layout(location = 5) out vec4 out_coat;
 layout(location = 6) out vec4 out_tint;
+layout(location = 7) out vec4 out_sheen;
 #endif
 
 layout(binding = SHARED_BASE_COLOR) uniform sampler2D base_color_map;
@@ -35,6 +36,8 @@ layout(binding = SHARED_OCCLUSION + 2) uniform sampler2D specular_color_map;
 layout(binding = SHARED_OCCLUSION + 3) uniform sampler2D coat_map;
 layout(binding = SHARED_OCCLUSION + 4) uniform sampler2D coat_roughness_map;
 layout(binding = SHARED_OCCLUSION + 5) uniform sampler2D coat_normal_map;
+layout(binding = SHARED_OCCLUSION + 6) uniform sampler2D sheen_color_map;
+layout(binding = SHARED_OCCLUSION + 7) uniform sampler2D sheen_roughness_map;
 #endif
 
 vec2 map_uv(int map) {
@@ -105,11 +108,17 @@ void write_layers() {
     vec3 tint = vec3(1.0);
     if (has_map(SHARED_MAP_SPECULAR_COLOR))
         tint = texture(specular_color_map, map_uv(SHARED_MAP_SPECULAR_COLOR)).rgb;
+    vec4 fibers = sheen;
+    if (has_map(SHARED_MAP_SHEEN_COLOR))
+        fibers.rgb *= texture(sheen_color_map, map_uv(SHARED_MAP_SHEEN_COLOR)).rgb;
+    if (has_map(SHARED_MAP_SHEEN_ROUGH))
+        fibers.a *= texture(sheen_roughness_map, map_uv(SHARED_MAP_SHEEN_ROUGH)).a;
     vec2 at = gl_FragCoord.xy / size_lights.xy * 2.0 - 1.0 + jitter.xy;
     vec3 away = normalize(camera_ray_through(at).along);
     out_emission *= 1.0 - lmp_coated(lmp_coat(over.x, over.y), n, away);
     out_coat = vec4(gbuffer_encode_normal(gl_FrontFacing ? n : -n), over);
     out_tint = vec4(gbuffer_encode_color(tint), 0.0);
+    out_sheen = vec4(gbuffer_encode_color(fibers.rgb), fibers.a);
 }
 #endif
 

@@ -120,13 +120,14 @@ static bool find_materials(bench_scene *s, int bands, cli_error *error) {
     override_set *all = &s->materials;
     const bench_options *o = s->options;
     const cli_list *list = &o->materials;
-    if (list->count == 0 || s->material_bands == bands)
+    if (!override_is_needed(list->count, &s->world) || s->material_bands == bands)
         return true;
     override_free(all);
     s->material_bands = bands;
     bool ok = override_open(list, &s->world, all, error);
     const double start = now_ms();
-    ok = ok && override_bake(all, bands, LMP_WINDOW_HANNING, error);
+    ok = ok && override_bake(all, bands, LMP_WINDOW_HANNING, error) &&
+         override_bake_fibers(all, &s->world, bands, LMP_WINDOW_HANNING, error);
     const double baked = now_ms();
     if (ok && s->plan->reads & METHOD_READS_PREINTEGRATED)
         ok = override_preintegrate(all, error);

@@ -27,6 +27,8 @@ void gpu_fill_material(const scene_material *from, size_t number, shared_materia
     block->coat[0] = from->coat;
     block->coat[1] = from->coat_roughness;
     block->coat[2] = from->coat_normal_scale;
+    memcpy(block->sheen, from->sheen_color, sizeof from->sheen_color);
+    block->sheen[3] = from->sheen_roughness;
 }
 
 shared_reflector gpu_reflector(const scene_material *m) {

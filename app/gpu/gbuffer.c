@@ -22,9 +22,10 @@ static bool allocate(gpu_gbuffer *g, int width, int height, bool layered, cli_er
     if (layered) {
         g->coat = malloc(count * sizeof *g->coat);
         g->tint = malloc(count * sizeof *g->tint);
+        g->sheen = malloc(count * sizeof *g->sheen);
     }
     if (!g->depth || !g->base_metallic || !g->normal || !g->roughness_kind || !g->emission ||
-        !g->layers || !g->rgba || (layered && (!g->coat || !g->tint))) {
+        !g->layers || !g->rgba || (layered && (!g->coat || !g->tint || !g->sheen))) {
         gpu_gbuffer_free(g);
         return cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
     }
@@ -42,6 +43,7 @@ void gpu_gbuffer_free(gpu_gbuffer *g) {
     free(g->layers);
     free(g->coat);
     free(g->tint);
+    free(g->sheen);
     free(g->rgba);
     memset(g, 0, sizeof *g);
 }
@@ -69,6 +71,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
         { r->attachments[4], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->layers, g->layers },
         { r->attachments[5], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->coat, g->coat },
         { r->attachments[6], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->tint, g->tint },
+        { r->attachments[7], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->sheen, g->sheen },
     };
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     for (size_t i = 0; i < sizeof planes / sizeof *planes && planes[i].to; i++) {
@@ -83,6 +86,7 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     g->mesh = &r->mesh;
     g->tables = r->tables;
     g->brdfs = r->brdfs;
+    g->fibers = r->fibers;
     g->environment = r->environment;
     return true;
 }
@@ -204,8 +208,8 @@ static float squared(uint16_t stored) {
     return unit(stored) * unit(stored);
 }
 
-static lmp_rgb tint_of(const gpu_gbuffer *g, size_t pixel) {
-    const uint8_t *root = g->tint[pixel];
+/* Of three bytes, each a root. */
+static lmp_rgb color_of(const uint8_t *root) {
     return (lmp_rgb) { (float)(root[0] * root[0]) / 65025, (float)(root[1] * root[1]) / 65025,
                        (float)(root[2] * root[2]) / 65025 };
 }
@@ -215,11 +219,15 @@ static lmp_material material_of(const gpu_gbuffer *g, size_t pixel) {
     const gpu_base16 *base = &g->base_metallic[pixel];
     const gpu_pair16 *of = &g->roughness_kind[pixel];
     const bool layered = gpu_mesh_is_layered(g->mesh, of->v);
-    const lmp_rgb tint = layered ? tint_of(g, pixel) : (lmp_rgb) { 1, 1, 1 };
+    const lmp_rgb tint = layered ? color_of(g->tint[pixel]) : (lmp_rgb) { 1, 1, 1 };
     lmp_material material = gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v,
                                               (float)g->layers[pixel].v / 255, tint);
-    if (layered)
+    if (layered) {
+        const uint8_t *sheen = g->sheen[pixel];
         material.coat = (lmp_coat) { unit(g->coat[pixel].weight), unit(g->coat[pixel].roughness) };
+        if (sheen[0] || sheen[1] || sheen[2])
+            material.fibers = (lmp_fibers) { color_of(sheen), (float)sheen[3] / 255, g->fibers };
+    }
     material.base_color =
         (lmp_rgb) { squared(base->root[0]), squared(base->root[1]), squared(base->root[2]) };
     material.metallic = unit(base->metallic);

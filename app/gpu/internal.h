@@ -33,7 +33,7 @@ typedef struct gpu_draw {
 
 typedef struct gpu_material {
     GLuint maps[SHARED_MAPS]; /* GL textures, 0 = none */
-    bool double_sided, masked, layered;
+    bool double_sided, masked, layered, sheen;
     float f0[3], f90; /* as in scene_material */
     int table;        /* of gpu_set_tables, instead of all that, or -1 */
 } gpu_material;
@@ -44,6 +44,7 @@ typedef struct gpu_mesh {
     gpu_draw *draws; /* opaque ones first, then by material */
     size_t draw_count;
     gpu_material *materials;
+    size_t material_count;
     GLuint *textures;
     GLsizei texture_count;
     bool layered; /* some material is */
@@ -70,13 +71,16 @@ lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const
 /* Whether such a pixel has more in the attachments of layers. */
 bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind);
 
+/* How many materials have a sheen of their own. */
+unsigned gpu_mesh_sheens(const gpu_mesh *mesh);
+
 /* Draws what the frustum of clip_from_world may hold. */
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_surfaces *programs);
 
 /* --- what follows shares the renderer --------------------------------------------------------- */
 
 /* Of all attachments (shared.h), those that only layered materials have come last. */
-enum { GPU_ATTACHMENTS = 7, GPU_ATTACHMENTS_PLAIN = 5, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
+enum { GPU_ATTACHMENTS = 8, GPU_ATTACHMENTS_PLAIN = 5, GPU_VARIANTS = 64, GPU_TIMESTAMPS = 5 };
 
 /* A compiled shading pass. */
 typedef struct gpu_variant {
@@ -154,14 +158,15 @@ struct gpu_gbuffer {
     gpu_pair16 *normal, *roughness_kind;
     uint32_t *emission;
     gpu_pair8 *layers;
-    gpu_coat16 *coat; /* and tint: NULL where no material is layered */
-    uint8_t (*tint)[4];
+    gpu_coat16 *coat; /* and those after it: NULL where no material is layered */
+    uint8_t (*tint)[4], (*sheen)[4];
     const gpu_mesh *mesh;
     vec4 *rgba; /* for what the host makes of it */
     shared_frame block;
     const gpu_frame *frame;
     const lmp_brdf_table *const *tables;
     const lmp_preintegrated_brdf *const *brdfs;
+    const lmp_brdf_table *const *fibers;
     const environment *environment;
 };
 
@@ -200,6 +205,8 @@ struct gpu_renderer {
     GLuint tables_buffer;                                /* of the tables summed by bands, or 0 */
     method_kind tables_method;                           /* that it was made for */
     const lmp_preintegrated_brdf *brdfs[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
+    const lmp_brdf_table *const *fibers;                 /* or NULL; not owned */
+    bool sheen_noted;                                    /* that it is left out */
     GLuint brdf_texels, brdf_block;                      /* texture, buffer; or 0 */
     const environment *environment;                      /* or NULL; not owned */
     GLuint backdrop, environment_block;                  /* texture, buffer; or 0 */

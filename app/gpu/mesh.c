@@ -60,6 +60,7 @@ static void fill_material(const scene_material *source, size_t number, const gpu
     memcpy(material->f0, source->f0, sizeof material->f0);
     material->f90 = source->f90;
     material->layered = scene_is_layered(source);
+    material->sheen = scene_has_sheen(source);
     material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
@@ -76,6 +77,7 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
         free(blocks);
         return false;
     }
+    mesh->material_count = world->material_count;
     for (size_t i = 0; i < world->material_count; i++) {
         shared_material block;
         fill_material(&world->materials[i], i, mesh, &mesh->materials[i], &block);
@@ -110,6 +112,13 @@ void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table) {
         mesh->reflectors,
         (GLintptr)(material * sizeof(shared_reflector) + offsetof(shared_reflector, table)),
         sizeof value, &value);
+}
+
+unsigned gpu_mesh_sheens(const gpu_mesh *mesh) {
+    unsigned count = 0;
+    for (size_t i = 0; i < mesh->material_count; i++)
+        count += mesh->materials[i].sheen && mesh->materials[i].table < 0;
+    return count;
 }
 
 bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind) {

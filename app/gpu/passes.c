@@ -62,8 +62,9 @@ void gpu_draw_gbuffer(gpu_renderer *r, const gpu_frame *frame, const shared_fram
 
 void gpu_bind_gbuffer(const gpu_renderer *r) {
     static const GLuint units[GPU_ATTACHMENTS] = {
-        SHARED_BASE_COLOR, SHARED_NORMAL, SHARED_METALLIC_ROUGHNESS, SHARED_EMISSION, SHARED_LAYERS,
-        SHARED_COAT,       SHARED_TINT
+        SHARED_BASE_COLOR, SHARED_NORMAL, SHARED_METALLIC_ROUGHNESS,
+        SHARED_EMISSION,   SHARED_LAYERS, SHARED_COAT,
+        SHARED_TINT,       SHARED_SHEEN
     };
     for (int i = 0; i < gpu_attachment_count(r); i++)
         glBindTextureUnit(units[i], r->attachments[i]);

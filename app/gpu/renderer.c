@@ -122,6 +122,10 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     free(r);
 }
 
+void gpu_set_fibers(gpu_renderer *r, const lmp_brdf_table *const *white) {
+    r->fibers = white;
+}
+
 /* --- a frame ---------------------------------------------------------------------------------- */
 
 /* The G-buffer goes to the host and comes back as radiance. */
@@ -177,6 +181,17 @@ static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GL
            shade_host(r, frame, &block, index, times, error);
 }
 
+/* Says once that shaders have no sheen. */
+static void note_sheen(gpu_renderer *r, const gpu_frame *frame) {
+    char text[64];
+    const scene_left_out sheen = { "sheen", "material", gpu_mesh_sheens(&r->mesh) };
+    if (sheen.count == 0 || r->sheen_noted || (frame->host && r->fibers))
+        return;
+    scene_left_out_text(&sheen, text, sizeof text);
+    cli_note(NULL, "left out on the GPU: %s (--device cpu draws it)", text);
+    r->sheen_noted = true;
+}
+
 /* Samples `first` to `last` of a frame. */
 static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, int last, bool show,
                            gpu_times *times, cli_error *error) {
@@ -195,6 +210,7 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
     if (!gpu_bind_environment(r, frame, error))
         return false;
     gpu_upload_lights(r, frame);
+    note_sheen(r, frame);
     if (times)
         memset(times, 0, sizeof *times);
     for (int i = first; i <= last; i++) {

@@ -2,6 +2,7 @@
 #include "app/override/override.h"
 #include "app/method/method.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,6 +55,34 @@ bool override_bake(override_set *all, int bands, lmp_window window, cli_error *e
     return true;
 }
 
+bool override_is_needed(int count, const scene *world) {
+    bool sheen = false;
+    for (size_t i = 0; i < world->material_count; i++)
+        sheen = sheen || scene_has_sheen(&world->materials[i]);
+    return count > 0 || sheen;
+}
+
+/* So smooth is what fibers reflect that 20 bands leave out a thousandth. */
+enum { FIBER_BANDS_MAX = 20 };
+
+bool override_bake_fibers(override_set *all, const scene *world, int bands, lmp_window window,
+                          cli_error *error) {
+    const lmp_brdf_table_desc desc = { .bands = bands < FIBER_BANDS_MAX ? bands : FIBER_BANDS_MAX,
+                                       .window = window };
+    const float least = LMP_FIBER_ROUGHNESS_MIN, last = LMP_FIBER_TABLES - 1;
+    bool ok = true;
+    for (int i = 0; ok && i < LMP_FIBER_TABLES && override_is_needed(0, world); i++) {
+        char name[32];
+        material white;
+        snprintf(name, sizeof name, "sheen:%.6f", (double)(least + (1 - least) * (float)i / last));
+        if (!material_open(name, &white, error))
+            return false;
+        ok = material_bake(&white, &desc, &all->fibers[i], error);
+        material_close(&white);
+    }
+    return ok;
+}
+
 bool override_preintegrate(override_set *all, cli_error *error) {
     for (int i = 0; i < all->count; i++)
         if (!material_preintegrate(&all->opened[i], all->tables[i], &all->preintegrated[i], error))
@@ -76,6 +105,7 @@ bool override_apply(const override_set *all, const scene *world, gpu_renderer *r
     if (ok)
         gpu_set_preintegrated_brdfs(renderer,
                                     (const lmp_preintegrated_brdf *const *)all->preintegrated);
+    gpu_set_fibers(renderer, all->fibers[0] ? (const lmp_brdf_table *const *)all->fibers : NULL);
     free(none);
     return ok;
 }
@@ -86,7 +116,8 @@ bool override_prepare(const cli_list *list, const scene *world, const gpu_frame 
            override_bake(all, frame->bands, frame->window, error) &&
            (!(method_table[frame->method].reads & METHOD_READS_PREINTEGRATED) ||
             override_preintegrate(all, error)) &&
-           (all->count == 0 || override_apply(all, world, renderer, error));
+           override_bake_fibers(all, world, frame->bands, frame->window, error) &&
+           (!override_is_needed(all->count, world) || override_apply(all, world, renderer, error));
 }
 
 void override_free(override_set *all) {
@@ -95,6 +126,8 @@ void override_free(override_set *all) {
         lmp_brdf_table_destroy(all->tables[i]);
         material_close(&all->opened[i]);
     }
+    for (int i = 0; i < LMP_FIBER_TABLES; i++)
+        lmp_brdf_table_destroy(all->fibers[i]);
     free(all->uses);
     *all = (override_set) { .count = 0 };
 }

@@ -17,6 +17,7 @@ typedef struct override_set {
     material opened[GPU_TABLES_MAX];
     lmp_brdf_table *tables[GPU_TABLES_MAX];                /* NULL before override_bake */
     lmp_preintegrated_brdf *preintegrated[GPU_TABLES_MAX]; /* of tables; NULL unless asked for */
+    lmp_brdf_table *fibers[LMP_FIBER_TABLES]; /* white ones; NULL where the scene has no sheen */
     int count;
     int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
 } override_set;
@@ -30,6 +31,13 @@ bool override_bake(override_set *set, int bands, lmp_window window, cli_error *e
 
 /* Then preintegrates the tables that allow it, for a method that reads them so. */
 bool override_preintegrate(override_set *set, cli_error *error);
+
+/* Whether the list, or the sheen of the scene's own materials, makes a renderer need a set. */
+bool override_is_needed(int count, const scene *scene);
+
+/* Makes the tables of lmp_fibers if the scene has sheen. */
+bool override_bake_fibers(override_set *set, const scene *scene, int bands, lmp_window window,
+                          cli_error *error);
 
 /* Has the renderer of the scene shade by them; without any by the scene's own again. */
 bool override_apply(const override_set *set, const scene *scene, gpu_renderer *renderer,

@@ -86,14 +86,17 @@ static double divide(const reference_surface *surface, const reference_source *c
     return by_source;
 }
 
-/* GGX, and the coat over it. */
+/* GGX, and what lies over it. */
 static void reflect_layers(const reference_surface *surface, reference_vec w, double reflected[3]) {
-    double over[3] = { 0 };
+    const double left = surface->sheen ? surface->sheen->under : 1;
+    double fibers[3] = { 0 }, over[3] = { 0 };
     reference_ggx_at(surface->ggx, w, reflected);
+    if (surface->sheen)
+        reference_sheen_at(surface->sheen, w, fibers);
     if (surface->coat)
         reference_ggx_at(surface->coat, w, over);
     for (int c = 0; c < 3; c++)
-        reflected[c] = surface->under * reflected[c] + over[c];
+        reflected[c] = surface->under * (left * reflected[c] + fibers[c]) + over[c];
 }
 
 /* What the surface reflects from `w`; returns the density of w over the plan's lobes. */

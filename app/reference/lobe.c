@@ -37,6 +37,7 @@ void reference_surface_set(reference_surface *surface, const reference_band_limi
     surface->occluded = 0;
     surface->tabulated = NULL;
     surface->ggx = surface->coat = NULL;
+    surface->sheen = NULL;
     surface->under = 1;
     if (limit->bands) {
         limit_lobe(diffuse, limit);
@@ -72,19 +73,34 @@ void reference_surface_shine(reference_surface *surface, const reference_band_li
     surface->band_limited = limit->bands > 0;
 }
 
+/* Weakens the lobes so far, as what is laid over them does. */
+static void cover(reference_surface *surface, double under) {
+    for (int k = 0; k < surface->lobe_count; k++)
+        for (int c = 0; c < 3; c++)
+            surface->lobes[k].weight[c] *= under;
+}
+
+/* Fibers reflect into all directions. */
+void reference_surface_sheen(reference_surface *surface, const reference_sheen *sheen) {
+    cover(surface, sheen->under);
+    reference_lobe *over = &surface->lobes[surface->lobe_count++];
+    *over = (reference_lobe) { .axis = sheen->normal };
+    for (int c = 0; c < 3; c++)
+        over->weight[c] = sheen->color[c] / 4;
+    surface->sheen = sheen;
+}
+
 void reference_surface_coat(reference_surface *surface, const reference_ggx *coat,
                             reference_vec normal, reference_vec view) {
+    cover(surface, 1 - coat->f90);
     reference_lobe *over = &surface->lobes[surface->lobe_count++];
     *over = (reference_lobe) { .axis = reference_mirror(view, normal),
                                .exponent = guide_exponent(coat),
                                .ggx = coat };
     surface->coat = coat;
     surface->under = 1 - coat->f90;
-    for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
         over->weight[c] = coat->f90;
-        surface->lobes[0].weight[c] *= surface->under;
-        surface->lobes[1].weight[c] *= surface->under;
-    }
 }
 
 /* Neither too wide nor too narrow for most materials; the samples are weighted for it. */

@@ -6,6 +6,7 @@
 
 #include "app/reference/ggx.h"
 #include "app/reference/series.h"
+#include "app/reference/sheen.h"
 #include "app/reference/tabulated.h"
 
 #include <lampion/sh.h>
@@ -26,20 +27,21 @@ typedef struct reference_lobe {
 } reference_lobe;
 
 /* What a surface is to the integrator. */
-#define REFERENCE_LOBES 3
+#define REFERENCE_LOBES 4
 typedef struct reference_surface {
     reference_vec position;
     reference_vec ray_origin; /* where rays towards lights start; clear of the surface itself */
-    reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular, of a coat */
+    reference_lobe lobes[REFERENCE_LOBES]; /* diffuse, specular, of layers */
     int lobe_count;
     double occluded;   /* the part of the environment's light that an occlusion map keeps off */
     bool band_limited; /* they, or the tabulated material, are a truncated series */
     /* One of these reflects instead of the lobes, which then only guide the samples; or none. */
     const reference_tabulated *tabulated;
     const reference_ggx *ggx;
-    const reference_ggx *coat;  /* over ggx, which has what it leaves; or NULL */
-    double under;               /* the part of the light that the coat leaves */
-    reference_band_limit limit; /* of ggx: a series is made of the lights */
+    const reference_sheen *sheen; /* over ggx, which has what it leaves; or NULL */
+    const reference_ggx *coat;    /* over both */
+    double under;                 /* the part of the light that the coat leaves */
+    reference_band_limit limit;   /* of ggx: a series is made of the lights */
 } reference_surface;
 
 /* normal and view must be unit; ray_origin becomes the position. */
@@ -51,7 +53,10 @@ void reference_surface_set(reference_surface *surface, const reference_band_limi
 void reference_surface_shine(reference_surface *surface, const reference_band_limit *limit,
                              const reference_ggx *ggx, reference_vec normal, reference_vec view);
 
-/* Puts a coat over it (reference_coat_set); `view` as before. */
+/* Puts fibers over it. */
+void reference_surface_sheen(reference_surface *surface, const reference_sheen *sheen);
+
+/* Puts a coat over it all (reference_coat_set); `view` as before. */
 void reference_surface_coat(reference_surface *surface, const reference_ggx *coat,
                             reference_vec normal, reference_vec view);
 

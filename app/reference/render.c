@@ -12,6 +12,7 @@ typedef struct frame {
     const reference_settings *settings;
     const reference_tracer *tracer;
     const reference_environment *environment; /* or NULL */
+    const reference_sheen_albedos *albedos;   /* if some material has sheen */
     reference_vec eye, forward, right, up;    /* right and up reach to the image's edges */
     double parallel;                          /* 1: the rays are, 0: they part from the eye */
     image *radiance, *standard_error;
@@ -100,7 +101,21 @@ typedef struct worker {
     reference_estimator estimator;
     reference_tabulated tabulated;
     reference_ggx ggx, coat;
+    reference_sheen sheen;
 } worker;
+
+static void sheen_surface(const frame *f, worker *own, const reference_hit *hit,
+                          reference_vec normal, reference_vec view, reference_surface *surface) {
+    const scene_material *material = &f->scene->materials[hit->material];
+    double tint[4], rough[4], color[3];
+    sample(f, &material->sheen_color_map, hit, tint);
+    sample(f, &material->sheen_roughness_map, hit, rough);
+    for (int c = 0; c < 3; c++)
+        color[c] = tint[c] * (double)material->sheen_color[c];
+    reference_sheen_set(&own->sheen, f->albedos, color,
+                        rough[3] * (double)material->sheen_roughness, normal, view);
+    reference_surface_sheen(surface, &own->sheen);
+}
 
 /* The light that the surface emits is seen through its coat. */
 static void coat_surface(const frame *f, worker *own, const reference_hit *hit, reference_vec view,
@@ -144,8 +159,11 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     if (source && (source->brdf || source->coefficients)) {
         reference_tabulated_orient(&own->tabulated, source, normal, hit->tangent, view);
         reference_surface_measure(surface, &own->tabulated, normal, view);
-    } else if (material->coat > 0) {
-        coat_surface(f, own, hit, view, surface, emission);
+    } else {
+        if (scene_has_sheen(material))
+            sheen_surface(f, own, hit, normal, view, surface);
+        if (material->coat > 0)
+            coat_surface(f, own, hit, view, surface, emission);
     }
     surface->occluded = (double)material->occlusion * (1 - shade[0]);
 }
@@ -282,6 +300,16 @@ int reference_samples(const reference_settings *settings) {
     return step ? (settings->samples - settings->shard[0] + step) / step : settings->samples;
 }
 
+/* Whether some material has sheen; *albedos is then what it needs. */
+static bool prepare_sheen(const scene *world, reference_sheen_albedos *albedos) {
+    for (size_t i = 0; i < world->material_count; i++)
+        if (scene_has_sheen(&world->materials[i])) {
+            reference_sheen_albedos_fill(albedos);
+            return true;
+        }
+    return false;
+}
+
 bool reference_render(const scene *world, const reference_settings *settings, image *radiance,
                       image *standard_error, cli_error *error) {
     frame f = {
@@ -289,6 +317,7 @@ bool reference_render(const scene *world, const reference_settings *settings, im
     };
     reference_tracer *tracer = NULL;
     reference_environment around;
+    reference_sheen_albedos albedos;
     *radiance = *standard_error = (image) { .rgb = NULL };
     bool ok = (reference_environment_create(settings->environment, &around) ||
                cli_fail(error, NULL, "out of memory")) &&
@@ -298,6 +327,7 @@ bool reference_render(const scene *world, const reference_settings *settings, im
     if (ok) {
         f.tracer = tracer;
         f.environment = reference_environment_shines(&around) ? &around : NULL;
+        f.albedos = prepare_sheen(world, &albedos) ? &albedos : NULL;
         set_camera(&f);
         ok = trace_rows(&f, settings->threads ? settings->threads : omp_get_num_procs()) ||
              cli_fail(error, NULL, "out of memory");

@@ -162,9 +162,11 @@ static bool materials_fit(const blob_header *header) {
             m->metallic, m->roughness, m->normal_scale, m->alpha_cutoff,
             m->f0[0],    m->f0[1],     m->f0[2],        m->coat_normal_scale
         };
-        const float parts[] = { m->f90, m->occlusion, m->coat, m->coat_roughness };
+        const float parts[] = { m->f90, m->occlusion, m->coat, m->coat_roughness,
+                                m->sheen_roughness };
         if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 8) ||
-            !all_finite(m->emission, 3) || !all_parts(parts, 4) || !maps_fit(m, texture_count))
+            !all_finite(m->emission, 3) || !all_parts(parts, 5) || !all_parts(m->sheen_color, 3) ||
+            !maps_fit(m, texture_count))
             return false;
     }
     const scene_texture *textures = blob_items(header, BLOB_TEXTURES);

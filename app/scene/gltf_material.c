@@ -131,6 +131,8 @@ static const gltf_map maps[SCENE_MAPS] = {
     { "clearcoatTexture", "KHR_materials_clearcoat", false },
     { "clearcoatRoughnessTexture", "KHR_materials_clearcoat", false },
     { "clearcoatNormalTexture", "KHR_materials_clearcoat", false },
+    { "sheenColorTexture", "KHR_materials_sheen", true },
+    { "sheenRoughnessTexture", "KHR_materials_sheen", false },
 };
 
 static const cJSON *map_info(const cJSON *material, const gltf_map *map) {
@@ -206,6 +208,15 @@ static void read_coat(const cJSON *entry, scene_material *material) {
         (float)gltf_number(gltf_member(coat, "clearcoatNormalTexture"), "scale", 1.0);
 }
 
+static void read_sheen(const cJSON *entry, scene_material *material) {
+    const cJSON *sheen = gltf_extension(entry, "KHR_materials_sheen");
+    double color[3] = { 0.0, 0.0, 0.0 };
+    gltf_numbers(sheen, "sheenColorFactor", 3, color);
+    for (int k = 0; k < 3; k++)
+        material->sheen_color[k] = clamp_unit(color[k]);
+    material->sheen_roughness = clamp_unit(gltf_number(sheen, "sheenRoughnessFactor", 0.0));
+}
+
 /* What reflects nothing and glows by its base color; alpha stays where it was. */
 static void make_unlit(scene_material *material) {
     material->flags |= SCENE_UNLIT;
@@ -214,6 +225,7 @@ static void make_unlit(scene_material *material) {
         if (&material->maps[i] != &material->emission_map)
             material->maps[i].texture = -1;
     material->coat = 0.0f;
+    memset(material->sheen_color, 0, sizeof material->sheen_color);
     material->metallic = material->roughness = 1.0f;
     for (int k = 0; k < 3; k++) {
         material->emission[k] = material->base_color[k];
@@ -250,6 +262,7 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
         clamp_unit(gltf_number(gltf_member(entry, "occlusionTexture"), "strength", 1.0));
     read_dielectric(entry, material);
     read_coat(entry, material);
+    read_sheen(entry, material);
     long sets[2];
     gltf_material_sets(entry, sets);
     for (size_t i = 0; i < SCENE_MAPS; i++)

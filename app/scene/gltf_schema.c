@@ -171,6 +171,15 @@ static const gltf_object clearcoat = {
                            END },
     NULL,
 };
+static const gltf_object sheen = {
+    "material",
+    (const gltf_field[]) { { "sheenColorFactor", VECTOR(3), UNIT },
+                           { "sheenColorTexture", OBJECT(texture_info) },
+                           { "sheenRoughnessFactor", UNIT },
+                           { "sheenRoughnessTexture", OBJECT(texture_info) },
+                           END },
+    NULL,
+};
 static const gltf_object ior = {
     "material",
     (const gltf_field[]) { { "ior", NOT_NEGATIVE }, END },
@@ -192,6 +201,7 @@ static const gltf_object material = {
     (const gltf_field[]) { { "KHR_materials_clearcoat", OBJECT(clearcoat) },
                            { "KHR_materials_emissive_strength", OBJECT(emissive_strength) },
                            { "KHR_materials_ior", OBJECT(ior) },
+                           { "KHR_materials_sheen", OBJECT(sheen) },
                            { "KHR_materials_specular", OBJECT(specular) },
                            { "KHR_materials_unlit", OBJECT(unlit) },
                            END },

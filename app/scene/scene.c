@@ -33,7 +33,11 @@ scene_material scene_material_plain(void) {
 }
 
 bool scene_is_layered(const scene_material *m) {
-    return m->coat > 0 || m->specular_color_map.texture >= 0;
+    return m->coat > 0 || scene_has_sheen(m) || m->specular_color_map.texture >= 0;
+}
+
+bool scene_has_sheen(const scene_material *m) {
+    return m->sheen_color[0] > 0 || m->sheen_color[1] > 0 || m->sheen_color[2] > 0;
 }
 
 void scene_free(scene *s) {

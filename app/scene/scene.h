@@ -46,7 +46,7 @@ typedef struct scene_texture_use {
 } scene_texture_use;
 
 /* glTF metallic-roughness, and what lies over it. */
-#define SCENE_MAPS 10
+#define SCENE_MAPS 12
 typedef struct scene_material {
     char name[SCENE_NAME_SIZE];
     float base_color[4]; /* linear, with alpha */
@@ -56,7 +56,8 @@ typedef struct scene_material {
     float f90;         /* 0 … 1 */
     float occlusion;   /* strength of the occlusion map */
     float coat, coat_roughness, coat_normal_scale;
-    uint32_t flags; /* scene_flags */
+    float sheen_color[3], sheen_roughness; /* 0 … 1 */
+    uint32_t flags;                        /* scene_flags */
     union {
         struct {
             scene_texture_use base_color_map, metallic_roughness_map, normal_map, emission_map;
@@ -64,6 +65,7 @@ typedef struct scene_material {
             scene_texture_use specular_map;       /* a: a factor on f90 */
             scene_texture_use specular_color_map; /* a factor on f0 */
             scene_texture_use coat_map, coat_roughness_map, coat_normal_map;
+            scene_texture_use sheen_color_map, sheen_roughness_map;
         };
         scene_texture_use maps[SCENE_MAPS];
     };
@@ -171,8 +173,9 @@ void scene_clear_lights(scene *scene);
 /* White and matte, without maps: what a material is unless a file says more. */
 scene_material scene_material_plain(void);
 
-/* Whether the material has more than glTF's core: a coat, or a map that tints f0. */
+/* Whether the material has more than glTF's core: a coat, a sheen, or a map that tints f0. */
 bool scene_is_layered(const scene_material *material);
+bool scene_has_sheen(const scene_material *material);
 
 /* Reads the lights of a JSON file (docs/lights.md), or of a screenshot or state of the viewer, of
  * which there is room for so many. */

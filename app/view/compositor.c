@@ -147,20 +147,21 @@ static bool is_preintegrated(const view_shading *shading) {
     return method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
 }
 
-static bool has_materials(const side *own, const view_settings *settings,
+static bool has_materials(const view_compositor *s, const side *own, const view_settings *settings,
                           const view_shading *shading) {
     return own->count == settings->material_count &&
-           (own->count == 0 || (own->bands == shading->bands && own->window == shading->window &&
-                                own->preintegrated == is_preintegrated(shading) &&
-                                memcmp(own->names, settings->materials,
-                                       (size_t)own->count * sizeof *own->names) == 0));
+           (!override_is_needed(own->count, s->world) ||
+            (own->bands == shading->bands && own->window == shading->window &&
+             own->preintegrated == is_preintegrated(shading) &&
+             memcmp(own->names, settings->materials, (size_t)own->count * sizeof *own->names) ==
+                 0));
 }
 
 static bool settle_materials(view_compositor *s, side *own, const view_settings *settings,
                              const view_shading *shading, cli_error *error) {
     override_set fresh = { .count = 0 };
     cli_list list = { .count = settings->material_count };
-    if (has_materials(own, settings, shading))
+    if (has_materials(s, own, settings, shading))
         return true;
     if (!own->names && !(own->names = calloc(GPU_TABLES_MAX, sizeof *own->names)))
         return cli_fail(error, NULL, "out of memory");
@@ -168,6 +169,7 @@ static bool settle_materials(view_compositor *s, side *own, const view_settings 
         list.items[i] = settings->materials[i];
     bool ok = override_open(&list, s->world, &fresh, error) &&
               override_bake(&fresh, shading->bands, shading->window, error) &&
+              override_bake_fibers(&fresh, s->world, shading->bands, shading->window, error) &&
               (!is_preintegrated(shading) || override_preintegrate(&fresh, error));
     for (int i = 0; i < QUALITIES && ok; i++)
         ok = !own->renderers[i] || override_apply(&fresh, s->world, own->renderers[i], error);
@@ -193,7 +195,7 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
     for (int i = 0; i < sides; i++) {
         const view_shading *shading = &settings->shading[i];
-        if (settings->material_count > 0 && !has_materials(&s->sides[i], settings, shading))
+        if (!has_materials(s, &s->sides[i], settings, shading))
             return "projecting the materials …";
         if (is_preintegrated(shading) && !find_lobe(s, shading))
             return "integrating the lobes …";
@@ -227,8 +229,8 @@ static bool open_side(view_compositor *s, side *own, quality fineness, cli_error
     *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
     if (*renderer)
         gpu_set_environment(*renderer, &s->around);
-    return *renderer &&
-           (own->count == 0 || override_apply(&own->materials, s->world, *renderer, error));
+    return *renderer && (!override_is_needed(own->count, s->world) ||
+                         override_apply(&own->materials, s->world, *renderer, error));
 }
 
 /* Opens the environment of the settings, with the coefficients of both sides. */

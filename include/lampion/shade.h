@@ -18,7 +18,7 @@
  *
  * The sum over all lights is then clamped at 0, channel by channel, for a truncated series rings.
  * A coat reflects by GGX around a normal of its own, its weight w (0.04 + 0.96 (1 - |v·n|)^5), and
- * leaves the rest to what is under it; both are clamped by themselves. No visibility.
+ * leaves the rest to what is under it, as fibers do; each is clamped by itself. No visibility.
  *
  * A release build takes vectors that are not unit and parameters out of range as they are, and
  * stays finite and inside its arrays (base.h). */
@@ -66,6 +66,21 @@ typedef struct lmp_coat {
  * normal, the coat's, and view must be unit */
 LMP_API float lmp_material_coated(const lmp_coat *coat, lmp_vec3 normal, lmp_vec3 view);
 
+/* Fibers over a material of any kind, under its coat, as KHR_materials_sheen has them: what is
+ * under them has 1 - max(color) E of its light, E what white ones reflect of a sky to the view.
+ * Zero-initialized: none.
+ *
+ * white: LMP_FIBER_TABLES tables of white fibers over black (lmp_brdf_create_sheen), of roughnesses
+ * that divide LMP_FIBER_ROUGHNESS_MIN … 1 evenly; other roughnesses are between two. Their bands
+ * and window count, whatever the settings say. */
+#define LMP_FIBER_TABLES        16
+#define LMP_FIBER_ROUGHNESS_MIN 0.07f
+typedef struct lmp_fibers {
+    lmp_rgb color;   /* 0 … 1 */
+    float roughness; /* clamped */
+    const lmp_brdf_table *const *white;
+} lmp_fibers;
+
 /* A material; zero-initialize it and set the members its kind names. Others are ignored. */
 typedef struct lmp_material {
     lmp_material_kind kind;
@@ -80,7 +95,8 @@ typedef struct lmp_material {
     };
     float roughness; /* 0 … 1; clamped */
     lmp_dielectric dielectric;
-    lmp_coat coat; /* of every kind; its light is summed by lobes */
+    lmp_fibers fibers; /* of every kind, as the next one */
+    lmp_coat coat;     /* its light is summed by lobes */
     /* A tabulated BRDF, with the bands and the windowing filter of the table. */
     const lmp_brdf_table *table;
     /* The same integrated beforehand: what LMP_SHADE_PREINTEGRATED reads in the table's place. */

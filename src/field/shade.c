@@ -153,7 +153,7 @@ static __attribute__((noinline)) lmp_rgb shade_surroundings(const field_shading 
     return lmp_shade_environment(&shading->settings, material, surface, &light);
 }
 
-/* A surface outside the grid, under a coat or of a material without lobes. */
+/* A surface outside the grid, under layers or of a material without lobes. */
 static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces, size_t i,
                       size_t stride, float *rgb) {
     const lmp_field *field = shading->field;
@@ -196,7 +196,7 @@ static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size
     field_place place;
     if ((material->kind != LMP_MATERIAL_LOBES &&
          material->kind != LMP_MATERIAL_METALLIC_ROUGHNESS) ||
-        material->coat.weight > 0 ||
+        lmp_is_over(material, SHADE_OVER_FIBERS) || lmp_is_over(material, SHADE_OVER_COAT) ||
         !lmp_field_find(field, lmp_vec3_element(&surfaces->position, i), &place))
         return false;
     *block = lmp_field_block(field, place.cell);

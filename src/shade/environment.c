@@ -95,10 +95,9 @@ static void shade_one(const lmp_surfaces *surfaces, size_t i, const lmp_environm
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
-void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
-                                      const lmp_surfaces *surfaces, size_t count,
-                                      const lmp_environment *environment, size_t rgb_stride,
-                                      float *rgb) {
+void lmp_shade_environment_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                                  size_t count, const lmp_environment *environment,
+                                  size_t rgb_stride, float *rgb) {
     const lmp_shade_settings resolved = settings_of(settings);
     const environment_method method = method_of(&resolved, environment);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);

@@ -63,10 +63,18 @@ static inline bool lmp_is_dielectric(const lmp_dielectric *d) {
            (f0 >= 0 && d->f0.r <= 1 && d->f0.g <= 1 && d->f0.b <= 1 && d->f90 >= 0 && d->f90 <= 1);
 }
 
+/* 0 … 1, all of them; or none of them counts. */
+static inline bool lmp_are_fibers(const lmp_fibers *f) {
+    const float least = fminf(f->color.r, fminf(f->color.g, f->color.b));
+    const float most = fmaxf(f->color.r, fmaxf(f->color.g, f->color.b));
+    return !f->white || (least >= 0 && most <= 1 && isfinite(f->roughness));
+}
+
 /* Whether the members that the material's kind names are in their ranges (shade.h). */
 static inline bool lmp_is_material(const lmp_material *material) {
     const lmp_coat *coat = &material->coat;
-    if (!(coat->weight >= 0 && coat->weight <= 1 && isfinite(coat->roughness)))
+    if (!(coat->weight >= 0 && coat->weight <= 1 && isfinite(coat->roughness) &&
+          lmp_are_fibers(&material->fibers)))
         return false;
     switch (material->kind) {
     case LMP_MATERIAL_LOBES:
@@ -170,17 +178,40 @@ void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *mat
 lmp_rgb lmp_shade_sum(const lmp_shade_settings *resolved, const lmp_material *material,
                       const lmp_surface *surface, const lmp_light *lights, size_t count);
 
-/* A coat that reflects this part of the light: GGX without a base. */
-lmp_material lmp_coat_material(const lmp_coat *coat, float part);
+/* What lies over a material, from below: each is shaded as a surface of its own, by one or two
+ * materials. */
+typedef enum shade_over { SHADE_OVER_FIBERS, SHADE_OVER_COAT, SHADE_OVERS } shade_over;
 
-/* lmp_shade_n and lmp_shade_environment_n of what is under coats, as if there were none. */
-void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                          size_t count, const lmp_light *lights, size_t light_count,
-                          size_t rgb_stride, float *rgb);
-void lmp_shade_environment_uncoated_n(const lmp_shade_settings *settings,
-                                      const lmp_surfaces *surfaces, size_t count,
-                                      const lmp_environment *environment, size_t rgb_stride,
-                                      float *rgb);
+/* color = left * color + weight * what the material reflects. */
+typedef struct shade_layer {
+    lmp_material material;
+    lmp_rgb weight;
+    float left;
+} shade_layer;
+
+static inline bool lmp_is_over(const lmp_material *material, shade_over over) {
+    return over == SHADE_OVER_COAT ? material->coat.weight > 0 : material->fibers.white != NULL;
+}
+
+/* Returns how many. The normal is the coat's, of a coat. */
+enum { SHADE_LAYERS_MAX = 2 };
+int lmp_shade_layers_over(const lmp_material *material, shade_over over, lmp_vec3 normal,
+                          lmp_vec3 view, shade_layer layers[SHADE_LAYERS_MAX]);
+
+static inline lmp_rgb lmp_shade_add_layer(const shade_layer *layer, lmp_rgb under,
+                                          lmp_rgb reflected) {
+    return (lmp_rgb) { under.r * layer->left + reflected.r * layer->weight.r,
+                       under.g * layer->left + reflected.g * layer->weight.g,
+                       under.b * layer->left + reflected.b * layer->weight.b };
+}
+
+/* lmp_shade_n and lmp_shade_environment_n of what is under all layers, as if there were none. */
+void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                      size_t count, const lmp_light *lights, size_t light_count, size_t rgb_stride,
+                      float *rgb);
+void lmp_shade_environment_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                                  size_t count, const lmp_environment *environment,
+                                  size_t rgb_stride, float *rgb);
 
 /* Not clamped. */
 lmp_rgb lmp_shade_lobes_zonal(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,

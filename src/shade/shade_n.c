@@ -82,9 +82,9 @@ static void shade_by_kernels(const shade_prepared *prepared, const lmp_surfaces 
     lmp_shade_store(&chunk->planes, chunk->at, chunk->count, stride, rgb);
 }
 
-void lmp_shade_uncoated_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                          size_t count, const lmp_light *lights, size_t light_count,
-                          size_t rgb_stride, float *rgb) {
+void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                      size_t count, const lmp_light *lights, size_t light_count, size_t rgb_stride,
+                      float *rgb) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
     assert(lmp_are_surfaces(surfaces, count) && lmp_are_lights(lights, light_count));

@@ -209,7 +209,6 @@ static void what_is_left_out_is_named(void **state) {
         const char *from, *to, *named;
     } cases[] = {
         MATERIAL("transmission"),
-        MATERIAL("sheen"),
         MATERIAL("anisotropy"),
         MATERIAL("volume"),
         MATERIAL("iridescence"),

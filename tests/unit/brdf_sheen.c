@@ -1,61 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Sheen against KHR_materials_sheen: its formulas as they are written there, and integrals of them
- * made here. */
+/* Sheen against KHR_materials_sheen's formulas and integrals of them. */
 #include "tests/oracle/oracle.h"
+#include "tests/oracle/sheen.h"
 #include "tests/unit/brdfs.h"
 
 #include <lampion/shade.h>
 
 #include <math.h>
-
-/* --- the specification ------------------------------------------------------------------------ */
-
-static double mix(double x, double y, double a) {
-    return x * (1 - a) + y * a;
-}
-
-static double l(double x, double alpha_g) {
-    const double one_minus_alpha_sq = (1.0 - alpha_g) * (1.0 - alpha_g);
-    const double a = mix(21.5473, 25.3245, one_minus_alpha_sq);
-    const double b = mix(3.82987, 3.32435, one_minus_alpha_sq);
-    const double c = mix(0.19823, 0.16801, one_minus_alpha_sq);
-    const double d = mix(-1.97760, -1.27393, one_minus_alpha_sq);
-    const double e = mix(-4.32054, -4.85967, one_minus_alpha_sq);
-    return a / (1.0 + b * pow(x, c)) + d * x + e;
-}
-
-static double lambda_sheen(double cos_theta, double alpha_g) {
-    return cos_theta < 0.5 ? exp(l(cos_theta, alpha_g))
-                           : exp(2.0 * l(0.5, alpha_g) - l(1.0 - cos_theta, alpha_g));
-}
-
-static double sheen_brdf(double roughness, const double light[3], const double view[3]) {
-    const double alpha_g = roughness * roughness, inv_r = 1 / alpha_g;
-    const double h[3] = { light[0] + view[0], light[1] + view[1], light[2] + view[2] };
-    const double cos2h = h[2] * h[2] / (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
-    const double distribution =
-        (2 + inv_r) * pow(fmax(1 - cos2h, 0), inv_r * 0.5) / (2 * ORACLE_PI);
-    const double smith = 1.0 + lambda_sheen(view[2], alpha_g) + lambda_sheen(light[2], alpha_g);
-    return distribution / (smith * 4.0 * view[2] * light[2]);
-}
-
-/* E, over rings dense at the horizon. */
-static double albedo(double roughness, double angle) {
-    enum { RINGS = 120, AZIMUTHS = 400 };
-    static double node[RINGS], weight[RINGS];
-    const double view[3] = { sin(angle), 0, cos(angle) };
-    double sum = 0;
-    oracle_gauss_legendre(RINGS, node, weight);
-    for (int i = 0; i < RINGS; i++)
-        for (int k = 0; k < AZIMUTHS; k++) {
-            const double root = (1 + node[i]) / 2, z = root * root, s = sqrt(1 - z * z);
-            const double phi = 2 * ORACLE_PI * (k + 0.5) / AZIMUTHS;
-            const double light[3] = { s * cos(phi), s * sin(phi), z };
-            sum += weight[i] * root * z * 2 * ORACLE_PI / AZIMUTHS *
-                   sheen_brdf(roughness, light, view);
-        }
-    return sum;
-}
 
 /* --- values ----------------------------------------------------------------------------------- */
 
@@ -88,7 +39,7 @@ static void fibers_are_those_of_the_specification(void **state) {
             random_above(light);
             random_above(view);
             lmp_brdf_eval_double(brdf, light, view, rgb);
-            const double expected = sheen_brdf((double)roughnesses[r], light, view);
+            const double expected = oracle_sheen((double)roughnesses[r], light, view);
             CHECK_WITHIN(fabs(rgb[0] - expected), 1e-9 * expected + 1e-300);
             CHECK_WITHIN(fabs(rgb[2] - expected / 4), 1e-9 * expected + 1e-300);
         }
@@ -109,8 +60,8 @@ static void the_base_has_what_the_fibers_leave(void **state) {
             double over[3], all[3];
             lmp_brdf_eval_double(fibers, light, view, over);
             lmp_brdf_eval_double(both, light, view, all);
-            const double left =
-                fmin(1 - (double)0.8f * albedo(rough, to), 1 - (double)0.8f * albedo(rough, from));
+            const double left = fmin(1 - (double)0.8f * oracle_sheen_albedo(rough, to),
+                                     1 - (double)0.8f * oracle_sheen_albedo(rough, from));
             for (int c = 0; c < 3; c++)
                 CHECK_WITHIN(fabs(all[c] - over[c] - left * 0.5 / ORACLE_PI), 2e-4);
         }
@@ -133,7 +84,7 @@ static void sheen_is_reciprocal_and_gains_hardly_any_energy(void **state) {
             CHECK_WITHIN(fabs(ab[1] - ba[1]), 1e-12 * ab[1]);
         }
         for (int k = 0; k <= 8; k++)
-            CHECK_WITHIN(albedo((double)roughnesses[r], 0.19 * k), 1.03);
+            CHECK_WITHIN(oracle_sheen_albedo((double)roughnesses[r], 0.19 * k), 1.03);
         lmp_brdf_destroy(brdf);
     }
 }
@@ -154,26 +105,6 @@ static void sheen_out_of_range_is_refused(void **state) {
 
 /* --- under lights ----------------------------------------------------------------------------- */
 
-/* What a cap of radiance 1 above the horizon gives white fibers. */
-static double cap_by_the_specification(double roughness, double to, double half, double angle) {
-    enum { RINGS = 24, AZIMUTHS = 48 };
-    static double node[RINGS], weight[RINGS];
-    const double view[3] = { sin(angle), 0, cos(angle) };
-    double sum = 0;
-    oracle_gauss_legendre(RINGS, node, weight);
-    for (int i = 0; i < RINGS; i++)
-        for (int k = 0; k < AZIMUTHS; k++) {
-            const double z = 1 - (1 - cos(half)) * (1 + node[i]) / 2, s = sqrt(1 - z * z);
-            const double phi = 2 * ORACLE_PI * (k + 0.5) / AZIMUTHS;
-            const double light[3] = { cos(to) * s * cos(phi) + sin(to) * z, s * sin(phi),
-                                      cos(to) * z - sin(to) * s * cos(phi) };
-            if (light[2] > 0)
-                sum += weight[i] * (1 - cos(half)) * ORACLE_PI / AZIMUTHS * light[2] *
-                       sheen_brdf(roughness, light, view);
-        }
-    return sum;
-}
-
 /* The rms error of caps of half angle 0.3 through the zenith, in parts of the largest. */
 static double error_of_bands(int bands, float roughness) {
     const double half = 0.3;
@@ -193,7 +124,7 @@ static double error_of_bands(int bands, float roughness) {
                                     .direction = { (float)sin(to), 0, (float)cos(to) },
                                     .angle = (float)half,
                                     .radiance = { 1, 1, 1 } };
-            const double expected = cap_by_the_specification((double)roughness, to, half, angle);
+            const double expected = oracle_sheen_cap((double)roughness, to, half, angle);
             const lmp_rgb color = lmp_shade(NULL, &material, &surface, &cap, 1);
             check_errors_add(&errors, fabs((double)color.g - expected));
             peak = fmax(peak, expected);

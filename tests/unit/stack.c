@@ -71,6 +71,9 @@ static lmp_rgb gray_ramp(lmp_vec3 direction, void *user) {
 }
 
 static void shade_all_ways(void) {
+    const lmp_brdf_table *white[LMP_FIBER_TABLES];
+    for (int i = 0; i < LMP_FIBER_TABLES; i++)
+        white[i] = table;
     for (int method = 0; method < 3; method++)
         for (int kind = 0; kind < 4; kind++) {
             settings = (lmp_shade_settings) { .method = (lmp_shade_method)method,
@@ -81,6 +84,7 @@ static void shade_all_ways(void) {
                                         .specular = { 1, 1, 1 },
                                         .exponent = 20,
                                         .roughness = 0.4f,
+                                        .fibers = { { 1, 1, 1 }, 0.5f, white },
                                         .coat = { 1, 0.5f },
                                         .table = table,
                                         .preintegrated = preintegrated };

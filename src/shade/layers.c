@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/* layers.c - what lies over a material and weakens it: fibers, by two tables of white ones, and
+ * over them a clear coat, by a material of GGX alone. */
+#include "src/brdf/table.h"
+#include "src/shade/material.h"
+
+#include <math.h>
+#include <string.h>
+
+static const float pi = 3.14159265f;
+
+float lmp_material_coated(const lmp_coat *coat, lmp_vec3 n, lmp_vec3 v) {
+    const float along = fabsf(n.x * v.x + n.y * v.y + n.z * v.z), grazing = 1 - fminf(along, 1);
+    const float square = grazing * grazing;
+    const float rest = 1 - LMP_DIELECTRIC_F0;
+    return coat->weight * (LMP_DIELECTRIC_F0 + rest * (square * square * grazing));
+}
+
+static int coat_over(const lmp_coat *coat, lmp_vec3 n, lmp_vec3 v, shade_layer *layer) {
+    const float part = lmp_material_coated(coat, n, v);
+    layer->material = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                       .roughness = coat->roughness,
+                                       .dielectric = { true, { part, part, part }, part } };
+    layer->weight = (lmp_rgb) { 1, 1, 1 };
+    layer->left = 1 - part;
+    return 1;
+}
+
+/* What white fibers reflect of a sky: the mean over all directions is coefficient 0. */
+static float albedo(const lmp_brdf_table *white, float cosine) {
+    float mean[3];
+    lmp_brdf_table_bands(white, cosine, 0, 0, 1, mean);
+    return mean[0] * sqrtf(4 * pi);
+}
+
+/* Those between whose roughnesses the fibers' lies. */
+static int fibers_over(const lmp_fibers *fibers, lmp_vec3 n, lmp_vec3 v, shade_layer layers[2]) {
+    const float least = LMP_FIBER_ROUGHNESS_MIN, last = LMP_FIBER_TABLES - 1;
+    const float at = (fibers->roughness - least) / (1 - least) * last;
+    const float held = at > 0 ? fminf(at, last) : 0; /* NaN is the least */
+    const int first = held < last ? (int)held : LMP_FIBER_TABLES - 2;
+    const float parts[2] = { 1 - (held - (float)first), held - (float)first };
+    const float cosine = n.x * v.x + n.y * v.y + n.z * v.z;
+    const lmp_rgb color = fibers->color;
+    float reflected = 0;
+    for (int i = 0; i < 2; i++) {
+        const lmp_brdf_table *white = fibers->white[first + i];
+        layers[i].material = (lmp_material) { .kind = LMP_MATERIAL_TABLE, .table = white };
+        layers[i].weight = (lmp_rgb) { color.r * parts[i], color.g * parts[i], color.b * parts[i] };
+        layers[i].left = 1;
+        reflected += parts[i] * albedo(white, cosine);
+    }
+    layers[0].left = fmaxf(1 - fmaxf(color.r, fmaxf(color.g, color.b)) * reflected, 0);
+    return 2;
+}
+
+int lmp_shade_layers_over(const lmp_material *material, shade_over over, lmp_vec3 normal,
+                          lmp_vec3 view, shade_layer layers[SHADE_LAYERS_MAX]) {
+    return over == SHADE_OVER_COAT ? coat_over(&material->coat, normal, view, layers)
+                                   : fibers_over(&material->fibers, normal, view, layers);
+}
+
+/* --- many surfaces ---------------------------------------------------------------------------- */
+
+/* What shines on them: lights, or an environment. */
+typedef struct layers_light {
+    const lmp_shade_settings *settings;
+    const lmp_light *lights;
+    size_t light_count;
+    const lmp_environment *environment;
+} layers_light;
+
+static void shade_bare(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
+                       size_t stride, float *rgb) {
+    if (light->environment)
+        lmp_shade_environment_bare_n(light->settings, surfaces, count, light->environment, stride,
+                                     rgb);
+    else
+        lmp_shade_bare_n(light->settings, surfaces, count, light->lights, light->light_count,
+                         stride, rgb);
+}
+
+/* Layers over some surfaces: as many as the stack has room for. */
+enum { TAKEN = 6 };
+typedef struct taken_layers {
+    size_t count, at[TAKEN]; /* among the caller's surfaces */
+    lmp_material material[TAKEN];
+    lmp_vec3 position[TAKEN], normal[TAKEN], view[TAKEN];
+    lmp_rgb weight[TAKEN];
+    float left[TAKEN];
+} taken_layers;
+
+static lmp_vec3_array tight(const lmp_vec3 *vectors) {
+    return (lmp_vec3_array) { &vectors->x, &vectors->y, &vectors->z, sizeof *vectors };
+}
+
+static void take_surface(const lmp_surfaces *surfaces, bool positions, shade_over over, size_t i,
+                         taken_layers *taken) {
+    const bool own = over == SHADE_OVER_COAT && surfaces->coat_normal.x;
+    const lmp_vec3 normal = lmp_vec3_element(own ? &surfaces->coat_normal : &surfaces->normal, i);
+    const lmp_vec3 view = lmp_vec3_element(&surfaces->view, i);
+    shade_layer layers[SHADE_LAYERS_MAX];
+    const int count =
+        lmp_shade_layers_over(lmp_material_at(surfaces, i), over, normal, view, layers);
+    for (int l = 0; l < count; l++) {
+        const size_t k = taken->count++;
+        taken->at[k] = i;
+        taken->normal[k] = normal;
+        taken->view[k] = view;
+        if (positions)
+            taken->position[k] = lmp_vec3_element(&surfaces->position, i);
+        taken->material[k] = layers[l].material;
+        taken->weight[k] = layers[l].weight;
+        taken->left[k] = layers[l].left;
+    }
+}
+
+/* Goes on from `next` until there is no room; returns where it came. */
+static size_t take_layers(const lmp_surfaces *surfaces, bool positions, shade_over over,
+                          size_t next, size_t count, taken_layers *taken) {
+    taken->count = 0;
+    for (; next < count && taken->count + SHADE_LAYERS_MAX <= TAKEN; next++)
+        if (lmp_is_over(lmp_material_at(surfaces, next), over))
+            take_surface(surfaces, positions, over, next, taken);
+    return next;
+}
+
+/* A function of its own: the kernels' planes and these take turns on the stack. */
+static void add_layers(const layers_light *light, const taken_layers *taken, size_t stride,
+                       float *rgb) {
+    const lmp_surfaces over = { .position = tight(taken->position),
+                                .normal = tight(taken->normal),
+                                .view = tight(taken->view),
+                                .material = taken->material,
+                                .material_stride = sizeof *taken->material };
+    lmp_rgb reflected[TAKEN];
+    shade_bare(light, &over, taken->count, sizeof *reflected, &reflected->r);
+    for (size_t k = 0; k < taken->count; k++) {
+        const shade_layer layer = { .weight = taken->weight[k], .left = taken->left[k] };
+        char *to = (char *)rgb + taken->at[k] * stride;
+        lmp_rgb color;
+        memcpy(&color, to, sizeof color);
+        color = lmp_shade_add_layer(&layer, color, reflected[k]);
+        memcpy(to, &color, sizeof color);
+    }
+}
+
+static void shade_layered(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
+                          size_t rgb_stride, float *rgb) {
+    const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
+    shade_bare(light, surfaces, count, stride, rgb);
+    for (shade_over over = 0; over < SHADE_OVERS; over++)
+        for (size_t next = 0; next < count;) {
+            taken_layers taken;
+            next = take_layers(surfaces, !light->environment, over, next, count, &taken);
+            if (taken.count > 0)
+                add_layers(light, &taken, stride, rgb);
+        }
+}
+
+void lmp_shade_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces, size_t count,
+                 const lmp_light *lights, size_t light_count, size_t rgb_stride, float *rgb) {
+    const layers_light light = { settings, lights, light_count, NULL };
+    shade_layered(&light, surfaces, count, rgb_stride, rgb);
+}
+
+void lmp_shade_environment_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                             size_t count, const lmp_environment *environment, size_t rgb_stride,
+                             float *rgb) {
+    const layers_light light = { settings, NULL, 0, environment };
+    shade_layered(&light, surfaces, count, rgb_stride, rgb);
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "tests/oracle/sheen.h"
+#include "tests/oracle/oracle.h"
+
+#include <math.h>
+
+static double mix(double x, double y, double a) {
+    return x * (1 - a) + y * a;
+}
+
+static double l(double x, double alpha_g) {
+    const double one_minus_alpha_sq = (1.0 - alpha_g) * (1.0 - alpha_g);
+    const double a = mix(21.5473, 25.3245, one_minus_alpha_sq);
+    const double b = mix(3.82987, 3.32435, one_minus_alpha_sq);
+    const double c = mix(0.19823, 0.16801, one_minus_alpha_sq);
+    const double d = mix(-1.97760, -1.27393, one_minus_alpha_sq);
+    const double e = mix(-4.32054, -4.85967, one_minus_alpha_sq);
+    return a / (1.0 + b * pow(x, c)) + d * x + e;
+}
+
+static double lambda_sheen(double cos_theta, double alpha_g) {
+    return cos_theta < 0.5 ? exp(l(cos_theta, alpha_g))
+                           : exp(2.0 * l(0.5, alpha_g) - l(1.0 - cos_theta, alpha_g));
+}
+
+double oracle_sheen(double roughness, const double light[3], const double view[3]) {
+    const double alpha_g = roughness * roughness, inv_r = 1 / alpha_g;
+    const double h[3] = { light[0] + view[0], light[1] + view[1], light[2] + view[2] };
+    const double cos2h = h[2] * h[2] / (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
+    const double distribution =
+        (2 + inv_r) * pow(fmax(1 - cos2h, 0), inv_r * 0.5) / (2 * ORACLE_PI);
+    const double smith = 1.0 + lambda_sheen(view[2], alpha_g) + lambda_sheen(light[2], alpha_g);
+    return distribution / (smith * 4.0 * view[2] * light[2]);
+}
+
+/* E, over rings dense at the horizon. */
+double oracle_sheen_albedo(double roughness, double angle) {
+    enum { RINGS = 120, AZIMUTHS = 400 };
+    static double node[RINGS], weight[RINGS];
+    const double view[3] = { sin(angle), 0, cos(angle) };
+    double sum = 0;
+    oracle_gauss_legendre(RINGS, node, weight);
+    for (int i = 0; i < RINGS; i++)
+        for (int k = 0; k < AZIMUTHS; k++) {
+            const double root = (1 + node[i]) / 2, z = root * root, s = sqrt(1 - z * z);
+            const double phi = 2 * ORACLE_PI * (k + 0.5) / AZIMUTHS;
+            const double light[3] = { s * cos(phi), s * sin(phi), z };
+            sum += weight[i] * root * z * 2 * ORACLE_PI / AZIMUTHS *
+                   oracle_sheen(roughness, light, view);
+        }
+    return sum;
+}
+
+/* What a cap of radiance 1 above the horizon gives white fibers. */
+double oracle_sheen_cap(double roughness, double to, double half, double angle) {
+    enum { RINGS = 24, AZIMUTHS = 48 };
+    static double node[RINGS], weight[RINGS];
+    const double view[3] = { sin(angle), 0, cos(angle) };
+    double sum = 0;
+    oracle_gauss_legendre(RINGS, node, weight);
+    for (int i = 0; i < RINGS; i++)
+        for (int k = 0; k < AZIMUTHS; k++) {
+            const double z = 1 - (1 - cos(half)) * (1 + node[i]) / 2, s = sqrt(1 - z * z);
+            const double phi = 2 * ORACLE_PI * (k + 0.5) / AZIMUTHS;
+            const double light[3] = { cos(to) * s * cos(phi) + sin(to) * z, s * sin(phi),
+                                      cos(to) * z - sin(to) * s * cos(phi) };
+            if (light[2] > 0)
+                sum += weight[i] * (1 - cos(half)) * ORACLE_PI / AZIMUTHS * light[2] *
+                       oracle_sheen(roughness, light, view);
+        }
+    return sum;
+}

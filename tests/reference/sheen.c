@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT */
+/* KHR_materials_sheen of a glTF file, as the CPU and the ground truth draw it, against the
+ * specification; shaders leave it out. */
+#include "tests/reference/sheet.h"
+
+#include "app/override/override.h"
+#include "tests/oracle/check.h"
+#include "tests/oracle/sheen.h"
+
+#include <math.h>
+
+/* A dark square without a layer of its own: `sheen` on it, and under a coat. */
+#define CLOTH(sheen)                                                                               \
+    "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.5,0.5,1],\"metallicFactor\":0},"        \
+    "\"extensions\":{\"KHR_materials_specular\":{\"specularFactor\":0},"                           \
+    "\"KHR_materials_sheen\":{" sheen "}}}"
+
+typedef struct cloth {
+    sheet sheet;
+    override_set tables;
+    image images[SHEET_IMAGES], noise;
+} cloth;
+
+static void draw(cloth *c, const char *json, const scene_light *light) {
+    cli_error error = { "" };
+    c->tables = (override_set) { .count = 0 };
+    sheet_open(&c->sheet, json);
+    scene *world = &c->sheet.world;
+    assert_int_equal(world->left_out_count, 0);
+    sheet_expect(
+        override_bake_fibers(&c->tables, world, LMP_SHADE_BANDS_DEFAULT, LMP_WINDOW_NONE, &error) &&
+            override_apply(&c->tables, world, c->sheet.renderer, &error),
+        &error);
+    world->light_count = light != NULL;
+    if (light)
+        world->lights[0] = *light;
+    sheet_draw(&c->sheet, !light, 1, c->images, &c->noise);
+}
+
+static void cloth_free(cloth *c) {
+    sheet_free(c->images, &c->noise);
+    sheet_close(&c->sheet);
+    override_free(&c->tables);
+}
+
+static double linear(double srgb) {
+    return pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+/* The map's colors, which are sRGB, and its alpha of 0.4 and 1, under a white sky. */
+static void sheen_reflects_by_its_maps_and_leaves_the_rest(void **state) {
+    (void)state;
+    const double color[2][3] = { { linear(0.2), linear(0.4), 0.5 }, { 1, 1, 0.5 } };
+    const double roughness[2] = { 0.4 * 0.9, 0.9 };
+    cloth c;
+    draw(&c,
+         CLOTH("\"sheenColorFactor\":[1,1,0.5],\"sheenColorTexture\":{\"index\":0},"
+               "\"sheenRoughnessFactor\":0.9,\"sheenRoughnessTexture\":{\"index\":0}"),
+         NULL);
+    for (int half = 0; half < 2; half++) {
+        const double e = oracle_sheen_albedo(roughness[half], 0);
+        const double most = fmax(color[half][0], fmax(color[half][1], color[half][2]));
+        for (int k = 0; k < 3; k++) {
+            const double truth = 0.5 * (1 - most * e) + color[half][k] * e;
+            CHECK_WITHIN(fabs(sheet_at(&c.images[SHEET_CPU], half, k) - truth), 0.01);
+            CHECK_WITHIN(fabs(sheet_at(&c.images[SHEET_REFERENCE], half, k) - truth),
+                         5 * sheet_at(&c.noise, half, k) + 1e-3);
+            CHECK_WITHIN(fabs(sheet_at(&c.images[SHEET_GPU], half, k) - 0.5), 0.01);
+        }
+    }
+    cloth_free(&c);
+}
+
+/* At a slant, where fibers shine. */
+static void sheen_under_a_light_is_the_ground_truth(void **state) {
+    (void)state;
+    const scene_light light = { .emitter = { .kind = LMP_LIGHT_CAP,
+                                             .direction = { 0.8f, 0, 0.6f },
+                                             .angle = 0.3f,
+                                             .radiance = { 10, 10, 10 } } };
+    cloth c;
+    draw(&c,
+         CLOTH("\"sheenColorFactor\":[1,0.5,0],\"sheenRoughnessFactor\":0.5},"
+               "\"KHR_materials_clearcoat\":{\"clearcoatFactor\":1,"
+               "\"clearcoatRoughnessFactor\":1"),
+         &light);
+    for (int k = 0; k < 3; k++) {
+        const double truth = sheet_at(&c.images[SHEET_REFERENCE], 1, k);
+        const double bound = 0.02 * truth + 5 * sheet_at(&c.noise, 1, k);
+        CHECK_WITHIN(fabs(sheet_at(&c.images[SHEET_CPU], 1, k) - truth), bound);
+    }
+    assert_true(sheet_at(&c.images[SHEET_REFERENCE], 1, 0) >
+                1.05 * sheet_at(&c.images[SHEET_REFERENCE], 1, 2));
+    cloth_free(&c);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sheen_reflects_by_its_maps_and_leaves_the_rest),
+        cmocka_unit_test(sheen_under_a_light_is_the_ground_truth),
+    };
+    return cmocka_run_group_tests(tests, sheet_folder, folder_remove);
+}
