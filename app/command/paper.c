@@ -35,7 +35,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           NULL },
         { "step", 0, CLI_LIST, &settings.steps, "NAME",
           "only this step, of: basis lights cap integral operations table san-miguel sponza "
-          "materials cost preintegrated gradients fields; "
+          "materials cost preintegrated gradients fields shadows; "
           "may be repeated",
           0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },

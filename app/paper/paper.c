@@ -24,6 +24,7 @@ static const paper_step steps[] = {
     { "preintegrated", "What preintegrated lobes cost", paper_step_preintegrated },
     { "gradients", "Beyond the paper: gradients", paper_step_gradients },
     { "fields", "Beyond the paper: fields of many lights", paper_step_fields },
+    { "shadows", "What the paper leaves out: shadows", paper_step_shadows },
 };
 #define STEPS ((int)(sizeof steps / sizeof *steps))
 

@@ -81,6 +81,7 @@ bool paper_step_cost(paper *p, cli_error *error);
 bool paper_step_preintegrated(paper *p, cli_error *error);
 bool paper_step_gradients(paper *p, cli_error *error);
 bool paper_step_fields(paper *p, cli_error *error);
+bool paper_step_shadows(paper *p, cli_error *error);
 
 /* Runs a command line of the program, its words separated by single blanks; `show` puts it on the
  * page. */

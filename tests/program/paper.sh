@@ -3,7 +3,7 @@
 set -eu
 . tests/checks/common.sh
 
-"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated --step gradients --step fields >"$WORK/out" ||
+"$PROGRAM" paper -o "$WORK/page" --step operations --step cap --step table --step preintegrated --step gradients --step fields --step shadows >"$WORK/out" ||
     fail "the quick steps fail"
 [ "$(cat "$WORK/out")" = "$WORK/page/index.html" ] || fail "the page's name is not printed"
 grep -q '</html>' "$WORK/page/index.html" || fail "the page is truncated"
@@ -26,7 +26,9 @@ grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$W
     fail "the page hides what contradicts the paper"
 awk -F, '!/^form|^"?largest/ { if ($(NF - 1) + 0 > $NF + 0) exit 1 }' "$WORK/page/tabulated.csv" ||
     fail "a part of the angles has a larger error than all of them"
-for file in figure4.svg accuracy.csv tabulated.csv preintegrated.csv preintegrated-memory.svg gradients.svg fields-cost.csv fields.svg; do
+awk -F, '/none/ { none = $(NF - 1) } /^[0-9]+,2,/ { if (!($(NF - 1) * 10 <= none)) exit 1; found++ } END { exit found != 2 }' \
+    "$WORK/page/shadows.csv" || fail "shadows bring images no nearer to the truth"
+for file in figure4.svg accuracy.csv tabulated.csv preintegrated.csv preintegrated-memory.svg gradients.svg fields-cost.csv fields.svg shadows.csv shadows-figure5-2.exr.png; do
     [ -s "$WORK/page/$file" ] || fail "$file is missing"
     grep -q "$file" "$WORK/page/index.html" || fail "$file is not on the page"
 done
