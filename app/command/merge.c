@@ -3,11 +3,11 @@
 #include "app/command/command.h"
 #include "app/reference/part.h"
 
-static int execute(const char *output, char *const *paths, int count) {
+static int execute(const char *output, char *const *paths, int count, bool partial) {
     image radiance, standard_error;
     cli_error error;
     bool ok = image_check_path(output, &error) &&
-              reference_parts_join(paths, count, &radiance, &standard_error, &error);
+              reference_parts_join(paths, count, partial, &radiance, &standard_error, &error);
     if (ok) {
         const image_layer layers[] = { { NULL, &radiance }, { "stderr", &standard_error } };
         ok = image_write_exr_layers(output, layers, 2, &error);
@@ -19,6 +19,7 @@ static int execute(const char *output, char *const *paths, int count) {
 
 static int run(const cli_command *command, int argc, char **argv) {
     const char *output = NULL;
+    bool partial = false;
     const cli_option options[] = {
         { .name = "output",
           .letter = 'o',
@@ -26,6 +27,10 @@ static int run(const cli_command *command, int argc, char **argv) {
           .target = &output,
           .argument = "FILE.exr",
           .help = "the image, with its standard error as layer \"stderr\"" },
+        { .name = "partial",
+          .kind = CLI_FLAG,
+          .target = &partial,
+          .help = "join what is there, though parts are missing" },
         { .name = NULL },
     };
     int count, status;
@@ -38,7 +43,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         return cli_usage_output(command, "FILE.exr");
     if (image_format_of(output) != IMAGE_EXR)
         return cli_usage(command, "-o: \"%s\" is no .exr", output);
-    return execute(output, operands, count);
+    return execute(output, operands, count, partial);
 }
 
 const cli_command command_merge = {

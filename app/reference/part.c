@@ -114,6 +114,20 @@ static bool check_parts(char *const *paths, int count, stamp *stamps, cli_error 
     return true;
 }
 
+/* All of them, unless some are enough. */
+static bool check_complete(const stamp *stamps, int count, cli_error *error) {
+    const int parts = (int)stamps[0].part[2];
+    for (int part = 1; part <= parts && count < parts; part++) {
+        int at = 0;
+        while (at < count && (int)stamps[at].part[1] != part)
+            at++;
+        if (at == count)
+            return cli_fail(error, NULL, "part %d of %d is missing (--partial joins the others)",
+                            part, parts);
+    }
+    return true;
+}
+
 /* Of each channel of each pixel: the mean so far, and the sum of squares around it. */
 typedef struct sums {
     double *mean, *squares, samples;
@@ -152,13 +166,14 @@ static void store(const sums *all, image *radiance, image *standard_error) {
     }
 }
 
-bool reference_parts_join(char *const *paths, int count, image *radiance, image *standard_error,
-                          cli_error *error) {
+bool reference_parts_join(char *const *paths, int count, bool partial, image *radiance,
+                          image *standard_error, cli_error *error) {
     stamp *const stamps = calloc((size_t)count, sizeof *stamps);
     sums all = { .samples = 0 };
     *radiance = *standard_error = (image) { .rgb = NULL };
     bool ok = (stamps || cli_fail(error, NULL, "out of memory")) &&
               check_parts(paths, count, stamps, error) &&
+              (partial || check_complete(stamps, count, error)) &&
               image_create(radiance, stamps[0].width, stamps[0].height, error) &&
               image_create(standard_error, stamps[0].width, stamps[0].height, error);
     if (ok) {

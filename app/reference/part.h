@@ -16,8 +16,9 @@ bool reference_part_write(const char *path, const reference_settings *settings, 
                           char *const *words, const image_layer layers[2], cli_error *error);
 
 /* Joins parts of one run, weighted by their samples, as it would have been at once: standard errors
- * come from the parts' own and from how far the parts are from each other. Free both images. */
-bool reference_parts_join(char *const *paths, int count, image *radiance, image *standard_error,
-                          cli_error *error);
+ * come from the parts' own and from how far the parts are from each other. A part that is missing
+ * is an error, unless `partial`. Free both images. */
+bool reference_parts_join(char *const *paths, int count, bool partial, image *radiance,
+                          image *standard_error, cli_error *error);
 
 #endif

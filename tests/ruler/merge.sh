@@ -28,6 +28,7 @@ refuse() {
 refuse 'seed.exr: is of another scene or other settings than 1.exr' merge 1.exr seed.exr -o bad.exr
 refuse 'quarter.exr: is of another scene' merge 1.exr quarter.exr -o bad.exr
 refuse 'scene.exr: is of another scene' merge 1.exr scene.exr -o bad.exr
+refuse 'part 2 of 3 is missing (--partial joins the others)' merge 3.exr 1.exr -o bad.exr
 refuse '1.exr: is part 1 of 3, as 1.exr is' merge 1.exr 1.exr -o bad.exr
 refuse 'whole.exr: has no layer "run"' merge whole.exr -o bad.exr
 refuse 'expected the parts' merge -o bad.exr
@@ -35,4 +36,9 @@ refuse 'is no .exr' merge 1.exr -o bad.png
 refuse 'has no sample' reference "$@" --shard 11/11 -o bad.exr
 refuse '--shard writes .exr' reference "$@" --shard 1/2 -o bad.png
 refuse '--shard writes .exr' reference "$@" --shard 1/2 --bands 5 -o bad.exr
+
+# two of three are an image of fewer samples, noisier than the whole
+"$PROGRAM" merge --partial 3.exr 1.exr -o two.exr
+"$PROGRAM" compare two.exr whole.exr --fail-above relmse=0.1 >/dev/null || fail "two parts are another image"
+! "$PROGRAM" compare two.exr whole.exr --fail-above rmse=1e-4 >/dev/null || fail "two parts are the whole"
 [ ! -e bad.exr ] || fail "something was written"
