@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Memory that runs out: for every command, each request of the program's own for memory is refused once. It
 # ends well and prints what it always prints, or fails with one line; it neither crashes nor leaves a part
-# of a file. LAMPION_LONG=1 refuses every request, otherwise a dozen spread over each run.
+# of a file. A dozen requests spread over each run are refused, 64 with LAMPION_LONG=1, every one with LAMPION_SOAK=1.
 set -eu
 . tests/checks/common.sh
 
@@ -14,6 +14,10 @@ export XDG_CACHE_HOME="$WORK/cache" LC_ALL=C
 cd "$WORK"
 own_scene scene.gltf
 printf 'light_x,light_y,light_z,radius,recv_x,recv_y,recv_z\n0,3,0,1,0,0,0\n1,3,0,1,0,0,0\n' >lights.csv
+
+most=12
+[ -z "${LAMPION_LONG:-}" ] || most=64
+[ -z "${LAMPION_SOAK:-}" ] || most=1000000
 
 # run REFUSED COMMAND…: into out, err and image.*; prints the status.
 run() {
@@ -38,8 +42,8 @@ sweep() {
     rm -f requests
     LAMPION_REQUESTS=$PWD/requests run 0 "$@"
     [ "$status" = 0 ] || fail "$*: $(cat err)"
-    text=$(printed) file=$(written) requests=$(cat requests) step=1 refusals=0
-    [ -n "${LAMPION_LONG:-}" ] || step=$((requests / 12 + 1))
+    text=$(printed) file=$(written) requests=$(cat requests) refusals=0
+    step=$((requests / most + 1))
     for k in $(seq 1 $step "$requests"); do
         run "$k" "$@"
         case $status in
