@@ -84,7 +84,7 @@ static bool measure(room *r, int count, outcome *o, cli_error *error) {
     const size_t stride = VALUES * sizeof(float);
     lmp_field *field;
     lmp_result result = lmp_field_create(NULL, &desc, &field);
-    *o = (outcome) { .exact = INFINITY, .read = INFINITY };
+    *o = (outcome) { .exact = HUGE_VAL, .read = HUGE_VAL };
     const double begun = timing_now();
     if (result == LMP_OK)
         result = lmp_field_update(NULL, field, r->lights, (size_t)count);
