@@ -270,9 +270,19 @@ static bool check_ending(const char *action, const char *path, const char *kind,
     return !other || cli_fail(error, path, "%s writes %s (name it %s)", action, kind, right);
 }
 
+/* What is no action is another mistake. */
+static bool writes_file(const char *name) {
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
+        if (strcmp(name, actions[i].name) == 0)
+            return actions[i].writes != NULL;
+    return strcmp(name, "list") != 0 && strcmp(name, "bands") != 0;
+}
+
 static int run_action(const cli_command *command, const brdf_options *o, int count,
                       char **operands) {
     cli_error error;
+    if (o->output && !writes_file(operands[0]))
+        return cli_usage(command, "%s prints and writes no file: it has no -o", operands[0]);
     if (strcmp(operands[0], "list") == 0) {
         if (count != 1)
             return cli_usage(command, "list takes no MATERIAL, %d given", count - 1);

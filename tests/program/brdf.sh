@@ -58,6 +58,9 @@ refuse 1 'the directory ends' info "$WORK/short.bsdf"
 { head -c 100 "$WORK/a.lmpt"; printf 'XXXX'; tail -c +105 "$WORK/a.lmpt"; } >"$WORK/damaged.lmpt"
 refuse 1 'checksum' info "$WORK/damaged.lmpt"
 refuse 1 'table' eval "$WORK/a.lmpt"
+for action in info eval bands list; do
+    refuse 2 "$action prints and writes no file: it has no -o" $action lambert:1 -o "$WORK/none.csv"
+done
 refuse 1 'name it .binary or .bsdf' convert lambert:1 -o "$WORK/x.txt"
 refuse 1 'x.png: bake writes a table (name it .lmpt)' bake missing.binary -o "$WORK/x.png"
 refuse 1 'x.lmpt: plot writes an image (name it .png)' plot missing.binary -o "$WORK/x.lmpt"
