@@ -8,10 +8,11 @@
 
 #include <string.h>
 
-/* Elements of a chunk: a multiple of LMP_KERNEL_LANES_MAX whose planes fit the first cache. Who has
- * many planes defines a smaller one before. */
+/* Elements of a chunk: a multiple of the registers that kernels take side by side, three and four
+ * of LMP_KERNEL_LANES_MAX, whose planes fit the first cache. Who has many planes, or kernels that
+ * need most of the stack, defines a smaller one before. */
 #ifndef LMP_BATCH
-#define LMP_BATCH 128
+#define LMP_BATCH 192
 #endif
 
 typedef struct lmp_batch_plane {

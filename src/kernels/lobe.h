@@ -23,60 +23,94 @@ static inline void lobe_weights(int bands, int monic, const float *lambda, float
     }
 }
 
-LMP_INLINE void lobe_light(int bands, int monic, int blocks, const float *weights,
-                           const lmp_kernel_lights *lights, size_t light, lobe_block *block) {
-    vf t[LOBE_BLOCKS], u[LOBE_BLOCKS], r[LOBE_BLOCKS], difference[LOBE_BLOCKS], p0[LOBE_BLOCKS];
-    vf p1[LOBE_BLOCKS], sign[LOBE_BLOCKS], odd[LOBE_BLOCKS], even[LOBE_BLOCKS];
-    const lmp_rgb rgb = lights_radiance(lights, light);
+/* Of the cap of one light, where its recurrences stand in each block; sums of odd and of even
+ * bands, whose sign differs inside. */
+typedef struct lobe_sums {
+    vf t[LOBE_BLOCKS], u[LOBE_BLOCKS], r[LOBE_BLOCKS], difference[LOBE_BLOCKS];
+    vf p0[LOBE_BLOCKS], p1[LOBE_BLOCKS], odd[LOBE_BLOCKS], even[LOBE_BLOCKS];
+} lobe_sums;
+
+/* Returns whether some lane is inside; `sign` is set then to the even bands'. */
+LMP_INLINE int lobe_begin(int bands, int blocks, const float *weights,
+                          const lmp_kernel_lights *lights, size_t light, const lobe_block *block,
+                          lobe_sums *sums, vf sign[LOBE_BLOCKS]) {
+    int inside = 0;
+    LMP_UNROLL for (int k = 0; k < blocks; k++) {
+        const cap_lanes cap = lights_cap(lights, light, block[k].point, 0);
+        const vf *axis = block[k].axis;
+        sums->t[k] = cap.t;
+        sums->u[k] = (axis[0] * cap.x + axis[1] * cap.y + axis[2] * cap.z) * cap.per_d;
+        sums->r[k] = cap.s2;
+        sums->difference[k] = vf_set(0);
+        sums->p0[k] = vf_set(1);
+        sums->p1[k] = sums->u[k];
+        sums->odd[k] = (cap.t_full + cap.t_full) * weights[0];
+        sums->even[k] = vf_set(0);
+        if (bands > 1)
+            sums->odd[k] = sums->odd[k] + weights[1] * (sums->r[k] * sums->u[k]);
+        sign[k] = cap.even;
+        inside |= cap.inside;
+    }
+    return inside;
+}
+
+/* Adds band l to `to`, the sums of its parity. */
+LMP_INLINE void lobe_band(int l, int monic, int blocks, const float *weights, lobe_sums *sums,
+                          vf to[LOBE_BLOCKS]) {
     const float *cap_d = lmp_table_cap_d, *cap_t = lmp_table_cap_t;
     const float *legendre_d = lmp_table_legendre_d, *legendre_t = lmp_table_legendre_t;
     const float *square = lmp_table_monic;
     LMP_OPAQUE(cap_d);
     LMP_OPAQUE(cap_t);
     LMP_OPAQUE(square);
-    LMP_OPAQUE(weights);
-    int inside = 0;
     LMP_UNROLL for (int k = 0; k < blocks; k++) {
-        const cap_lanes cap = lights_cap(lights, light, block[k].point, 0);
-        const vf *axis = block[k].axis;
-        t[k] = cap.t;
-        u[k] = (axis[0] * cap.x + axis[1] * cap.y + axis[2] * cap.z) * cap.per_d;
-        r[k] = cap.s2;
-        difference[k] = vf_set(0);
-        sign[k] = cap.even;
-        inside |= cap.inside;
-        p0[k] = vf_set(1);
-        p1[k] = u[k];
-        odd[k] = (cap.t_full + cap.t_full) * weights[0];
-        even[k] = vf_set(0);
-        if (bands > 1)
-            odd[k] = odd[k] + weights[1] * (r[k] * u[k]);
+        const vf u = sums->u[k], p1 = sums->p1[k], p0 = sums->p0[k];
+        sums->difference[k] = cap_d[l] * sums->difference[k] - cap_t[l] * sums->t[k] * sums->r[k];
+        sums->r[k] = sums->r[k] + sums->difference[k];
+        sums->p0[k] = p1;
+        sums->p1[k] = monic ? u * p1 - square[l] * p0 : legendre_t[l] * u * p1 - legendre_d[l] * p0;
+        to[k] = to[k] + weights[l] * (sums->r[k] * sums->p1[k]);
     }
-    LMP_UNROLL for (int l = 2; l < bands; l++) {
-        LMP_UNROLL for (int k = 0; k < blocks; k++) {
-            difference[k] = cap_d[l] * difference[k] - cap_t[l] * t[k] * r[k];
-            r[k] = r[k] + difference[k];
-            const vf p2 = monic ? u[k] * p1[k] - square[l] * p0[k]
-                                : legendre_t[l] * u[k] * p1[k] - legendre_d[l] * p0[k];
-            p0[k] = p1[k];
-            p1[k] = p2;
-            if (l % 2)
-                odd[k] = odd[k] + weights[l] * (r[k] * p2);
-            else
-                even[k] = even[k] + weights[l] * (r[k] * p2);
+}
+
+/* Two bands an iteration: each adds to sums of its own. */
+LMP_INLINE void lobe_sum(int bands, int constant, int monic, int blocks, const float *weights,
+                         lobe_sums *sums) {
+    int l = 2;
+    if (constant) {
+        LMP_UNROLL for (; l + 1 < bands; l += 2) {
+            lobe_band(l, monic, blocks, weights, sums, sums->even);
+            lobe_band(l + 1, monic, blocks, weights, sums, sums->odd);
+        }
+    } else {
+        LMP_ROLLED for (; l + 1 < bands; l += 2) {
+            lobe_band(l, monic, blocks, weights, sums, sums->even);
+            lobe_band(l + 1, monic, blocks, weights, sums, sums->odd);
         }
     }
+    if (l < bands)
+        lobe_band(l, monic, blocks, weights, sums, sums->even);
+}
+
+LMP_INLINE void lobe_light(int bands, int constant, int monic, int blocks, const float *weights,
+                           const lmp_kernel_lights *lights, size_t light, lobe_block *block) {
+    const lmp_rgb rgb = lights_radiance(lights, light);
+    lobe_sums sums;
+    vf sign[LOBE_BLOCKS];
+    LMP_OPAQUE(weights);
+    const int inside = lobe_begin(bands, blocks, weights, lights, light, block, &sums, sign);
+    lobe_sum(bands, constant, monic, blocks, weights, &sums);
     LMP_UNROLL for (int k = 0; k < blocks; k++) {
         if (__builtin_expect(inside, 0))
-            even[k] = even[k] * sign[k];
-        const vf sum = odd[k] + even[k];
+            sums.even[k] = sums.even[k] * sign[k];
+        const vf sum = sums.odd[k] + sums.even[k];
         block[k].rgb[0] = block[k].rgb[0] + rgb.r * sum;
         block[k].rgb[1] = block[k].rgb[1] + rgb.g * sum;
         block[k].rgb[2] = block[k].rgb[2] + rgb.b * sum;
     }
 }
 
-LMP_INLINE void lobe_blocks(int bands, int monic, int blocks, const float *weights,
+LMP_INLINE void lobe_blocks(int bands, int constant, int monic, int blocks, const float *weights,
                             const lmp_kernel_vec3 *axes, const lmp_kernel_lights *lights,
                             const lmp_kernel_vec3 *points, size_t element, size_t count,
                             const lmp_kernel_out *out) {
@@ -92,7 +126,7 @@ LMP_INLINE void lobe_blocks(int bands, int monic, int blocks, const float *weigh
         LMP_UNROLL for (int i = 0; i < 3; i++) block[k].rgb[i] = vf_set(0);
     }
     for (size_t light = 0; light < lights->count; light++)
-        lobe_light(bands, monic, blocks, weights, lights, light, block);
+        lobe_light(bands, constant, monic, blocks, weights, lights, light, block);
     LMP_ROLLED for (int k = 0; k < blocks; k++) {
         const size_t e = element + (size_t)k * LMP_LANES;
         layout_put((const float *)block[k].rgb, 0, 3, out, e, layout_live(count, e));
@@ -105,9 +139,10 @@ LMP_INLINE void lobe_bands(int bands, int constant, const float *weights,
     const size_t side = LOBE_BLOCKS * LMP_LANES;
     for (size_t e = 0; e + side <= count; e += side) {
         if (constant || bands <= LMP_TABLE_MONIC_BANDS)
-            lobe_blocks(bands, 1, LOBE_BLOCKS, weights, axes, lights, points, e, count, out);
+            lobe_blocks(bands, constant, 1, LOBE_BLOCKS, weights, axes, lights, points, e, count,
+                        out);
         else
-            lobe_blocks(bands, 0, LOBE_BLOCKS, weights, axes, lights, points, e, count, out);
+            lobe_blocks(bands, 0, 0, LOBE_BLOCKS, weights, axes, lights, points, e, count, out);
     }
 }
 
@@ -120,9 +155,9 @@ static void kernel_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *a
     BASIS_SPECIALISE(bands, lobe_bands, weights, axes, lights, points, count, out)
     for (size_t e = count / side * side; e < count; e += LMP_LANES) {
         if (bands <= LMP_TABLE_MONIC_BANDS)
-            lobe_blocks(bands, 1, 1, weights, axes, lights, points, e, count, out);
+            lobe_blocks(bands, 0, 1, 1, weights, axes, lights, points, e, count, out);
         else
-            lobe_blocks(bands, 0, 1, weights, axes, lights, points, e, count, out);
+            lobe_blocks(bands, 0, 0, 1, weights, axes, lights, points, e, count, out);
     }
 }
 

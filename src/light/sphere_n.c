@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: MIT */
+#define LMP_BATCH 128
+
 #include "src/kernels/batch.h"
 #include "src/light/cap.h"
 #include "src/sh/layout.h"
