@@ -301,9 +301,9 @@ static void kernel_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf 
                                             const lmp_kernel_surfaces *surfaces,
                                             const lmp_kernel_light *lights, size_t light_count,
                                             lmp_rgb ambient, size_t count, float *const rgb[3]) {
-    brdf_direction directions[LMP_KERNEL_LIGHTS_MAX];
-    brdf_position positions[LMP_KERNEL_LIGHTS_MAX];
-    texel_lanes radiance[LMP_KERNEL_LIGHTS_MAX][TEXEL_PARTS];
+    brdf_direction directions[LMP_KERNEL_BRDF_LIGHTS_MAX];
+    brdf_position positions[LMP_KERNEL_BRDF_LIGHTS_MAX];
+    texel_lanes radiance[LMP_KERNEL_BRDF_LIGHTS_MAX][TEXEL_PARTS];
     for (size_t i = 0; i < light_count; i++)
         brdf_radiance(lights[i].radiance, radiance[i]);
     for (size_t e = 0; e < count; e += LMP_LANES) {

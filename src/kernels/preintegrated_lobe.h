@@ -144,10 +144,11 @@ static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe 
                                             size_t count,
                                             const lmp_kernel_accumulated *accumulated) {
     shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
+    vf v[LMP_KERNEL_LIGHTS_MAX * LMP_KERNEL_LOBES_MAX];
     lobe_lanes lobes[2];
     vf sums[2][3], responses[2];
     for (size_t e = 0; e < count; e += LMP_LANES) {
-        shade_directions(surfaces->lobe_count, surfaces, lights, light_count, e, directions);
+        shade_directions(surfaces->lobe_count, surfaces, lights, light_count, e, directions, v);
         for (int first = -1; first < surfaces->lobe_count; first += 2) {
             float *const *const planes[2] = { first < 0 ? accumulated->diffuse
                                                         : accumulated->specular[first],
@@ -157,9 +158,9 @@ static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe 
             shade_sums_load(planes[1], e, sums[1]);
             for (size_t i = 0; i < light_count; i++) {
                 const shade_direction *direction = &directions[i];
-                lobe_pair(&lobes[0], &lobes[1], direction,
-                          first < 0 ? direction->u : direction->v[first], direction->v[first + 1],
-                          responses);
+                const vf *of = v + i * (size_t)surfaces->lobe_count;
+                lobe_pair(&lobes[0], &lobes[1], direction, first < 0 ? direction->u : of[first],
+                          of[first + 1], responses);
                 shade_accumulate(lights[i].radiance, responses[0], sums[0]);
                 shade_accumulate(lights[i].radiance, responses[1], sums[1]);
             }

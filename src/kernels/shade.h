@@ -16,16 +16,17 @@ typedef struct shade_block {
     vf point[3], normal[3], axis[LMP_KERNEL_LOBES_MAX][3];
 } shade_block;
 
-/* What of a light they need: of its cap of at most a hemisphere u and v, the cosines of its axis
- * with the normal and with the axis of each lobe, and t; the weight of its responses, t but for the
- * light's scale and sign. With `is_ambient`, ambient light besides (lmp_cap). */
+/* What of a light they need: of its cap of at most a hemisphere u, the cosine of its axis with the
+ * normal, and t; the weight of its responses, t but for the light's scale and sign. With
+ * `is_ambient`, ambient light besides (lmp_cap). Beside it v, the cosines of the axis with that of
+ * each lobe. */
 typedef struct shade_direction {
-    vf u, v[LMP_KERNEL_LOBES_MAX], t, weight;
+    vf u, t, weight;
     vf ambient; /* set if is_ambient */
     int is_ambient;
 } shade_direction;
 
-/* Sets all but u and v. Of the cap, x, y, z times per_d are its axis. */
+/* Sets all but u. Of the cap, x, y, z times per_d are its axis. */
 LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf point[3],
                                shade_direction *direction) {
     vf x = vf_set(light->x), y = vf_set(light->y), z = vf_set(light->z);
@@ -63,11 +64,10 @@ LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
 }
 
 LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, size_t e,
-                                   const shade_block *block, shade_direction *direction) {
+                                   const shade_block *block, shade_direction *direction, vf *v) {
     const cap_lanes cap = shade_cap(light, e, block->point, direction);
     direction->u = shade_dot(block->normal, &cap) * cap.per_d;
-    LMP_UNROLL for (int k = 0; k < lobes; k++) direction->v[k] =
-        shade_dot(block->axis[k], &cap) * cap.per_d;
+    LMP_UNROLL for (int k = 0; k < lobes; k++) v[k] = shade_dot(block->axis[k], &cap) * cap.per_d;
 }
 
 /* Adds a response to what a lobe of a block of surfaces has accumulated: red, green, blue. */
@@ -93,18 +93,18 @@ LMP_INLINE void shade_sums_store(const vf sums[3], size_t e, float *const planes
         vf_store(planes[c] + e, sums[c]);
 }
 
-/* All lights first, then their lobes: in one loop, the roots and quotients of a light would wait
- * for each other at its beginning. */
+/* Some lights first, then their lobes: in one loop, the roots and quotients of a light would wait
+ * for each other at its beginning. The v of a light follow those of the one before. */
 LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
                                  const lmp_kernel_light *lights, size_t light_count, size_t e,
-                                 shade_direction *directions) {
+                                 shade_direction *directions, vf *v) {
     shade_block block;
     shade_planes(&surfaces->point, e, block.point);
     shade_planes(&surfaces->normal, e, block.normal);
     LMP_UNROLL for (int k = 0; k < lobes; k++)
         shade_planes(&surfaces->lobe[k].axis, e, block.axis[k]);
     for (size_t i = 0; i < light_count; i++)
-        shade_direction_of(lobes, &lights[i], e, &block, &directions[i]);
+        shade_direction_of(lobes, &lights[i], e, &block, &directions[i], v + i * (size_t)lobes);
 }
 
 #endif

@@ -72,11 +72,6 @@ LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, 
 /* Phong lobes that go through the bands together. More would not find registers. */
 #define ZONAL_LOBES_MAX 3
 
-/* Of R_l P_l of each of them, by band. */
-typedef struct zonal_weights {
-    vf of[ZONAL_LOBES_MAX][LMP_BANDS_MAX];
-} zonal_weights;
-
 /* The lobes' sums on their way through the bands: R_l, P_l of the normal (even l) and of each axis,
  * each with the one before. */
 typedef struct zonal_sums {
@@ -84,10 +79,10 @@ typedef struct zonal_sums {
     vf diffuse, specular[ZONAL_LOBES_MAX];
 } zonal_sums;
 
-LMP_INLINE void zonal_add_specular(int lobes, const zonal_weights *weights, int l,
+LMP_INLINE void zonal_add_specular(int lobes, const vf (*weights)[LMP_BANDS_MAX], int l,
                                    zonal_sums *sums) {
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
-        sums->specular[k] = sums->specular[k] + weights->of[k][l] * (sums->r1 * sums->q1[k]);
+        sums->specular[k] = sums->specular[k] + weights[k][l] * (sums->r1 * sums->q1[k]);
         LMP_OPAQUE_LANES(sums->specular[k]);
     }
 }
@@ -115,8 +110,8 @@ LMP_INLINE void zonal_step(int lobes, const zonal_tables *tables, int l, vf x, c
 
 /* v: of direction->v, the lobes'. */
 LMP_INLINE zonal_sums zonal_monic(int lobes, int diffuse, int bands, const zonal_tables *tables,
-                                  const zonal_weights *weights, const shade_direction *direction,
-                                  const vf *v) {
+                                  const vf (*weights)[LMP_BANDS_MAX],
+                                  const shade_direction *direction, const vf *v) {
     const vf one = vf_set(1), square = direction->u * direction->u, x = one - direction->t;
     zonal_sums sums = { .r1 = x,
                         .r0 = one,
@@ -126,7 +121,7 @@ LMP_INLINE zonal_sums zonal_monic(int lobes, int diffuse, int bands, const zonal
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
         sums.q1[k] = v[k] * v[k] - tables->lobe[2];
         sums.q0[k] = v[k];
-        sums.specular[k] = weights->of[k][1] * v[k];
+        sums.specular[k] = weights[k][1] * v[k];
     }
     if (diffuse)
         sums.diffuse = sums.diffuse + tables->diffuse[1] * (x * sums.p1);
@@ -147,14 +142,14 @@ LMP_INLINE zonal_sums zonal_monic(int lobes, int diffuse, int bands, const zonal
 /* The same of more bands: R_l by its differences r0 = R_l - R_(l-1), which keeps more of them
  * exact. */
 LMP_INLINE zonal_sums zonal_long(int lobes, int diffuse, int bands, const zonal_tables *tables,
-                                 const zonal_weights *weights, const shade_direction *direction,
-                                 const vf *v) {
+                                 const vf (*weights)[LMP_BANDS_MAX],
+                                 const shade_direction *direction, const vf *v) {
     const vf one = vf_set(1), zero = vf_set(0), square = direction->u * direction->u;
     zonal_sums sums = { one, zero, one, zero, .diffuse = tables->diffuse_1 * direction->u };
     LMP_UNROLL for (int k = 0; k < lobes; k++) {
         sums.q1[k] = v[k];
         sums.q0[k] = one;
-        sums.specular[k] = weights->of[k][1] * v[k];
+        sums.specular[k] = weights[k][1] * v[k];
     }
     LMP_ROLLED for (int l = 2; l < bands; l++) {
         const float *d = lmp_table_legendre_d, *t = lmp_table_legendre_t;
@@ -187,7 +182,7 @@ typedef struct zonal_accumulated {
 /* Adds one light's responses. The chains of successive lights run side by side: none waits for the
  * one before. */
 LMP_INLINE void zonal_light(int lobes, int diffuse, int bands, int monic,
-                            const zonal_tables *tables, const zonal_weights *weights,
+                            const zonal_tables *tables, const vf (*weights)[LMP_BANDS_MAX],
                             const shade_direction *direction, const vf *v, lmp_rgb rgb,
                             zonal_accumulated *to) {
     const zonal_sums zonal = monic
@@ -198,31 +193,52 @@ LMP_INLINE void zonal_light(int lobes, int diffuse, int bands, int monic,
                          zonal_response(direction, zonal.diffuse, zonal_lanes(tables->diffuse[0])),
                          to->diffuse);
     LMP_UNROLL for (int k = 0; k < lobes; k++) shade_accumulate(
-        rgb, zonal_response(direction, zonal.specular[k], weights->of[k][0]), to->specular[k]);
+        rgb, zonal_response(direction, zonal.specular[k], weights[k][0]), to->specular[k]);
 }
 
-/* All lights on Phong's lobes from `first` on, and on the diffuse one; the weights are those of the
- * block before, if `kept`. */
-LMP_INLINE void zonal_lobes(int first, int lobes, int diffuse, int bands, int monic,
-                            const zonal_tables *tables, const lmp_kernel_surfaces *surfaces,
-                            const lmp_kernel_light *lights, const shade_direction *directions,
-                            size_t light_count, size_t e, int kept, zonal_weights *weights,
-                            const lmp_kernel_accumulated *accumulated) {
+/* Lights that go by together: all their caps first, then their lobes, which take turns at waiting.
+ */
+#define ZONAL_LIGHTS_ONE  LMP_KERNEL_LIGHTS_MAX /* of surfaces with one lobe */
+#define ZONAL_LIGHTS_MORE 16
+
+/* A call, and its memory: of lights that go by together, and of R_l P_l of lobes, by band. */
+typedef struct zonal_work {
+    const zonal_tables *tables;
+    const lmp_kernel_surfaces *surfaces;
+    const lmp_kernel_light *lights;
+    size_t light_count, count;
+    const lmp_kernel_accumulated *accumulated;
+    shade_direction *directions;
+    vf *v, (*weights)[LMP_BANDS_MAX];
+} zonal_work;
+
+/* The weights of Phong's lobes from `first` on; those of the block before are there, if `kept`. */
+LMP_INLINE void zonal_weigh(int first, int lobes, int bands, const zonal_work *work, size_t e,
+                            int kept) {
+    for (int k = 0; k < lobes; k++) {
+        const float *exponent = work->surfaces->lobe[first + k].exponent + e;
+        /* Neighbors are often of one material. */
+        if (!kept || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
+            zonal_phong(bands, work->tables, vf_load(exponent), work->weights[k]);
+    }
+}
+
+/* `count` lights from `light` on, on Phong's lobes from `first` on, and on the diffuse one; `all`
+ * lobes have cosines. */
+LMP_INLINE void zonal_lobes(int first, int lobes, int all, int diffuse, int bands, int monic,
+                            const zonal_work *work, size_t light, size_t count, size_t e) {
+    const lmp_kernel_accumulated *accumulated = work->accumulated;
+    const zonal_tables *tables = work->tables;
     zonal_accumulated sums;
     if (diffuse)
         shade_sums_load(accumulated->diffuse, e, sums.diffuse);
-    for (int k = 0; k < lobes; k++) {
-        const float *exponent = surfaces->lobe[first + k].exponent + e;
-        /* Neighbors are often of one material. */
-        if (!kept || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
-            zonal_phong(bands, tables, vf_load(exponent), weights->of[k]);
-    }
     LMP_UNROLL for (int k = 0; k < lobes; k++)
         shade_sums_load(accumulated->specular[first + k], e, sums.specular[k]);
-    for (size_t i = 0; i < light_count; i++) {
+    for (size_t i = 0; i < count; i++) {
         LMP_OPAQUE(tables);
-        zonal_light(lobes, diffuse, bands, monic, tables, weights, &directions[i],
-                    directions[i].v + first, lights[i].radiance, &sums);
+        zonal_light(lobes, diffuse, bands, monic, tables, (const vf(*)[LMP_BANDS_MAX])work->weights,
+                    &work->directions[i], work->v + i * (size_t)all + first,
+                    work->lights[light + i].radiance, &sums);
     }
     if (diffuse)
         shade_sums_store(sums.diffuse, e, accumulated->diffuse);
@@ -230,56 +246,83 @@ LMP_INLINE void zonal_lobes(int first, int lobes, int diffuse, int bands, int mo
         shade_sums_store(sums.specular[k], e, accumulated->specular[first + k]);
 }
 
-LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_tables *tables,
-                          const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                          size_t light_count, size_t count,
-                          const lmp_kernel_accumulated *accumulated) {
-    shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
-    zonal_weights weights;
-    const int more = lobes == ZONAL_LOBES_MAX && surfaces->lobe_count > lobes;
-    for (size_t e = 0; e < count; e += LMP_LANES) {
-        if (more)
-            shade_directions(LMP_KERNEL_LOBES_MAX, surfaces, lights, light_count, e, directions);
-        else
-            shade_directions(lobes, surfaces, lights, light_count, e, directions);
-        zonal_lobes(0, lobes, 1, bands, monic, tables, surfaces, lights, directions, light_count, e,
-                    e > 0 && !more, &weights, accumulated);
-        if (more)
-            zonal_lobes(lobes, LMP_KERNEL_LOBES_MAX - ZONAL_LOBES_MAX, 0, bands, monic, tables,
-                        surfaces, lights, directions, light_count, e, 0, &weights, accumulated);
+LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_work *work) {
+    const lmp_kernel_light *lights = work->lights;
+    const int more = lobes == ZONAL_LOBES_MAX && work->surfaces->lobe_count > lobes;
+    const int rest = LMP_KERNEL_LOBES_MAX - ZONAL_LOBES_MAX;
+    const size_t most = lobes == 1 ? ZONAL_LIGHTS_ONE : ZONAL_LIGHTS_MORE;
+    for (size_t e = 0; e < work->count; e += LMP_LANES) {
+        for (size_t i = 0; i < work->light_count; i += most) {
+            const size_t left = work->light_count - i, taken = left < most ? left : most;
+            if (i == 0 || more)
+                zonal_weigh(0, lobes, bands, work, e, e > 0 && !more);
+            if (!more) {
+                shade_directions(lobes, work->surfaces, lights + i, taken, e, work->directions,
+                                 work->v);
+                zonal_lobes(0, lobes, lobes, 1, bands, monic, work, i, taken, e);
+                continue;
+            }
+            shade_directions(LMP_KERNEL_LOBES_MAX, work->surfaces, lights + i, taken, e,
+                             work->directions, work->v);
+            zonal_lobes(0, lobes, LMP_KERNEL_LOBES_MAX, 1, bands, monic, work, i, taken, e);
+            zonal_weigh(lobes, rest, bands, work, e, 0);
+            zonal_lobes(lobes, rest, LMP_KERNEL_LOBES_MAX, 0, bands, monic, work, i, taken, e);
+        }
     }
 }
 
-LMP_INLINE void zonal_surfaces(int bands, int constant, int lobes, const zonal_tables *tables,
-                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
-                               size_t light_count, size_t count,
-                               const lmp_kernel_accumulated *accumulated) {
+LMP_INLINE void zonal_surfaces(int bands, int constant, int lobes, const zonal_work *work) {
     if (constant || bands <= ZONAL_MONIC_BANDS)
-        zonal_all(lobes, bands, 1, tables, surfaces, lights, light_count, count, accumulated);
+        zonal_all(lobes, bands, 1, work);
     else
-        zonal_all(lobes, bands, 0, tables, surfaces, lights, light_count, count, accumulated);
+        zonal_all(lobes, bands, 0, work);
 }
 
 /* Under a sanitizer, which makes straight-line code of ten numbers of bands the work of minutes,
  * the code for any number does. */
 #ifdef LMP_KERNELS_SANITIZED
-#define ZONAL_SPECIALISE(bands, ...) zonal_surfaces(bands, 0, __VA_ARGS__)
+#define ZONAL_SPECIALISE(bands, ...) zonal_surfaces(bands, 0, __VA_ARGS__);
 #else
 #define ZONAL_SPECIALISE(bands, ...) BASIS_SPECIALISE(bands, zonal_surfaces, __VA_ARGS__)
 #endif
+
+/* Surfaces of one lobe take less memory, and more lights. */
+static LMP_NOINLINE void zonal_one(int bands, const zonal_work *call) {
+    zonal_work work = *call;
+    shade_direction directions[ZONAL_LIGHTS_ONE];
+    vf v[ZONAL_LIGHTS_ONE], weights[1][LMP_BANDS_MAX];
+    work.directions = directions;
+    work.v = v;
+    work.weights = weights;
+    ZONAL_SPECIALISE(bands, 1, &work)
+}
+
+static LMP_NOINLINE void zonal_more(int bands, const zonal_work *call) {
+    zonal_work work = *call;
+    shade_direction directions[ZONAL_LIGHTS_MORE];
+    vf v[ZONAL_LIGHTS_MORE * LMP_KERNEL_LOBES_MAX], weights[ZONAL_LOBES_MAX][LMP_BANDS_MAX];
+    work.directions = directions;
+    work.v = v;
+    work.weights = weights;
+    ZONAL_SPECIALISE(bands, ZONAL_LOBES_MAX, &work)
+}
 
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
                                const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
                                size_t light_count, size_t count,
                                const lmp_kernel_accumulated *accumulated) {
     zonal_tables tables;
+    const zonal_work work = { .tables = &tables,
+                              .surfaces = surfaces,
+                              .lights = lights,
+                              .light_count = light_count,
+                              .count = count,
+                              .accumulated = accumulated };
     zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
-    if (surfaces->lobe_count == 1) {
-        ZONAL_SPECIALISE(bands, 1, &tables, surfaces, lights, light_count, count, accumulated);
-    } else {
-        ZONAL_SPECIALISE(bands, ZONAL_LOBES_MAX, &tables, surfaces, lights, light_count, count,
-                         accumulated);
-    }
+    if (surfaces->lobe_count == 1)
+        zonal_one(bands, &work);
+    else
+        zonal_more(bands, &work);
 }
 
 #endif

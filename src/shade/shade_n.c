@@ -48,8 +48,10 @@ static void shade_brdf_planes(const shade_chunk *chunk, const lmp_kernel_light *
 /* Takes lights until one more would be too many; returns how many. */
 static size_t take_lights(const lmp_light *lights, size_t count, const shade_chunk *chunk,
                           lmp_batch_plane *scales, lmp_kernel_light *taken, lmp_rgb *ambient) {
+    const size_t most =
+        chunk->source.preintegrated ? LMP_KERNEL_BRDF_LIGHTS_MAX : LMP_KERNEL_LIGHTS_MAX;
     size_t n = 0, spots = 0;
-    for (; n < count && n < LMP_KERNEL_LIGHTS_MAX; n++) {
+    for (; n < count && n < most; n++) {
         const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
         if (spot && spots == SPOTS_MAX)
             break;
