@@ -112,17 +112,17 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
     return count;
 }
 
-/* Lights that the zonal kernel takes at once. */
-enum { PASS = 8 };
+/* Surfaces that are shaded together at most, and lights that the zonal kernel takes at once. */
+enum { FIELD_CHUNK = 64, PASS = 8 };
 
 static void add_near(const field_shading *shading, const uint32_t *found, size_t count,
                      shade_chunk *chunk) {
     const lmp_field *field = shading->field;
     lmp_kernel_light lights[PASS];
-    lmp_batch_plane scales[PASS];
+    float scales[PASS][FIELD_CHUNK];
     for (size_t i = 0; i < count; i++) {
         lmp_rgb ambient = { 0, 0, 0 };
-        lmp_shade_take_light(&field->lights[found[i]], chunk, &scales[i], &lights[i], &ambient);
+        lmp_shade_take_light(&field->lights[found[i]], chunk, scales[i], &lights[i], &ambient);
         lights[i].per_reach = lmp_field_fades(&field->lights[found[i]]) ? 1 / field->info.reach : 0;
         chunk->ambient[0] += ambient.r;
         chunk->ambient[1] += ambient.g;
@@ -242,9 +242,10 @@ void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *fiel
         const size_t sorted = sort(field, surfaces, first, some, order);
         for (size_t i = sorted; i < some; i++)
             shade_one(&shading, surfaces, first + order[i], stride, rgb);
-        for (size_t begin = 0; begin < sorted; begin += LMP_BATCH) {
-            size_t left[LMP_BATCH];
-            const size_t left_count = lmp_batch_count(sorted, begin);
+        for (size_t begin = 0; begin < sorted; begin += FIELD_CHUNK) {
+            const size_t rest = sorted - begin;
+            const size_t left_count = rest < FIELD_CHUNK ? rest : FIELD_CHUNK;
+            size_t left[FIELD_CHUNK];
             for (size_t i = 0; i < left_count; i++)
                 left[i] = first + order[begin + i];
             shade_chunks(&shading, surfaces, left, left_count, stride, rgb);

@@ -19,9 +19,18 @@ typedef struct lmp_batch_plane {
     float at[LMP_BATCH] __attribute__((aligned(64)));
 } lmp_batch_plane;
 
+/* Where the planes of a chunk's vectors are, and room for them. */
 typedef struct lmp_batch_vec3 {
-    lmp_batch_plane x, y, z;
+    float *x, *y, *z;
 } lmp_batch_vec3;
+
+typedef struct lmp_batch_room {
+    lmp_batch_plane x, y, z;
+} lmp_batch_room;
+
+static inline lmp_batch_vec3 lmp_batch_in(lmp_batch_room *room) {
+    return (lmp_batch_vec3) { room->x.at, room->y.at, room->z.at };
+}
 
 static inline size_t lmp_batch_count(size_t count, size_t first) {
     return count - first < LMP_BATCH ? count - first : LMP_BATCH;
@@ -35,27 +44,27 @@ static inline bool lmp_batch_is_there(size_t stride, size_t count) {
 /* Elements first … first+count-1: where they are, or copied to `plane`, whose lanes past them are
  * 0. */
 static inline const float *lmp_batch_floats(const float *array, size_t stride, size_t first,
-                                            size_t count, lmp_batch_plane *plane) {
+                                            size_t count, float *plane) {
     if (lmp_batch_is_there(stride, count))
         return array + first;
     if (stride == sizeof(float))
-        memcpy(plane->at, array + first, count * sizeof(float));
+        memcpy(plane, array + first, count * sizeof(float));
     else
         for (size_t i = 0; i < count; i++)
-            plane->at[i] = lmp_element(array, stride, first + i);
+            plane[i] = lmp_element(array, stride, first + i);
     for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
-        plane->at[i] = 0;
-    return plane->at;
+        plane[i] = 0;
+    return plane;
 }
 
-static inline lmp_kernel_vec3 lmp_batch_planes(const lmp_batch_vec3 *planes) {
-    return (lmp_kernel_vec3) { planes->x.at, planes->y.at, planes->z.at };
+static inline lmp_kernel_vec3 lmp_batch_planes(lmp_batch_vec3 planes) {
+    return (lmp_kernel_vec3) { planes.x, planes.y, planes.z };
 }
 
-static inline void lmp_batch_set(float x, float y, float z, lmp_batch_vec3 *planes, size_t i) {
-    planes->x.at[i] = x;
-    planes->y.at[i] = y;
-    planes->z.at[i] = z;
+static inline void lmp_batch_set(float x, float y, float z, lmp_batch_vec3 planes, size_t i) {
+    planes.x[i] = x;
+    planes.y[i] = y;
+    planes.z[i] = z;
 }
 
 static inline lmp_vec3 lmp_batch_get(const lmp_kernel_vec3 *vectors, size_t i) {
@@ -63,27 +72,26 @@ static inline lmp_vec3 lmp_batch_get(const lmp_kernel_vec3 *vectors, size_t i) {
 }
 
 /* Element i of the caller's at `to`. */
-static inline void lmp_batch_load(const lmp_vec3_array *array, size_t i, lmp_batch_vec3 *planes,
+static inline void lmp_batch_load(const lmp_vec3_array *array, size_t i, lmp_batch_vec3 planes,
                                   size_t to) {
     const lmp_vec3 v = lmp_vec3_element(array, i);
     lmp_batch_set(v.x, v.y, v.z, planes, to);
 }
 
 /* 0 in the lanes past the last of `count`. */
-static inline void lmp_batch_fill(lmp_batch_vec3 *planes, size_t count) {
+static inline void lmp_batch_fill(lmp_batch_vec3 planes, size_t count) {
     for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
         lmp_batch_set(0, 0, 0, planes, i);
 }
 
 /* The same of vectors; where their members are not planes, in one pass over them. */
 static inline lmp_kernel_vec3 lmp_batch_vectors(const lmp_vec3_array *array, size_t first,
-                                                size_t count, lmp_batch_vec3 *planes) {
+                                                size_t count, lmp_batch_vec3 planes) {
     if (array->stride == sizeof(float))
-        return (lmp_kernel_vec3) {
-            lmp_batch_floats(array->x, array->stride, first, count, &planes->x),
-            lmp_batch_floats(array->y, array->stride, first, count, &planes->y),
-            lmp_batch_floats(array->z, array->stride, first, count, &planes->z)
-        };
+        return (
+            lmp_kernel_vec3) { lmp_batch_floats(array->x, array->stride, first, count, planes.x),
+                               lmp_batch_floats(array->y, array->stride, first, count, planes.y),
+                               lmp_batch_floats(array->z, array->stride, first, count, planes.z) };
     for (size_t i = 0; i < count; i++)
         lmp_batch_load(array, first + i, planes, i);
     lmp_batch_fill(planes, count);

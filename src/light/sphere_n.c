@@ -8,7 +8,7 @@
 #include <lampion/light.h>
 
 typedef struct batch_pairs {
-    lmp_batch_vec3 center, point;
+    lmp_batch_room center, point;
     lmp_batch_plane radius;
 } batch_pairs;
 
@@ -23,8 +23,8 @@ void lmp_sphere_zonal_n(int bands, lmp_float_array radii, lmp_float_array distan
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_out out =
             lmp_batch_out(zonal, (size_t)bands, count, layout == LMP_SH_PLANAR, stride, first);
-        const float *r = lmp_batch_floats(radii.at, radii.stride, first, n, &radius);
-        const float *d = lmp_batch_floats(distances.at, distances.stride, first, n, &distance);
+        const float *r = lmp_batch_floats(radii.at, radii.stride, first, n, radius.at);
+        const float *d = lmp_batch_floats(distances.at, distances.stride, first, n, distance.at);
         kernels->zonal(bands, r, d, n, &out);
     }
 }
@@ -40,9 +40,9 @@ void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array 
         const lmp_kernel_out out =
             lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
         const lmp_kernel_pairs pairs = {
-            lmp_batch_vectors(&spheres->center, first, n, &planes.center),
-            lmp_batch_vectors(&points, first, n, &planes.point),
-            lmp_batch_floats(spheres->radius.at, spheres->radius.stride, first, n, &planes.radius)
+            lmp_batch_vectors(&spheres->center, first, n, lmp_batch_in(&planes.center)),
+            lmp_batch_vectors(&points, first, n, lmp_batch_in(&planes.point)),
+            lmp_batch_floats(spheres->radius.at, spheres->radius.stride, first, n, planes.radius.at)
         };
         kernels->project(bands, &pairs, n, &out);
     }
@@ -51,8 +51,8 @@ void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array 
 /* Copies sphere `sphere` and point `point` to element i. */
 static void batch_pair(const lmp_spheres *spheres, size_t sphere, const lmp_vec3_array *points,
                        size_t point, size_t i, batch_pairs *pairs) {
-    lmp_batch_load(&spheres->center, sphere, &pairs->center, i);
-    lmp_batch_load(points, point, &pairs->point, i);
+    lmp_batch_load(&spheres->center, sphere, lmp_batch_in(&pairs->center), i);
+    lmp_batch_load(points, point, lmp_batch_in(&pairs->point), i);
     pairs->radius.at[i] = lmp_element(spheres->radius.at, spheres->radius.stride, sphere);
 }
 
@@ -66,8 +66,9 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
     size_t sphere = 0, point = 0;
     /* Zero: the lanes past the last pair are read too. */
     batch_pairs planes = { 0 };
-    const lmp_kernel_pairs pairs = { lmp_batch_planes(&planes.center),
-                                     lmp_batch_planes(&planes.point), planes.radius.at };
+    const lmp_kernel_pairs pairs = { lmp_batch_planes(lmp_batch_in(&planes.center)),
+                                     lmp_batch_planes(lmp_batch_in(&planes.point)),
+                                     planes.radius.at };
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_out out =
@@ -102,10 +103,10 @@ static void accumulate_all(const lmp_scratch *scratch, int bands, const lmp_kern
     assert(lmp_are_finite(points, point_count));
     const lmp_kernels *kernels = lmp_kernels_get();
     lmp_kernel_lights lights = *all;
-    lmp_batch_vec3 planes;
+    lmp_batch_room room;
     for (size_t first = 0; first < point_count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(point_count, first);
-        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, &planes);
+        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, lmp_batch_in(&room));
         const lmp_kernel_out out =
             lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
         if (all->visibility)

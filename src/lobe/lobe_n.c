@@ -16,11 +16,11 @@ void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array axes,
                                        .radius = spheres->radius,
                                        .radiance = spheres->radiance,
                                        .count = sphere_count };
-    lmp_batch_vec3 point_planes, axis_planes;
+    lmp_batch_room point_room, axis_room;
     for (size_t first = 0; first < point_count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(point_count, first);
-        const lmp_kernel_vec3 at = lmp_batch_vectors(&points, first, n, &point_planes);
-        const lmp_kernel_vec3 around = lmp_batch_vectors(&axes, first, n, &axis_planes);
+        const lmp_kernel_vec3 at = lmp_batch_vectors(&points, first, n, lmp_batch_in(&point_room));
+        const lmp_kernel_vec3 around = lmp_batch_vectors(&axes, first, n, lmp_batch_in(&axis_room));
         const lmp_kernel_out out =
             lmp_batch_out(response, 3, point_count, layout == LMP_SH_PLANAR, stride, first);
         kernels->lobe(bands, lambda, &around, &lights, &at, n, &out);

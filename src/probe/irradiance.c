@@ -9,12 +9,12 @@ void lmp_probe_irradiance_n(int bands, const float *sh, lmp_vec3_array normals, 
     assert(lmp_is_bands(bands) && lmp_are_unit(normals, count));
     const float *const planes[3] = { sh, sh + LMP_SH_COUNT(bands), sh + 2 * LMP_SH_COUNT(bands) };
     const lmp_kernels *kernels = lmp_kernels_get();
-    lmp_batch_vec3 normal_planes;
+    lmp_batch_room room;
     float lambda[LMP_BANDS_MAX];
     lmp_lobe_diffuse(bands, lambda);
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
-        const lmp_kernel_vec3 at = lmp_batch_vectors(&normals, first, n, &normal_planes);
+        const lmp_kernel_vec3 at = lmp_batch_vectors(&normals, first, n, lmp_batch_in(&room));
         const lmp_kernel_out out = lmp_batch_out(&rgb->r, 3, count, 0, 0, first);
         kernels->reconstruct(bands, lambda, NULL, planes, &at, n, &out);
     }

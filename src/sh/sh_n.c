@@ -12,10 +12,11 @@ static void eval_all(int bands, lmp_vec3_array directions, size_t count, lmp_sh_
     assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, values, count));
     assert(lmp_are_unit(directions, count));
     const lmp_kernels *kernels = lmp_kernels_get();
-    lmp_batch_vec3 planes;
+    lmp_batch_room room;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
-        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&directions, first, n, &planes);
+        const lmp_kernel_vec3 vectors =
+            lmp_batch_vectors(&directions, first, n, lmp_batch_in(&room));
         const lmp_kernel_out out = lmp_batch_out(sh, values, count, planar, stride, first);
         if (!gradient) {
             kernels->eval(bands, &vectors, n, &out);

@@ -22,13 +22,14 @@ static shade_likeness likeness_of(const lmp_surfaces *surfaces, bool preintegrat
 size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
                             size_t count, shade_chunk *chunk) {
     const shade_likeness first = likeness_of(surfaces, preintegrated, left[0]);
+    const size_t most = lmp_shade_capacity(first.phong_count);
     const bool own_lobe = lmp_material_at(surfaces, left[0])->kind == LMP_MATERIAL_LOBES;
     size_t taken = 0, others = 0;
     bool in_a_row = true;
     for (size_t i = 0; i < count; i++) {
         const size_t at = left[i];
-        bool alike = lmp_material_at(surfaces, at)->kind == LMP_MATERIAL_LOBES;
-        if (!alike || !own_lobe) {
+        bool alike = taken < most;
+        if (alike && (!own_lobe || lmp_material_at(surfaces, at)->kind != LMP_MATERIAL_LOBES)) {
             const shade_likeness this = likeness_of(surfaces, preintegrated, at);
             alike = this.source.table == first.source.table &&
                     this.source.preintegrated == first.source.preintegrated &&
@@ -59,27 +60,30 @@ static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {
     for (int k = 0; k < lobes; k++) {
         shade_lobe_planes *lobe = &planes->lobe[k];
         chunk->surfaces.lobe[k] =
-            (lmp_kernel_lobe) { { lobe->axis.x.at, lobe->axis.y.at, lobe->axis.z.at },
-                                lobe->exponent.at };
-        memset(lobe->accumulated, 0, sizeof lobe->accumulated);
-        for (int c = 0; c < 3; c++)
-            chunk->sums.specular[k][c] = lobe->accumulated[c].at;
+            (lmp_kernel_lobe) { lmp_batch_planes(lobe->axis), lobe->exponent };
+        for (int c = 0; c < 3; c++) {
+            memset(lobe->accumulated[c], 0, planes->stride * sizeof(float));
+            chunk->sums.specular[k][c] = lobe->accumulated[c];
+        }
     }
 }
 
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
+    shade_planes *planes = &chunk->planes;
+    lmp_shade_divide(chunk->phong_count, planes);
     chunk->surfaces.point = lmp_shade_vectors(&surfaces->position, chunk->at, chunk->count,
-                                              chunk->in_a_row, &chunk->point);
+                                              chunk->in_a_row, planes->point);
     chunk->surfaces.normal = lmp_shade_vectors(&surfaces->normal, chunk->at, chunk->count,
-                                               chunk->in_a_row, &chunk->normal);
+                                               chunk->in_a_row, planes->normal);
     chunk->surfaces.view =
-        lmp_shade_vectors(&surfaces->view, chunk->at, chunk->count, chunk->in_a_row, &chunk->view);
+        lmp_shade_vectors(&surfaces->view, chunk->at, chunk->count, chunk->in_a_row, planes->view);
     if (!chunk->source.preintegrated)
         load_lobes(surfaces, chunk);
-    memset(chunk->planes.accumulated, 0, sizeof chunk->planes.accumulated);
     memset(chunk->ambient, 0, sizeof chunk->ambient);
-    for (int c = 0; c < 3; c++)
-        chunk->sums.diffuse[c] = chunk->planes.accumulated[c].at;
+    for (int c = 0; c < 3; c++) {
+        memset(planes->accumulated[c], 0, planes->stride * sizeof(float));
+        chunk->sums.diffuse[c] = planes->accumulated[c];
+    }
 }
 
 /* --- lights ----------------------------------------------------------------------------------- */
@@ -117,7 +121,7 @@ static void take_cap(const lmp_light *light, lmp_kernel_light *taken, lmp_rgb *a
                              NULL,       0 };
 }
 
-void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, lmp_batch_plane *scale,
+void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, float *scale,
                           lmp_kernel_light *taken, lmp_rgb *ambient) {
     const float radius = SHADE_DIRAC_RADIUS;
     if (light->kind != LMP_LIGHT_POINT && light->kind != LMP_LIGHT_SPOT) {
@@ -128,7 +132,7 @@ void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, lmp_
     taken->radius = radius;
     taken->radiance = scaled(light->intensity, 1 / pi / radius / radius);
     if (light->kind == LMP_LIGHT_SPOT) {
-        take_cone(light, chunk, scale->at);
-        taken->scale = scale->at;
+        take_cone(light, chunk, scale);
+        taken->scale = scale;
     }
 }

@@ -16,9 +16,8 @@ typedef struct shade_chunk {
     shade_source source;
     int phong_count; /* 0: no lobes, but a table or a BRDF */
     size_t count;
-    size_t at[LMP_BATCH]; /* among the caller's */
-    bool in_a_row;        /* at[i] = at[0] + i */
-    lmp_batch_vec3 point, normal, view;
+    size_t at[SHADE_SURFACES_MAX]; /* among the caller's */
+    bool in_a_row;                 /* at[i] = at[0] + i */
     shade_planes planes;
     float ambient[3];
     lmp_kernel_surfaces surfaces;
@@ -38,14 +37,13 @@ static inline void lmp_shade_take_sphere(const lmp_light *light, lmp_kernel_ligh
 }
 
 /* A light of another kind. */
-void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, lmp_batch_plane *scale,
+void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, float *scale,
                           lmp_kernel_light *taken, lmp_rgb *ambient);
 
 /* The light as one sphere or cap; `ambient` receives what it adds from every direction. scale: a
  * plane for spots. Inline, for every chunk takes every light. */
 static inline void lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
-                                        lmp_batch_plane *scale, lmp_kernel_light *taken,
-                                        lmp_rgb *ambient) {
+                                        float *scale, lmp_kernel_light *taken, lmp_rgb *ambient) {
     if (light->kind == LMP_LIGHT_SPHERE)
         lmp_shade_take_sphere(light, taken);
     else

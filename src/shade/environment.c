@@ -42,15 +42,14 @@ static environment_method method_of(const lmp_shade_settings *resolved, const lm
 
 /* Some of a chunk's surfaces, which have the same number of Phong lobes. */
 typedef struct environment_chunk {
-    size_t count, at[LMP_BATCH]; /* among the caller's */
-    lmp_batch_vec3 normal, view;
+    size_t count, at[SHADE_SURFACES_MIN]; /* among the caller's */
     shade_planes lobes;
 } environment_chunk;
 
 static void accumulate(const environment_method *method, const float *factors,
                        const float *exponents, const lmp_kernel_vec3 *axes, size_t count,
-                       lmp_batch_plane accumulated[3]) {
-    const lmp_kernel_out out = { accumulated[0].at, LMP_BATCH, 1 };
+                       size_t stride, float *accumulated) {
+    const lmp_kernel_out out = { accumulated, stride, 1 };
     lmp_kernels_get()->reconstruct(method->bands, factors, exponents, method->planes, axes, count,
                                    &out);
 }
@@ -61,17 +60,19 @@ static void shade_lobes_of_chunk(const environment_method *method, const lmp_sur
     static const float no_light[3] = { 0, 0, 0 };
     shade_planes *lobes = &chunk->lobes;
     const size_t count = chunk->count;
+    lmp_shade_divide(lobe_count, lobes);
     const bool in_a_row = chunk->at[count - 1] - chunk->at[0] == count - 1; /* they rise */
     const lmp_kernel_vec3 normal =
-        lmp_shade_vectors(&surfaces->normal, chunk->at, count, in_a_row, &chunk->normal);
+        lmp_shade_vectors(&surfaces->normal, chunk->at, count, in_a_row, lobes->normal);
     const lmp_kernel_vec3 view =
-        lmp_shade_vectors(&surfaces->view, chunk->at, count, in_a_row, &chunk->view);
+        lmp_shade_vectors(&surfaces->view, chunk->at, count, in_a_row, lobes->view);
     lmp_shade_load(surfaces, chunk->at, count, lobe_count, &normal, &view, lobes);
-    accumulate(method, method->diffuse, NULL, &normal, count, lobes->accumulated);
+    accumulate(method, method->diffuse, NULL, &normal, count, lobes->stride, lobes->accumulated[0]);
     for (int k = 0; k < lobe_count; k++) {
         shade_lobe_planes *lobe = &lobes->lobe[k];
-        const lmp_kernel_vec3 axis = lmp_batch_planes(&lobe->axis);
-        accumulate(method, method->window, lobe->exponent.at, &axis, count, lobe->accumulated);
+        const lmp_kernel_vec3 axis = lmp_batch_planes(lobe->axis);
+        accumulate(method, method->window, lobe->exponent, &axis, count, lobes->stride,
+                   lobe->accumulated[0]);
     }
     lmp_shade_sum_planes(count, lobe_count, no_light, lobes);
     lmp_shade_store(lobes, chunk->at, count, stride, rgb);
@@ -104,8 +105,9 @@ void lmp_shade_environment_bare_n(const lmp_shade_settings *settings, const lmp_
     environment_chunk chunk;
     assert(lmp_are_unit(surfaces->normal, count) && lmp_are_unit(surfaces->view, count));
     assert(lmp_is_bands(environment->bands));
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        const size_t end = first + lmp_batch_count(count, first);
+    for (size_t first = 0; first < count; first += SHADE_SURFACES_MIN) {
+        const size_t rest = count - first;
+        const size_t end = first + (rest < SHADE_SURFACES_MIN ? rest : SHADE_SURFACES_MIN);
         for (int lobes = 0; lobes <= LMP_GGX_LOBES; lobes++) {
             chunk.count = 0;
             for (size_t i = first; i < end; i++) {

@@ -39,44 +39,45 @@ static void prepare_preintegrated(const lmp_shade_settings *settings, shade_prep
                                       prepared->diffuse_numbers[2] };
 }
 
+/* Of all lobes of a chunk: one plane after the other. */
+enum { POSITIONS = SHADE_FLOATS / SHADE_LOBE_PLANES };
+
 /* Where each surface's lobe lies. */
 typedef struct chunk_positions {
-    uint32_t first[LMP_BATCH], columns[LMP_BATCH];
-    lmp_batch_plane fraction, density, lobe_angle;
+    uint32_t first[POSITIONS], columns[POSITIONS];
+    float fraction[POSITIONS], density[POSITIONS], lobe_angle[POSITIONS];
 } chunk_positions;
 
 static lmp_kernel_lobe_positions find_positions(const lmp_preintegrated_lobe_info *info,
-                                                const shade_lobe_planes *lobe, size_t count,
+                                                const float *exponents, size_t count, size_t begin,
                                                 chunk_positions *positions) {
     lmp_preintegrated_lobe_position position = { 0 };
     float exponent = -1;
-    for (size_t i = 0; i < LMP_BATCH; i++) {
+    for (size_t i = 0; i < count || i % LMP_KERNEL_LANES_MAX; i++) {
         /* Past the last surface, its position again: a kernel reads whole vectors. */
-        const float e = lobe->exponent.at[i < count ? i : count - 1];
+        const float e = exponents[i < count ? i : count - 1];
         if (e < exponent || e > exponent)
             lmp_preintegrated_lobe_lookup(info, e, &position);
         exponent = e;
-        positions->first[i] = position.first;
-        positions->columns[i] = position.columns;
-        positions->fraction.at[i] = position.fraction;
-        positions->density.at[i] = position.density;
-        positions->lobe_angle.at[i] = position.lobe_angle;
-        if (i >= count && i % LMP_KERNEL_LANES_MAX == LMP_KERNEL_LANES_MAX - 1)
-            break;
+        positions->first[begin + i] = position.first;
+        positions->columns[begin + i] = position.columns;
+        positions->fraction[begin + i] = position.fraction;
+        positions->density[begin + i] = position.density;
+        positions->lobe_angle[begin + i] = position.lobe_angle;
     }
-    return (lmp_kernel_lobe_positions) { positions->first, positions->columns,
-                                         positions->fraction.at, positions->density.at,
-                                         positions->lobe_angle.at };
+    return (lmp_kernel_lobe_positions) { positions->first + begin, positions->columns + begin,
+                                         positions->fraction + begin, positions->density + begin,
+                                         positions->lobe_angle + begin };
 }
 
 static void add_preintegrated(const shade_prepared *prepared, const shade_chunk *chunk,
                               const lmp_kernel_light *lights, size_t count) {
-    chunk_positions positions[LMP_KERNEL_LOBES_MAX];
+    chunk_positions positions;
     lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
     const lmp_kernel_preintegrated_lobe lobe = { prepared->info.coefficients };
     for (int k = 0; k < chunk->phong_count; k++)
-        specular[k] =
-            find_positions(&prepared->info, &chunk->planes.lobe[k], chunk->count, &positions[k]);
+        specular[k] = find_positions(&prepared->info, chunk->planes.lobe[k].exponent, chunk->count,
+                                     (size_t)k * chunk->planes.stride, &positions);
     lmp_kernels_get()->shade_preintegrated_lobe(&lobe, &prepared->diffuse_position, specular,
                                                 &chunk->surfaces, lights, count, chunk->count,
                                                 &chunk->sums);

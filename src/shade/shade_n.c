@@ -47,7 +47,8 @@ static void shade_brdf_planes(const shade_chunk *chunk, const lmp_kernel_light *
 
 /* Takes lights until one more would be too many; returns how many. */
 static size_t take_lights(const lmp_light *lights, size_t count, const shade_chunk *chunk,
-                          lmp_batch_plane *scales, lmp_kernel_light *taken, lmp_rgb *ambient) {
+                          float (*scales)[SHADE_SURFACES_MAX], lmp_kernel_light *taken,
+                          lmp_rgb *ambient) {
     const size_t most =
         chunk->source.preintegrated ? LMP_KERNEL_BRDF_LIGHTS_MAX : LMP_KERNEL_LIGHTS_MAX;
     size_t n = 0, spots = 0;
@@ -55,7 +56,7 @@ static size_t take_lights(const lmp_light *lights, size_t count, const shade_chu
         const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
         if (spot && spots == SPOTS_MAX)
             break;
-        lmp_shade_take_light(&lights[n], chunk, &scales[spots], &taken[n], ambient);
+        lmp_shade_take_light(&lights[n], chunk, scales[spots], &taken[n], ambient);
         spots += spot;
     }
     return n;
@@ -65,7 +66,7 @@ static size_t take_lights(const lmp_light *lights, size_t count, const shade_chu
 static void shade_by_kernels(const shade_prepared *prepared, const lmp_surfaces *surfaces,
                              shade_chunk *chunk, const lmp_light *lights, size_t light_count,
                              size_t stride, float *rgb) {
-    lmp_batch_plane scales[SPOTS_MAX + 1];
+    float scales[SPOTS_MAX + 1][SHADE_SURFACES_MAX] __attribute__((aligned(64)));
     lmp_shade_load_chunk(surfaces, chunk);
     for (size_t light = 0, taken; light < light_count; light += taken) {
         lmp_kernel_light some[LMP_KERNEL_LIGHTS_MAX];
@@ -96,8 +97,10 @@ void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *su
     shade_chunk chunk;
     if (method->prepare)
         method->prepare(&resolved, &prepared);
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        size_t left[LMP_BATCH], left_count = lmp_batch_count(count, first);
+    for (size_t first = 0; first < count; first += SHADE_SURFACES_MAX) {
+        const size_t rest = count - first;
+        size_t left[SHADE_SURFACES_MAX];
+        size_t left_count = rest < SHADE_SURFACES_MAX ? rest : SHADE_SURFACES_MAX;
         for (size_t i = 0; i < left_count; i++)
             left[i] = first + i;
         while (left_count > 0) {
