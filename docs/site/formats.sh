@@ -11,5 +11,5 @@ version=$(sed -n 's/^#define LMP_VERSION_[A-Z]* //p' include/lampion/base.h | pa
     echo "lampion-formats - lights files, tables and caches that lampion reads and writes"
     echo
     # links lead to pages that are not here
-    sed 's/!\[[^]]*\]([^)]*)//g; s/\[\([^]]*\)\](\([^)]*\))/\1/g' docs/lights.md docs/formats.md
+    { cat docs/lights.md docs/formats.md && sed -n '/^## Scripts/,/^## Without/p' docs/viewer.md | sed '$d'; } | sed 's/!\[[^]]*\]([^)]*)//g; s/\[\([^]]*\)\](\([^)]*\))/\1/g'
 } | pandoc --fail-if-warnings -s -f gfm+tex_math_dollars+yaml_metadata_block -t man -o "$1"

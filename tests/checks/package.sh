@@ -65,6 +65,7 @@ done
 for command in $("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
     [ -f "$root/usr/share/man/man1/lampion-$command.1.gz" ] || fail "no manual page of $command"
 done
+zgrep -q "timed events" "$root/usr/share/man/man5/lampion-formats.5.gz" || fail "the manual page of formats has no scripts"
 zgrep -q 'lights.json\|lights file' "$root/usr/share/man/man5/lampion-formats.5.gz" || fail "no manual page of formats"
 grep -q '<h1' "$root/usr/share/doc/liblampion-doc/html/index.html" || fail "no documents"
 for file in bash-completion/completions/lampion zsh/vendor-completions/_lampion fish/vendor_completions.d/lampion.fish \
