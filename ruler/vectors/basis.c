@@ -161,21 +161,61 @@ void vectors_rotation_row(int row) {
     _arb_vec_clear(r.matrix, 9);
 }
 
-/* --- products --------------------------------------------------------------------------------- */
+/* Coefficients Y_lm(p) are a band of a peak at p; rotated, it is one at R p. */
+enum { ROTATED_WIDTH = 2 * 127 + 1 };
 
-enum { FACTOR = 6, NODES = 8, DIRECTIONS = 2 * NODES * NODES };
+void vectors_rotation_128_header(void) {
+    printf("qx,qy,qz,qw,x,y,z,l,");
+    vectors_print_names("out", ROTATED_WIDTH);
+    printf("bound\n");
+}
+
+void vectors_rotation_128_row(int row) {
+    static const int bands[] = { 31, 64, 127 };
+    const int l = bands[(row - 1) % 3], peak = 300 + (row - 1) / 3;
+    double in[8];
+    arb_ptr matrix = _arb_vec_init(9), p = _arb_vec_init(3), v = _arb_vec_init(3);
+    arb_t value;
+    mag_t bound;
+    arb_init(value);
+    mag_init(bound);
+    for (int k = 0; k < 7; k++)
+        in[k] = floor(16 * vectors_fraction(peak, k)) - 7;
+    in[7] = l;
+    matrix_of(matrix, in);
+    for (int k = 0; k < 3; k++)
+        arb_set_d(p + k, in[4 + k]);
+    for (int k = 0; k < 3; k++)
+        arb_dot(v + k, NULL, 0, matrix + 3 * k, 1, p, 1, 3, BITS);
+    vectors_print_inputs(in, 8);
+    for (int k = 0; k < ROTATED_WIDTH; k++) {
+        arb_zero(value);
+        if (k <= 2 * l)
+            harmonics_at_real(value, l, k - l, v);
+        vectors_print_value(value, bound);
+    }
+    vectors_print_bound(bound);
+    arb_clear(value);
+    mag_clear(bound);
+    _arb_vec_clear(matrix, 9);
+    _arb_vec_clear(p, 3);
+    _arb_vec_clear(v, 3);
+}
+
+/* --- products --------------------------------------------------------------------------------- */
 
 /* The basis at all directions of the quadrature, in the order in which it asks. */
 typedef struct product {
-    arb_ptr basis; /* DIRECTIONS times FACTOR² */
+    int bands;
+    arb_ptr basis; /* directions times bands² */
     const double *a, *b;
     int next, index;
 } product;
 
 static void product_fill(arb_t value, arb_srcptr w, void *user) {
     product *const p = user;
-    arb_ptr row = p->basis + (slong)p->next++ * FACTOR * FACTOR;
-    for (int l = 0; l < FACTOR; l++)
+    arb_ptr row = p->basis + (slong)p->next++ * p->bands * p->bands;
+    for (int l = 0; l < p->bands; l++)
         for (int m = -l; m <= l; m++)
             harmonics_at_real(row++, l, m, w);
     arb_zero(value);
@@ -183,13 +223,13 @@ static void product_fill(arb_t value, arb_srcptr w, void *user) {
 
 static void product_at(arb_t value, arb_srcptr w, void *user) {
     product *const p = user;
-    arb_ptr row = p->basis + (slong)p->next++ * FACTOR * FACTOR;
+    arb_ptr row = p->basis + (slong)p->next++ * p->bands * p->bands;
     arb_t b, in;
     (void)w;
     arb_init(b);
     arb_init(in);
     arb_zero(value);
-    for (int k = 0; k < FACTOR * FACTOR; k++) {
+    for (int k = 0; k < p->bands * p->bands; k++) {
         arb_set_d(in, p->a[k]);
         arb_addmul(value, in, row + k, BITS);
         arb_set_d(in, p->b[k]);
@@ -201,33 +241,51 @@ static void product_at(arb_t value, arb_srcptr w, void *user) {
     arb_clear(in);
 }
 
-void vectors_product_header(void) {
-    vectors_print_names("a", FACTOR * FACTOR);
-    vectors_print_names("b", FACTOR * FACTOR);
-    vectors_print_names("c", FACTOR * FACTOR);
+static void print_product_header(int bands) {
+    vectors_print_names("a", bands * bands);
+    vectors_print_names("b", bands * bands);
+    vectors_print_names("c", bands * bands);
     printf("bound\n");
 }
 
-void vectors_product_row(int row) {
-    double in[2 * FACTOR * FACTOR];
-    product p = { .basis = _arb_vec_init(DIRECTIONS * FACTOR * FACTOR),
-                  .a = in,
-                  .b = in + FACTOR * FACTOR };
+/* Of three series of n bands: a polynomial of degree 3n - 3, for which so many nodes are exact. */
+static void print_product(int bands, int seed) {
+    enum { MOST = 12 };
+    const int count = bands * bands, nodes = (3 * bands - 1) / 2;
+    const slong size = 2L * nodes * nodes * count;
+    double in[2 * MOST * MOST];
+    product p = { .bands = bands, .basis = _arb_vec_init(size), .a = in, .b = in + count };
     arb_t value;
     mag_t bound;
     arb_init(value);
     mag_init(bound);
-    for (int k = 0; k < 2 * FACTOR * FACTOR; k++)
-        in[k] = 2 * vectors_fraction(100 + row, k) - 1;
-    vectors_print_inputs(in, 2 * FACTOR * FACTOR);
-    harmonics_integrate(value, NODES, product_fill, &p);
-    for (p.index = 0; p.index < FACTOR * FACTOR; p.index++) {
+    for (int k = 0; k < 2 * count; k++)
+        in[k] = 2 * vectors_fraction(seed, k) - 1;
+    vectors_print_inputs(in, 2 * count);
+    harmonics_integrate(value, nodes, product_fill, &p);
+    for (p.index = 0; p.index < count; p.index++) {
         p.next = 0;
-        harmonics_integrate(value, NODES, product_at, &p);
+        harmonics_integrate(value, nodes, product_at, &p);
         vectors_print_value(value, bound);
     }
     vectors_print_bound(bound);
     arb_clear(value);
     mag_clear(bound);
-    _arb_vec_clear(p.basis, DIRECTIONS * FACTOR * FACTOR);
+    _arb_vec_clear(p.basis, size);
+}
+
+void vectors_product_header(void) {
+    print_product_header(6);
+}
+
+void vectors_product_row(int row) {
+    print_product(6, 100 + row);
+}
+
+void vectors_product_12_header(void) {
+    print_product_header(12);
+}
+
+void vectors_product_12_row(int row) {
+    print_product(12, 200 + row);
 }

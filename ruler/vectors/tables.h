@@ -35,7 +35,9 @@ void vectors_gradient_header(void), vectors_gradient_row(int row);
 void vectors_sphere_128_header(void), vectors_sphere_128_row(int row);
 void vectors_zonal_header(void), vectors_zonal_row(int row);
 void vectors_rotation_header(void), vectors_rotation_row(int row);
+void vectors_rotation_128_header(void), vectors_rotation_128_row(int row);
 void vectors_product_header(void), vectors_product_row(int row);
+void vectors_product_12_header(void), vectors_product_12_row(int row);
 void vectors_lobe_header(void), vectors_lobe_row(int row);
 void vectors_table_header(void), vectors_table_row(int row);
 

@@ -46,7 +46,7 @@ sed '2s/,[0-9.e-]*,\([^,]*\)$/,123,\1/' "$WORK/rows.csv" >"$WORK/wrong.csv"
 ! overlap ruler/ruler.csv "$WORK/wrong.csv" 1 >/dev/null || fail "a wrong value goes unseen"
 
 # A hundredth of the vectors, by the number of columns that are asked for. A row of brdf_table takes seconds.
-vectors='basis 3,basis_128 4,sphere 7,sphere_inside 7,sphere_gradient 7,sphere_128 8,zonal 1,rotation 68,product 72,lobe 2,brdf_table 2'
+vectors='basis 3,basis_128 4,sphere 7,sphere_inside 7,sphere_gradient 7,sphere_128 8,zonal 1,rotation 68,rotation_128 8,product 72,product_12 288,lobe 2,brdf_table 2'
 echo "$vectors" | tr , '\n' | while read -r name asked; do
     wc -l <"ruler/vectors/$name.csv" | awk -v seed="$seed$asked" -v name="$name" -v asked="$asked" -v all="${LAMPION_LONG:-0}" '
         { srand(seed); for (k = 1; k < $1; k++) if (rand() < (all == 1 ? 0.3 : 0.012)) print name, asked, k }'

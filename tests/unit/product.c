@@ -43,6 +43,28 @@ static void multiplies_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
+static void multiplies_12_bands_as_the_vector_file_says(void **state) {
+    (void)state;
+    enum { COUNT = LMP_SH_COUNT(12) };
+    check_csv *csv = check_csv_open("product_12.csv");
+    lmp_sh_product *product;
+    assert_int_equal(lmp_sh_product_create(NULL, 12, &product), LMP_OK);
+    for (int row = 0; row < csv->rows; row++) {
+        double in[2 * COUNT], expected[COUNT];
+        float a[COUNT], b[COUNT], c[COUNT];
+        check_csv_numbers(csv, row, 0, 2 * COUNT, in);
+        check_csv_numbers(csv, row, 2 * COUNT, COUNT, expected);
+        for (int k = 0; k < COUNT; k++) {
+            a[k] = (float)in[k];
+            b[k] = (float)in[COUNT + k];
+        }
+        lmp_sh_multiply(product, a, b, c);
+        CHECK_WITHIN(check_error(COUNT, expected, c), 5e-6);
+    }
+    lmp_sh_product_destroy(product);
+    check_csv_close(csv);
+}
+
 static void multiplies_as_quadrature_does(void **state) {
     (void)state;
     for (int bands = 1; bands <= 12; bands++) {
@@ -120,6 +142,7 @@ static void gives_back_all_memory_whichever_request_fails(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(multiplies_the_vector_file),
+        cmocka_unit_test(multiplies_12_bands_as_the_vector_file_says),
         cmocka_unit_test(multiplies_as_quadrature_does),
         cmocka_unit_test(by_one_changes_nothing_at_128_bands),
         cmocka_unit_test(refuses_impossible_bands),

@@ -45,6 +45,31 @@ static void rotates_the_vector_file(void **state) {
     check_csv_close(csv);
 }
 
+/* Peaks of 128 bands, by the double-precision basis, which unit.oracle holds to the vectors. */
+static void rotates_128_bands_as_the_vector_file_says(void **state) {
+    (void)state;
+    enum { COUNT = LMP_SH_COUNT(128) };
+    check_csv *csv = check_csv_open("rotation_128.csv");
+    static double peak[COUNT];
+    static float sh[COUNT], rotated[COUNT], matrices[LMP_SH_ROTATION_COUNT(128)];
+    for (int row = 0; row < csv->rows; row++) {
+        double asked[8], expected[255];
+        check_csv_numbers(csv, row, 0, 8, asked);
+        check_csv_numbers(csv, row, 8, 255, expected);
+        const int l = (int)asked[7];
+        const double length = sqrt(asked[4] * asked[4] + asked[5] * asked[5] + asked[6] * asked[6]);
+        const double p[3] = { asked[4] / length, asked[5] / length, asked[6] / length };
+        const lmp_quat q = { (float)asked[0], (float)asked[1], (float)asked[2], (float)asked[3] };
+        oracle_sh_eval(128, p, peak);
+        for (int k = 0; k < COUNT; k++)
+            sh[k] = (float)peak[k];
+        lmp_sh_rotation(128, q, matrices);
+        lmp_sh_rotate(128, matrices, sh, rotated);
+        CHECK_WITHIN(check_error((size_t)(2 * l + 1), expected, rotated + l * l), 1e-6);
+    }
+    check_csv_close(csv);
+}
+
 static void matches_exact_quadrature_of_every_entry(void **state) {
     (void)state;
     const float half = sqrtf(0.5f);
@@ -195,6 +220,7 @@ static void around_z_needs_no_matrices(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rotates_the_vector_file),
+        cmocka_unit_test(rotates_128_bands_as_the_vector_file_says),
         cmocka_unit_test(matches_exact_quadrature_of_every_entry),
         cmocka_unit_test(takes_harmonics_to_the_rotated_direction_at_any_bands),
         cmocka_unit_test(is_orthogonal_at_128_bands),
