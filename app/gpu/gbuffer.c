@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The G-buffer on the host: read as it is stored, decoded a row at a time (pixel.glsl does the
+/* The G-buffer on the host: read as it is stored, decoded a tile at a time (pixel.glsl does the
  * same). */
 #include "app/gpu/internal.h"
 
@@ -91,10 +91,10 @@ bool gpu_gbuffer_read(const gpu_renderer *r, const shared_frame *block, const gp
     return true;
 }
 
-/* --- a row ------------------------------------------------------------------------------------ */
+/* --- a tile ----------------------------------------------------------------------------------- */
 
-bool gpu_row_create(int width, gpu_row *row) {
-    const size_t count = (size_t)width;
+bool gpu_row_create(int pixels, gpu_row *row) {
+    const size_t count = (size_t)pixels;
     memset(row, 0, sizeof *row);
     float *memory = malloc(count * (sizeof *row->material + 16 * sizeof(float) + 1));
     if (!memory)
@@ -138,6 +138,12 @@ static lmp_rgb light_of(const gpu_gbuffer *g, unsigned index) {
                                          : (lmp_rgb) { 0, 0, 0 };
 }
 
+/* Pixels in a row of the image, and where they come to in the arrays of a gpu_row. */
+typedef struct gpu_span {
+    int x, y, count;
+    size_t at;
+} gpu_span;
+
 /* What is seen past everything. */
 static lmp_rgb decode_nothing(const gpu_gbuffer *g, size_t x, const gpu_row *row) {
     const float *background = g->block.background;
@@ -147,14 +153,18 @@ static lmp_rgb decode_nothing(const gpu_gbuffer *g, size_t x, const gpu_row *row
     return (lmp_rgb) { background[0], background[1], background[2] };
 }
 
+static size_t first_pixel(const gpu_gbuffer *g, const gpu_span *span) {
+    return (size_t)span->y * (size_t)g->width + (size_t)span->x;
+}
+
 /* Positions and views of every pixel, as camera.glsl has them; what is no surface is nonsense. */
-static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
+static void decode_points(const gpu_gbuffer *g, const gpu_span *span, const gpu_row *row) {
     const shared_frame *b = &g->block;
-    const float *restrict depth = g->depth + (size_t)y * (size_t)g->width;
-    float *restrict px = row->position[0], *restrict py = row->position[1];
-    float *restrict pz = row->position[2];
-    float *restrict vx = row->view[0], *restrict vy = row->view[1], *restrict vz = row->view[2];
-    const float v = ((float)y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
+    const float *restrict depth = g->depth + first_pixel(g, span);
+    float *restrict px = row->position[0] + span->at, *restrict py = row->position[1] + span->at;
+    float *restrict pz = row->position[2] + span->at, *restrict vx = row->view[0] + span->at;
+    float *restrict vy = row->view[1] + span->at, *restrict vz = row->view[2] + span->at;
+    const float v = ((float)span->y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
     const float parallel = b->forward[3], spread = 1 - parallel, scale = b->eye[3];
     float from[3], left[3], aside[3], right[3]; /* the row's first ray, and what a column adds */
     for (int i = 0; i < 3; i++) {
@@ -164,10 +174,10 @@ static void decode_points(const gpu_gbuffer *g, int y, const gpu_row *row) {
         right[i] = b->right[i] * spread;
     }
     const float across = 2 / b->size_lights[0], start = 0.5f * across - 1 + b->jitter[0];
-    const int width = g->width;
+    const int first = span->x, count = span->count;
 #pragma omp simd
-    for (int x = 0; x < width; x++) {
-        const float u = (float)x * across + start;
+    for (int x = 0; x < count; x++) {
+        const float u = (float)(first + x) * across + start;
         const float rx = left[0] + right[0] * u, ry = left[1] + right[1] * u;
         const float rz = left[2] + right[2] * u;
         const float distance = parallel > 0 ? 2 * scale * (1 - depth[x]) : scale / depth[x];
@@ -192,12 +202,14 @@ static inline void decode_normal(uint16_t u, uint16_t v, size_t i, float *const 
     n[2][i] = z * scale;
 }
 
-static void decode_normals(const gpu_gbuffer *g, int y, const gpu_row *row) {
-    const gpu_pair16 *restrict normal = g->normal + (size_t)y * (size_t)g->width;
-    const size_t width = (size_t)g->width;
+static void decode_normals(const gpu_gbuffer *g, const gpu_span *span, const gpu_row *row) {
+    const gpu_pair16 *restrict normal = g->normal + first_pixel(g, span);
+    float *const to[3] = { row->normal[0] + span->at, row->normal[1] + span->at,
+                           row->normal[2] + span->at };
+    const size_t count = (size_t)span->count;
 #pragma omp simd
-    for (size_t i = 0; i < width; i++)
-        decode_normal(normal[i].u, normal[i].v, i, row->normal);
+    for (size_t i = 0; i < count; i++)
+        decode_normal(normal[i].u, normal[i].v, i, to);
 }
 
 static float unit(uint16_t stored) {
@@ -244,9 +256,10 @@ static void decode_coat_normal(const gpu_gbuffer *g, size_t pixel, size_t x, con
 }
 
 size_t gpu_gbuffer_surfaces(const gpu_gbuffer *g, int y, gpu_row *row) {
-    const gpu_pair16 *of = g->roughness_kind + (size_t)y * (size_t)g->width;
+    const gpu_span span = { 0, y, g->width, 0 };
+    const gpu_pair16 *of = g->roughness_kind + first_pixel(g, &span);
     size_t count = 0;
-    decode_points(g, y, row);
+    decode_points(g, &span, row);
     for (int x = 0; x < g->width; x++) {
         for (int c = 0; c < 3; c++)
             row->position[c][count] = row->position[c][x];
@@ -263,12 +276,11 @@ int gpu_gbuffer_sample(const gpu_gbuffer *g) {
     return g->sample;
 }
 
-void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
-    const size_t first = (size_t)y * (size_t)g->width;
-    decode_points(g, y, row);
-    decode_normals(g, y, row);
-    for (size_t x = 0; x < (size_t)g->width; x++) {
-        const size_t pixel = first + x;
+static void decode_span(const gpu_gbuffer *g, const gpu_span *span, gpu_row *row) {
+    decode_points(g, span, row);
+    decode_normals(g, span, row);
+    for (size_t i = 0; i < (size_t)span->count; i++) {
+        const size_t pixel = first_pixel(g, span) + i, x = span->at + i;
         const int kind = g->roughness_kind[pixel].v;
         const lmp_rgb emission = kind == SHARED_KIND_NONE    ? decode_nothing(g, x, row)
                                  : kind == SHARED_KIND_LIGHT ? light_of(g, g->normal[pixel].u)
@@ -284,4 +296,15 @@ void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
         if (g->coat)
             decode_coat_normal(g, pixel, x, row);
     }
+}
+
+void gpu_gbuffer_tile(const gpu_gbuffer *g, int x, int y, int width, int height, gpu_row *row) {
+    for (int i = 0; i < height; i++) {
+        const gpu_span span = { x, y + i, width, (size_t)i * (size_t)width };
+        decode_span(g, &span, row);
+    }
+}
+
+void gpu_gbuffer_row(const gpu_gbuffer *g, int y, gpu_row *row) {
+    gpu_gbuffer_tile(g, 0, y, g->width, 1, row);
 }

@@ -192,7 +192,7 @@ typedef struct gpu_pixel {
  * *pixels receives width * height entries, rows from the top; free() it. */
 bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *error);
 
-/* The same for a host shader, as arrays of a row's width. Only emission, and kind, mean something
+/* The same for a host shader, as arrays of a row's or tile's pixels. Only emission, and kind, mean something
  * where the kind is not SURFACE. */
 typedef struct gpu_row {
     unsigned char *kind; /* gpu_kind */
@@ -201,11 +201,13 @@ typedef struct gpu_row {
     float *emission[3], *ambient;
     lmp_material *material;
 } gpu_row;
-bool gpu_row_create(int width, gpu_row *row);
+bool gpu_row_create(int pixels, gpu_row *row);
 void gpu_row_free(gpu_row *row);
 
 /* From any thread, each with a row of its own. */
 void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, gpu_row *row);
+void gpu_gbuffer_tile(const gpu_gbuffer *gbuffer, int x, int y, int width, int height,
+                      gpu_row *row);
 
 /* The positions of a row's surfaces alone, one after another; returns how many there are. */
 size_t gpu_gbuffer_surfaces(const gpu_gbuffer *gbuffer, int y, gpu_row *row);

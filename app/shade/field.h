@@ -40,7 +40,7 @@ typedef struct shade_field_options {
     }
 
 /* The nodes that cubic cells need, about so many in all. */
-#define SHADE_FIELD_NODES 16384
+#define SHADE_FIELD_NODES 40000
 
 /* NULL on failure. */
 shade_field *shade_field_create(const scene *world, const shade_field_options *options, int bands,

@@ -4,6 +4,7 @@
 #include "app/timing/timing.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* What every pixel of a frame is shaded by. */
 typedef struct shading {
@@ -52,7 +53,7 @@ static void add_environment(const shading *s, const lmp_surfaces *all, const flo
     }
 }
 
-/* Neighbors in a row, from `first` on. */
+/* Neighbors in a tile, from `first` on. */
 static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t count,
                       float *rgba) {
     lmp_surfaces surfaces = {
@@ -74,34 +75,52 @@ static void shade_run(const shading *s, const gpu_row *row, size_t first, size_t
 }
 
 /* Runs of surfaces are shaded together; what lies between them shows what it emits. */
-static void shade_row(const shading *s, const gpu_row *row, size_t width, float *rgba) {
-    for (size_t i = 0; i < width;) {
+static void shade_pixels(const shading *s, const gpu_row *row, size_t count, float *rgba) {
+    for (size_t i = 0; i < count;) {
         size_t end = i;
-        while (end < width && row->kind[end] == GPU_KIND_SURFACE)
+        while (end < count && row->kind[end] == GPU_KIND_SURFACE)
             end++;
         if (end > i)
             shade_run(s, row, i, end - i, rgba + 4 * i);
         for (; i < end; i++)
             for (size_t c = 0; c < 3; c++)
                 rgba[4 * i + c] += row->emission[c][i];
-        for (; i < width && row->kind[i] != GPU_KIND_SURFACE; i++)
+        for (; i < count && row->kind[i] != GPU_KIND_SURFACE; i++)
             for (size_t c = 0; c < 3; c++)
                 rgba[4 * i + c] = row->emission[c][i];
     }
 }
 
-static bool shade_rows(const shading *s, const gpu_gbuffer *gbuffer, int width, int height,
-                       float *rgba) {
+/* Pixels of a tile lie close to each other: near the same lights, in few cells of a field. */
+enum { TILE = 32 };
+
+static void shade_tile(const shading *s, const gpu_gbuffer *gbuffer, const int at[2],
+                       const int size[2], gpu_row *row, float *rgba) {
+    float pixels[4 * TILE * TILE];
+    const int width = size[0] - at[0] < TILE ? size[0] - at[0] : TILE;
+    const int height = size[1] - at[1] < TILE ? size[1] - at[1] : TILE;
+    gpu_gbuffer_tile(gbuffer, at[0], at[1], width, height, row);
+    shade_pixels(s, row, (size_t)(width * height), pixels);
+    for (int i = 0; i < width * height; i++) {
+        const size_t x = (size_t)(at[0] + i % width), y = (size_t)(at[1] + i / width);
+        memcpy(rgba + 4 * (y * (size_t)size[0] + x), pixels + 4 * i, 3 * sizeof *rgba);
+    }
+}
+
+static bool shade_tiles(const shading *s, const gpu_gbuffer *gbuffer, int width, int height,
+                        float *rgba) {
+    const int columns = (width + TILE - 1) / TILE, rows = (height + TILE - 1) / TILE;
+    const int size[2] = { width, height };
     bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
         gpu_row row;
-        const bool mine = gpu_row_create(width, &row);
-#pragma omp for schedule(dynamic, 4)
-        for (int y = 0; y < height; y++)
+        const bool mine = gpu_row_create(TILE * TILE, &row);
+#pragma omp for schedule(dynamic)
+        for (int i = 0; i < columns * rows; i++)
             if (mine) {
-                gpu_gbuffer_row(gbuffer, y, &row);
-                shade_row(s, &row, (size_t)width, rgba + 4 * (size_t)y * (size_t)width);
+                const int at[2] = { i % columns * TILE, i / columns * TILE };
+                shade_tile(s, gbuffer, at, size, &row, rgba);
             }
         if (mine)
             gpu_row_free(&row);
@@ -132,7 +151,7 @@ bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba
         ok = s.field != NULL;
     }
     const double start = timing_now();
-    ok = ok && shade_rows(&s, gbuffer, frame->width, frame->height, rgba);
+    ok = ok && shade_tiles(&s, gbuffer, frame->width, frame->height, rgba);
     if (by_field)
         shade_field_note(frame->field, 1e3 * (timing_now() - start));
     free(lights);

@@ -50,7 +50,7 @@ static float *node_at(const lmp_field *field, size_t i) {
     const size_t x = (size_t)field->info.desc.nodes[0], y = (size_t)field->info.desc.nodes[1];
     const uint32_t node =
         lmp_field_node(field, (uint32_t)(i % x), (uint32_t)(i / x % y), (uint32_t)(i / x / y));
-    return field->nodes + 4 * field->values * node;
+    return field->nodes + 4 * field->stride * node;
 }
 
 void lmp_field_write(const lmp_field *field, void *bytes) {
@@ -68,8 +68,9 @@ void lmp_field_write(const lmp_field *field, void *bytes) {
         p = store_light(p, &field->lights[i]);
     for (size_t i = 0; i < node_count(desc); i++) {
         const float *node = node_at(field, i);
-        for (size_t v = 0; v < 4 * field->values; v++)
-            p = lmp_bytes_store_f32(p, node[v]);
+        for (size_t row = 0; row < 4; row++)
+            for (size_t v = 0; v < field->values; v++)
+                p = lmp_bytes_store_f32(p, node[row * field->stride + v]);
     }
     lmp_bytes_end(bytes, p);
 }
@@ -133,6 +134,37 @@ static bool all_finite(const unsigned char *p, const unsigned char *end) {
     return true;
 }
 
+static bool load_lights(const unsigned char **p, size_t count, lmp_field *field) {
+    for (size_t i = 0; i < count; i++) {
+        lmp_light light;
+        if (!load_light(p, &light))
+            return false;
+        lmp_field_push_light(field, &light);
+    }
+    return true;
+}
+
+static void load_nodes(const unsigned char *p, lmp_field *field) {
+    for (size_t i = 0; i < node_count(&field->info.desc); i++) {
+        float *node = node_at(field, i);
+        for (size_t row = 0; row < 4; row++)
+            for (size_t v = 0; v < field->values; v++)
+                node[row * field->stride + v] = lmp_bytes_load_f32(&p);
+    }
+}
+
+/* A coarser field is not in the file: it is what the lights make it. */
+static lmp_result load(const lmp_host *host, const unsigned char *p, size_t lights,
+                       lmp_field *field) {
+    if (!load_lights(&p, lights, field))
+        return LMP_ERROR_FORMAT;
+    load_nodes(p, field);
+    if (!field->coarse)
+        return LMP_OK;
+    lmp_field_set_states(field->coarse, FIELD_WANTED);
+    return lmp_field_compute(host, field->coarse);
+}
+
 lmp_result lmp_field_read(const lmp_host *host, const void *data, size_t size, lmp_field **field) {
     const unsigned char *bytes = data, *p = bytes + HEADER;
     lmp_field_desc desc = { 0 };
@@ -145,22 +177,11 @@ lmp_result lmp_field_read(const lmp_host *host, const void *data, size_t size, l
         !all_finite(p + LIGHT * lights, bytes + size - LMP_BYTES_CHECKSUM))
         return LMP_ERROR_FORMAT;
     result = lmp_field_allocate(host, &desc, field);
-    if (result != LMP_OK)
-        return result;
-    for (uint32_t i = 0; i < lights; i++) {
-        lmp_light light;
-        if (!load_light(&p, &light)) {
-            lmp_field_destroy(*field);
-            *field = NULL;
-            return LMP_ERROR_FORMAT;
-        }
-        lmp_field_set_light(*field, i, &light);
-        (*field)->info.light_count++;
+    if (result == LMP_OK)
+        result = load(host, p, lights, *field);
+    if (result != LMP_OK) {
+        lmp_field_destroy(*field);
+        *field = NULL;
     }
-    for (size_t i = 0; i < node_count(&desc); i++) {
-        float *node = node_at(*field, i);
-        for (size_t v = 0; v < 4 * (*field)->values; v++)
-            node[v] = lmp_bytes_load_f32(&p);
-    }
-    return LMP_OK;
+    return result;
 }

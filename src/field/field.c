@@ -75,16 +75,19 @@ bool lmp_field_resolve(lmp_field_desc *desc) {
 
 /* --- memory ----------------------------------------------------------------------------------- */
 
-/* Pieces of one allocation, each begun at a multiple of 64 bytes. */
+enum { LINE = 64 }; /* bytes of the cache */
+
+/* Pieces of one allocation, a multiple of LINE bytes each. */
 static void *take(unsigned char *memory, size_t *used, size_t size) {
     const size_t at = *used;
-    *used += (size + 63) / 64 * 64;
+    *used += (size + LINE - 1) / LINE * LINE;
     return memory ? memory + at : NULL;
 }
 
-/* Entries that lights of no size need, if their reach is not most of the grid; not more than make
- * lists of 256 lights a block, beyond which a finer grid is what helps. */
-static size_t entry_count(const lmp_field *field) {
+/* Entries that lights of no size need, if their reach is not most of the grid; where points are
+ * shaded not more than make lists of 256 lights a block, beyond which a finer grid is what helps.
+ */
+static size_t entry_count(const lmp_field *field, bool finest) {
     const lmp_field_desc *desc = &field->info.desc;
     const float edge[3] = { desc->cell.x, desc->cell.y, desc->cell.z };
     size_t around = 1;
@@ -94,33 +97,33 @@ static size_t entry_count(const lmp_field *field) {
     }
     const size_t lights = (size_t)desc->light_max;
     const size_t most = 256 * field->block_count, all = lights * around;
-    return (all < most ? all : most) / FIELD_ENTRY + field->block_count +
+    return (all < most || !finest ? all : most) / FIELD_ENTRY + field->block_count +
            2 * (lights / FIELD_ENTRY + 1);
 }
 
-static size_t divide(lmp_field *field, unsigned char *memory) {
+/* What a level of its own needs. */
+static size_t divide(lmp_field *field, bool finest, unsigned char *memory, size_t *used) {
     const size_t lights = (size_t)field->info.desc.light_max;
     const size_t brick = FIELD_BRICK * field->info.node_bytes;
-    size_t used = 0;
-    (void)take(memory, &used, sizeof *field);
-    field->nodes = take(memory, &used, field->brick_count * brick);
-    field->scratch = take(memory, &used, field->scratch_count * brick);
-    field->states = take(memory, &used, field->brick_count * sizeof *field->states);
-    field->lights = take(memory, &used, lights * sizeof *field->lights);
-    field->spheres = take(memory, &used, lights * sizeof *field->spheres);
-    field->everywhere = take(memory, &used, lights);
-    field->lists = take(memory, &used, (field->block_count + 1) * sizeof *field->lists);
-    field->entries = take(memory, &used, field->entry_count * sizeof *field->entries);
-    return used;
+    field->nodes = take(memory, used, field->brick_count * brick);
+    field->changes = finest ? NULL : take(memory, used, field->brick_count * brick);
+    field->states = take(memory, used, field->brick_count * sizeof *field->states);
+    field->everywhere = take(memory, used, lights);
+    field->lists = take(memory, used, (field->block_count + 1) * sizeof *field->lists);
+    field->entries = take(memory, used, field->entry_count * sizeof *field->entries);
+    return *used;
 }
 
-lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field) {
+/* A level of the grid that desc says. */
+static lmp_field plan_level(const lmp_host *host, const lmp_field_desc *desc, bool finest) {
     static const uint32_t brick[3] = { 4, 2, 2 };
     const float edge = fmaxf(desc->cell.x, fmaxf(desc->cell.y, desc->cell.z));
     lmp_field plan = { .host = lmp_host_resolve(host), .info = { .desc = *desc } };
     plan.info.reach = desc->reach * edge;
     plan.values = 3 * LMP_SH_COUNT(desc->bands);
-    plan.info.node_bytes = 4 * plan.values * sizeof(float);
+    plan.stride =
+        (plan.values + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
+    plan.info.node_bytes = 4 * plan.stride * sizeof(float);
     plan.brick_count = plan.block_count = 1;
     for (int a = 0; a < 3; a++) {
         const uint32_t nodes = (uint32_t)desc->nodes[a];
@@ -129,16 +132,75 @@ lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, 
         plan.brick_count *= plan.bricks[a];
         plan.block_count *= plan.blocks[a];
     }
-    plan.scratch_count = plan.brick_count < FIELD_SCRATCH ? plan.brick_count : FIELD_SCRATCH;
-    plan.entry_count = entry_count(&plan);
-    plan.info.bytes = divide(&plan, NULL);
-    unsigned char *memory = lmp_allocate(&plan.host, plan.info.bytes);
+    plan.task_count = plan.brick_count < FIELD_TASKS ? plan.brick_count : FIELD_TASKS;
+    plan.entry_count = entry_count(&plan, finest);
+    return plan;
+}
+
+/* Of a coarser field, in parts of the finest one's: what both err by is within what one would. */
+#define WIDER 1.15f
+
+/* The grid of twice the cells, if it pays. */
+static bool is_coarser(const lmp_field_desc *fine, lmp_field_desc *coarse) {
+    uint64_t nodes = 1;
+    *coarse = *fine;
+    for (int a = 0; a < 3; a++) {
+        nodes *= (uint64_t)fine->nodes[a];
+        coarse->nodes[a] = fine->nodes[a] / 2 + 1;
+    }
+    coarse->cell = (lmp_vec3) { 2 * fine->cell.x, 2 * fine->cell.y, 2 * fine->cell.z };
+    return nodes >= FIELD_COARSE;
+}
+
+/* Levels of the largest grid. */
+enum { LEVELS = 8 };
+
+static int plan_levels(const lmp_host *host, const lmp_field_desc *desc, lmp_field *levels) {
+    lmp_field_desc coarse = *desc, fine;
+    int count = 0;
+    do {
+        fine = coarse;
+        levels[count] = plan_level(host, &fine, count == 0);
+        count++;
+        fine.reach = WIDER * desc->reach;
+    } while (count < LEVELS && is_coarser(&fine, &coarse));
+    return count;
+}
+
+/* Lays the levels out in memory, or only counts its bytes where that is NULL. The lights are one
+ * list, and one room for bricks is enough, for levels take turns. */
+static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
+    const size_t lights = (size_t)levels->info.desc.light_max;
+    const size_t brick = FIELD_BRICK * levels->info.node_bytes;
+    size_t used = (size_t)count * sizeof *levels;
+    lmp_field *const at = (lmp_field *)(void *)memory;
+    used += LINE - ((uintptr_t)memory + used) % LINE;
+    levels->scratch = take(memory, &used, 2 * levels->task_count * brick);
+    levels->lights = take(memory, &used, lights * sizeof *levels->lights);
+    levels->spheres = take(memory, &used, lights * sizeof *levels->spheres);
+    for (int i = 0; i < count; i++) {
+        levels[i].scratch = levels->scratch;
+        levels[i].lights = levels->lights;
+        levels[i].spheres = levels->spheres;
+        divide(&levels[i], i == 0, memory, &used);
+        levels[i].coarse = i + 1 < count && at ? at + i + 1 : NULL;
+    }
+    if (at)
+        memcpy(at, levels, (size_t)count * sizeof *levels);
+    return used;
+}
+
+lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field) {
+    lmp_field levels[LEVELS];
+    const int count = plan_levels(host, desc, levels);
+    levels->info.bytes = lay_out(levels, count, NULL) + LINE;
+    unsigned char *memory = lmp_allocate(&levels->host, levels->info.bytes);
     *field = (lmp_field *)(void *)memory;
     if (!memory)
         return LMP_ERROR_MEMORY;
-    divide(&plan, memory);
-    **field = plan;
-    memset(plan.nodes, 0, plan.brick_count * FIELD_BRICK * plan.info.node_bytes);
+    lay_out(levels, count, memory);
+    for (lmp_field *level = *field; level; level = level->coarse)
+        memset(level->nodes, 0, level->brick_count * FIELD_BRICK * level->info.node_bytes);
     lmp_field_unlist_all(*field);
     lmp_field_set_states(*field, FIELD_READY);
     return LMP_OK;

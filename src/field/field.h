@@ -4,7 +4,10 @@
  * Nodes lie in bricks of 4 x 2 x 2, as many as the widest kernel has lanes: a kernel computes a
  * brick, and the corners of a cell are close. Nodes that fill the last bricks lie outside the grid
  * and are computed with the others. Cells are listed with what is near them in blocks of 2 x 2 x 2.
- */
+ *
+ * A large field has a coarser one, of twice the cells and reach and the same lights, and its nodes
+ * are points of that: interpolated, and what lights near there add. A node so meets the lights near
+ * it alone, and those far away where there are an eighth of the nodes. */
 #ifndef LAMPION_FIELD_FIELD_H
 #define LAMPION_FIELD_FIELD_H
 
@@ -21,8 +24,9 @@ enum { FIELD_STALE, FIELD_WANTED, FIELD_READY };
 
 enum {
     FIELD_BRICK = 16,
-    FIELD_BLOCK = 2,    /* cells along the edge of a block */
-    FIELD_SCRATCH = 32, /* bricks that changes are computed in, at most */
+    FIELD_BLOCK = 2,     /* cells along the edge of a block */
+    FIELD_TASKS = 32,    /* that compute bricks, at most: each has room for two */
+    FIELD_COARSE = 2048, /* nodes from which on a coarser field pays */
     FIELD_NODES = 1 << 24
 };
 
@@ -45,13 +49,16 @@ typedef struct field_sphere {
 struct lmp_field {
     lmp_host host; /* resolved; first, for lmp_release_object */
     lmp_field_info info;
+    lmp_field *coarse;  /* or NULL */
     size_t values;      /* 3 bands² */
+    size_t stride;      /* floats from a node's values to its derivatives by x, by y, by z */
     uint32_t bricks[3]; /* along each axis */
     size_t brick_count;
     uint32_t blocks[3]; /* of cells */
     size_t block_count;
-    size_t scratch_count;
-    float *nodes; /* of each its values, then their derivatives by x, y, z */
+    size_t task_count;
+    float *nodes;   /* of each its values, then their derivatives by x, y, z */
+    float *changes; /* of a coarser field's nodes, by the lights that changed last */
     float *scratch;
     atomic_uchar *states; /* of each brick */
     lmp_light *lights;
@@ -71,11 +78,21 @@ bool lmp_field_resolve(lmp_field_desc *desc);
 /* A dark field. desc is resolved. */
 lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field);
 
-/* Lists a light as what the kernels read of it, in place of what was there. */
+/* Lists a light as what the kernels read of it, in place of what was there; as one more. */
 void lmp_field_set_light(lmp_field *field, uint32_t at, const lmp_light *light);
+void lmp_field_push_light(lmp_field *field, const lmp_light *light);
 
-/* Every brick is now in that state. */
+/* --- nodes (nodes.c) -------------------------------------------------------------------------- */
+
+/* Every brick is now in that state, of coarser fields, too. */
 void lmp_field_set_states(lmp_field *field, unsigned char state);
+
+/* Adds what the spheres give to the nodes that are computed; dark ones are taken away. */
+void lmp_field_add_spheres(const lmp_host *host, lmp_field *field, const field_sphere *spheres,
+                           size_t count);
+
+/* Computes a brick anew, if it has been computed, and one of each coarser field. */
+void lmp_field_refresh(lmp_field *field, uint64_t turn);
 
 /* --- near lights (near.c) --------------------------------------------------------------------- */
 
@@ -122,6 +139,16 @@ bool lmp_field_set_find(const lmp_field *field, lmp_vec3 point, field_set *set);
 /* Coefficients of as many points as a brick has nodes. */
 #define FIELD_ROWS (FIELD_BRICK * 3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX)
 
+/* Up to FIELD_BRICK of them, as the kernel takes them: of nodes laid out as the field's. */
+typedef struct field_cells {
+    uint32_t corners[8 * FIELD_BRICK];
+    float fraction[3][FIELD_BRICK] __attribute__((aligned(64)));
+} field_cells;
+void lmp_field_set_place(const lmp_field *field, const field_place *place, size_t at,
+                         field_cells *cells);
+lmp_kernel_cells lmp_field_cells(const lmp_field *field, const float *nodes,
+                                 const field_cells *cells);
+
 /* Interpolated coefficients of up to FIELD_BRICK points, of any cell where they lie outside the
  * grid; and rows of field->values with what near lights add. */
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
@@ -136,7 +163,7 @@ enum { FIELD_SORTED = 1024 };
 /* Sorts indices below FIELD_SORTED by the block of each, equal ones as they are. */
 void lmp_field_sort(const uint32_t *blocks, size_t count, uint16_t *order);
 
-/* --- nodes ------------------------------------------------------------------------------------ */
+/* --- layout ----------------------------------------------------------------------------------- */
 
 static inline uint32_t lmp_field_node(const lmp_field *field, uint32_t x, uint32_t y, uint32_t z) {
     const uint32_t brick = (z / 2 * field->bricks[1] + y / 2) * field->bricks[0] + x / 4;

@@ -118,7 +118,7 @@ static void take(lmp_field *field, uint32_t light, size_t list) {
 }
 
 /* As many entries are kept as all lights need that might be near everywhere. */
-void lmp_field_list(lmp_field *field, uint32_t light) {
+static void list_light(lmp_field *field, uint32_t light) {
     const size_t kept = (size_t)field->info.desc.light_max / FIELD_ENTRY + 1;
     near_ball ball;
     const bool bounded = find_ball(field, light, &ball);
@@ -130,7 +130,7 @@ void lmp_field_list(lmp_field *field, uint32_t light) {
         each_list(field, light, &ball, put);
 }
 
-void lmp_field_unlist(lmp_field *field, uint32_t light) {
+static void unlist_light(lmp_field *field, uint32_t light) {
     near_ball ball;
     find_ball(field, light, &ball);
     if (field->everywhere[light])
@@ -139,12 +139,27 @@ void lmp_field_unlist(lmp_field *field, uint32_t light) {
         each_list(field, light, &ball, take);
 }
 
-void lmp_field_unlist_all(lmp_field *field) {
+static void unlist_all(lmp_field *field) {
     for (size_t i = 0; i < field->entry_count; i++)
         field->entries[i].next = i + 1 < field->entry_count ? (uint32_t)(i + 1) : FIELD_NONE;
     memset(field->lists, 0xff, (field->block_count + 1) * sizeof *field->lists);
     field->free = 0;
     field->free_count = (uint32_t)field->entry_count;
+}
+
+void lmp_field_list(lmp_field *field, uint32_t light) {
+    for (lmp_field *level = field; level; level = level->coarse)
+        list_light(level, light);
+}
+
+void lmp_field_unlist(lmp_field *field, uint32_t light) {
+    for (lmp_field *level = field; level; level = level->coarse)
+        unlist_light(level, light);
+}
+
+void lmp_field_unlist_all(lmp_field *field) {
+    for (lmp_field *level = field; level; level = level->coarse)
+        unlist_all(level);
 }
 
 /* --- points ----------------------------------------------------------------------------------- */

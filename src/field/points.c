@@ -8,25 +8,37 @@
 
 /* --- interpolation ---------------------------------------------------------------------------- */
 
+void lmp_field_set_place(const lmp_field *field, const field_place *place, size_t at,
+                         field_cells *cells) {
+    const uint32_t *cell = place->cell;
+    for (uint32_t k = 0; k < 8; k++)
+        cells->corners[8 * at + k] =
+            lmp_field_node(field, cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4);
+    for (int a = 0; a < 3; a++)
+        cells->fraction[a][at] = place->fraction[a];
+}
+
+lmp_kernel_cells lmp_field_cells(const lmp_field *field, const float *nodes,
+                                 const field_cells *cells) {
+    return (lmp_kernel_cells) { nodes,
+                                field->stride,
+                                field->info.desc.cell,
+                                cells->corners,
+                                { cells->fraction[0], cells->fraction[1], cells->fraction[2] } };
+}
+
 /* Of points outside the grid any cell will do. */
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
                            const lmp_kernel_out *out) {
-    uint32_t corners[8 * FIELD_BRICK];
-    float fraction[3][FIELD_BRICK] __attribute__((aligned(64))) = { 0 };
+    field_cells found = { .fraction = { { 0 } } };
     for (size_t i = 0; i < count; i++) {
         field_place place;
         if (!lmp_field_find(field, points[i], &place))
             place = (field_place) { 0 };
-        for (uint32_t k = 0; k < 8; k++)
-            corners[8 * i + k] = lmp_field_node(field, place.cell[0] + k % 2,
-                                                place.cell[1] + k / 2 % 2, place.cell[2] + k / 4);
-        for (int a = 0; a < 3; a++)
-            fraction[a][i] = place.fraction[a];
+        lmp_field_set_place(field, &place, i, &found);
     }
-    const lmp_kernel_cells cells = {
-        field->nodes, field->info.desc.cell, corners, { fraction[0], fraction[1], fraction[2] }
-    };
-    lmp_kernels_get()->interpolate(field->values, &cells, count, out);
+    const lmp_kernel_cells cells = lmp_field_cells(field, field->nodes, &found);
+    lmp_kernels_get()->interpolate(field->values, &cells, count, out, NULL);
 }
 
 /* --- near lights ------------------------------------------------------------------------------ */

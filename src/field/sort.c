@@ -7,14 +7,16 @@
 
 /* A key is a block, then the surface's index in the low bits. Blocks a multiple of 2^22 apart have
  * the same key: they come mixed, which costs time alone. */
-enum { INDEX = 10, DIGIT = 11, DIGITS = 1 << DIGIT };
-static_assert(1 << INDEX == FIELD_SORTED && INDEX + 2 * DIGIT == 32, "a key has two digits");
+enum { INDEX = 10, DIGIT = 8, DIGITS = 1 << DIGIT };
+static_assert(1 << INDEX == FIELD_SORTED && INDEX + 2 * DIGIT < 32, "a key has three digits");
 
-/* By one digit, stably. */
-static void sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *to) {
+/* By one digit, stably; whether they differ in it: few blocks lie close together. */
+static bool sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *to) {
     uint16_t start[DIGITS] = { 0 }, next = 0;
     for (size_t i = 0; i < count; i++)
         start[from[i] >> shift & (DIGITS - 1)]++;
+    if (start[from[0] >> shift & (DIGITS - 1)] == count)
+        return false;
     for (size_t d = 0; d < DIGITS; d++) {
         const uint16_t some = start[d];
         start[d] = next;
@@ -22,14 +24,17 @@ static void sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *
     }
     for (size_t i = 0; i < count; i++)
         to[start[from[i] >> shift & (DIGITS - 1)]++] = from[i];
+    return true;
 }
 
 void lmp_field_sort(const uint32_t *blocks, size_t count, uint16_t *order) {
-    uint32_t keys[FIELD_SORTED] = { 0 }, sorted[FIELD_SORTED];
+    uint32_t keys[2][FIELD_SORTED] = { { 0 } };
+    int at = 0;
     for (size_t i = 0; i < count; i++)
-        keys[i] = blocks[order[i]] << INDEX | order[i];
-    sort_digit(keys, count, INDEX, sorted);
-    sort_digit(sorted, count, INDEX + DIGIT, keys);
+        keys[0][i] = blocks[order[i]] << INDEX | order[i];
+    for (int shift = INDEX; shift < 32 && count > 0; shift += DIGIT)
+        if (sort_digit(keys[at], count, shift, keys[1 - at]))
+            at = 1 - at;
     for (size_t i = 0; i < count; i++)
-        order[i] = (uint16_t)(keys[i] & (FIELD_SORTED - 1));
+        order[i] = (uint16_t)(keys[at][i] & (FIELD_SORTED - 1));
 }

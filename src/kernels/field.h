@@ -6,9 +6,11 @@
  *
  *     linear   1 - s, s        bend   -+ (s² (3 - 2s) - s)       slope   h s (1-s)², -h s² (1-s)
  *
- * and its weights are  l l l + b l l + l b l + l l b  of the value,  t l l  of d/dx and so on.
- * Points are lanes of the weights; then, point by point, lanes are coefficients, for 32 rows are
- * added up and no lane needs another. */
+ * and its weights are  l l l + b l l + l b l + l l b  of the value,  t l l  of d/dx and so on; the
+ * derivative of the sum has those with that axis' three differentiated.
+ * Points are lanes of the weights; then lanes are coefficients, for 32 rows are added up and no
+ * lane needs another. What is read of a cell serves four sums: of four points in it, or of a
+ * point's value and derivatives. */
 #ifndef LAMPION_KERNELS_FIELD_H
 #define LAMPION_KERNELS_FIELD_H
 
@@ -16,89 +18,191 @@
 
 #define FIELD_WEIGHTS 32
 
-/* Vectors of coefficients that are summed side by side. */
-#define FIELD_WIDTH 4
+/* Sums from the same rows; and vectors of each that are summed side by side. */
+#define FIELD_SUMS        4
+#define FIELD_WIDTH(sums) (LMP_LANES == 16 ? 5 : (sums) == 1 ? 4 : 2)
 
 typedef struct field_axis {
     vf linear[2], bend[2], slope[2];
 } field_axis;
 
-LMP_INLINE field_axis field_along(const float *fractions, float edge) {
-    const vf s = vf_load(fractions), rest = vf_set(1) - s;
+LMP_INLINE field_axis field_along(vf s, float edge) {
+    const vf rest = vf_set(1) - s;
     const vf bend = s * s * (3.0f - (s + s)) - s, both = edge * (s * rest);
     return (field_axis) { { rest, s }, { vf_set(0) - bend, bend }, { both * rest, -(both * s) } };
 }
 
+/* By the position, not by s. */
+LMP_INLINE field_axis field_derivative(vf s, float edge) {
+    const vf one = vf_set(1), rest = one - s;
+    const vf per_edge = vf_set(1 / edge), bend = (6.0f * (s * rest) - one) * per_edge;
+    return (field_axis) { { vf_set(0) - per_edge, per_edge },
+                          { vf_set(0) - bend, bend },
+                          { rest * (one - 3.0f * s), s * (3.0f * s - 2.0f) } };
+}
+
 /* Of corner k those of the value and of its slopes, at weights + 4 k LMP_LANES. */
-LMP_INLINE void field_weights(const lmp_kernel_cells *cells, size_t e, float *weights) {
-    const field_axis x = field_along(cells->fraction.x + e, cells->cell.x);
-    const field_axis y = field_along(cells->fraction.y + e, cells->cell.y);
-    const field_axis z = field_along(cells->fraction.z + e, cells->cell.z);
+LMP_INLINE void field_weights(const field_axis axis[3], float *weights) {
+    const field_axis *x = &axis[0], *y = &axis[1], *z = &axis[2];
     LMP_UNROLL for (int k = 0; k < 8; k++) {
         const int i = k & 1, j = k >> 1 & 1, n = k >> 2;
-        const vf yz = y.linear[j] * z.linear[n], xz = x.linear[i] * z.linear[n];
-        const vf xy = x.linear[i] * y.linear[j];
+        const vf yz = y->linear[j] * z->linear[n], xz = x->linear[i] * z->linear[n];
+        const vf xy = x->linear[i] * y->linear[j];
         float *to = weights + 4 * k * LMP_LANES;
-        vf_store(to, (x.linear[i] + x.bend[i]) * yz + y.bend[j] * xz + z.bend[n] * xy);
-        vf_store(to + LMP_LANES, x.slope[i] * yz);
-        vf_store(to + 2 * LMP_LANES, y.slope[j] * xz);
-        vf_store(to + 3 * LMP_LANES, z.slope[n] * xy);
+        vf_store(to, (x->linear[i] + x->bend[i]) * yz + y->bend[j] * xz + z->bend[n] * xy);
+        vf_store(to + LMP_LANES, x->slope[i] * yz);
+        vf_store(to + 2 * LMP_LANES, y->slope[j] * xz);
+        vf_store(to + 3 * LMP_LANES, z->slope[n] * xy);
     }
 }
 
-/* Coefficients at + 0 … of one point: `width` vectors, or with `last` > 0 so many of one. */
-LMP_INLINE void field_sum(int width, int last, size_t values, const float *const rows[8], size_t at,
-                          const float *weights, float *to) {
-    vf sum[FIELD_WIDTH];
-    LMP_UNROLL for (int j = 0; j < width; j++) sum[j] = vf_set(0);
+/* Of the value, then of its derivatives by x, y and z if they are wanted. */
+LMP_INLINE void field_all_weights(const lmp_kernel_cells *cells, size_t e, int derivatives,
+                                  float (*weights)[FIELD_WEIGHTS * LMP_LANES]) {
+    const float *const fractions[3] = { cells->fraction.x + e, cells->fraction.y + e,
+                                        cells->fraction.z + e };
+    const float edges[3] = { cells->cell.x, cells->cell.y, cells->cell.z };
+    field_axis axis[3];
+    for (int a = 0; a < 3; a++)
+        axis[a] = field_along(vf_load(fractions[a]), edges[a]);
+    field_weights(axis, weights[0]);
+    for (int a = 0; a < 3 && derivatives; a++) {
+        const field_axis kept = axis[a];
+        axis[a] = field_derivative(vf_load(fractions[a]), edges[a]);
+        field_weights(axis, weights[1 + a]);
+        axis[a] = kept;
+    }
+}
+
+/* `width` vectors of each sum. */
+LMP_INLINE void field_add(int sums, int width, size_t stride, const float *const rows[8],
+                          const float *const *weights, float *const *to, size_t at) {
+    vf sum[FIELD_SUMS][5];
+    LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++) sum[i][j] =
+        vf_set(0);
     LMP_ROLLED for (int k = 0; k < 8; k++) LMP_UNROLL for (int q = 0; q < 4; q++) {
-        const float weight = weights[(4 * k + q) * LMP_LANES];
-        const float *row = rows[k] + (size_t)q * values + at;
-        LMP_UNROLL for (int j = 0; j < width; j++) sum[j] =
-            sum[j] + weight * (last > 0 ? vf_load_first(row, last) : vf_load(row + j * LMP_LANES));
+        const float *row = rows[k] + (size_t)q * stride + at;
+        vf value[5];
+        LMP_UNROLL for (int j = 0; j < width; j++) value[j] = vf_load(row + j * LMP_LANES);
+        LMP_UNROLL for (int i = 0; i < sums; i++) {
+            const float weight = weights[i][(4 * k + q) * LMP_LANES];
+            LMP_UNROLL for (int j = 0; j < width; j++) sum[i][j] = sum[i][j] + weight * value[j];
+        }
     }
-    if (last > 0)
-        vf_store_first(to + at, sum[0], last);
-    else
-        LMP_UNROLL for (int j = 0; j < width; j++) vf_store(to + at + j * LMP_LANES, sum[j]);
+    LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++)
+        vf_store(to[i] + at + j * LMP_LANES, sum[i][j]);
 }
 
-/* Coefficients at … at + count - 1 of one point, whole vectors but for the last. */
-LMP_INLINE void field_run(size_t values, const float *const rows[8], size_t at, size_t count,
-                          const float *weights, float *to) {
-    const size_t end = at + count;
-    for (; at + FIELD_WIDTH * LMP_LANES <= end; at += FIELD_WIDTH * LMP_LANES)
-        field_sum(FIELD_WIDTH, 0, values, rows, at, weights, to);
-    for (; at + LMP_LANES <= end; at += LMP_LANES)
-        field_sum(1, 0, values, rows, at, weights, to);
-    if (at < end)
-        field_sum(1, (int)(end - at), values, rows, at, weights, to);
+/* `count` coefficients of each sum, and what fills their last vector. */
+LMP_INLINE void field_run(int sums, size_t stride, size_t count, const float *const rows[8],
+                          const float *const *weights, float *const *to) {
+    const size_t step = (size_t)FIELD_WIDTH(sums) * LMP_LANES;
+    size_t at = 0;
+    for (; at + step <= count + LMP_LANES - 1; at += step)
+        field_add(sums, FIELD_WIDTH(sums), stride, rows, weights, to, at);
+    for (; at < count; at += LMP_LANES)
+        field_add(sums, 1, stride, rows, weights, to, at);
+}
+
+static LMP_NOINLINE void field_one(size_t stride, size_t count, const float *const rows[8],
+                                   const float *const *weights, float *const *to) {
+    field_run(1, stride, count, rows, weights, to);
+}
+
+static LMP_NOINLINE void field_four(size_t stride, size_t count, const float *const rows[8],
+                                    const float *const *weights, float *const *to) {
+    field_run(FIELD_SUMS, stride, count, rows, weights, to);
 }
 
 /* Coefficients of each point that are transposed and go out together. */
-#define FIELD_TOGETHER 64
+#define FIELD_TOGETHER 80
+
+typedef float field_rows[FIELD_TOGETHER * LMP_LANES];
+
+/* Coefficients at … at + count - 1 of points e … e + live - 1. */
+LMP_INLINE void field_values(const lmp_kernel_cells *cells, size_t e, size_t live, size_t at,
+                             size_t count, const float *weights, float *rows) {
+    for (size_t lane = 0, some; lane < live; lane += some) {
+        const uint32_t *corners = cells->corners + 8 * (e + lane);
+        const float *from[8], *by[FIELD_SUMS];
+        float *to[FIELD_SUMS];
+        for (some = 1; some < FIELD_SUMS && lane + some < live &&
+                       memcmp(corners, corners + 8 * some, 8 * sizeof *corners) == 0;)
+            some++;
+        if (some < FIELD_SUMS)
+            some = 1;
+        for (int k = 0; k < 8; k++)
+            from[k] = cells->nodes + 4 * cells->stride * corners[k] + at;
+        for (size_t i = 0; i < some; i++) {
+            by[i] = weights + lane + i;
+            to[i] = rows + (lane + i) * FIELD_TOGETHER;
+        }
+        (some == 1 ? field_one : field_four)(cells->stride, count, from, by, to);
+    }
+}
+
+/* The same, of each point the value and the derivatives. */
+LMP_INLINE void field_gradients(const lmp_kernel_cells *cells, size_t e, size_t live, size_t at,
+                                size_t count, float (*weights)[FIELD_WEIGHTS * LMP_LANES],
+                                field_rows *rows) {
+    for (size_t lane = 0; lane < live; lane++) {
+        const uint32_t *corners = cells->corners + 8 * (e + lane);
+        const float *from[8], *by[FIELD_SUMS];
+        float *to[FIELD_SUMS];
+        for (int k = 0; k < 8; k++)
+            from[k] = cells->nodes + 4 * cells->stride * corners[k] + at;
+        for (int i = 0; i < FIELD_SUMS; i++) {
+            by[i] = weights[i] + lane;
+            to[i] = rows[i] + lane * FIELD_TOGETHER;
+        }
+        field_four(cells->stride, count, from, by, to);
+    }
+}
+
+LMP_INLINE void field_put(const float *rows, size_t at, size_t count, const lmp_kernel_out *out,
+                          size_t e, size_t live) {
+    float LMP_ALIGNED block[FIELD_TOGETHER * LMP_LANES];
+    const lmp_kernel_in in = { rows, FIELD_TOGETHER, 0 };
+    layout_get(block, 0, count, &in, 0, live);
+    layout_put(block, at, count, out, e, live);
+}
+
+/* Functions of their own, for the second takes more stack than there is under surfaces. */
+static LMP_NOINLINE void field_interpolate(size_t values, const lmp_kernel_cells *cells, size_t e,
+                                           size_t live, const lmp_kernel_out *out) {
+    float LMP_ALIGNED weights[1][FIELD_WEIGHTS * LMP_LANES];
+    field_rows LMP_ALIGNED rows;
+    field_all_weights(cells, e, 0, weights);
+    for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
+        const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
+        field_values(cells, e, live, at, some, weights[0], rows);
+        field_put(rows, at, some, out, e, live);
+    }
+}
+
+static LMP_NOINLINE void field_interpolate_gradient(size_t values, const lmp_kernel_cells *cells,
+                                                    size_t e, size_t live,
+                                                    const lmp_kernel_out *out,
+                                                    const lmp_kernel_out *gradient) {
+    float LMP_ALIGNED weights[FIELD_SUMS][FIELD_WEIGHTS * LMP_LANES];
+    field_rows LMP_ALIGNED rows[FIELD_SUMS];
+    field_all_weights(cells, e, 1, weights);
+    for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
+        const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
+        field_gradients(cells, e, live, at, some, weights, rows);
+        field_put(rows[0], at, some, out, e, live);
+        for (size_t a = 0; a < 3; a++)
+            field_put(rows[1 + a], a * values + at, some, gradient, e, live);
+    }
+}
 
 static void kernel_interpolate(size_t values, const lmp_kernel_cells *cells, size_t count,
-                               const lmp_kernel_out *out) {
-    for (size_t e = 0; e < count; e += LMP_LANES) {
-        float LMP_ALIGNED weights[FIELD_WEIGHTS * LMP_LANES];
-        float LMP_ALIGNED rows[FIELD_TOGETHER * LMP_LANES], block[FIELD_TOGETHER * LMP_LANES];
-        const lmp_kernel_in in = { rows, FIELD_TOGETHER, 0 };
-        const size_t live = layout_live(count, e);
-        field_weights(cells, e, weights);
-        for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
-            const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
-            for (size_t lane = 0; lane < live; lane++) {
-                const uint32_t *corners = cells->corners + 8 * (e + lane);
-                const float *from[8];
-                for (int k = 0; k < 8; k++)
-                    from[k] = cells->nodes + 4 * values * corners[k] + at;
-                field_run(values, from, 0, some, weights + lane, rows + lane * FIELD_TOGETHER);
-            }
-            layout_get(block, 0, some, &in, 0, live);
-            layout_put(block, at, some, out, e, live);
-        }
-    }
+                               const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
+    for (size_t e = 0; e < count; e += LMP_LANES)
+        if (gradient)
+            field_interpolate_gradient(values, cells, e, layout_live(count, e), out, gradient);
+        else
+            field_interpolate(values, cells, e, layout_live(count, e), out);
 }
 
 /* Adds what a lobe receives, diffuse by factors[l] or Phong's by factor[l]. */

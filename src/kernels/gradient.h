@@ -162,9 +162,9 @@ LMP_INLINE vf *gradient_column_add(accumulate_tile tile, int m, int at_once,
     return sums;
 }
 
-/* Lights as they fade: grad (f L) = f grad L - f' L w. */
+/* Lights as they fade in, and out again farther away: grad (f L) = f grad L - f' L w. */
 LMP_INLINE void gradient_fade(accumulate_tile tile, int at_once, const lmp_kernel_lights *lights,
-                              size_t first, const vf point[3], float per_reach,
+                              size_t first, const vf point[3], lmp_kernel_fade fade,
                               gradient_band *bands) {
     LMP_UNROLL for (int k = 0; k < at_once; k++) {
         const size_t i = first + (size_t)k;
@@ -172,26 +172,28 @@ LMP_INLINE void gradient_fade(accumulate_tile tile, int at_once, const lmp_kerne
         const vf x = lights_at(center->x, center->stride, i) - point[0];
         const vf y = lights_at(center->y, center->stride, i) - point[1];
         const vf z = lights_at(center->z, center->stride, i) - point[2];
-        const fade_lanes fade =
-            fade_at(vf_sqrt(x * x + y * y + z * z),
-                    lights_at(lights->radius.at, lights->radius.stride, i), per_reach);
+        const vf d = vf_sqrt(x * x + y * y + z * z);
+        const float radius = lights_at(lights->radius.at, lights->radius.stride, i);
+        const fade_lanes in = fade_at(d, radius, fade.per_reach);
+        const fade_lanes out = fade_at(d, radius, fade.per_outer);
+        const vf value = in.value - out.value, slope = in.slope - out.slope;
         LMP_ROLLED for (int l = tile.low; l < tile.high; l++) {
             gradient_band *band = &bands[at_once * (l - tile.low) + k];
-            band->along = fade.value * band->along - fade.slope * band->value;
-            band->across = fade.value * band->across;
-            band->value = fade.value * band->value;
+            band->along = value * band->along - slope * band->value;
+            band->across = value * band->across;
+            band->value = value * band->value;
         }
     }
 }
 
-/* Adds `at_once` lights to the sums of a tile; they fade if per_reach is above 0. */
+/* Adds `at_once` lights to the sums of a tile; they fade if fade.per_reach is above 0. */
 LMP_INLINE void gradient_lights(accumulate_tile tile, int at_once, const lmp_kernel_lights *lights,
-                                size_t first, const vf point[3], float cos_min, float per_reach,
-                                gradient_band *bands, vf *sums) {
+                                size_t first, const vf point[3], float cos_min,
+                                lmp_kernel_fade fade, gradient_band *bands, vf *sums) {
     gradient_light light[ACCUMULATE_LIGHTS];
     gradient_prepare(tile, at_once, lights, first, point, cos_min, light, bands);
-    if (per_reach > 0)
-        gradient_fade(tile, at_once, lights, first, point, per_reach, bands);
+    if (fade.per_reach > 0)
+        gradient_fade(tile, at_once, lights, first, point, fade, bands);
     gradient_column(tile, tile.first, at_once, light, bands);
     for (int m = tile.first; m < tile.end; m++) {
         LMP_UNROLL for (int k = 0; k < at_once; k++) if (m > tile.first)
@@ -204,7 +206,7 @@ LMP_INLINE void gradient_lights(accumulate_tile tile, int at_once, const lmp_ker
 
 static void kernel_fading_gradient(const lmp_scratch *scratch, int bands,
                                    const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                                   float cos_min, float per_reach, size_t count,
+                                   float cos_min, lmp_kernel_fade fade, size_t count,
                                    const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
     const accumulate_sets values = { 12, 0, 3 }, slopes = { 12, 3, 9 };
     vf stack[ACCUMULATE_STACK];
@@ -223,10 +225,10 @@ static void kernel_fading_gradient(const lmp_scratch *scratch, int bands,
             size_t i = 0;
             memset(sums, 0, accumulate_pairs(tile) * GRADIENT_WIDTH * sizeof *sums);
             for (; i + ACCUMULATE_LIGHTS <= lights->count; i += ACCUMULATE_LIGHTS)
-                gradient_lights(tile, ACCUMULATE_LIGHTS, lights, i, point, cos_min, per_reach, band,
+                gradient_lights(tile, ACCUMULATE_LIGHTS, lights, i, point, cos_min, fade, band,
                                 sums);
             for (; i < lights->count; i++)
-                gradient_lights(tile, 1, lights, i, point, cos_min, per_reach, band, sums);
+                gradient_lights(tile, 1, lights, i, point, cos_min, fade, band, sums);
             accumulate_put(bands, tile, 0, values, sums, memory.at, out, e, live);
             accumulate_put(bands, tile, 0, slopes, sums, memory.at, gradient, e, live);
         }
@@ -236,7 +238,8 @@ static void kernel_fading_gradient(const lmp_scratch *scratch, int bands,
 static void kernel_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                             const lmp_kernel_vec3 *points, float cos_min, size_t count,
                             const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    kernel_fading_gradient(scratch, bands, lights, points, cos_min, 0, count, out, gradient);
+    const lmp_kernel_fade none = { 0, 0 };
+    kernel_fading_gradient(scratch, bands, lights, points, cos_min, none, count, out, gradient);
 }
 
 #endif

@@ -113,10 +113,18 @@ typedef struct lmp_kernel_light {
     float per_reach;
 } lmp_kernel_light;
 
-/* Points in the cells of a grid: of each node `values` numbers, then their derivatives by x, by y
- * and by z, tight. */
+/* Lights fade toward their surfaces over a distance of 1/per_reach (src/kernels/fade.h); and, with
+ * per_outer above 0, lack what is left of them when they fade over 1/per_outer. */
+typedef struct lmp_kernel_fade {
+    float per_reach, per_outer;
+} lmp_kernel_fade;
+
+/* Points in the cells of a grid: of each node a row of values, then of their derivatives by x, by y
+ * and by z. Each row is `stride` floats, a multiple of LMP_KERNEL_LANES_MAX: all of them are read,
+ * so that a vector of 64 bytes lies in one cache line. */
 typedef struct lmp_kernel_cells {
     const float *nodes;
+    size_t stride;
     lmp_vec3 cell;            /* its edges */
     const uint32_t *corners;  /* of each point 8 nodes; x changes first, then y, then z */
     lmp_kernel_vec3 fraction; /* of each point, 0 … 1 along the edges */
@@ -195,15 +203,15 @@ typedef struct lmp_kernels {
     void (*gradient)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                      const lmp_kernel_vec3 *points, float cos_min, size_t count,
                      const lmp_kernel_out *out, const lmp_kernel_out *gradient);
-    /* The same of lights that fade toward their surfaces, over a distance of 1/per_reach
-     * (src/kernels/fade.h). */
+    /* The same of lights that fade. */
     void (*fading_gradient)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
-                            const lmp_kernel_vec3 *points, float cos_min, float per_reach,
+                            const lmp_kernel_vec3 *points, float cos_min, lmp_kernel_fade fade,
                             size_t count, const lmp_kernel_out *out,
                             const lmp_kernel_out *gradient);
-    /* `values` values: Adini's interpolation. */
+    /* `values` values: Adini's interpolation; and 3 times as many where `gradient` is not NULL, its
+     * derivatives by x, then y, then z. */
     void (*interpolate)(size_t values, const lmp_kernel_cells *cells, size_t count,
-                        const lmp_kernel_out *out);
+                        const lmp_kernel_out *out, const lmp_kernel_out *gradient);
     /* 3 values: the response of a lobe around each point's axis to the lights. */
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,

@@ -194,15 +194,14 @@ static void wrong_lobe(int bands, const float *lambda, const lmp_kernel_vec3 *ax
 }
 static void wrong_fading_gradient(const lmp_scratch *scratch, int bands,
                                   const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
-                                  float cos_min, float per_reach, size_t count,
+                                  float cos_min, lmp_kernel_fade fade, size_t count,
                                   const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    honest.fading_gradient(scratch, bands, lights, points, cos_min, per_reach, count, out,
-                           gradient);
+    honest.fading_gradient(scratch, bands, lights, points, cos_min, fade, count, out, gradient);
     spoil(out);
 }
 static void wrong_interpolate(size_t values, const lmp_kernel_cells *cells, size_t count,
-                              const lmp_kernel_out *out) {
-    honest.interpolate(values, cells, count, out);
+                              const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
+    honest.interpolate(values, cells, count, out, gradient);
     spoil(out);
 }
 static void wrong_shade_field(int bands, const float *window, const float *diffuse,

@@ -88,10 +88,10 @@ static size_t values_of(kind which, int bands) {
         return (size_t)bands;
     case ACCUMULATE:
     case IMAGE:
-    case INTERPOLATE:
         return 3 * n;
     case GRADIENT:
     case FADING_GRADIENT:
+    case INTERPOLATE:
         return 12 * n;
     case EVAL_GRADIENT:
         return 4 * n;
@@ -210,23 +210,27 @@ static void run_image(const lmp_kernels *k, int bands, const inputs *in, size_t 
     }
 }
 
-/* Nodes whose coefficients are those of vectors; every point has its corners anywhere. */
+/* Nodes whose coefficients are those of vectors; groups of five points have their corners anywhere,
+ * so that four share what is read and one does not. */
 static void run_interpolate(const lmp_kernels *k, int bands, const inputs *in, size_t count,
                             const lmp_kernel_out *out) {
     enum { NODES = 9 };
     const size_t values = 3 * LMP_SH_COUNT(bands);
-    float *nodes = make_vectors(4 * values, NODES, 0, 4 * values, 0);
+    const size_t stride = (values + 15) / 16 * 16;
+    float *nodes = make_vectors(4 * stride, NODES, 0, 4 * stride, 0);
+    lmp_kernel_out gradient = *out;
+    gradient.at += values * (out->planar ? out->stride : 1);
     _Alignas(64) float fraction[3][COUNT + 16];
     uint32_t corners[8 * COUNT];
     for (size_t i = 0; i < 8 * COUNT; i++)
-        corners[i] = (uint32_t)((i * 5 + i / 8) % NODES);
+        corners[i] = (uint32_t)((i % 8 * 5 + i / 40) % NODES);
     for (int a = 0; a < 3; a++)
         for (size_t i = 0; i < COUNT + 16; i++)
             fraction[a][i] = fminf(fabsf(in->axis[a][i]), 1);
     const lmp_kernel_cells cells = {
-        nodes, { 0.5f, 0.25f, 2 }, corners, { fraction[0], fraction[1], fraction[2] }
+        nodes, stride, { 0.5f, 0.25f, 2 }, corners, { fraction[0], fraction[1], fraction[2] }
     };
-    k->interpolate(values, &cells, count, out);
+    k->interpolate(values, &cells, count, out, &gradient);
     free(nodes);
 }
 
@@ -321,7 +325,8 @@ static void run_sums(const lmp_kernels *k, kind which, int bands, const inputs *
     else if (which == GRADIENT)
         k->gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
     else
-        k->fading_gradient(NULL, bands, &lights, &point, LMP_COS_MIN, 0.5f, count, out, &gradient);
+        k->fading_gradient(NULL, bands, &lights, &point, LMP_COS_MIN,
+                           (lmp_kernel_fade) { 0.5f, 0.2f }, count, out, &gradient);
 }
 
 static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,

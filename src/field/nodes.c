@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: MIT */
+/* nodes.c - what a field's nodes hold, computed by bricks: from all lights, or from what a coarser
+ * field has there and the lights near them. */
+#include "src/field/field.h"
+#include "src/light/cap.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Lights that the kernel takes at once, where they are not all. */
+enum { PASS = 64 };
+
+static size_t brick_floats(const lmp_field *field) {
+    return FIELD_BRICK * 4 * field->stride;
+}
+
+/* --- states ----------------------------------------------------------------------------------- */
+
+void lmp_field_set_states(lmp_field *field, unsigned char state) {
+    for (lmp_field *level = field; level; level = level->coarse)
+        for (size_t i = 0; i < level->brick_count; i++)
+            atomic_store_explicit(&level->states[i], state, memory_order_relaxed);
+}
+
+static unsigned char state_of(const lmp_field *field, size_t brick) {
+    return atomic_load_explicit(&field->states[brick], memory_order_relaxed);
+}
+
+static void want(lmp_field *field, size_t brick) {
+    if (state_of(field, brick) == FIELD_STALE)
+        atomic_store_explicit(&field->states[brick], FIELD_WANTED, memory_order_relaxed);
+}
+
+/* Of a cell's eight corners. */
+static void want_corners(lmp_field *field, const uint32_t cell[3]) {
+    for (uint32_t k = 0; k < 8; k++)
+        want(field, lmp_field_node(field, cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4) /
+                        FIELD_BRICK);
+}
+
+void lmp_field_want(lmp_field *field, lmp_vec3_array points, size_t count) {
+    uint32_t last[3] = { UINT32_MAX, 0, 0 };
+    assert(lmp_are_finite(points, count));
+    for (size_t i = 0; i < count; i++) {
+        field_place place;
+        if (!lmp_field_find(field, lmp_vec3_element(&points, i), &place) ||
+            memcmp(place.cell, last, sizeof last) == 0)
+            continue;
+        want_corners(field, place.cell);
+        memcpy(last, place.cell, sizeof last);
+    }
+}
+
+/* --- bricks ----------------------------------------------------------------------------------- */
+
+/* The first node's numbers along the axes. */
+static void find_brick(const lmp_field *field, size_t brick, uint32_t first[3]) {
+    first[0] = 4 * (uint32_t)(brick % field->bricks[0]);
+    first[1] = 2 * (uint32_t)(brick / field->bricks[0] % field->bricks[1]);
+    first[2] = 2 * (uint32_t)(brick / field->bricks[0] / field->bricks[1]);
+}
+
+/* Node i of a brick. */
+static void find_node(const uint32_t first[3], uint32_t i, uint32_t node[3]) {
+    node[0] = first[0] + i % 4;
+    node[1] = first[1] + i / 4 % 2;
+    node[2] = first[2] + i / 8;
+}
+
+typedef struct brick_points {
+    float at[3][FIELD_BRICK] __attribute__((aligned(64)));
+} brick_points;
+
+static void set_points(const lmp_field *field, const uint32_t first[3], brick_points *points) {
+    const lmp_field_desc *desc = &field->info.desc;
+    for (uint32_t i = 0; i < FIELD_BRICK; i++) {
+        uint32_t node[3];
+        find_node(first, i, node);
+        points->at[0][i] = desc->origin.x + desc->cell.x * (float)node[0];
+        points->at[1][i] = desc->origin.y + desc->cell.y * (float)node[1];
+        points->at[2][i] = desc->origin.z + desc->cell.z * (float)node[2];
+    }
+}
+
+/* Where a node lies in the coarser field: on a node of it or half way to the next. What only fills
+ * a brick may lie outside. */
+static field_place place_in_coarse(const lmp_field *coarse, const uint32_t node[3]) {
+    field_place place;
+    for (int a = 0; a < 3; a++) {
+        const uint32_t last = (uint32_t)coarse->info.desc.nodes[a] - 2, cell = node[a] / 2;
+        place.cell[a] = cell < last ? cell : last;
+        place.fraction[a] = 0.5f * (float)(node[a] - 2 * place.cell[a]);
+    }
+    return place;
+}
+
+/* Of the nodes that a brick's are interpolated from: they lie in two cells. */
+static void want_coarse(const lmp_field *field, size_t brick) {
+    uint32_t node[3];
+    find_brick(field, brick, node);
+    for (int i = 0; i < 2; i++, node[0] += 2) {
+        const field_place place = place_in_coarse(field->coarse, node);
+        want_corners(field->coarse, place.cell);
+    }
+}
+
+/* --- lights ----------------------------------------------------------------------------------- */
+
+/* The kernels' lights, and how the field has them: without what the coarser one has. */
+static void add_lights(const lmp_field *field, const brick_points *points,
+                       const field_sphere *spheres, size_t count, float *scratch, float *nodes) {
+    const size_t values = field->values;
+    const lmp_vec3 *center = &spheres->center;
+    const lmp_rgb *radiance = &spheres->radiance;
+    const lmp_kernel_lights lights = {
+        .center = { &center->x, &center->y, &center->z, sizeof *spheres },
+        .radius = { &spheres->radius, sizeof *spheres },
+        .radiance = { &radiance->r, &radiance->g, &radiance->b, sizeof *spheres },
+        .count = count,
+    };
+    const lmp_kernel_vec3 at = { points->at[0], points->at[1], points->at[2] };
+    const lmp_kernel_fade fade = { 1 / field->info.reach,
+                                   field->coarse ? 1 / field->coarse->info.reach : 0 };
+    const lmp_kernel_out out = { scratch, 4 * values, 0 };
+    const lmp_kernel_out slopes = { scratch + values, 4 * values, 0 };
+    if (count == 0)
+        return;
+    lmp_kernels_get()->fading_gradient(NULL, field->info.desc.bands, &lights, &at, LMP_COS_MIN,
+                                       fade, FIELD_BRICK, &out, &slopes);
+    for (size_t row = 0; row < 4 * FIELD_BRICK; row++)
+        for (size_t v = 0; v < values; v++)
+            nodes[row * field->stride + v] += scratch[row * values + v];
+}
+
+/* A ball around a brick. */
+typedef struct brick_ball {
+    lmp_vec3 center;
+    float radius;
+} brick_ball;
+
+static brick_ball ball_of(const lmp_field *field, const brick_points *points) {
+    const lmp_vec3 cell = field->info.desc.cell;
+    const float x = 1.5f * cell.x, y = 0.5f * cell.y, z = 0.5f * cell.z;
+    return (brick_ball) { { points->at[0][0] + x, points->at[1][0] + y, points->at[2][0] + z },
+                          sqrtf(x * x + y * y + z * z) };
+}
+
+/* Whether the coarser field may lack something of the sphere at a node of the brick. */
+static bool is_near(const lmp_field *field, const brick_ball *ball, const field_sphere *sphere) {
+    const float x = sphere->center.x - ball->center.x, y = sphere->center.y - ball->center.y;
+    const float z = sphere->center.z - ball->center.z;
+    const float reach = (sphere->radius + field->coarse->info.reach + ball->radius) * 1.0001f;
+    return x * x + y * y + z * z < reach * reach;
+}
+
+/* Those near a brick, a pass at a time. */
+typedef struct brick_lights {
+    const lmp_field *field;
+    const brick_points *points;
+    brick_ball ball;
+    field_sphere near[PASS];
+    size_t count;
+    float *scratch, *nodes;
+} brick_lights;
+
+static void flush(brick_lights *lights) {
+    add_lights(lights->field, lights->points, lights->near, lights->count, lights->scratch,
+               lights->nodes);
+    lights->count = 0;
+}
+
+static void take(brick_lights *lights, const field_sphere *sphere) {
+    if (!is_near(lights->field, &lights->ball, sphere))
+        return;
+    lights->near[lights->count++] = *sphere;
+    if (lights->count == PASS)
+        flush(lights);
+}
+
+static void take_list(brick_lights *lights, uint32_t list) {
+    const lmp_field *field = lights->field;
+    const lmp_field *coarse = field->coarse;
+    for (uint32_t at = coarse->lists[list]; at != FIELD_NONE; at = coarse->entries[at].next) {
+        const field_entry *entry = &coarse->entries[at];
+        for (uint32_t i = 0; i < entry->count; i++)
+            take(lights, &field->spheres[entry->lights[i]]);
+    }
+}
+
+/* Interpolates a brick's nodes from the coarser field's, or from what those change by. */
+static void interpolate(const lmp_field *field, const uint32_t first[3], const float *from,
+                        float *nodes) {
+    field_cells found;
+    for (uint32_t i = 0; i < FIELD_BRICK; i++) {
+        uint32_t node[3];
+        find_node(first, i, node);
+        const field_place place = place_in_coarse(field->coarse, node);
+        lmp_field_set_place(field->coarse, &place, i, &found);
+    }
+    const lmp_kernel_cells cells = lmp_field_cells(field->coarse, from, &found);
+    const lmp_kernel_out out = { nodes, 4 * field->stride, 0 };
+    const lmp_kernel_out slopes = { nodes + field->stride, 4 * field->stride, 0 };
+    lmp_kernels_get()->interpolate(field->stride, &cells, FIELD_BRICK, &out, &slopes);
+}
+
+/* What all lights give a brick's nodes. */
+static void compute(const lmp_field *field, size_t brick, float *scratch) {
+    float *nodes = field->nodes + brick * brick_floats(field);
+    uint32_t first[3];
+    brick_points points;
+    find_brick(field, brick, first);
+    set_points(field, first, &points);
+    if (!field->coarse) {
+        memset(nodes, 0, brick_floats(field) * sizeof *nodes);
+        add_lights(field, &points, field->spheres, field->info.light_count, scratch, nodes);
+        return;
+    }
+    brick_lights lights = { .field = field,
+                            .points = &points,
+                            .ball = ball_of(field, &points),
+                            .scratch = scratch,
+                            .nodes = nodes };
+    const field_place place = place_in_coarse(field->coarse, first);
+    interpolate(field, first, field->coarse->nodes, nodes);
+    take_list(&lights, lmp_field_block(field->coarse, place.cell));
+    take_list(&lights, (uint32_t)field->coarse->block_count);
+    flush(&lights);
+}
+
+/* Every task_count-th brick, each by way of the task's own scratch. */
+static lmp_result compute_task(size_t index, void *data) {
+    lmp_field *field = data;
+    float *scratch = field->scratch + 2 * index * brick_floats(field);
+    for (size_t brick = index; brick < field->brick_count; brick += field->task_count)
+        if (state_of(field, brick) == FIELD_WANTED) {
+            compute(field, brick, scratch);
+            atomic_store_explicit(&field->states[brick], FIELD_READY, memory_order_relaxed);
+        }
+    return LMP_OK;
+}
+
+lmp_result lmp_field_compute(const lmp_host *host, lmp_field *field) {
+    const lmp_host resolved = lmp_host_resolve(host);
+    if (field->coarse) {
+        for (size_t brick = 0; brick < field->brick_count; brick++)
+            if (state_of(field, brick) == FIELD_WANTED)
+                want_coarse(field, brick);
+        const lmp_result result = lmp_field_compute(host, field->coarse);
+        if (result != LMP_OK)
+            return result;
+    }
+    return lmp_host_run(&resolved, 0, 1, field->task_count, compute_task, field);
+}
+
+void lmp_field_refresh(lmp_field *field, uint64_t turn) {
+    const size_t brick = (size_t)(turn % field->brick_count);
+    if (field->coarse)
+        lmp_field_refresh(field->coarse, turn);
+    if (state_of(field, brick) == FIELD_READY)
+        compute(field, brick, field->scratch);
+}
+
+/* --- changes ---------------------------------------------------------------------------------- */
+
+typedef struct field_change {
+    lmp_field *field;
+    const field_sphere *spheres;
+    size_t count;
+} field_change;
+
+/* What a brick's nodes change by. */
+static void compute_change(const field_change *change, size_t brick, float *scratch,
+                           float *changes) {
+    const lmp_field *field = change->field;
+    uint32_t first[3];
+    brick_points points;
+    find_brick(field, brick, first);
+    set_points(field, first, &points);
+    if (!field->coarse) {
+        memset(changes, 0, brick_floats(field) * sizeof *changes);
+        add_lights(field, &points, change->spheres, change->count, scratch, changes);
+        return;
+    }
+    brick_lights lights = { .field = field,
+                            .points = &points,
+                            .ball = ball_of(field, &points),
+                            .scratch = scratch,
+                            .nodes = changes };
+    interpolate(field, first, field->coarse->changes, changes);
+    for (size_t i = 0; i < change->count; i++)
+        take(&lights, &change->spheres[i]);
+    flush(&lights);
+}
+
+static void change_task(size_t index, void *data) {
+    const field_change *change = data;
+    const lmp_field *field = change->field;
+    const size_t size = brick_floats(field);
+    float *scratch = field->scratch + 2 * index * size;
+    for (size_t brick = index; brick < field->brick_count; brick += field->task_count) {
+        float *nodes = field->nodes + brick * size;
+        float *changes = field->changes ? field->changes + brick * size : scratch + size;
+        if (state_of(field, brick) != FIELD_READY)
+            continue;
+        compute_change(change, brick, scratch, changes);
+        for (size_t i = 0; i < size; i++)
+            nodes[i] += changes[i];
+    }
+}
+
+void lmp_field_add_spheres(const lmp_host *host, lmp_field *field, const field_sphere *spheres,
+                           size_t count) {
+    const lmp_host resolved = lmp_host_resolve(host);
+    field_change change = { field, spheres, count };
+    if (field->coarse)
+        lmp_field_add_spheres(host, field->coarse, spheres, count);
+    resolved.parallel(field->task_count, change_task, &change, resolved.user);
+}
