@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Lights that the kernel takes at once, where they are not all. */
-enum { PASS = 64 };
+enum { PASS = 32 };
 
 static size_t brick_floats(const lmp_field *field) {
     return FIELD_BRICK * 4 * field->stride;
