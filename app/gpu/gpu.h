@@ -192,8 +192,8 @@ typedef struct gpu_pixel {
  * *pixels receives width * height entries, rows from the top; free() it. */
 bool gpu_read_pixels(gpu_renderer *renderer, gpu_pixel **pixels, cli_error *error);
 
-/* The same for a host shader, as arrays of a row's or tile's pixels. Only emission, and kind, mean something
- * where the kind is not SURFACE. */
+/* The same for a host shader, as arrays of a row's or tile's pixels. Only emission, and kind, mean
+ * something where the kind is not SURFACE. */
 typedef struct gpu_row {
     unsigned char *kind; /* gpu_kind */
     float *position[3], *normal[3], *view[3];
