@@ -220,8 +220,8 @@ LMP_INLINE vf *accumulate_column_add(accumulate_tile tile, int m, int monic, int
 
 /* Adds `at_once` lights to the sums of a tile; pairs follow one another by m, then l. */
 LMP_INLINE void accumulate_lights(const accumulate_work *work, accumulate_tile tile, int monic,
-                                  int at_once, size_t first, const vf point[3]) {
-    accumulate_light *kept = first < work->kept_count ? work->kept + first : NULL;
+                                  int keeps, int at_once, size_t first, const vf point[3]) {
+    accumulate_light *kept = keeps && first < work->kept_count ? work->kept + first : NULL;
     accumulate_light light[ACCUMULATE_LIGHTS];
     accumulate_column column;
     lmp_rgb rgb[ACCUMULATE_LIGHTS];
@@ -377,18 +377,27 @@ static inline void accumulate_divide(accumulate_work *work, accumulate_memory me
     work->most = (left - waiting) / 6;
 }
 
+/* Lights are not kept where one tile holds all: what it would take to go on is compiled away. */
+LMP_INLINE void accumulate_all_lights(const accumulate_work *work, accumulate_tile tile, int monic,
+                                      int keeps, const vf point[3]) {
+    size_t i = 0;
+    for (; i + ACCUMULATE_LIGHTS <= work->lights->count; i += ACCUMULATE_LIGHTS)
+        accumulate_lights(work, tile, monic, keeps, ACCUMULATE_LIGHTS, i, point);
+    for (; i < work->lights->count; i++)
+        accumulate_lights(work, tile, monic, keeps, 1, i, point);
+}
+
 LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const vf point[3],
                                  const lmp_kernel_out *out) {
     const accumulate_sets values = { 3, 0, 3 };
     const int bands = work->bands;
     for (accumulate_tile tile = accumulate_first(bands, work->most); tile.first < bands;
          tile = accumulate_next(bands, tile, work->most)) {
-        size_t i = 0;
         memset(work->sums, 0, 6 * accumulate_pairs(tile) * sizeof *work->sums);
-        for (; i + ACCUMULATE_LIGHTS <= work->lights->count; i += ACCUMULATE_LIGHTS)
-            accumulate_lights(work, tile, monic, ACCUMULATE_LIGHTS, i, point);
-        for (; i < work->lights->count; i++)
-            accumulate_lights(work, tile, monic, 1, i, point);
+        if (monic && tile.first == 0 && tile.end == bands && tile.high == bands)
+            accumulate_all_lights(work, (accumulate_tile) { 0, bands, 0, bands }, monic, 0, point);
+        else
+            accumulate_all_lights(work, tile, monic, 1, point);
         accumulate_put(bands, tile, monic, values, work->sums, work->waiting, out, work->element,
                        work->live);
     }
