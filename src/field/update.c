@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Lights that one pass over the nodes adds, and takes away, at most. */
-enum { PASS = 32 };
+enum { PASS = 16 };
 
 static const float pi = 3.14159265f;
 
