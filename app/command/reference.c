@@ -72,6 +72,7 @@ static bool choose_materials(reference_arguments *a, const scene *world, overrid
                                               .table = lmp_brdf_table_describe(table) };
         else
             (*sources)[i].brdf = all->opened[use].brdf;
+        (*sources)[i].made_from = all->opened[use].hash;
     }
     return true;
 }
@@ -188,7 +189,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         SCENE_CAMERA_OPTION_ROWS(a.camera),
         OVERRIDE_OPTION_ROW(a.materials),
         { "spp", 0, CLI_INT, &a.settings.samples, "N",
-          "light samples a pixel; with --error the most", 1, 1000000, NULL, NULL },
+          "light samples a pixel; with --error the most", 1, REFERENCE_SAMPLES_MAX, NULL, NULL },
         { "error", 0, CLI_FLOAT, &a.error, "E",
           "stop a pixel when its standard error is below E times its value; 0 means never", 0, 1,
           NULL, NULL },

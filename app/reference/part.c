@@ -23,11 +23,27 @@ static bool is_of_the_part(const char *word, bool *value_follows) {
     return strncmp(word, "-o", 2) == 0;
 }
 
-static file_hash hash_of(const scene *world, char *const *words) {
+static void add_image(file_hash *hash, const image *pixels) {
+    if (pixels->rgb)
+        file_hash_add(hash, pixels->rgb,
+                      3 * sizeof(float) * (size_t)pixels->width * (size_t)pixels->height);
+}
+
+/* What the words name may have changed since another part was made: all that was read counts. */
+static file_hash hash_of(const reference_settings *settings, const scene *world,
+                         char *const *words) {
     file_hash hash = { 0, 0 };
     file_hash_add(&hash, world->block, world->block_size);
-    for (size_t i = 0; i < world->light_count; i++)
+    for (size_t i = 0; i < world->light_count; i++) {
         file_hash_add(&hash, &world->lights[i].emitter, sizeof world->lights[i].emitter);
+        file_hash_add(&hash, &world->lights[i].hidden, sizeof world->lights[i].hidden);
+    }
+    if (settings->environment) {
+        add_image(&hash, &settings->environment->light);
+        add_image(&hash, &settings->environment->backdrop);
+    }
+    for (size_t i = 0; settings->materials && i < world->material_count; i++)
+        file_hash_add(&hash, &settings->materials[i].made_from, sizeof(file_hash));
     for (; *words; words++) {
         bool value_follows;
         if (!is_of_the_part(*words, &value_follows))
@@ -46,7 +62,7 @@ static void fill(image *pixels, const float rgb[3]) {
 
 bool reference_part_write(const char *path, const reference_settings *settings, const scene *world,
                           char *const *words, const image_layer layers[2], cli_error *error) {
-    const file_hash hash = hash_of(world, words);
+    const file_hash hash = hash_of(settings, world, words);
     const uint64_t mask = 0xFFFFFF;
     const float run[3] = { (float)(hash.low & mask), (float)(hash.low >> 24 & mask),
                            (float)(hash.high & mask) };
@@ -86,12 +102,16 @@ static bool read_constant(const char *path, const char *layer, stamp *of, float 
     return true;
 }
 
+static bool is_whole(float number, float most) {
+    return number >= 1 && number <= most && number == floorf(number);
+}
+
 static bool read_stamp(const char *path, stamp *of, cli_error *error) {
     if (!read_constant(path, "run", of, of->run, error) ||
         !read_constant(path, "part", of, of->part, error))
         return false;
-    if (of->part[0] >= 1 && of->part[1] >= 1 && of->part[1] <= of->part[2] &&
-        of->part[2] <= REFERENCE_PARTS_MAX)
+    if (is_whole(of->part[0], REFERENCE_SAMPLES_MAX) &&
+        is_whole(of->part[2], REFERENCE_PARTS_MAX) && is_whole(of->part[1], of->part[2]))
         return true;
     return cli_fail(error, path, "is no part of a reference (layer \"part\" is damaged)");
 }
@@ -145,17 +165,31 @@ static void add_part(sums *all, const stamp *from, const image *mean, const imag
     all->samples = total;
 }
 
+/* A value that is no number would be one of the joined image. */
+static bool is_valid(const image *mean, const image *spread) {
+    const size_t count = 3 * (size_t)mean->width * (size_t)mean->height;
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(mean->rgb[i]) || !isfinite(spread->rgb[i]) || spread->rgb[i] < 0)
+            return false;
+    return true;
+}
+
 static bool add_file(sums *all, const char *path, const stamp *from, cli_error *error) {
     image mean, spread = { .rgb = NULL };
     const bool ok = image_read(path, IMAGE_READ_PIXELS, &mean, error) &&
                     image_read_layer(path, "stderr", &spread, error);
     const bool fits = ok && mean.width == from->width && spread.width == from->width &&
                       mean.height == from->height && spread.height == from->height;
-    if (fits)
+    const bool valid = fits && is_valid(&mean, &spread);
+    if (valid)
         add_part(all, from, &mean, &spread);
     image_free(&mean);
     image_free(&spread);
-    return fits || (ok && cli_fail(error, path, "has layers of several sizes"));
+    if (ok && !valid)
+        return cli_fail(error, path,
+                        fits ? "has values that are not finite, or negative errors"
+                             : "has layers of several sizes");
+    return valid;
 }
 
 static void store(const sums *all, image *radiance, image *standard_error) {

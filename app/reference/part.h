@@ -6,7 +6,8 @@
 #include "app/image/image.h"
 #include "app/reference/reference.h"
 
-#define REFERENCE_PARTS_MAX 4096
+#define REFERENCE_SAMPLES_MAX 1000000
+#define REFERENCE_PARTS_MAX   4096
 
 /* Writes radiance and standard error, two layers, and two more, of one value in all pixels:
  * "part", its samples, I and N, and "run", three times 24 bits of a hash of the scene and of

@@ -3,6 +3,7 @@
 #ifndef LAMPION_REFERENCE_TABULATED_H
 #define LAMPION_REFERENCE_TABULATED_H
 
+#include "app/file/file.h"
 #include "app/reference/vector.h"
 
 #include <lampion/brdf.h>
@@ -14,6 +15,7 @@ typedef struct reference_material_source {
     const lmp_brdf *brdf;
     const float *coefficients;
     lmp_brdf_table_info table;
+    file_hash made_from; /* tells parts of other materials apart */
 } reference_material_source;
 
 /* One a thread, oriented again for each point. */

@@ -33,6 +33,12 @@ refuse '1.exr: is part 1 of 3, as 1.exr is' merge 1.exr 1.exr -o bad.exr
 refuse 'whole.exr: has no layer "run"' merge whole.exr -o bad.exr
 refuse 'expected the parts' merge -o bad.exr
 refuse 'is no .exr' merge 1.exr -o bad.png
+# the words are the same, and what they name is another
+"$PROGRAM" brdf bake lambert:0.2 --bands 4 --views 4 -o paint.lmpt
+"$PROGRAM" reference "$@" --material 'plastic 1.00=paint.lmpt' --shard 1/2 -o paint1.exr
+"$PROGRAM" brdf bake lambert:0.9 --bands 4 --views 4 -o paint.lmpt
+"$PROGRAM" reference "$@" --material 'plastic 1.00=paint.lmpt' --shard 2/2 -o paint2.exr
+refuse "paint2.exr: is of another scene or other settings" merge paint1.exr paint2.exr -o bad.exr
 refuse 'has no sample' reference "$@" --shard 11/11 -o bad.exr
 refuse '--shard writes .exr' reference "$@" --shard 1/2 -o bad.png
 refuse '--shard writes .exr' reference "$@" --shard 1/2 --bands 5 -o bad.exr
