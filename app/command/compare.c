@@ -61,7 +61,7 @@ static void print_json_number(double value) {
     if (isfinite(value))
         printf("%.9g", value);
     else
-        printf(isnan(value) ? "null" : "\"infinite\"");
+        printf(isnan(value) ? "null" : value > 0 ? "\"infinite\"" : "\"-infinite\"");
 }
 
 static void print(const compare_arguments *arguments, const image *pixels,

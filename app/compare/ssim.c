@@ -69,12 +69,17 @@ static double mean_at(const rows *r, int kind, int x, int y) {
     return sum / all;
 }
 
+/* Of luminances, and of what varies: alike where both are nothing, for a black image has no peak.
+ */
+static double ratio(double over, double under) {
+    return under > 0 ? over / under : 1;
+}
+
 static double similarity(const rows *r, int x, int y, double c1, double c2) {
     const double a = mean_at(r, X, x, y), b = mean_at(r, Y, x, y);
     const double aa = mean_at(r, XX, x, y) - a * a, bb = mean_at(r, YY, x, y) - b * b;
     const double ab = mean_at(r, XY, x, y) - a * b;
-    const double under = (a * a + b * b + c1) * (aa + bb + c2);
-    return under > 0 ? (2 * a * b + c1) * (2 * ab + c2) / under : 1;
+    return ratio(2 * a * b + c1, a * a + b * b + c1) * ratio(2 * ab + c2, aa + bb + c2);
 }
 
 /* The sum over the rows from `first`, STRIP of them at most; NaN without memory. */

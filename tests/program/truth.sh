@@ -37,6 +37,11 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
 
 refuses 1 'rmse is .*, limit 0' compare "$WORK/one.exr" "$WORK/other.exr" --fail-above rmse=0
 refuses 1 'ssim is .*, limit 1' compare "$WORK/one.png" "$WORK/brighter.png" --fail-above ssim=1
+# what is no light at all has no peak to be alike by
+echo '{ "lights": [ { "position": [0, 9, 0], "radius": 1, "radiance": [0, 0, 0] } ] }' >"$WORK/off.json"
+"$PROGRAM" reference builtin:balls --size 48x32 --environment none --lights "$WORK/off.json" --spp 1 -o "$WORK/black.exr"
+refuses 1 'ssim is 0, limit' compare "$WORK/one.exr" "$WORK/black.exr" --fail-above ssim=0.5
+"$PROGRAM" compare "$WORK/one.exr" "$WORK/black.exr" --json | grep -q '"psnr": "-infinite"' || fail "psnr of a black reference"
 refuses 2 'METRIC' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above beauty=1
 refuses 2 'not a number' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rmse=nan
 refuses 2 'did you mean rmse' compare "$WORK/one.exr" "$WORK/two.exr" --fail-above rsme=1
