@@ -60,11 +60,18 @@ static float value_of(const volume_text *t, size_t probe, size_t i) {
     return t->output->half ? round_to_half(value) : value;
 }
 
-static bool fits(const volume *v, cli_error *error) {
-    for (size_t i = 0; i < v->probe_count * v->value_count; i++)
-        if (!(fabsf(round_to_half(v->values[i])) <= HALF_MAX))
+static bool fail_too_bright(const char *path, cli_error *error) {
+    return cli_fail(error, path, "cannot hold the light: its values are not finite");
+}
+
+static bool fits(const volume *v, const volume_output *output, cli_error *error) {
+    for (size_t i = 0; i < v->probe_count * v->value_count; i++) {
+        if (!isfinite(v->values[i]))
+            return fail_too_bright(output->path, error);
+        if (output->half && !(fabsf(round_to_half(v->values[i])) <= HALF_MAX))
             return cli_fail(error, NULL, "%g does not fit into 16 bits (--half holds up to %g)",
                             (double)v->values[i], (double)HALF_MAX);
+    }
     return true;
 }
 
@@ -208,7 +215,7 @@ static void put_npy(const volume_text *t) {
 
 bool volume_write(const volume *v, const volume_output *output, cli_error *error) {
     file_writer writer;
-    if ((output->half && !fits(v, error)) || !file_write_begin(&writer, output->path, error))
+    if (!fits(v, output, error) || !file_write_begin(&writer, output->path, error))
         return false;
     const volume_text text = { v, output, writer.stream };
     switch (volume_file_of(output->path)) {
@@ -230,7 +237,13 @@ bool volume_write_field(const lmp_field *field, const char *path, cli_error *err
     if (!bytes)
         return cli_fail(error, path, "out of memory");
     lmp_field_write(field, bytes);
-    const bool ok = file_write_whole(path, bytes, size, error);
+    /* what cannot be read back is not written */
+    lmp_field *back = NULL;
+    const lmp_result result = lmp_field_read(NULL, bytes, size, &back);
+    lmp_field_destroy(back);
+    const bool ok = result == LMP_OK             ? file_write_whole(path, bytes, size, error)
+                    : result == LMP_ERROR_MEMORY ? cli_fail(error, path, "out of memory")
+                                                 : fail_too_bright(path, error);
     free(bytes);
     return ok;
 }

@@ -6,6 +6,7 @@
 
 #include <lampion/field.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 static const lmp_light lights[] = {
     { .position = { 3, 4, 1 }, .radius = 0.5f, .radiance = { 10, 8, 5 } },
@@ -118,6 +119,20 @@ static void every_file_holds_the_same_numbers(void **state) {
                          0);
         read_npy("probes.npy", false, planar, &other);
         expect_same(&json, &other);
+    }
+}
+
+static void light_past_every_number_is_not_written(void **state) {
+    (void)state;
+    static const char *const names[] = { "inf.json", "inf.csv", "inf.npy", "inf.lmpf" };
+    folder_write_text("inf.json.lights",
+                      "{ \"lights\": [ { \"kind\": \"point\", \"position\": [0, 0.2, 0], "
+                      "\"intensity\": [3e38, 1, 1] } ] }");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char words[96];
+        snprintf(words, sizeof words, "--lights inf.json.lights -o %s", names[i]);
+        assert_int_equal(field(words), 1);
+        assert_int_not_equal(access(in_folder(names[i]), F_OK), 0);
     }
 }
 
@@ -317,6 +332,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shaders_of_engines_light_surfaces_as_the_lights_do),
         cmocka_unit_test(every_file_holds_the_same_numbers),
+        cmocka_unit_test(light_past_every_number_is_not_written),
         cmocka_unit_test(half_is_the_nearest_of_16_bits),
         cmocka_unit_test(the_own_preset_keeps_coefficients_of_any_bands),
         cmocka_unit_test(the_library_reads_its_field),
