@@ -85,6 +85,15 @@ bool file_read_descriptor(int fd, const char *path, size_t limit, void **data, s
     return read_all(fd, path, end > 0 ? (size_t)end : 0, limit, data, size, error);
 }
 
+bool file_is_standard_input(const char *name) {
+    for (const char *part = name; part; part = strchr(part, ':')) {
+        part += *part == ':';
+        if (part[0] == '-' && (part[1] == ':' || part[1] == '\0'))
+            return true;
+    }
+    return false;
+}
+
 bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error) {
     *data = NULL;
     *size = 0;

@@ -12,6 +12,10 @@
  * NUL past its end; free() it. */
 bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_error *error);
 
+/* Whether the name of a file or a material has "-" in a file's place. Such a name is refused unless
+ * it comes from the command line: no file may read the user's standard input. */
+bool file_is_standard_input(const char *name);
+
 /* Opens a regular file for reading; NULL, or -1, on failure. */
 FILE *file_open(const char *path, cli_error *error);
 int file_open_descriptor(const char *path, cli_error *error);

@@ -55,13 +55,23 @@ void view_pan(scene_camera *camera, float right, float up) {
     move(camera, vec_add(vec_scale(f.right, right * height), vec_scale(f.up, up * height)));
 }
 
+bool view_camera_is_valid(const scene_camera *camera) {
+    bool valid = camera->height <= LMP_LENGTH_MAX;
+    for (int i = 0; i < 3; i++)
+        valid &=
+            fabsf(camera->eye[i]) <= LMP_LENGTH_MAX && fabsf(camera->target[i]) <= LMP_LENGTH_MAX;
+    return valid;
+}
+
 void view_dolly(scene_camera *camera, float factor, float nearest) {
     if (camera->height > 0) {
         camera->height = fminf(fmaxf(camera->height * factor, nearest), 0.1f * LMP_LENGTH_MAX);
         return;
     }
     const frame f = frame_of(camera);
-    const float distance = fminf(fmaxf(f.distance * factor, nearest), 0.1f * LMP_LENGTH_MAX);
+    if (!(f.distance * factor <= 0.1f * LMP_LENGTH_MAX))
+        return;
+    const float distance = fmaxf(f.distance * factor, nearest);
     const lmp_vec3 eye = vec_add(f.eye, vec_scale(f.forward, f.distance * (1 - factor)));
     vec_store(eye, camera->eye);
     vec_store(vec_add(eye, vec_scale(f.forward, distance)), camera->target);

@@ -14,6 +14,10 @@ void view_look_round(scene_camera *camera, float right, float up);
 /* Moves eye and target by parts of the image's height at the target. */
 void view_pan(scene_camera *camera, float right, float up);
 
+/* Whether no length of it is past what files take: an event that makes it otherwise has no effect.
+ */
+bool view_camera_is_valid(const scene_camera *camera);
+
 /* Brings the eye nearer to the target by a factor < 1; below `nearest`, the target moves on. Of
  * parallel rays the height is what changes. */
 void view_dolly(scene_camera *camera, float factor, float nearest);

@@ -69,15 +69,22 @@ static void grab_light(view_state *s, int index) {
     s->grab = vec_sub(s->now.lights[index].emitter.position, shown.emitter.position);
 }
 
-/* Under the pointer, in the plane across the view where it was grabbed. */
-static void drag_light(view_state *s) {
+/* Under the pointer, in the plane across the view where it was grabbed. Where no file could put it
+ * again it does not go: false. */
+static bool drag_light(view_state *s) {
     const scene_camera *camera = &s->now.camera;
     const view_ray ray =
         view_ray_through(camera, s->now.width, s->now.height, s->x - s->grab_x, s->y - s->grab_y);
     const float along = vec_dot(ray.direction, middle_ray(s).direction);
     const lmp_vec3 to = vec_add(ray.from, vec_scale(ray.direction, s->grab_depth / along));
-    s->now.lights[s->selected].emitter.position = vec_add(to, s->grab);
+    scene_light moved = s->now.lights[s->selected];
+    scene_light_error wrong;
+    moved.emitter.position = vec_add(to, s->grab);
+    if (!scene_light_check(&moved, &wrong))
+        return false;
+    s->now.lights[s->selected] = moved;
     s->lights_edited = true;
+    return true;
 }
 
 static bool on_divider(const view_state *s) {
@@ -136,8 +143,10 @@ static void move(view_state *s, double x, double y) {
 static void scroll(view_state *s, double steps) {
     const float factor = powf(ZOOM_STEP, (float)steps);
     if (s->drag == VIEW_DRAG_LIGHT && s->selected >= 0) {
+        const float depth = s->grab_depth;
         s->grab_depth /= factor;
-        drag_light(s);
+        if (!drag_light(s))
+            s->grab_depth = depth;
     } else if (s->walking && s->now.camera.height == 0) {
         view_fly(&s->now.camera, 0, 0, (float)steps * WALK_STEP * scene_diagonal(s->world));
     } else {
@@ -187,7 +196,7 @@ static void resize(view_state *s, int width, int height) {
     s->now.height = height;
 }
 
-void view_handle(view_state *s, const view_event *event) {
+static void take_event(view_state *s, const view_event *event) {
     switch (event->kind) {
     case VIEW_MOVE:
         move(s, event->x, event->y);
@@ -218,6 +227,13 @@ void view_handle(view_state *s, const view_event *event) {
         resize(s, (int)event->x, (int)event->y);
         break;
     }
+}
+
+void view_handle(view_state *s, const view_event *event) {
+    const scene_camera before = s->now.camera;
+    take_event(s, event);
+    if (!view_camera_is_valid(&s->now.camera))
+        s->now.camera = before;
     if (s->drag == VIEW_DRAG_NONE && event->kind != VIEW_MOVE && event->kind != VIEW_SIZE)
         view_history_keep(&s->history, &s->now, s->numbers);
 }
@@ -230,8 +246,11 @@ void view_advance(view_state *s, double seconds) {
         (float)seconds * FLY_SPEED * scene_diagonal(s->world) * (s->fast ? FLY_FAST : 1);
     const float right = (float)(s->held[3] - s->held[1]), up = (float)(s->held[5] - s->held[4]);
     const float forward = (float)(s->held[0] - s->held[2]);
+    const scene_camera before = s->now.camera;
     if (right != 0 || up != 0 || forward != 0)
         view_fly(&s->now.camera, right * step, up * step, forward * step);
+    if (!view_camera_is_valid(&s->now.camera))
+        s->now.camera = before;
     if (s->clock >= s->message_until)
         s->message[0] = '\0';
 }

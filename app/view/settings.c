@@ -211,7 +211,8 @@ static bool read_materials(const cJSON *root, view_settings *s) {
         const char *text = cJSON_IsString(item) ? item->valuestring : "";
         const char *equals = strchr(text, '=');
         char material_name[SCENE_NAME_SIZE] = "";
-        if (!equals || (size_t)(equals - text) >= sizeof material_name)
+        if (!equals || (size_t)(equals - text) >= sizeof material_name ||
+            file_is_standard_input(equals + 1))
             return false;
         memcpy(material_name, text, (size_t)(equals - text));
         if (!view_set_material(s, material_name, equals + 1))
@@ -222,7 +223,8 @@ static bool read_materials(const cJSON *root, view_settings *s) {
 
 static bool read_path(const cJSON *object, const char *member, char name[VIEW_PATH_SIZE]) {
     const cJSON *item = file_json_member(object, member);
-    if (!cJSON_IsString(item) || strlen(item->valuestring) >= VIEW_PATH_SIZE)
+    if (!cJSON_IsString(item) || strlen(item->valuestring) >= VIEW_PATH_SIZE ||
+        file_is_standard_input(item->valuestring))
         return false;
     strcpy(name, item->valuestring);
     return true;

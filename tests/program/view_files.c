@@ -71,6 +71,18 @@ static void damaged_settings_are_refused(void **unused) {
         assert_non_null(strstr(error.text, parts[i]));
         cJSON_AddItemToObject(root, parts[i], item);
     }
+    cJSON_ReplaceItemInObject(root, "scene", cJSON_CreateString("-"));
+    assert_false(view_settings_from_json(root, "shot", &read, &error));
+    assert_non_null(strstr(error.text, "scene"));
+    cJSON_ReplaceItemInObject(root, "scene", cJSON_CreateString("builtin:balls"));
+    static const char *const inputs[] = { "ball=-", "ball=sgd:-:nickel" };
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+        cJSON *materials = cJSON_CreateArray();
+        cJSON_AddItemToArray(materials, cJSON_CreateString(inputs[i]));
+        cJSON_ReplaceItemInObject(root, "materials", materials);
+        assert_false(view_settings_from_json(root, "shot", &read, &error));
+        assert_non_null(strstr(error.text, "materials"));
+    }
     cJSON_Delete(root);
 }
 

@@ -42,6 +42,31 @@ static void lights_are_dragged_with_the_pointer(void **unused) {
     button(VIEW_RELEASE, VIEW_LEFT, false);
 }
 
+/* However far the wheel takes a light or the eye, a file that is written then is read again. */
+static void nothing_leaves_the_lengths_that_files_take(void **unused) {
+    (void)unused;
+    double x, y, scale;
+    scene_light_error wrong;
+    put_light();
+    const scene_light *light = &state.now.lights[0];
+    view_project(&state.now.camera, 640, 480, light->emitter.position, &x, &y, &scale);
+    at(x, y);
+    button(VIEW_PRESS, VIEW_LEFT, false);
+    for (int step = 0; step < 3000; step++) {
+        view_handle(&state, &(view_event) { .kind = VIEW_SCROLL, .y = 1 });
+        assert_true(scene_light_check(light, &wrong));
+    }
+    assert_true(vec_length(light->emitter.position) > 1e-3f * LMP_LENGTH_MAX);
+    for (int step = 0; step < 3000; step++)
+        view_handle(&state, &(view_event) { .kind = VIEW_SCROLL, .y = -1 });
+    assert_true(scene_light_check(light, &wrong));
+    button(VIEW_RELEASE, VIEW_LEFT, false);
+    for (int step = 0; step < 3000; step++) {
+        view_handle(&state, &(view_event) { .kind = VIEW_SCROLL, .y = step % 7 ? -1 : 0.5 });
+        assert_true(view_camera_is_valid(&state.now.camera));
+    }
+}
+
 static void lights_are_dragged_by_parallel_rays(void **unused) {
     (void)unused;
     double x, y, scale;
@@ -209,10 +234,15 @@ static void suns_and_skies_are_not_picked(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(lights_are_dragged_with_the_pointer), TEST(lights_are_dragged_by_parallel_rays),
-        TEST(moving_lights_are_dragged_too),       TEST(lights_behind_a_surface_are_not_picked),
-        TEST(lights_change_as_the_keys_say),       TEST(lights_take_every_kind),
-        TEST(lights_are_directed_at_the_pointer),  TEST(suns_and_skies_are_not_picked),
+        TEST(lights_are_dragged_with_the_pointer),
+        TEST(lights_are_dragged_by_parallel_rays),
+        TEST(nothing_leaves_the_lengths_that_files_take),
+        TEST(moving_lights_are_dragged_too),
+        TEST(lights_behind_a_surface_are_not_picked),
+        TEST(lights_change_as_the_keys_say),
+        TEST(lights_take_every_kind),
+        TEST(lights_are_directed_at_the_pointer),
+        TEST(suns_and_skies_are_not_picked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
