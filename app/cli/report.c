@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #define _DEFAULT_SOURCE /* strsep */
 #include "app/cli/cli.h"
+#include "app/cli/printable.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -8,12 +9,11 @@
 
 /* Names of files are untrusted: a terminal must not obey what is in them. */
 static void replace_controls(char *text) {
-    for (unsigned char *c = (unsigned char *)text; *c; c++) {
-        const bool c1 = c[0] == 0xC2 && c[1] >= 0x80 && c[1] < 0xA0;
-        if (c1)
-            c[1] = '?';
-        if (*c < 0x20 || *c == 0x7F || c1)
-            *c = '?';
+    while (*text) {
+        const size_t length = cli_printable(text);
+        if (length == 0)
+            *text = '?';
+        text += length ? length : 1;
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,7 +115,11 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
     struct aiFileIO io = { .OpenProc = open_for_assimp,
                            .CloseProc = close_for_assimp,
                            .UserData = (aiUserData)job };
-    const struct aiScene *imported = aiImportFileEx(job->name, 0, &io);
+    /* Otherwise any text that is called .ase is a skeleton, drawn by triangles. */
+    struct aiPropertyStore *const properties = aiCreatePropertyStore();
+    aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
+    const struct aiScene *imported = aiImportFileExWithProperties(job->name, 0, &io, properties);
+    aiReleasePropertyStore(properties);
     /* A file refused is the cause of what Assimp says, or something silently left out. */
     if (job->refusal.text[0]) {
         *error = job->refusal;

@@ -38,6 +38,8 @@ static void what_is_no_scene_is_refused(void **state) {
     folder_write_text("empty.gltf", "");
     folder_write_text("blank.gltf", " \n");
     folder_write_text("text.obj", "nothing to see here\n");
+    folder_write_text("letter.ase", "hello world, this is a letter\n");
+    assert_refused("letter.ase", "has no triangles");
     folder_write_text("text.gltf", "nothing to see here\n");
     folder_write_text("wrong.txt", "v 0 0 0\n");
     folder_write_text("image.png", "\x89PNG\r\n\x1a\n");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Option tables, strict numbers, one-line errors: app/cli. */
 #include "app/cli/cli.h"
+#include "app/cli/printable.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -219,6 +220,34 @@ static void help_shows_defaults_ranges_and_examples(void **state) {
             fail_msg("no \"%s\" in:\n%s", expected[i], o.printed);
 }
 
+static void what_a_terminal_obeys_is_not_printable(void **state) {
+    (void)state;
+    static const char *const shown[] = { "a",
+                                         "~",
+                                         "\xC3\xBC",
+                                         "\xE2\x98\x83",
+                                         "\xF0\x9F\x8F\xAE",
+                                         "\xC2\xA0",
+                                         "\xED\x9F\xBF",
+                                         "\xEE\x80\x80" };
+    /* controls; C1 as UTF-8 and as a byte; turns of direction; cut, overlong, surrogate, past all
+     */
+    static const char *const obeyed[] = {
+        "\n",           "\x1b",
+        "\x7f",         "\xC2\x9B",
+        "\x9B",         "\xE2\x80\xAE",
+        "\xE2\x81\xA6", "\xE2\x80\x8F",
+        "\xC3",         "\xE2\x98",
+        "\xC0\xAF",     "\xE0\x80\xAF",
+        "\xED\xA0\x80", "\xF4\x90\x80\x80",
+        "\xFF",
+    };
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
+        assert_int_equal(cli_printable(shown[i]), strlen(shown[i]));
+    for (size_t i = 0; i < sizeof obeyed / sizeof *obeyed; i++)
+        assert_int_equal(cli_printable(obeyed[i]), 0);
+}
+
 static void errors_are_one_line_free_of_control_characters(void **state) {
     (void)state;
     cli_error error;
@@ -252,6 +281,7 @@ int main(void) {
         cmocka_unit_test(a_forgotten_value_does_not_eat_the_next_option),
         cmocka_unit_test(unknown_options_name_the_nearest),
         cmocka_unit_test(help_shows_defaults_ranges_and_examples),
+        cmocka_unit_test(what_a_terminal_obeys_is_not_printable),
         cmocka_unit_test(errors_are_one_line_free_of_control_characters),
         cmocka_unit_test(too_many_list_items_are_refused),
     };

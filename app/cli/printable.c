@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/cli/printable.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Bytes of the character that begins so; 0: none does. */
+static size_t length_of(unsigned char first) {
+    return first < 0x80                    ? 1
+           : first >= 0xC2 && first < 0xE0 ? 2
+           : first >= 0xE0 && first < 0xF0 ? 3
+           : first >= 0xF0 && first < 0xF5 ? 4
+                                           : 0;
+}
+
+/* Overlong forms, surrogates and what is past Unicode are no characters. */
+static bool is_character(uint32_t code, size_t length) {
+    static const uint32_t least[] = { 0, 0, 0x80, 0x800, 0x10000 };
+    return code >= least[length] && !(code >= 0xD800 && code < 0xE000) && code < 0x110000;
+}
+
+static bool is_obeyed(uint32_t code) {
+    const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    const bool turns = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
+                       code == 0x200E || code == 0x200F || code == 0x061C;
+    return control || turns;
+}
+
+size_t cli_printable(const char *text) {
+    const unsigned char *const c = (const unsigned char *)text;
+    const size_t length = length_of(c[0]);
+    uint32_t code = length > 1 ? c[0] & 0x7Fu >> length : c[0];
+    for (size_t i = 1; i < length; i++) {
+        if ((c[i] & 0xC0) != 0x80)
+            return 0;
+        code = code << 6 | (c[i] & 0x3Fu);
+    }
+    return length > 0 && is_character(code, length) && !is_obeyed(code) ? length : 0;
+}
