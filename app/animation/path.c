@@ -15,6 +15,7 @@ typedef struct path_reader {
     const char *file;
     int number; /* of the path being read, from 0 */
     cli_error *error;
+    bool others_move; /* by a path that names no light */
 } path_reader;
 
 static bool fail_path(const path_reader *reader, const char *wrong) {
@@ -111,6 +112,8 @@ static bool read_light(const path_reader *reader, const cJSON *light, bool circl
                         "paths[%d] names none of the %zu lights, from 0", reader->number,
                         world->light_count);
     *index = (size_t)number;
+    if (!light && reader->others_move)
+        return fail_path(reader, "is the second path of all other lights");
     if (light && paths[*index].kind != PATH_REST)
         return fail_path(reader, "is the second path of its light");
     if (light && !circle && !scene_light_has(&world->lights[*index], SCENE_LIGHT_POSITION))
@@ -161,10 +164,11 @@ bool animation_read_paths(const char *file, const scene *world, path *paths, cli
     if (!root)
         return false;
     const cJSON *list = file_json_list(file, root, "paths", error), *entry;
-    path_reader reader = { file, 0, error };
+    path_reader reader = { .file = file, .error = error };
     bool ok = list;
     cJSON_ArrayForEach(entry, list) {
         ok = ok && read_path(&reader, entry, world, paths);
+        reader.others_move |= ok && !file_json_member(entry, "light");
         reader.number++;
     }
     cJSON_Delete(root);

@@ -224,7 +224,8 @@ static int count_file(guard *g, int file) {
 static void open_for_child(guard *g, const char *name) {
     char number[16];
     cli_error error = { "no file can be opened" };
-    const bool may = g->job->open && g->opened++ < FILES_MAX;
+    const bool may = g->job->open && g->opened < FILES_MAX;
+    g->opened += may;
     const int file = may ? g->job->open(g->job->context, name, &error) : -1;
     if (file < 0) {
         message_send(g->socket, MESSAGE_FAILURE, error.text, -1);

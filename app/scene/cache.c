@@ -48,7 +48,7 @@ static bool holds(int fd, const blob_source *item) {
 }
 
 /* A file that has been found unchanged under another name is not read again. */
-static bool is_unchanged(const source_set *sources, const blob_source *items, size_t i,
+static bool is_unchanged(source_set *sources, const blob_source *items, size_t i,
                          file_identity *known) {
     struct stat status;
     cli_error ignored;
@@ -65,7 +65,7 @@ static bool is_unchanged(const source_set *sources, const blob_source *items, si
     return ok;
 }
 
-static bool sources_unchanged(const void *block, const source_set *sources) {
+static bool sources_unchanged(const void *block, source_set *sources) {
     const blob_source *items = blob_items(block, BLOB_SOURCES);
     const blob_header *header = block;
     const uint64_t count = header->sections[BLOB_SOURCES].count;

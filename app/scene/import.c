@@ -185,7 +185,7 @@ static bool prepare(const char *path, import_job *job, cli_error *error) {
 }
 
 static int open_source(void *context, const char *name, cli_error *error) {
-    const import_job *job = context;
+    import_job *job = context;
     return sources_open(&job->sources, name, error);
 }
 

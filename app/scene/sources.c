@@ -65,22 +65,26 @@ static bool has_scheme(const char *path) {
     return length > 0 && path[length] == ':';
 }
 
+/* Many absent names in large folders would take minutes: names that differ in case alone are looked
+ * for among so many in all. */
+#define LISTED_MAX 4000000
+
 /* Replaces each part of the name behind `folder` that is not there by one that differs in case
  * alone, if there is one: files that come from where case says nothing. */
-static void match_case(char *full, size_t folder) {
-    for (char *part = full + folder, *end; *part; part = end) {
+static void match_case(source_set *set, char *full) {
+    for (char *part = full + strlen(set->folder), *end; *part; part = end) {
         part += *part == '/';
         end = part + strcspn(part, "/");
         const char after = *end, before = part[-1];
         struct stat status;
         DIR *listing = NULL;
         *end = 0;
-        if (lstat(full, &status) != 0) {
+        if (lstat(full, &status) != 0 && set->listed < LISTED_MAX) {
             part[-1] = 0;
             listing = opendir(full);
             part[-1] = before;
         }
-        for (const struct dirent *entry; listing && (entry = readdir(listing));)
+        for (const struct dirent *entry; listing && (entry = readdir(listing)); set->listed++)
             if (strcasecmp(entry->d_name, part) == 0) {
                 memcpy(part, entry->d_name, strlen(part));
                 break;
@@ -115,11 +119,10 @@ static bool is_inside(const char *folder, const char *path) {
 
 /* The file at `full`, links followed, as a descriptor that reads nothing: what is asked of it is
  * then true of what is opened by it, whatever the names come to mean. */
-static int find_file(const source_set *set, const char *name, char full[PATH_MAX],
-                     cli_error *error) {
+static int find_file(source_set *set, const char *name, char full[PATH_MAX], cli_error *error) {
     int found = open(full, O_PATH | O_CLOEXEC);
     if (found < 0 && errno == ENOENT) {
-        match_case(full, strlen(set->folder));
+        match_case(set, full);
         found = open(full, O_PATH | O_CLOEXEC);
     }
     if (found < 0 && errno == ENOENT)
@@ -155,7 +158,7 @@ static int open_found(const source_set *set, const char *name, int found, cli_er
     return fd;
 }
 
-int sources_open(const source_set *set, const char *name, cli_error *error) {
+int sources_open(source_set *set, const char *name, cli_error *error) {
     char full[PATH_MAX];
     if (!resolve(set, name, full, error))
         return -1;
@@ -174,7 +177,7 @@ static const source *find_same(const source_set *set, int file) {
     return NULL;
 }
 
-static bool read_source(const source_set *set, source *item, cli_error *error) {
+static bool read_source(source_set *set, source *item, cli_error *error) {
     cli_error reason;
     item->file = -1;
     const int fd = set->sandboxed ? sandbox_open(item->path, &item->file, error)
@@ -217,17 +220,36 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
     return true;
 }
 
+static bool is_known_absent(const source_set *set, const char *name) {
+    for (size_t i = 0; i < set->absent_count; i++)
+        if (strcmp(set->absent[i], name) == 0)
+            return true;
+    return false;
+}
+
+/* What is asked for again is not looked for again; without memory it is. */
+static void remember_absent(source_set *set, const char *name) {
+    if (!set->absent)
+        set->absent = calloc(BLOB_SOURCES_MAX, sizeof *set->absent);
+    if (set->absent && set->absent_count < BLOB_SOURCES_MAX)
+        strcpy(set->absent[set->absent_count++], name);
+}
+
 bool sources_read_if_there(source_set *set, const char *uri, const source **found,
                            cli_error *error) {
-    char name[sizeof((source *)0)->path];
+    char name[sizeof *set->absent];
     cli_error reason, absent;
     *found = NULL;
-    if (sources_read(set, uri, found, &reason))
+    if (!decode_uri(uri, name, sizeof name))
+        name[0] = 0;
+    if (is_known_absent(set, name) || sources_read(set, uri, found, &reason))
         return true;
     /* In the sandbox this line is all that is known of the parent's failure. */
-    fail_absent(set, decode_uri(uri, name, sizeof name) ? name : "", &absent);
-    if (strcmp(reason.text, absent.text) == 0)
+    fail_absent(set, name, &absent);
+    if (strcmp(reason.text, absent.text) == 0) {
+        remember_absent(set, name);
         return true;
+    }
     *error = reason;
     return false;
 }
@@ -237,6 +259,9 @@ void sources_free(source_set *set) {
         if (!set->items[i].shared)
             free(set->items[i].data);
     free(set->items);
+    free(set->absent);
+    set->absent = NULL;
+    set->absent_count = 0;
     set->items = NULL;
     set->count = 0;
 }

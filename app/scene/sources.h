@@ -21,12 +21,15 @@ typedef struct source_set {
     bool sandboxed;      /* the parent opens the files */
     source *items;
     size_t count;
+    char (*absent)[sizeof((blob_source *)0)->path]; /* names that were not there */
+    size_t absent_count;
+    size_t listed; /* names of folders' entries that were compared but for case */
 } source_set;
 
 /* Opens the file of a source's path: relative, without "..", and after following links still inside
  * the folder. Where no file has that name, one is found whose name differs in case alone. -1 on
  * failure. */
-int sources_open(const source_set *set, const char *path, cli_error *error);
+int sources_open(source_set *set, const char *path, cli_error *error);
 
 /* Reads the file that `uri` names, its percent-escapes decoded, or gives it again. The set keeps
  * it. */

@@ -185,6 +185,8 @@ static void bad_paths_are_refused_in_one_line(void **state) {
         "{\"paths\":[{\"circle\":{\"center\":[0,0,0],\"axis\":[0,0,0],\"period\":1}}]}",
         "{\"paths\":[{\"bounce\":{\"period\":1}}]}",
         "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1,\"speed\":1}}]}",
+        "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1}},"
+        "{\"circle\":{\"center\":[0,0,0],\"period\":1}}]}",
     };
     scene s = load("builtin:ball");
     animation *path = NULL;

@@ -41,7 +41,7 @@ static pid_t exchange(const char *a, const char *b) {
 static void no_link_leads_outside_while_names_change(void **state) {
     (void)state;
     const int times = check_count(30000, 300000);
-    const source_set set = { .subject = "scene", .folder = inner };
+    source_set set = { .subject = "scene", .folder = inner };
     char file[128], link[128];
     int opened = 0;
     folder_write_text("secret", "secret");
@@ -161,6 +161,40 @@ static void a_file_by_many_names_is_read_and_counted_once(void **state) {
     munmap(block, size);
 }
 
+/* More often than files may be opened: what is not there is asked for once. */
+static void an_absent_file_may_be_named_by_many_materials(void **state) {
+    (void)state;
+    enum { MATERIALS = 4200, LINE = 64 };
+    static char materials[MATERIALS * LINE];
+    char path[128];
+    size_t used = 0;
+    cli_error error;
+    scene world;
+    for (int i = 0; i < MATERIALS; i++)
+        used += (size_t)snprintf(materials + used, LINE, "newmtl m%d\nmap_Kd gone.png\n", i);
+    folder_write_text(in_scene("m.mtl"), materials);
+    folder_write_text(in_scene("m.obj"),
+                      "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m0\nf 1 2 3\n");
+    snprintf(path, sizeof path, "%s/m.obj", inner);
+    if (!scene_load(path, &(scene_options) { 0 }, &world, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(world.material_count, MATERIALS + 1);
+    scene_free(&world);
+}
+
+/* Each absent name is looked for among all of a folder's, but not for ever. */
+static void absent_names_are_looked_for_in_bounded_time(void **state) {
+    (void)state;
+    source_set set = { .subject = "scene", .folder = inner, .listed = (size_t)1 << 40 };
+    cli_error error;
+    folder_write_text(in_scene("Page"), "a page");
+    assert_int_equal(sources_open(&set, "page", &error), -1);
+    set.listed = 0;
+    const int fd = sources_open(&set, "page", &error);
+    assert_true(fd >= 0 && set.listed > 0);
+    close(fd);
+}
+
 static int make_folder(void **state) {
     (void)state;
     if (!mkdtemp(folder) || setenv("XDG_CACHE_HOME", in_folder("cache"), 1) != 0)
@@ -182,6 +216,8 @@ int main(void) {
         cmocka_unit_test_setup(a_name_is_decoded_once, empty),
         cmocka_unit_test_setup(a_cached_scene_knows_its_files_by_the_same_names, empty),
         cmocka_unit_test_setup(a_file_by_many_names_is_read_and_counted_once, empty),
+        cmocka_unit_test_setup(an_absent_file_may_be_named_by_many_materials, empty),
+        cmocka_unit_test_setup(absent_names_are_looked_for_in_bounded_time, empty),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }
