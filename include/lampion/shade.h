@@ -20,8 +20,8 @@
  * A coat reflects by GGX around a normal of its own, its weight w (0.04 + 0.96 (1 - |v·n|)^5), and
  * leaves the rest to what is under it, as fibers do; each is clamped by itself. No visibility.
  *
- * A release build takes vectors that are not unit and parameters out of range as they are, and
- * stays finite and inside its arrays (base.h). */
+ * A release build takes vectors that are not unit and floats out of range as they are, and stays
+ * finite and inside its arrays; bands past LMP_BANDS_MAX overrun them (base.h). */
 #ifndef LAMPION_SHADE_H
 #define LAMPION_SHADE_H
 
