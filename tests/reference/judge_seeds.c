@@ -56,12 +56,19 @@ static bool judge(const image *ours, const image *spread, const image *theirs, i
 
 int main(int argc, char **argv) {
     const int count = argc - 2;
-    image ours, spread, *const theirs = calloc((size_t)argc, sizeof *theirs);
+    image ours = { .rgb = NULL }, spread = { .rgb = NULL };
+    image *const theirs = calloc((size_t)argc, sizeof *theirs);
     cli_error error;
     bool ok = theirs && count > 1 && image_read(argv[1], IMAGE_READ_PIXELS, &ours, &error) &&
               image_read_layer(argv[1], "stderr", &spread, &error);
     for (int k = 0; ok && k < count; k++)
         ok = image_read(argv[k + 2], IMAGE_READ_PIXELS, &theirs[k], &error) &&
              theirs[k].width == ours.width && theirs[k].height == ours.height;
-    return ok && judge(&ours, &spread, theirs, count) ? EXIT_SUCCESS : EXIT_FAILURE;
+    ok = ok && judge(&ours, &spread, theirs, count);
+    for (int k = 0; theirs && k < count; k++)
+        image_free(&theirs[k]);
+    free(theirs);
+    image_free(&ours);
+    image_free(&spread);
+    return ok ? EXIT_SUCCESS : EXIT_FAILURE;
 }
