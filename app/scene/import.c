@@ -69,6 +69,24 @@ static bool add_sources(const import_job *job, scene_builder *builder) {
     return true;
 }
 
+/* Whether a triangle has an area: in double precision even the smallest's is above 0. */
+static bool has_area(const scene_builder *builder) {
+    const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
+    const uint32_t *indices = builder_items(builder, BLOB_INDICES);
+    for (size_t i = 0; i + 2 < builder_count(builder, BLOB_INDICES); i += 3) {
+        const float *a = vertices[indices[i]].position, *b = vertices[indices[i + 1]].position,
+                    *c = vertices[indices[i + 2]].position;
+        double u[3], v[3];
+        for (int k = 0; k < 3; k++) {
+            u[k] = (double)b[k] - (double)a[k];
+            v[k] = (double)c[k] - (double)a[k];
+        }
+        if (u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0])
+            return true;
+    }
+    return false;
+}
+
 /* Clears what a valid file never has, so that the parent's validation is about damage alone. */
 static bool check_made(const import_job *job, const scene_builder *builder, cli_error *error) {
     const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
@@ -94,6 +112,8 @@ static bool check_made(const import_job *job, const scene_builder *builder, cli_
                         builder_count(builder, BLOB_LIGHTS), SCENE_LIGHTS_MAX);
     if (builder_count(builder, BLOB_INDICES) == 0)
         return cli_fail(error, job->path, "has no triangles");
+    if (!has_area(builder))
+        return cli_fail(error, job->path, "has no triangles but those without an area");
     return true;
 }
 

@@ -57,6 +57,24 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_refused("a\nname\x1b[31m", "does not exist");
 }
 
+/* A point and a line are no surface; the smallest triangle and one beside them are. */
+static void triangles_without_an_area_are_no_scene(void **state) {
+    (void)state;
+    char path[512];
+    folder_write_text("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\nf 1 1 1\n");
+    folder_write_text("line.obj", "v 0 0 0\nv 1 0 2\nv 3 0 6\nf 1 2 3\n");
+    folder_write_text("small.obj", "v 0 0 0\nv 1e-30 0 0\nv 0 1e-30 0\nf 1 2 3\n");
+    folder_write_text("beside.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nf 1 2 3\n");
+    assert_refused("point.obj", "has no triangles but those without an area");
+    assert_refused("line.obj", "has no triangles but those without an area");
+    static const char *const taken[] = { "small.obj", "beside.obj" };
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) {
+        snprintf(path, sizeof path, "%s", in_folder(taken[i]));
+        const char *const arguments[] = { "lampion", "info", "--no-cache", path, NULL };
+        assert_int_equal(run_program(arguments), 0);
+    }
+}
+
 static void truncated_files_are_refused(void **state) {
     (void)state;
     static const char whole[] = HEAD MESH ACCESSOR VIEW BUFFER;
@@ -313,6 +331,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_valid_file_is_read),
         cmocka_unit_test(what_is_no_scene_is_refused),
+        cmocka_unit_test(triangles_without_an_area_are_no_scene),
         cmocka_unit_test(truncated_files_are_refused),
         cmocka_unit_test(random_damage_never_crashes_the_program),
         cmocka_unit_test(counts_beyond_the_data_are_refused),
