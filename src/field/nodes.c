@@ -156,7 +156,8 @@ static bool is_near(const lmp_field *field, const brick_ball *ball, const field_
 /* Those near a brick, a pass at a time. */
 typedef struct brick_lights {
     const lmp_field *field;
-    const brick_points *points;
+    uint32_t first[3]; /* the brick's first node */
+    brick_points points;
     brick_ball ball;
     field_sphere near[PASS];
     size_t count;
@@ -164,9 +165,27 @@ typedef struct brick_lights {
 } brick_lights;
 
 static void flush(brick_lights *lights) {
-    add_lights(lights->field, lights->points, lights->near, lights->count, lights->scratch,
+    add_lights(lights->field, &lights->points, lights->near, lights->count, lights->scratch,
                lights->nodes);
     lights->count = 0;
+}
+
+/* Without any light yet, for the sums to go to `nodes`. */
+static void begin(const lmp_field *field, size_t brick, float *scratch, float *nodes,
+                  brick_lights *lights) {
+    lights->field = field;
+    lights->count = 0;
+    lights->scratch = scratch;
+    lights->nodes = nodes;
+    find_brick(field, brick, lights->first);
+    set_points(field, lights->first, &lights->points);
+    lights->ball = ball_of(field, &lights->points);
+}
+
+/* Near or far, where there is no coarser field. */
+static void take_all(const brick_lights *lights, const field_sphere *spheres, size_t count) {
+    memset(lights->nodes, 0, brick_floats(lights->field) * sizeof *lights->nodes);
+    add_lights(lights->field, &lights->points, spheres, count, lights->scratch, lights->nodes);
 }
 
 static void take(brick_lights *lights, const field_sphere *sphere) {
@@ -206,22 +225,14 @@ static void interpolate(const lmp_field *field, const uint32_t first[3], const f
 /* What all lights give a brick's nodes. */
 static void compute(const lmp_field *field, size_t brick, float *scratch) {
     float *nodes = field->nodes + brick * brick_floats(field);
-    uint32_t first[3];
-    brick_points points;
-    find_brick(field, brick, first);
-    set_points(field, first, &points);
+    brick_lights lights;
+    begin(field, brick, scratch, nodes, &lights);
     if (!field->coarse) {
-        memset(nodes, 0, brick_floats(field) * sizeof *nodes);
-        add_lights(field, &points, field->spheres, field->info.light_count, scratch, nodes);
+        take_all(&lights, field->spheres, field->info.light_count);
         return;
     }
-    brick_lights lights = { .field = field,
-                            .points = &points,
-                            .ball = ball_of(field, &points),
-                            .scratch = scratch,
-                            .nodes = nodes };
-    const field_place place = place_in_coarse(field->coarse, first);
-    interpolate(field, first, field->coarse->nodes, nodes);
+    const field_place place = place_in_coarse(field->coarse, lights.first);
+    interpolate(field, lights.first, field->coarse->nodes, nodes);
     take_list(&lights, lmp_field_block(field->coarse, place.cell));
     take_list(&lights, (uint32_t)field->coarse->block_count);
     flush(&lights);
@@ -272,21 +283,13 @@ typedef struct field_change {
 static void compute_change(const field_change *change, size_t brick, float *scratch,
                            float *changes) {
     const lmp_field *field = change->field;
-    uint32_t first[3];
-    brick_points points;
-    find_brick(field, brick, first);
-    set_points(field, first, &points);
+    brick_lights lights;
+    begin(field, brick, scratch, changes, &lights);
     if (!field->coarse) {
-        memset(changes, 0, brick_floats(field) * sizeof *changes);
-        add_lights(field, &points, change->spheres, change->count, scratch, changes);
+        take_all(&lights, change->spheres, change->count);
         return;
     }
-    brick_lights lights = { .field = field,
-                            .points = &points,
-                            .ball = ball_of(field, &points),
-                            .scratch = scratch,
-                            .nodes = changes };
-    interpolate(field, first, field->coarse->changes, changes);
+    interpolate(field, lights.first, field->coarse->changes, changes);
     for (size_t i = 0; i < change->count; i++)
         take(&lights, &change->spheres[i]);
     flush(&lights);
