@@ -159,6 +159,8 @@ static void scenes_move_their_own_lights(void **state) {
 
 static void bad_paths_are_refused_in_one_line(void **state) {
     (void)state;
+    static const char two_of_all[] = "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1}},"
+                                     "{\"circle\":{\"center\":[0,0,0],\"period\":1}}]}";
     static const char *const bad[] = {
         "",
         "{}",
@@ -185,8 +187,7 @@ static void bad_paths_are_refused_in_one_line(void **state) {
         "{\"paths\":[{\"circle\":{\"center\":[0,0,0],\"axis\":[0,0,0],\"period\":1}}]}",
         "{\"paths\":[{\"bounce\":{\"period\":1}}]}",
         "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1,\"speed\":1}}]}",
-        "{\"paths\":[{\"bounce\":{\"bottom\":0,\"period\":1}},"
-        "{\"circle\":{\"center\":[0,0,0],\"period\":1}}]}",
+        two_of_all,
     };
     scene s = load("builtin:ball");
     animation *path = NULL;
