@@ -33,6 +33,20 @@ double oracle_sheen(double roughness, const double light[3], const double view[3
     return distribution / (smith * 4.0 * view[2] * light[2]);
 }
 
+/* What a ring of polar angle acos(z) around a direction `to` from the normal gives, of weight 1. */
+static double ring(double roughness, const double view[3], double to, double z, int azimuths) {
+    const double s = sqrt(1 - z * z);
+    double sum = 0;
+    for (int k = 0; k < azimuths; k++) {
+        const double phi = 2 * ORACLE_PI * (k + 0.5) / azimuths;
+        const double light[3] = { cos(to) * s * cos(phi) + sin(to) * z, s * sin(phi),
+                                  cos(to) * z - sin(to) * s * cos(phi) };
+        if (light[2] > 0)
+            sum += light[2] * oracle_sheen(roughness, light, view);
+    }
+    return sum * 2 * ORACLE_PI / azimuths;
+}
+
 /* E, over rings dense at the horizon. */
 double oracle_sheen_albedo(double roughness, double angle) {
     enum { RINGS = 120, AZIMUTHS = 400 };
@@ -40,14 +54,10 @@ double oracle_sheen_albedo(double roughness, double angle) {
     const double view[3] = { sin(angle), 0, cos(angle) };
     double sum = 0;
     oracle_gauss_legendre(RINGS, node, weight);
-    for (int i = 0; i < RINGS; i++)
-        for (int k = 0; k < AZIMUTHS; k++) {
-            const double root = (1 + node[i]) / 2, z = root * root, s = sqrt(1 - z * z);
-            const double phi = 2 * ORACLE_PI * (k + 0.5) / AZIMUTHS;
-            const double light[3] = { s * cos(phi), s * sin(phi), z };
-            sum += weight[i] * root * z * 2 * ORACLE_PI / AZIMUTHS *
-                   oracle_sheen(roughness, light, view);
-        }
+    for (int i = 0; i < RINGS; i++) {
+        const double root = (1 + node[i]) / 2;
+        sum += weight[i] * root * ring(roughness, view, 0, root * root, AZIMUTHS);
+    }
     return sum;
 }
 
@@ -55,18 +65,12 @@ double oracle_sheen_albedo(double roughness, double angle) {
 double oracle_sheen_cap(double roughness, double to, double half, double angle) {
     enum { RINGS = 24, AZIMUTHS = 48 };
     static double node[RINGS], weight[RINGS];
-    const double view[3] = { sin(angle), 0, cos(angle) };
+    const double view[3] = { sin(angle), 0, cos(angle) }, height = 1 - cos(half);
     double sum = 0;
     oracle_gauss_legendre(RINGS, node, weight);
-    for (int i = 0; i < RINGS; i++)
-        for (int k = 0; k < AZIMUTHS; k++) {
-            const double z = 1 - (1 - cos(half)) * (1 + node[i]) / 2, s = sqrt(1 - z * z);
-            const double phi = 2 * ORACLE_PI * (k + 0.5) / AZIMUTHS;
-            const double light[3] = { cos(to) * s * cos(phi) + sin(to) * z, s * sin(phi),
-                                      cos(to) * z - sin(to) * s * cos(phi) };
-            if (light[2] > 0)
-                sum += weight[i] * (1 - cos(half)) * ORACLE_PI / AZIMUTHS * light[2] *
-                       oracle_sheen(roughness, light, view);
-        }
+    for (int i = 0; i < RINGS; i++) {
+        const double z = 1 - height * (1 + node[i]) / 2;
+        sum += weight[i] * height / 2 * ring(roughness, view, to, z, AZIMUTHS);
+    }
     return sum;
 }

@@ -3,13 +3,13 @@
  * integrated over caps here, times w (0.04 + 0.96 (1 - |v·n|)^5); what is under them has the rest.
  */
 #include "tests/oracle/check.h"
+#include "tests/oracle/crowd.h"
 #include "tests/oracle/gltf.h"
 #include "tests/oracle/oracle.h"
 
 #include <lampion/shade.h>
 
 #include <math.h>
-#include <string.h>
 
 static double reflectance(double weight, lmp_vec3 n, lmp_vec3 v) {
     const double cosine =
@@ -52,124 +52,55 @@ static void a_coat_reflects_by_the_specification(void **state) {
 
 /* --- any material ----------------------------------------------------------------------------- */
 
-enum { COUNT = 41, LIGHTS = 5 };
-
-typedef struct coated_surfaces {
-    lmp_surface at[COUNT];
-    lmp_material material[COUNT];
-    lmp_light lights[LIGHTS];
-    float sh[3 * 36];
-} coated_surfaces;
-
-static lmp_rgb random_color(void) {
-    return (lmp_rgb) { (float)check_random(), (float)check_random(), (float)check_random() };
-}
-
-/* Every third has no coat, every second one a normal of the coat's own. */
-static void make(coated_surfaces *s) {
-    memset(s, 0, sizeof *s);
-    for (int i = 0; i < COUNT; i++) {
-        s->at[i] =
-            (lmp_surface) { .normal = check_random_direction(), .view = check_random_direction() };
-        s->at[i].coat_normal = i % 2 ? check_random_direction() : s->at[i].normal;
-        s->material[i] = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                                          .base_color = random_color(),
-                                          .metallic = 0.5f,
-                                          .roughness = (float)check_random() };
+/* Every third has no coat. */
+static void make_coated(crowd *c) {
+    crowd_make(c);
+    for (int i = 0; i < CROWD_COUNT; i++)
         if (i % 3)
-            s->material[i].coat = (lmp_coat) { (float)check_random(), (float)check_random() };
-    }
-    for (int i = 0; i < LIGHTS; i++) {
-        const lmp_vec3 to = check_random_direction();
-        s->lights[i] = (lmp_light) { .position = { 3 * to.x, 3 * to.y, 3 * to.z },
-                                     .radius = 0.5f,
-                                     .radiance = random_color() };
-    }
-    for (size_t i = 0; i < sizeof s->sh / sizeof *s->sh; i++)
-        s->sh[i] = (float)check_random_between(0, 0.1);
-    s->sh[0] = s->sh[36] = s->sh[72] = 1;
-}
-
-static lmp_rgb shade(const coated_surfaces *s, bool environment, const lmp_material *material,
-                     const lmp_surface *surface) {
-    const lmp_environment around = { s->sh, 6 };
-    return environment ? lmp_shade_environment(NULL, material, surface, &around)
-                       : lmp_shade(NULL, material, surface, s->lights, LIGHTS);
+            c->material[i].coat = (lmp_coat) { (float)check_random(), (float)check_random() };
 }
 
 static void what_is_under_a_coat_has_the_rest(void **state) {
     (void)state;
-    coated_surfaces s;
-    make(&s);
-    for (int environment = 0; environment < 2; environment++)
-        for (int i = 0; i < COUNT; i++) {
-            lmp_material bare = s.material[i], coat = { .coat = s.material[i].coat };
-            bare.coat.weight = 0;
-            const double part =
-                reflectance((double)s.material[i].coat.weight, s.at[i].coat_normal, s.at[i].view);
-            const lmp_rgb all = shade(&s, environment, &s.material[i], &s.at[i]);
-            const lmp_rgb under = shade(&s, environment, &bare, &s.at[i]);
-            const lmp_rgb over = shade(&s, environment, &coat, &s.at[i]);
+    crowd all, bare, coats;
+    make_coated(&all);
+    bare = coats = all;
+    for (int i = 0; i < CROWD_COUNT; i++) {
+        const lmp_coat *coat = &all.material[i].coat;
+        bare.material[i].coat.weight = 0;
+        coats.material[i] = (lmp_material) { .coat = *coat };
+        const lmp_surface *at = &all.at[i];
+        const double part = reflectance((double)coat->weight, at->coat_normal, at->view);
+        const float coated = lmp_material_coated(coat, at->coat_normal, at->view);
+        CHECK_WITHIN(fabs((double)coated - part), 1e-6);
+        for (int environment = 0; environment < 2; environment++) {
+            const lmp_rgb both = crowd_shade_one(&all, i, environment);
+            const lmp_rgb under = crowd_shade_one(&bare, i, environment);
+            const lmp_rgb over = crowd_shade_one(&coats, i, environment);
             const double expected = (double)under.g * (1 - part) + (double)over.g;
-            CHECK_WITHIN(fabs((double)all.g - expected), 1e-6 * (1 + expected));
-            CHECK_WITHIN(fabs((double)lmp_material_coated(&s.material[i].coat, s.at[i].coat_normal,
-                                                          s.at[i].view) -
-                              part),
-                         1e-6);
+            CHECK_WITHIN(fabs((double)both.g - expected), 1e-6 * (1 + expected));
         }
+    }
 }
 
 static void many_surfaces_are_coated_as_each_of_them(void **state) {
     (void)state;
-    coated_surfaces s;
-    make(&s);
-    const size_t stride = sizeof *s.at;
-    const lmp_surfaces all = {
-        .position = { &s.at->position.x, &s.at->position.y, &s.at->position.z, stride },
-        .normal = { &s.at->normal.x, &s.at->normal.y, &s.at->normal.z, stride },
-        .view = { &s.at->view.x, &s.at->view.y, &s.at->view.z, stride },
-        .material = s.material,
-        .material_stride = sizeof *s.material,
-        .coat_normal = { &s.at->coat_normal.x, &s.at->coat_normal.y, &s.at->coat_normal.z, stride }
-    };
-    const lmp_environment around = { s.sh, 6 };
-    float rgb[4 * COUNT];
-    for (int environment = 0; environment < 2; environment++) {
-        if (environment)
-            lmp_shade_environment_n(NULL, &all, COUNT, &around, 4 * sizeof *rgb, rgb);
-        else
-            lmp_shade_n(NULL, &all, COUNT, s.lights, LIGHTS, 4 * sizeof *rgb, rgb);
-        for (int i = 0; i < COUNT; i++) {
-            const lmp_rgb one = shade(&s, environment, &s.material[i], &s.at[i]);
-            const double expected[3] = { (double)one.r, (double)one.g, (double)one.b };
-            for (int c = 0; c < 3; c++)
-                CHECK_WITHIN(fabs((double)rgb[4 * i + c] - expected[c]), 3e-5);
-        }
-    }
+    crowd all;
+    make_coated(&all);
+    crowd_check_many(&all);
 }
 
-/* Of each method, over a base that is no metallic-roughness. */
+/* Over a base that is no metallic-roughness. */
 static void all_methods_coat_alike(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *lobe;
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &lobe), LMP_OK);
-    coated_surfaces s;
-    make(&s);
-    for (int i = 0; i < COUNT; i++) {
-        const lmp_material painted = { .diffuse = { 0.5f, 0.5f, 0.5f },
-                                       .specular = { 0.2f, 0.2f, 0.2f },
-                                       .exponent = 10,
-                                       .coat = { 1, 0.6f } };
-        lmp_rgb by[LMP_SHADE_METHODS];
-        for (int method = 0; method < LMP_SHADE_METHODS; method++) {
-            const lmp_shade_settings settings = { .method = (lmp_shade_method)method,
-                                                  .lobe = lobe };
-            by[method] = lmp_shade(&settings, &painted, &s.at[i], s.lights, LIGHTS);
-        }
-        CHECK_WITHIN(fabs((double)by[LMP_SHADE_COEFFICIENTS].r - (double)by[0].r), 1e-5);
-        CHECK_WITHIN(fabs((double)by[LMP_SHADE_PREINTEGRATED].r - (double)by[0].r), 3e-3);
-    }
-    lmp_preintegrated_lobe_destroy(lobe);
+    crowd all;
+    crowd_make(&all);
+    for (int i = 0; i < CROWD_COUNT; i++)
+        all.material[i] = (lmp_material) { .diffuse = { 0.5f, 0.5f, 0.5f },
+                                           .specular = { 0.2f, 0.2f, 0.2f },
+                                           .exponent = 10,
+                                           .coat = { 1, 0.6f } };
+    crowd_check_methods(&all, 3e-3);
 }
 
 int main(void) {

@@ -2,13 +2,13 @@
 /* Fibers over materials against KHR_materials_sheen: what they reflect of caps, and what they leave
  * of what is under them. */
 #include "tests/oracle/check.h"
+#include "tests/oracle/crowd.h"
 #include "tests/oracle/oracle.h"
 #include "tests/oracle/sheen.h"
 
 #include <lampion/shade.h>
 
 #include <math.h>
-#include <string.h>
 
 static lmp_brdf_table *white[LMP_FIBER_TABLES];
 
@@ -103,87 +103,30 @@ static void what_is_under_fibers_has_the_rest(void **state) {
 
 /* --- many ------------------------------------------------------------------------------------- */
 
-enum { COUNT = 41, LIGHTS = 5 };
-
-typedef struct cloths {
-    lmp_surface at[COUNT];
-    lmp_material material[COUNT];
-    lmp_light lights[LIGHTS];
-    float sh[3 * 36];
-} cloths;
-
 /* Every third without fibers, every fifth under a coat. */
-static void make_cloths(cloths *s) {
-    memset(s, 0, sizeof *s);
-    for (int i = 0; i < COUNT; i++) {
-        const float rough = (float)check_random();
-        s->at[i] =
-            (lmp_surface) { .normal = check_random_direction(), .view = check_random_direction() };
-        s->material[i] = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                                          .base_color = { 0.5f, 0.3f, 0.1f },
-                                          .roughness = rough };
+static void make_cloths(crowd *c) {
+    crowd_make(c);
+    for (int i = 0; i < CROWD_COUNT; i++) {
+        const float rough = c->material[i].roughness;
         if (i % 3)
-            s->material[i].fibers = fibers_of(1 - rough, (lmp_rgb) { 0.2f, rough, 0.9f });
+            c->material[i].fibers = fibers_of(1 - rough, (lmp_rgb) { 0.2f, rough, 0.9f });
         if (i % 5 == 0)
-            s->material[i].coat = (lmp_coat) { 0.7f, rough };
+            c->material[i].coat = (lmp_coat) { 0.7f, rough };
     }
-    for (int i = 0; i < LIGHTS; i++) {
-        const lmp_vec3 to = check_random_direction();
-        s->lights[i] = (lmp_light) { .position = { 3 * to.x, 3 * to.y, 3 * to.z },
-                                     .radius = 0.5f,
-                                     .radiance = { 1, 0.5f, 0.25f } };
-    }
-    s->sh[0] = s->sh[36] = s->sh[72] = 1;
-    s->sh[2] = s->sh[40] = 0.2f;
 }
 
 static void many_cloths_are_shaded_as_each_of_them(void **state) {
     (void)state;
-    cloths s;
-    make_cloths(&s);
-    const size_t stride = sizeof *s.at;
-    const lmp_surfaces all = {
-        .position = { &s.at->position.x, &s.at->position.y, &s.at->position.z, stride },
-        .normal = { &s.at->normal.x, &s.at->normal.y, &s.at->normal.z, stride },
-        .view = { &s.at->view.x, &s.at->view.y, &s.at->view.z, stride },
-        .material = s.material,
-        .material_stride = sizeof *s.material,
-    };
-    const lmp_environment around = { s.sh, 6 };
-    for (int environment = 0; environment < 2; environment++) {
-        lmp_rgb many[COUNT];
-        if (environment)
-            lmp_shade_environment_n(NULL, &all, COUNT, &around, 0, &many->r);
-        else
-            lmp_shade_n(NULL, &all, COUNT, s.lights, LIGHTS, 0, &many->r);
-        for (int i = 0; i < COUNT; i++) {
-            const lmp_rgb one = environment
-                                    ? lmp_shade_environment(NULL, &s.material[i], &s.at[i], &around)
-                                    : lmp_shade(NULL, &s.material[i], &s.at[i], s.lights, LIGHTS);
-            CHECK_WITHIN(fabs((double)many[i].r - (double)one.r), 3e-5);
-            CHECK_WITHIN(fabs((double)many[i].g - (double)one.g), 3e-5);
-            CHECK_WITHIN(fabs((double)many[i].b - (double)one.b), 3e-5);
-        }
-    }
+    crowd cloths;
+    make_cloths(&cloths);
+    crowd_check_many(&cloths);
 }
 
 static void all_methods_shade_fibers_alike(void **state) {
     (void)state;
-    lmp_preintegrated_lobe *lobe;
-    assert_int_equal(lmp_preintegrated_lobe_create(NULL, NULL, &lobe), LMP_OK);
-    cloths s;
-    make_cloths(&s);
-    for (int i = 0; i < COUNT; i++) {
-        lmp_rgb by[LMP_SHADE_METHODS];
-        for (int method = 0; method < LMP_SHADE_METHODS; method++) {
-            const lmp_shade_settings settings = { .method = (lmp_shade_method)method,
-                                                  .lobe = lobe };
-            by[method] = lmp_shade(&settings, &s.material[i], &s.at[i], s.lights, LIGHTS);
-        }
-        CHECK_WITHIN(fabs((double)by[LMP_SHADE_COEFFICIENTS].r - (double)by[0].r), 1e-5);
-        CHECK_WITHIN(fabs((double)by[LMP_SHADE_PREINTEGRATED].r - (double)by[0].r), 6e-3);
-    }
-    lmp_preintegrated_lobe_destroy(lobe);
+    crowd cloths;
+    make_cloths(&cloths);
+    crowd_check_methods(&cloths, 6e-3);
 }
 
 int main(void) {

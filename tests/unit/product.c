@@ -24,45 +24,41 @@ static double pair_value(const double w[3], void *user) {
     return a * b;
 }
 
-static void multiplies_the_vector_file(void **state) {
-    (void)state;
-    enum { COUNT = LMP_SH_FEW_BANDS * LMP_SH_FEW_BANDS };
-    check_csv *csv = check_csv_open("product.csv");
+/* Each row of a file is a, b and their product; NULL multiplies by the form for few bands. */
+static void check_vector_file(const char *name, int bands, const lmp_sh_product *product,
+                              double bound) {
+    enum { MOST = LMP_SH_COUNT(12) };
+    const int count = bands * bands;
+    check_csv *csv = check_csv_open(name);
     for (int row = 0; row < csv->rows; row++) {
-        double in[2 * COUNT], expected[COUNT];
-        float a[COUNT], b[COUNT], c[COUNT];
-        check_csv_numbers(csv, row, 0, 2 * COUNT, in);
-        check_csv_numbers(csv, row, 2 * COUNT, COUNT, expected);
-        for (int k = 0; k < COUNT; k++) {
+        double in[2 * MOST], expected[MOST];
+        float a[MOST], b[MOST], c[MOST];
+        check_csv_numbers(csv, row, 0, 2 * count, in);
+        check_csv_numbers(csv, row, 2 * count, count, expected);
+        for (int k = 0; k < count; k++) {
             a[k] = (float)in[k];
-            b[k] = (float)in[COUNT + k];
+            b[k] = (float)in[count + k];
         }
-        lmp_sh_multiply_few(LMP_SH_FEW_BANDS, a, b, c);
-        CHECK_WITHIN(check_error(COUNT, expected, c), 2e-6);
+        if (product)
+            lmp_sh_multiply(product, a, b, c);
+        else
+            lmp_sh_multiply_few(bands, a, b, c);
+        CHECK_WITHIN(check_error((size_t)count, expected, c), bound);
     }
     check_csv_close(csv);
 }
 
+static void multiplies_the_vector_file(void **state) {
+    (void)state;
+    check_vector_file("product.csv", LMP_SH_FEW_BANDS, NULL, 2e-6);
+}
+
 static void multiplies_12_bands_as_the_vector_file_says(void **state) {
     (void)state;
-    enum { COUNT = LMP_SH_COUNT(12) };
-    check_csv *csv = check_csv_open("product_12.csv");
     lmp_sh_product *product;
     assert_int_equal(lmp_sh_product_create(NULL, 12, &product), LMP_OK);
-    for (int row = 0; row < csv->rows; row++) {
-        double in[2 * COUNT], expected[COUNT];
-        float a[COUNT], b[COUNT], c[COUNT];
-        check_csv_numbers(csv, row, 0, 2 * COUNT, in);
-        check_csv_numbers(csv, row, 2 * COUNT, COUNT, expected);
-        for (int k = 0; k < COUNT; k++) {
-            a[k] = (float)in[k];
-            b[k] = (float)in[COUNT + k];
-        }
-        lmp_sh_multiply(product, a, b, c);
-        CHECK_WITHIN(check_error(COUNT, expected, c), 5e-6);
-    }
+    check_vector_file("product_12.csv", 12, product, 5e-6);
     lmp_sh_product_destroy(product);
-    check_csv_close(csv);
 }
 
 static void multiplies_as_quadrature_does(void **state) {
