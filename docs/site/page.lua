@@ -34,6 +34,15 @@ local names = {
     Code = link_names,
 }
 
+-- Browsers break a line after a hyphen, also after that of 1e-6.
+local numbers = {
+    Str = function(element)
+        if element.text:match('^[%d.]+e%-%d+$') then
+            return pandoc.Span({ element }, pandoc.Attr('', { 'number' }))
+        end
+    end,
+}
+
 local looks = {
     Table = function(element)
         return pandoc.Div({ element }, pandoc.Attr('', { 'wide' }))
@@ -100,4 +109,4 @@ local function list_sections(document)
 end
 
 -- traverse = 'topdown' needs pandoc 2.17
-return { { Pandoc = title }, { Pandoc = list_sections }, links, names, looks }
+return { { Pandoc = title }, { Pandoc = list_sections }, links, names, numbers, looks }
