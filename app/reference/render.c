@@ -215,7 +215,7 @@ static void see_surface(const frame *f, worker *own, const reference_hit *hit,
         seen->standard_error[c] = result.standard_error[c];
     }
     seen->opacity = opacity_of(f, hit);
-    seen->behind = reference_subtract(reference_scale(2, hit->position), hit->ray_origin);
+    seen->behind = hit->behind;
 }
 
 static sight see(const frame *f, worker *own, const pixel_ray *ray, uint64_t key) {

@@ -50,6 +50,18 @@ static reference_vec face_normal(const corner_weights *c) {
                            reference_subtract(reference_from_floats(c->vertices[2]->position), p));
 }
 
+/* How far above its triangle the surface lies that has the corners' normals, to second order: on
+ * the way to a corner it falls off as half of what the normal there says. */
+static double bulge(const corner_weights *c, reference_vec position) {
+    double height = 0;
+    for (int i = 0; i < 3; i++) {
+        const reference_vec corner = reference_from_floats(c->vertices[i]->position);
+        const reference_vec normal = reference_from_floats(c->vertices[i]->normal);
+        height += c->weights[i] / 2 * reference_dot(reference_subtract(corner, position), normal);
+    }
+    return height;
+}
+
 bool reference_tracer_create(const scene *world, reference_tracer **tracer, cli_error *error) {
     reference_tracer *t = *tracer = calloc(1, sizeof *t);
     if (!t || !(t->bvh = trace_create(world))) {
@@ -89,9 +101,13 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
     const double side = reference_dot(face, direction) > 0 ? -1 : 1;
     hit.position = blend(&c, offsetof(scene_vertex, position));
     hit.distance = reference_length(reference_subtract(hit.position, origin));
-    hit.ray_origin = reference_add(hit.position, reference_scale(side * tracer->lift, face));
-    hit.normal =
-        reference_scale(side, reference_normalize(blend(&c, offsetof(scene_vertex, normal))));
+    const reference_vec normal = blend(&c, offsetof(scene_vertex, normal));
+    const reference_vec lift = reference_scale(side * tracer->lift, face);
+    const double height = fmax(side * bulge(&c, hit.position), 0);
+    hit.normal = reference_scale(side, reference_normalize(normal));
+    hit.ray_origin =
+        reference_add(reference_add(hit.position, lift), reference_scale(height, hit.normal));
+    hit.behind = reference_subtract(hit.position, lift);
     hit.tangent = reference_normalize(blend(&c, offsetof(scene_vertex, tangent)));
     hit.handedness = (double)c.vertices[0]->tangent[3];
     blend_uv(&c, hit.uv);

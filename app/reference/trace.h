@@ -16,7 +16,8 @@ void reference_tracer_destroy(reference_tracer *tracer);
 typedef struct reference_hit {
     double distance; /* INFINITY: nothing was hit, the rest is not set */
     reference_vec position;
-    reference_vec ray_origin;      /* position, lifted off the seen face */
+    reference_vec ray_origin; /* of rays to lights: off the seen face, where normals bulge it */
+    reference_vec behind;     /* position, on the other side of the face */
     reference_vec normal, tangent; /* unit, normal on the side of the seen face */
     double handedness;             /* w of the tangent */
     double uv[4];                  /* two sets */

@@ -19,13 +19,15 @@ static void set_lane(shadow_vectors *v, int lane, lmp_vec3 value) {
 /* --- where rays start ------------------------------------------------------------------------- */
 
 /* A smooth normal says that the surface bulges past its flat triangle: a ray that starts on the
- * triangle would meet its neighbors. So it starts on the surface that the corners' tangent planes
- * make (Hanika 2021), and, against rounding, a little off the triangle. */
+ * triangle would meet its neighbors. So it starts as high as the surface of second degree that has
+ * the corners' normals, which lies half as far off the triangle as the corners' tangent planes,
+ * and, against rounding, a little off the triangle. Hollows stay where they are drawn. */
 static void leave_triangle(const shadow_view *view, const trace_hit *hit, int lane,
                            shadow_points *p) {
     const scene_vertex *corners[3];
     double weights[3];
-    lmp_vec3 at = { 0, 0, 0 }, smooth = { 0, 0, 0 }, bulge = { 0, 0, 0 };
+    lmp_vec3 at = { 0, 0, 0 }, sum = { 0, 0, 0 };
+    float height = 0;
     trace_corners(view->scene, hit, corners, weights);
     const lmp_vec3 a = vec_load(corners[0]->position);
     const lmp_vec3 face = vec_normalize(vec_cross(vec_sub(vec_load(corners[1]->position), a),
@@ -34,16 +36,17 @@ static void leave_triangle(const shadow_view *view, const trace_hit *hit, int la
     const float side = vec_dot(face, lane_of(&p->view, lane)) < 0 ? -1.0f : 1.0f;
     for (int i = 0; i < 3; i++) {
         at = vec_add(at, vec_scale(vec_load(corners[i]->position), (float)weights[i]));
-        smooth = vec_add(smooth, vec_scale(vec_load(corners[i]->normal), (float)weights[i] * side));
+        sum = vec_add(sum, vec_scale(vec_load(corners[i]->normal), (float)weights[i] * side));
     }
     for (int i = 0; i < 3; i++) {
-        const lmp_vec3 normal = vec_scale(vec_load(corners[i]->normal), side);
-        const float below = vec_dot(vec_sub(at, vec_load(corners[i]->position)), normal);
-        if (below < 0 && !view->facets)
-            bulge = vec_sub(bulge, vec_scale(normal, (float)weights[i] * below));
+        const lmp_vec3 to_corner = vec_sub(vec_load(corners[i]->position), at);
+        const lmp_vec3 normal = vec_load(corners[i]->normal);
+        height += 0.5f * (float)weights[i] * side * vec_dot(to_corner, normal);
     }
-    set_lane(&p->smooth, lane, vec_normalize(smooth, vec_scale(face, side)));
-    set_lane(&p->origin, lane, vec_add(vec_add(at, bulge), vec_scale(face, side * view->lift)));
+    const lmp_vec3 smooth = vec_normalize(sum, vec_scale(face, side));
+    const lmp_vec3 start = vec_add(at, vec_scale(smooth, fmaxf(height, 0)));
+    set_lane(&p->smooth, lane, smooth);
+    set_lane(&p->origin, lane, vec_add(start, vec_scale(face, side * view->lift)));
 }
 
 /* Where rounding hides the triangle from the ray, what the pixel knows serves. */

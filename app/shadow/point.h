@@ -38,8 +38,7 @@ typedef struct shadow_view {
     const trace_bvh *bvh;
     float lift; /* of rays off their surface */
     const scene_camera *camera;
-    int height;  /* of the image */
-    bool facets; /* they leave flat triangles */
+    int height; /* of the image */
     lmp_shade_settings settings;
 } shadow_view;
 

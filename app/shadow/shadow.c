@@ -80,7 +80,6 @@ static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *g
                   .lift = (float)trace_lift(s->scene),
                   .camera = &frame->camera,
                   .height = frame->height,
-                  .facets = s->settings.facets,
                   .settings = { .bands = frame->bands, .window = frame->window } },
         .sources = s->sources,
         .rays = s->settings.rays,

@@ -13,7 +13,6 @@ typedef struct shadow_settings {
     bool raw;      /* without the filter */
     bool sparse;   /* of two neighbors one sends rays, and of two samples of a pixel */
     bool apart;    /* samples know nothing of those before: all of them send rays */
-    bool facets;   /* rays leave flat triangles, as the reference's do, whose edges show at dusk */
 } shadow_settings;
 #define SHADOW_RAYS_MAX     1024
 #define SHADOW_RAYS_DEFAULT 2

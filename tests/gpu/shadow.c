@@ -42,9 +42,7 @@ static void average(stage *s, const environment *around, int seeds, double *mean
     memset(mean, 0, 3 * PIXELS * sizeof *mean);
     memset(variance, 0, 3 * PIXELS * sizeof *variance);
     for (int seed = 0; seed < seeds; seed++) {
-        const shadow_settings settings = {
-            .rays = 16, .seed = (uint32_t)seed, .raw = true, .facets = true
-        };
+        const shadow_settings settings = { .rays = 16, .seed = (uint32_t)seed, .raw = true };
         image pixels = draw_shadows(s, around, &settings);
         for (int i = 0; i < 3 * PIXELS; i++) {
             const double value = (double)pixels.rgb[i];
@@ -219,24 +217,39 @@ static void both_devices_have_the_same_shadows(void **state) {
     close_stage(&s);
 }
 
-/* A ball of 32 segments and 16 rings. */
-static void make_ball(scene *world) {
-    enum { RINGS = 16 };
+/* A ball as a vase: `waist` less wide in the middle, of so many segments and half as many rings. */
+static void make_round(scene *world, float waist, int segments) {
+    enum { RINGS_MAX = 256 };
+    const int rings = segments / 2;
     scene_builder builder = { .out_of_memory = false };
-    shape_point profile[RINGS + 1];
+    shape_point profile[RINGS_MAX + 1];
     add_material(&builder, "ball", 0.8f);
     scene_shaper shaper = { .builder = &builder };
-    for (int i = 0; i <= RINGS; i++) {
-        const float angle = PI * (float)i / RINGS;
-        profile[i] = (shape_point) { i % RINGS ? sinf(angle) : 0, -cosf(angle) };
+    assert_in_range(rings, 1, RINGS_MAX);
+    for (int i = 0; i <= rings; i++) {
+        const float angle = PI * (float)i / (float)rings, wide = sinf(angle);
+        const float radius = wide * (1 - waist * wide * wide * wide * wide);
+        profile[i] = (shape_point) { i % rings ? radius : 0, -cosf(angle) };
     }
     shape_revolve(&shaper, &(shape_revolution) { .profile = profile,
-                                                 .point_count = RINGS + 1,
+                                                 .point_count = rings + 1,
                                                  .origin = { 0.1f, 0.5f, 0 },
                                                  .axis = 'y',
-                                                 .segments = 32 });
+                                                 .segments = segments });
     shaper_finish(&shaper);
     open_scene(&builder, world);
+}
+
+static void make_ball(scene *world) {
+    make_round(world, 0, 32);
+}
+
+static void make_vase(scene *world) {
+    make_round(world, 0.7f, 32);
+}
+
+static void make_fine_vase(scene *world) {
+    make_round(world, 0.7f, 512);
 }
 
 /* Where its normals face the light it is lit, and not the other way round. */
@@ -263,6 +276,47 @@ static void a_coarse_ball_does_not_shade_itself(void **state) {
     image_free(&all);
     image_free(&pixels);
     close_stage(&s);
+}
+
+/* Under suns all around, some low and some high. */
+static ground_truth vase_truth(void (*make)(scene *world)) {
+    enum { SUNS = 12 };
+    lmp_light suns[SUNS];
+    stage s;
+    for (int i = 0; i < SUNS; i++) {
+        const float angle = 2 * PI * (float)i / SUNS;
+        const float up = i % 2 ? 0.28f : 0.8f, aside = i % 2 ? 0.96f : 0.6f;
+        suns[i] = (lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
+                                .direction = { aside * cosf(angle), up, aside * sinf(angle) },
+                                .irradiance = { 1, 1, 1 } };
+    }
+    open_scene_stage(&s, make);
+    set_lights(&s, suns, SUNS);
+    ground_truth t = find_truth(&s, NULL);
+    close_stage(&s);
+    return t;
+}
+
+/* Its facets would shade each other if rays left them. */
+static void the_ground_truth_of_a_coarse_vase_is_that_of_a_fine_one(void **state) {
+    (void)state;
+    ground_truth coarse = vase_truth(make_vase), fine = vase_truth(make_fine_vase);
+    double hidden = 0, error = 0;
+    int lit = 0;
+    for (int i = 0; i < 3 * PIXELS; i += 3) {
+        if (!(coarse.lit.rgb[i] > 0.01f && fine.lit.rgb[i] > 0.01f))
+            continue;
+        const double arrives = (double)(fine.shadowed.rgb[i] / fine.lit.rgb[i]);
+        lit++;
+        hidden += 1 - arrives;
+        error += fabs((double)(coarse.shadowed.rgb[i] / coarse.lit.rgb[i]) - arrives);
+    }
+    print_message("of %d pixels, %.4f are hidden, with an error of %.5f\n", lit, hidden / lit,
+                  error / lit);
+    assert_in_range(lit, PIXELS / 20, PIXELS);
+    CHECK_WITHIN(error, 0.004 * lit);
+    free_truth(&coarse);
+    free_truth(&fine);
 }
 
 /* Of the pixels, how many the light reaches. */
@@ -318,6 +372,7 @@ int main(void) {
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(both_devices_have_the_same_shadows),
         cmocka_unit_test(a_coarse_ball_does_not_shade_itself),
+        cmocka_unit_test(the_ground_truth_of_a_coarse_vase_is_that_of_a_fine_one),
         cmocka_unit_test(a_light_in_a_closed_box_lights_nothing_outside),
         cmocka_unit_test(lights_that_meet_surfaces_are_finite),
     };
