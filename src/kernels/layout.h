@@ -44,17 +44,27 @@ LMP_INLINE void layout_store_quarter(float *to, vf v, int g) {
     memcpy(to, &part, sizeof part);
 }
 
+/* Quarter g from from[g]. By insertions: put together in memory, a register would wait for its
+ * stores. */
+LMP_INLINE vf layout_quarters(const float *const from[LMP_LANES / 4]) {
+#if LMP_LANES == 16
+    __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(from[0]));
+    v = _mm512_insertf32x4(v, _mm_loadu_ps(from[1]), 1);
+    v = _mm512_insertf32x4(v, _mm_loadu_ps(from[2]), 2);
+    return (vf)_mm512_insertf32x4(v, _mm_loadu_ps(from[3]), 3);
+#elif LMP_LANES == 8
+    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from[0])),
+                                    _mm_loadu_ps(from[1]), 1);
+#else
+    return vf_load(from[0]);
+#endif
+}
+
 /* Quarter g from from[g * step]. */
 LMP_INLINE vf layout_load_quarters(const float *from, size_t step) {
-#if LMP_LANES == 8
-    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from)),
-                                    _mm_loadu_ps(from + step), 1);
-#else
-    vf v;
-    LMP_UNROLL for (size_t g = 0; g < LMP_LANES / 4; g++)
-        memcpy((char *)&v + 16 * g, from + g * step, 16);
-    return v;
-#endif
+    const float *quarters[LMP_LANES / 4];
+    LMP_UNROLL for (size_t g = 0; g < LMP_LANES / 4; g++) quarters[g] = from + g * step;
+    return layout_quarters(quarters);
 }
 
 /* Four planes of a full block as rows. The row is hidden, for the compilers would hold every one,

@@ -14,17 +14,9 @@ LMP_INLINE size_t rows_offset(const lmp_kernel_rows *rows, size_t e) {
 
 /* Four floats of rows e, e + 4, e + 8 …, a quarter each. */
 LMP_INLINE vf rows_quarters(const float *const *row, size_t v) {
-#if LMP_LANES == 16
-    __m512 quarters = _mm512_castps128_ps512(_mm_loadu_ps(row[0] + v));
-    quarters = _mm512_insertf32x4(quarters, _mm_loadu_ps(row[4] + v), 1);
-    quarters = _mm512_insertf32x4(quarters, _mm_loadu_ps(row[8] + v), 2);
-    return (vf)_mm512_insertf32x4(quarters, _mm_loadu_ps(row[12] + v), 3);
-#elif LMP_LANES == 8
-    return (vf)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[0] + v)),
-                                    _mm_loadu_ps(row[4] + v), 1);
-#else
-    return vf_load(row[0] + v);
-#endif
+    const float *quarters[LMP_LANES / 4];
+    LMP_UNROLL for (size_t g = 0; g < LMP_LANES / 4; g++) quarters[g] = row[4 * g] + v;
+    return layout_quarters(quarters);
 }
 
 LMP_INLINE void rows_load4(const float *const *row, size_t v, size_t e, float *const *planes) {
