@@ -87,11 +87,10 @@ LMP_INLINE cap_lanes lights_cap(const lmp_kernel_lights *lights, size_t i, const
 /* Of what a light is at the points from `element` on, what comes. */
 LMP_INLINE void lights_hide(const lmp_kernel_lights *lights, size_t i, size_t element, size_t live,
                             cap_lanes *cap) {
-    float LMP_ALIGNED visible[LMP_LANES] = { 0 };
     const float *plane = lights->visibility + i * lights->visibility_stride + element;
-    memcpy(visible, plane, live * sizeof *plane);
-    cap->s2 = cap->s2 * vf_load(visible);
-    cap->t_full = cap->t_full * vf_load(visible);
+    const vf visible = live == LMP_LANES ? vf_load(plane) : vf_load_first(plane, (int)live);
+    cap->s2 = cap->s2 * visible;
+    cap->t_full = cap->t_full * visible;
 }
 
 /* Where a light stands: at column m R_m, as cap_radial has it (R_1 where m is 0), C_m and S_m. */
@@ -237,7 +236,7 @@ LMP_INLINE void accumulate_lights(const accumulate_work *work, accumulate_tile t
     } else {
         LMP_UNROLL for (int k = 0; k < at_once; k++) {
             cap_lanes cap = lights_cap(work->lights, first + (size_t)k, point, 0);
-            if (work->lights->visibility)
+            if (__builtin_expect(work->lights->visibility != NULL, 0))
                 lights_hide(work->lights, first + (size_t)k, work->element, work->live, &cap);
             work->waiting[k] = accumulate_begin(cap, &light[k]);
         }

@@ -87,7 +87,7 @@ LMP_INLINE void few_lights(int bands, int monic, const lmp_kernel_lights *lights
     accumulate_column column;
     vf rgb[3], radial[FEW_BANDS];
     cap_lanes cap = few_caps(lights, i, live, point, rgb);
-    if (lights->visibility)
+    if (__builtin_expect(lights->visibility != NULL, 0))
         few_hide(lights, i, live, element, &cap);
     radial[0] = accumulate_begin(cap, &light);
     accumulate_radial(bands, accumulate_first(bands, FEW_SUMS), 1, &light, radial);
