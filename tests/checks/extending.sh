@@ -36,3 +36,33 @@ has app/material/file.c formats
 has app/material/material.c kinds
 has src/kernels/kernels.h lmp_kernels
 has app/image/tone.c image_tones
+
+# Files of code that have the trace of a section only because they use what it adds.
+users='app/bench/inputs.c app/paper/materials.c app/paper/scenes.c app/scoreboard/lampion.c
+src/shade/layers.c shaders/coefficients.glsl'
+
+# unnamed FILE: for each trace in FILE, the files of code that have it, where the section does not
+# name them; traces that are in no file.
+unnamed() {
+    awk -F'`' '/^## / { heading = substr($0, 4) }
+        /Trace: `/ { sub(/.*Trace: `/, "`"); print $2 "\t" heading }' "$1" |
+        while IFS="$(printf '\t')" read -r trace heading; do
+            section=$(awk -v heading="## $heading" '/^## / { inside = $0 == heading } inside' "$1")
+            files=$(git grep -lwE "$trace" -- include src app shaders web fuzz cmake) || echo "$trace"
+            for file in $files; do
+                stem=$(basename "${file%.*}")
+                case $trace in *"$stem"*) own=${file%/*}/NAME.${file##*.} ;; *) own=$file ;; esac
+                case " $(echo $users) " in *" $file "*) continue ;; esac
+                case $section in
+                *"\`$file\`"* | *"\`${file##*/}\`"* | *"\`$own\`"*) ;;
+                *) echo "$heading: $file" ;;
+                esac
+            done
+        done
+}
+
+found=$(unnamed $document)
+[ -z "$found" ] || fail "$document does not name what its traces find:
+$found"
+sed 's,`src/sh/window.c`,`src/sh/gone.c`,' $document >"$WORK/changed.md"
+[ "$(unnamed "$WORK/changed.md")" = 'A windowing filter: src/sh/window.c' ] || fail "an unnamed file would go unseen"

@@ -13,6 +13,11 @@
 
 static gpu_context device;
 
+/* Whether the device draws by method m from a scene and lights alone. */
+static inline bool draws_alone(int m) {
+    return method_table[m].bands_max[DEVICE_GPU] > 0 && method_table[m].reads == 0;
+}
+
 static int open_device(void **state) {
     (void)state;
     cli_error error = { "" };

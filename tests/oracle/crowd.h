@@ -23,8 +23,8 @@ lmp_rgb crowd_shade_one(const crowd *c, int i, bool environment);
 /* All of them by one call are what each is alone, under lights and in surroundings. */
 void crowd_check_many(const crowd *c);
 
-/* Methods shade each alike under the lights: coefficients within 1e-5, preintegrated lobes within
- * `bound`. */
+/* Methods shade each alike under the lights: coefficients within 1e-5 of zonal sums, others
+ * within `bound`. */
 void crowd_check_methods(const crowd *c, double bound);
 
 #endif
