@@ -6,6 +6,10 @@
 #ifndef LAMPION_GGX_GLSL
 #define LAMPION_GGX_GLSL
 
+#ifndef LMP_GGX_TEXEL
+#error "define LMP_GGX_TEXEL(i), the texels of lmp_lobe_ggx_texels, before including ggx.glsl"
+#endif
+
 /* As in lampion/lobe.h and src/lobe/ggx_table.h. */
 #define LMP_GGX_LOBES         5
 #define LMP_GGX_LOBES_FEW     3

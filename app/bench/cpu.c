@@ -207,8 +207,9 @@ static void print_header(const bench_options *o) {
            LAMPION_COMMIT);
     printf(
         "ns a light-point pair (%d lights a point where lights are summed): median, quartiles; "
-        "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each); "
-        "times the speed of the paper's\nEq. 12 and 13 one by one, and of the scalar build\n",
+        "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each), "
+        "above 1 where additions\nhave units of their own; times the speed of the paper's Eq. 12 "
+        "and 13 one by one, and of the scalar build\n",
         BENCH_LIGHTS);
     printf("%-23s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
            "ns", "quartiles", "peak", "x paper", "x scalar");

@@ -128,12 +128,16 @@ static bool evaluate(const brdf_options *o, const material *m, cli_error *error)
 
 /* --- bake, convert ---------------------------------------------------------------------------- */
 
+/* Into the cache, where render and view look, and into the file if one is given. */
 static bool bake_table(const brdf_options *o, const material *m, cli_error *error) {
-    if (!m->brdf)
+    if (!m->brdf && o->output)
         return cli_fail(error, m->name, "is a table already");
     lmp_brdf_table *table = NULL;
-    const bool ok =
-        material_bake(m, &o->table, &table, error) && material_write_table(table, o->output, error);
+    lmp_preintegrated_brdf *preintegrated = NULL;
+    const bool ok = material_bake(m, &o->table, &table, error) &&
+                    (!o->preintegrated || material_preintegrate(m, table, &preintegrated, error)) &&
+                    (!o->output || material_write_table(table, o->output, error));
+    lmp_preintegrated_brdf_destroy(preintegrated);
     lmp_brdf_table_destroy(table);
     return ok;
 }
@@ -242,10 +246,11 @@ static const struct {
     const char *name;
     bool (*run)(const brdf_options *, const material *, cli_error *);
     const char *writes; /* one of the endings' kinds, or NULL */
+    bool caches;        /* without a file too, of several materials */
 } actions[] = {
-    { "info", print_info, NULL },      { "eval", evaluate, NULL },
-    { "bake", bake_table, "a table" }, { "plot", brdf_plot, "an image" },
-    { "convert", convert, "a BRDF" },
+    { "info", print_info, NULL, false },     { "eval", evaluate, NULL, false },
+    { "bake", bake_table, "a table", true }, { "plot", brdf_plot, "an image", false },
+    { "convert", convert, "a BRDF", false },
 };
 
 static const struct {
@@ -278,6 +283,17 @@ static bool writes_file(const char *name) {
     return strcmp(name, "list") != 0 && strcmp(name, "bands") != 0;
 }
 
+static bool run_on(const brdf_options *o,
+                   bool (*action)(const brdf_options *, const material *, cli_error *),
+                   const char *name, cli_error *error) {
+    material m;
+    if (!material_open(name, &m, error))
+        return false;
+    const bool ok = action(o, &m, error);
+    material_close(&m);
+    return ok;
+}
+
 static int run_action(const cli_command *command, const brdf_options *o, int count,
                       char **operands) {
     cli_error error;
@@ -302,18 +318,16 @@ static int run_action(const cli_command *command, const brdf_options *o, int cou
     for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
         if (strcmp(operands[0], actions[i].name) != 0)
             continue;
-        if (count != 2)
+        const bool caches = actions[i].caches && !o->output;
+        if (count != 2 && !(caches && count > 2))
             return cli_usage(command, "%s needs one MATERIAL, %d given", operands[0], count - 1);
-        if (actions[i].writes && !o->output)
+        if (actions[i].writes && !o->output && !caches)
             return cli_usage_output(command, "FILE");
-        if (actions[i].writes && !check_ending(operands[0], o->output, actions[i].writes, &error))
+        if (o->output && !check_ending(operands[0], o->output, actions[i].writes, &error))
             return cli_report(&error);
-        material m;
-        bool ok = material_open(operands[1], &m, &error);
-        if (ok) {
-            ok = actions[i].run(o, &m, &error);
-            material_close(&m);
-        }
+        bool ok = true;
+        for (int k = 1; k < count && ok; k++)
+            ok = run_on(o, actions[i].run, operands[k], &error);
         return ok ? CLI_OK : cli_report(&error);
     }
     return cli_usage_operand(command, operands[0]);
@@ -339,6 +353,8 @@ static int run(const cli_command *command, int argc, char **argv) {
           method_window_names(), NULL },
         { "window-size", 0, CLI_FLOAT, &o.table.window_size, "BANDS",
           "where its weights fall to 0; 0 means the number of bands", 0, 1000, NULL, NULL },
+        { "preintegrated", 0, CLI_FLAG, &o.preintegrated, NULL,
+          "with bake: what --method preintegrated reads, too, into the cache", 0, 0, NULL, NULL },
         { "size", 0, CLI_SIZE, o.size, "WxH", "pixels of the plot", 64, 8192, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };
@@ -365,6 +381,8 @@ const cli_command command_brdf = {
         "echo 0,0,1,0.6,0,0.8 | lampion brdf eval gold.binary   # wi_x,wi_y,wi_z,wo_x,wo_y,wo_z: "
         "r,g,b\n"
         "lampion brdf bake gold.binary -o gold.lmpt --bands 10 --views 64 --window hanning\n"
+        "lampion brdf bake ggx:0.1 sgd:chrome --preintegrated   # into the cache, before the first "
+        "image\n"
         "lampion brdf plot ggx:0.3 -o ggx.png\n"
         "lampion brdf convert sgd:red-fabric -o red-fabric.binary\n"
         "lampion brdf bands sgd:red-fabric sgd:chrome",

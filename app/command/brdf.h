@@ -9,7 +9,7 @@
 typedef struct brdf_options {
     const char *output;
     int size[2];
-    bool bands_given, views_given;
+    bool bands_given, views_given, preintegrated;
     lmp_brdf_table_desc table;
 } brdf_options;
 

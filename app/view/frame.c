@@ -21,17 +21,22 @@ static void show(viewer *v, const char *announcement) {
     v->show_seconds = view_window_clock() - began;
 }
 
+/* Puts into settings how the image was shaded that could be drawn last. */
+static void shade_as_before(const viewer *v, view_settings *settings) {
+    memcpy(settings->shading, v->good->shading, sizeof v->good->shading);
+    memcpy(settings->materials, v->good->materials, sizeof v->good->materials);
+    settings->material_count = v->good->material_count;
+    settings->split = v->good->split;
+    settings->shadows = v->good->shadows;
+}
+
 /* Settings that cannot be drawn are taken back, with a line that says why. */
 static bool take_back(viewer *v, const cli_error *error) {
     view_say(&v->state, "%s", error->text);
     if (v->good->width == 0)
         return false;
     const int width = v->state.now.width, height = v->state.now.height;
-    memcpy(v->state.now.shading, v->good->shading, sizeof v->good->shading);
-    memcpy(v->state.now.materials, v->good->materials, sizeof v->good->materials);
-    v->state.now.material_count = v->good->material_count;
-    v->state.now.split = v->good->split;
-    v->state.now.shadows = v->good->shadows;
+    shade_as_before(v, &v->state.now);
     v->state.now.camera = v->good->camera;
     v->state.now.width = width;
     v->state.now.height = height;
@@ -83,7 +88,7 @@ static bool draw(viewer *v, bool *worked, cli_error *error) {
 }
 
 /* Whether the drawings over the image have to change; notes what they show then. */
-static bool changes_over(viewer *v) {
+static bool changes_over(viewer *v, const char *announcement) {
     const view_state *s = &v->state;
     drawn_over now;
     memset(&now, 0, sizeof now);
@@ -93,6 +98,7 @@ static bool changes_over(viewer *v) {
     now.selected = s->selected;
     memcpy(&now.panel, &s->panel, sizeof s->panel);
     memcpy(now.message, s->message, strlen(s->message));
+    now.announcement = announcement;
     const bool changed = memcmp(&now, &v->over, sizeof now) != 0;
     v->over = now;
     return changed;
@@ -102,8 +108,12 @@ bool view_draw_frame(viewer *v, bool *worked, cli_error *error) {
     const double began = view_window_clock();
     const bool first = v->good->width == 0;
     view_shown(&v->state, v->shown);
-    const char *slow = view_compositor_pending(v->compositor, v->shown);
-    if (slow && !v->waiting && !first && !view_steps_time(v)) {
+    const bool waits = !first && !view_steps_time(v);
+    const char *slow = waits ? view_compositor_pending(v->compositor, v->shown) : NULL;
+    const bool bakes = slow && view_bake(&v->baking, v->shown);
+    if (bakes) { /* by another process: until it is done nothing looks otherwise */
+        shade_as_before(v, v->shown);
+    } else if (slow && !v->waiting) {
         v->waiting = true;
         show(v, slow);
         *worked = true;
@@ -112,15 +122,15 @@ bool view_draw_frame(viewer *v, bool *worked, cli_error *error) {
     v->waiting = false;
     if (!draw(v, worked, error))
         return take_back(v, error);
-    const bool moving = *worked && v->changed_at == v->clock && !slow && !first;
+    const bool moving = *worked && v->changed_at == v->clock && (!slow || bakes) && !first;
     if (v->state.recording && !view_record_frame(v, error))
         return false;
     const bool redraw = v->state.wishes.redraw;
     v->state.wishes.redraw = false;
-    if (!changes_over(v) && !*worked && !redraw)
+    if (!changes_over(v, bakes ? slow : NULL) && !*worked && !redraw)
         return true;
     *worked = true;
-    show(v, NULL);
+    show(v, bakes ? slow : NULL);
     if (first)
         v->divisor = 2;
     else if (moving)

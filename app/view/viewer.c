@@ -164,6 +164,7 @@ bool view_run(const view_options *options, cli_error *error) {
         return cli_fail(error, NULL, "out of memory");
     v->options = options;
     const bool ok = open_viewer(v, error) && loop(v, error);
+    view_baking_stop(&v->baking);
     close_graphics(v);
     view_window_end();
     view_state_close(&v->state);

@@ -4,6 +4,7 @@
 #ifndef LAMPION_VIEW_VIEWER_H
 #define LAMPION_VIEW_VIEWER_H
 
+#include "app/view/baking.h"
 #include "app/view/compositor.h"
 #include "app/view/script.h"
 #include "app/view/state.h"
@@ -29,6 +30,7 @@ typedef struct drawn_over {
     int selected;
     view_panel panel;
     char message[VIEW_MESSAGE_SIZE];
+    const char *announcement; /* in place of the message, or NULL */
 } drawn_over;
 
 typedef struct viewer {
@@ -40,6 +42,7 @@ typedef struct viewer {
     gpu_context context;
     view_window *window;
     view_compositor *compositor;
+    view_baking baking;
     view_settings *shown, *drawn, *good; /* now; on the screen; last that could be drawn */
     bool fresh;                          /* nothing of `drawn` is on the screen */
     int sample;                          /* of the refinement, on the screen; -1: a draft */

@@ -65,7 +65,7 @@ refuse 1 'name it .binary or .bsdf' convert lambert:1 -o "$WORK/x.txt"
 refuse 1 'x.png: bake writes a table (name it .lmpt)' bake missing.binary -o "$WORK/x.png"
 refuse 1 'x.lmpt: plot writes an image (name it .png)' plot missing.binary -o "$WORK/x.lmpt"
 [ ! -e "$WORK/x.txt" ] || fail "an output was left behind"
-refuse 2 '-o FILE is needed' bake lambert:1
+refuse 2 '-o FILE is needed' plot lambert:1
 refuse 2 'needs one MATERIAL' info
 refuse 2 'bands needs a MATERIAL' bands
 refuse 2 'list takes no MATERIAL' list x

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/view/baking.h"
+#include "app/file/file.h"
+#include "app/method/method.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* The process that makes the tables of a side, or 0 if none could be started. */
+static pid_t start(view_baking *baking, const view_shading *shading) {
+    enum { OPTIONS = 7 };
+    static char program[] = "/proc/self/exe", name[] = "lampion", command[] = "brdf",
+                action[] = "bake", too[] = "--preintegrated", names[] = "--";
+    char bands[24], window[32], *arguments[OPTIONS + GPU_TABLES_MAX + 1];
+    const bool preintegrated = method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
+    int count = 0;
+    snprintf(bands, sizeof bands, "--bands=%d", shading->bands);
+    snprintf(window, sizeof window, "--window=%s", lmp_sh_window_name(shading->window));
+    arguments[count++] = name;
+    arguments[count++] = command;
+    arguments[count++] = action;
+    arguments[count++] = bands;
+    arguments[count++] = window;
+    if (preintegrated)
+        arguments[count++] = too;
+    arguments[count++] = names;
+    for (int i = 0; i < baking->material_count; i++)
+        if (strchr(baking->materials[i], '='))
+            arguments[count++] = strchr(baking->materials[i], '=') + 1;
+    arguments[count] = NULL;
+    posix_spawn_file_actions_t files;
+    pid_t process = 0;
+    if (posix_spawn_file_actions_init(&files) != 0)
+        return 0;
+    for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++)
+        posix_spawn_file_actions_addopen(&files, i, "/dev/null", O_RDWR, 0);
+    if (posix_spawn(&process, program, &files, NULL, arguments, environ) != 0)
+        process = 0;
+    posix_spawn_file_actions_destroy(&files);
+    return process;
+}
+
+/* Whether they are those of the settings. */
+static bool is_of(const view_baking *baking, const view_settings *settings, int sides) {
+    return baking->sides == sides && baking->material_count == settings->material_count &&
+           memcmp(baking->shading, settings->shading, (size_t)sides * sizeof *baking->shading) ==
+               0 &&
+           memcmp(baking->materials, settings->materials,
+                  (size_t)settings->material_count * sizeof *baking->materials) == 0;
+}
+
+/* Without a cache nothing that another process makes could be read. */
+static bool has_cache(void) {
+    char path[4096];
+    return file_cache_directory(path, sizeof path) && access(path, W_OK) == 0;
+}
+
+bool view_bake(view_baking *baking, const view_settings *settings) {
+    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    if (settings->material_count == 0 || !has_cache())
+        return false;
+    if (!is_of(baking, settings, sides)) {
+        view_baking_stop(baking);
+        baking->sides = sides;
+        baking->material_count = settings->material_count;
+        memcpy(baking->shading, settings->shading, sizeof baking->shading);
+        memcpy(baking->materials, settings->materials, sizeof baking->materials);
+    }
+    while (baking->process == 0 || waitpid(baking->process, NULL, WNOHANG) != 0) {
+        baking->process = 0;
+        if (baking->started == sides)
+            return false;
+        baking->process = start(baking, &settings->shading[baking->started++]);
+    }
+    return true;
+}
+
+void view_baking_stop(view_baking *baking) {
+    if (baking->process > 0) {
+        kill(baking->process, SIGTERM);
+        kill(baking->process, SIGCONT); /* a stopped process ends only then */
+        waitpid(baking->process, NULL, 0);
+    }
+    memset(baking, 0, sizeof *baking);
+}

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+# lampion view while tables are made: it goes on drawing as before and takes input, then shows what was asked for.
+set -eu
+. tests/checks/common.sh
+for tool in xvfb-run xdotool; do
+    command -v $tool >/dev/null || { echo "skipped: $tool is not installed (packages xvfb, xauth, xdotool)"; exit 0; }
+done
+export ASAN_OPTIONS=detect_leaks=0 LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
+mkdir -p "$XDG_CACHE_HOME"
+if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
+    export LAMPION_VIEW_DISPLAY=1
+    exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view_baking.sh
+fi
+
+cd "$WORK"
+# is NAME TEXT: of the state
+is() { grep -q "\"$1\":[[:space:]]*$2" state.json 2>/dev/null; }
+eye() { sed -n '/"eye"/,/\]/p' state.json | tr -d ' \n'; }
+moved() { [ "$(eye)" != "$before" ]; }
+until_true() {
+    what=$1
+    shift
+    for _ in $(seq 900); do
+        if "$@"; then return 0; fi
+        kill -0 $viewer 2>/dev/null || fail "$what: the viewer has ended: $(cat view.err)"
+        sleep 0.1
+    done
+    fail "$what: the state is $(cat state.json)"
+}
+# Stops the process that makes tables as soon as it is there.
+stop_baking() {
+    for _ in $(seq 3000); do
+        read -r child _ </proc/$viewer/task/$viewer/children || true # which ends in no newline
+        if [ -n "$child" ] && kill -STOP "$child" 2>/dev/null; then return 0; fi
+        sleep 0.01
+    done
+    fail "no process makes tables: $(cat state.json)"
+}
+
+"$PROGRAM" view builtin:ball --material test_material=sgd:red-fabric --bands 10 --method coefficients --size 160x120 --samples 1 \
+    --state state.json 2>view.err &
+viewer=$!
+trap 'kill $viewer 2>/dev/null || true' EXIT
+until_true "opening" is method '"coefficients"'
+until_true "opening" is height 120
+before=$(eye)
+xdotool mousemove 20 20 key m
+stop_baking
+xdotool mousemove 40 60 mousedown 1 mousemove 60 70 mousemove 90 80 mouseup 1
+until_true "orbiting meanwhile" moved
+is method '"preintegrated"' && fail "shown before it was made"
+is method '"coefficients"' || fail "drawn otherwise than before: $(cat state.json)"
+kill -CONT "$child"
+until_true "the table that was made" is method '"preintegrated"'
+[ -n "$(find cache -name '*.lmps')" ] || fail "the table is not in the cache"
+
+# where that process is killed, the viewer makes them itself
+xdotool key Up
+stop_baking
+kill -KILL "$child"
+until_true "the table of the viewer" is bands 11
+
+# leaving ends what is being made
+xdotool key Up
+stop_baking
+xdotool key ctrl+q
+status=0
+wait $viewer || status=$?
+[ $status = 0 ] || fail "quitting: status $status: $(cat view.err)"
+! kill -0 "$child" 2>/dev/null || fail "the process goes on"
