@@ -392,6 +392,12 @@ LMP_INLINE void accumulate_all_lights(const accumulate_work *work, accumulate_ti
         accumulate_lights(work, tile, monic, keeps, 1, i, point);
 }
 
+/* One tile of all. A function of its own, for the code of tiles would take its registers. */
+static LMP_NOINLINE void accumulate_untiled(const accumulate_work *work, const vf point[3]) {
+    const int bands = work->bands;
+    accumulate_all_lights(work, (accumulate_tile) { 0, bands, 0, bands }, 1, 0, point);
+}
+
 LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const vf point[3],
                                  const lmp_kernel_out *out) {
     const accumulate_sets values = { 3, 0, 3 };
@@ -400,7 +406,7 @@ LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const v
          tile = accumulate_next(bands, tile, work->most)) {
         memset(work->sums, 0, 6 * accumulate_pairs(tile) * sizeof *work->sums);
         if (monic && tile.first == 0 && tile.end == bands && tile.high == bands)
-            accumulate_all_lights(work, (accumulate_tile) { 0, bands, 0, bands }, monic, 0, point);
+            accumulate_untiled(work, point);
         else
             accumulate_all_lights(work, tile, monic, 1, point);
         accumulate_put(bands, tile, monic, values, work->sums, work->waiting, out, work->element,
