@@ -25,7 +25,6 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
     const size_t most = lmp_shade_capacity(first.phong_count);
     const bool own_lobe = lmp_material_at(surfaces, left[0])->kind == LMP_MATERIAL_LOBES;
     size_t taken = 0, others = 0;
-    bool in_a_row = true;
     for (size_t i = 0; i < count; i++) {
         const size_t at = left[i];
         bool alike = taken < most;
@@ -39,15 +38,13 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
             left[others++] = at;
             continue;
         }
-        chunk->at[taken] = at;
-        in_a_row = in_a_row && at == chunk->at[0] + taken;
-        taken++;
+        chunk->at[taken++] = at;
     }
     lmp_shade_fill(chunk->at, taken);
     chunk->source = first.source;
     chunk->phong_count = first.phong_count;
     chunk->count = taken;
-    chunk->in_a_row = in_a_row;
+    chunk->in_a_row = chunk->at[taken - 1] - chunk->at[0] == taken - 1;
     return others;
 }
 

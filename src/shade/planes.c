@@ -53,6 +53,17 @@ static_assert(offsetof(lmp_material, specular) == offsetof(lmp_material, diffuse
                   offsetof(lmp_material, exponent) == offsetof(lmp_material, diffuse) + 24,
               "a lobe of its own is seven floats of a material");
 
+/* The axes of materials' own lobes. Compilers make vectors of what does not overlap. */
+static void mirror(const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view, size_t count,
+                   float *restrict x, float *restrict y, float *restrict z) {
+    for (size_t i = 0; i < count; i++) {
+        const lmp_vec3 axis = lmp_shade_mirrored(lmp_batch_get(normal, i), lmp_batch_get(view, i));
+        x[i] = axis.x;
+        y[i] = axis.y;
+        z[i] = axis.z;
+    }
+}
+
 /* Of a material that has one lobe, its own. */
 static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t count,
                        const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
@@ -62,10 +73,7 @@ static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t co
                            lobe->weight.y,    lobe->weight.z,    lobe->exponent };
     const lmp_kernel_rows rows = { at, surfaces->material_stride };
     lmp_kernels_get()->load_rows(7, &surfaces->material->diffuse.r, &rows, count, to);
-    for (size_t i = 0; i < count; i++) {
-        const lmp_vec3 axis = lmp_shade_mirrored(lmp_batch_get(normal, i), lmp_batch_get(view, i));
-        lmp_batch_set(axis.x, axis.y, axis.z, lobe->axis, i);
-    }
+    mirror(normal, view, count, lobe->axis.x, lobe->axis.y, lobe->axis.z);
 }
 
 static void weigh(const float *f0, const float *f0_part, const float *f90_part, size_t count,
