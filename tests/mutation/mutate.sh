@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 # sh tests/mutation/mutate.sh [COUNT [FOLDER]]: whether the tests notice COUNT small changes (by default 40), drawn
 # evenly from those that mutants.awk makes of the files below, or of those in FOLDER alone. Works on a copy of the
-# tree in build/mutation; prints the survivors, as FILE:LINE: THE CHANGED LINE, and the score. Many survivors
-# change nothing that could be seen.
+# tree in build/mutation; prints the survivors, as FILE:LINE:COLUMN: THE CHANGED LINE, and the score. Many survivors
+# change nothing that could be seen; those that leave the compiled tests as they were are counted apart, as the same.
+# build/mutation/build.results has the verdicts so far, and a stopped run goes on from there.
 set -eu
 cd "$(dirname "$0")/../.."
 count=${1:-40} folder=${2:-}
@@ -55,41 +56,62 @@ END
 
 mkdir -p "$tree"
 git ls-files -z | tar -c --null -T - | tar -x -C "$tree"
+target() { echo "test_$1" | tr . _; }
+# make TEST…: their programs.
+make() {
+    timeout 300 cmake --build "$build" --target $(for test; do target "$test"; done) >"$build.log" 2>&1
+}
+tests=$(subjects | cut -d' ' -f2- | tr ' ' '\n' | sort -u)
 {
     # one instruction set: it compiles in a third of the time, and gives the same bits; assertions stay in
     cmake -G Ninja -S "$tree" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O2 -DLAMPION_SIMD=OFF
-    cmake --build "$build" --target $(subjects | cut -d' ' -f2- | tr ' .' '\n_' | sort -u | sed 's/^/test_/')
+    cmake --build "$build" --target $(for test in $tests; do target "$test"; done)
 } >"$build.log" 2>&1 || { tail -n 20 "$build.log"; exit 1; }
+
+# What each test is without a change, and that it passes.
+for test in $tests; do
+    program=$(find "$build/tests" -name "$(target "$test")" -type f)
+    echo "$test $program $(cksum <"$program")"
+done >"$build.programs"
+ctest --test-dir "$build" -R "^($(echo $tests | tr ' ' '|'))\$" >"$build.log" 2>&1 || { tail -n 20 "$build.log"; exit 1; }
 
 subjects | while read -r file tests; do
     awk -f tests/mutation/mutants.awk "$file" | sed "s|^|$file\t|; s|\$|\t$tests|"
 done >"$build.all"
 total=$(wc -l <"$build.all")
 awk -v count="$count" -v total="$total" 'int(NR * count / total) > int((NR - 1) * count / total)' \
-    "$build.all" >"$build.drawn"
+    "$build.all" >"$build.drawn.new"
+# A run that was stopped goes on where it was.
+cmp -s "$build.drawn" "$build.drawn.new" || rm -f "$build.results"
+mv "$build.drawn.new" "$build.drawn"
+touch "$build.results"
 
-# verdict FILE TESTS: of the change that is in place.
+# verdict TEST…: of the change that is in place. A program that is what it was before has nothing to notice.
 verdict() {
-    timeout 300 cmake --build "$build" --target $(echo "$2" | tr '. ' '_\n' | sed 's/^/test_/') \
-        >"$build.log" 2>&1 || { echo invalid; return; }
-    for test in $2; do
-        timeout 120 ctest --test-dir "$build" -R "^$test\$" --timeout 100 >"$build.log" 2>&1 || { echo killed; return; }
+    result=same
+    for test; do
+        make "$test" || { echo invalid; return; }
+        read -r name program sum <<END
+$(grep "^$test " "$build.programs")
+END
+        [ "$(cksum <"$program")" != "$sum" ] || continue
+        result=survived
+        ctest --test-dir "$build" -R "^$name\$" --timeout 60 >"$build.log" 2>&1 || { echo "killed by $name"; return; }
     done
-    echo survived
+    echo "$result"
 }
 
 tab=$(printf '\t')
-while IFS=$tab read -r file line column length text tests; do
-    awk -v line="$line" -v column="$column" -v length_="$length" -v text="$text" '
-        NR == line { $0 = substr($0, 1, column - 1) text substr($0, column + length_) } { print }' \
-        "$file" >"$tree/$file"
-    result=$(verdict "$file" "$tests")
-    echo "$result" >>"$build.results.new"
-    [ "$result" != survived ] || echo "$file:$line: $(sed -n "${line}s/^ *//p" "$tree/$file")"
-    cp "$file" "$tree/$file"
-done <"$build.drawn"
-mv "$build.results.new" "$build.results"
-for result in killed survived invalid; do
-    printf '%s %s  ' "$(grep -c $result "$build.results" || true)" $result
+tail -n +$(($(wc -l <"$build.results") + 1)) "$build.drawn" |
+    while IFS=$tab read -r file line column length text tests; do
+        awk -v line="$line" -v column="$column" -v length_="$length" -v text="$text" '
+            NR == line { $0 = substr($0, 1, column - 1) text substr($0, column + length_) } { print }' \
+            "$file" >"$tree/$file"
+        echo "$(verdict $tests </dev/null): $file:$line:$column: $(sed -n "${line}s/^ *//p" "$tree/$file")" >>"$build.results"
+        cp "$file" "$tree/$file"
+    done
+grep '^survived' "$build.results" || true
+for result in killed survived same invalid; do
+    printf '%s %s  ' "$(grep -c "^$result" "$build.results" || true)" $result
 done
 echo "of $count drawn from $total"
