@@ -45,7 +45,8 @@ static bool write_image(const reference_arguments *a, const scene *world, const 
                                        : environment_exposure(a->settings.environment, light_count);
     if (!(exposure > 0))
         exposure = image_auto_exposure(radiance);
-    const image_display display = { exposure * image_exposure_of_stops(a->stops), a->tone };
+    const image_display display = { .exposure = exposure * image_exposure_of_stops(a->stops),
+                                    .tone = a->tone };
     return image_write(radiance, a->output, &display, error);
 }
 

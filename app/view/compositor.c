@@ -322,8 +322,9 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         if (index < 0 ? !gpu_render(renderer, &frame, &times, error)
                       : !gpu_refine(renderer, &frame, index, &times, error))
             return false;
-        gpu_screen_take(s->screen, renderer, i,
-                        &(image_display) { settings->exposure, settings->tone });
+        gpu_screen_take(
+            s->screen, renderer, i,
+            &(image_display) { .exposure = settings->exposure, .tone = settings->tone });
         statistics->times.gbuffer += times.gbuffer;
         statistics->times.shade += times.shade;
         statistics->times.transfer += times.transfer;

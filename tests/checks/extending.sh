@@ -14,7 +14,7 @@ missing() {
 document=docs/extending.md
 found=$(missing $document)
 [ -z "$found" ] || fail "$document names what is not there: $found"
-[ "$(wc -w <$document)" -le 1600 ] || fail "$document is longer than 1600 words"
+[ "$(wc -w <$document)" -le 1700 ] || fail "$document is longer than 1700 words"
 
 sed 's,`src/sh/window.c`,`src/sh/gone.c`,' $document >"$WORK/changed.md"
 [ "$(missing "$WORK/changed.md")" = src/sh/gone.c ] || fail "a file that is gone would go unseen"

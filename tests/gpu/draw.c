@@ -308,7 +308,7 @@ static void the_device_and_the_cpu_tone_map_alike(void **state) {
     image pixels = render_image(renderer, &frame);
     for (int tone = 0; image_tones[tone].name; tone++)
         for (int power = -2; power < 8; power++) {
-            const image_display display = { powf(10, (float)power), tone };
+            const image_display display = { .exposure = powf(10, (float)power), .tone = tone };
             expect(gpu_read_rgb8(renderer, &display, on_device, NULL, &error), &error);
             image_tone_map(&pixels, &display, on_cpu);
             for (size_t i = 0; i < 3 * PIXELS; i++)

@@ -74,7 +74,7 @@ static void shade_all_ways(void) {
     const lmp_brdf_table *white[LMP_FIBER_TABLES];
     for (int i = 0; i < LMP_FIBER_TABLES; i++)
         white[i] = table;
-    for (int method = 0; method < 3; method++)
+    for (int method = 0; method < LMP_SHADE_METHODS; method++)
         for (int kind = 0; kind < 4; kind++) {
             settings = (lmp_shade_settings) { .method = (lmp_shade_method)method,
                                               .bands = N,
