@@ -117,15 +117,41 @@ static bool is_inside(const char *folder, const char *path) {
     return strncmp(path, folder, length) == 0 && (length == 1 || path[length] == '/');
 }
 
+/* Whether a part of the name behind `folder` is a link. */
+static bool has_link(const source_set *set, char *full) {
+    bool found = false;
+    for (char *end = full + strlen(set->folder); *end && !found;) {
+        struct stat status;
+        end += 1 + strcspn(end + 1, "/");
+        const char after = *end;
+        *end = 0;
+        found = lstat(full, &status) == 0 && S_ISLNK(status.st_mode);
+        *end = after;
+    }
+    return found;
+}
+
+/* One answer whether or not there is something where the link leads: what lies outside is not told.
+ */
+static bool fail_link(const source_set *set, const char *name, cli_error *error) {
+    return cli_fail(error, set->subject,
+                    "refers to \"%.200s\", a link that leaves its folder or leads nowhere (only "
+                    "files inside are read)",
+                    name);
+}
+
 /* The file at `full`, links followed, as a descriptor that reads nothing: what is asked of it is
  * then true of what is opened by it, whatever the names come to mean. */
 static int find_file(source_set *set, const char *name, char full[PATH_MAX], cli_error *error) {
-    int found = open(full, O_PATH | O_CLOEXEC);
-    if (found < 0 && errno == ENOENT) {
+    int found = open(full, O_PATH | O_CLOEXEC), reason = errno;
+    if (found < 0 && reason == ENOENT) {
         match_case(set, full);
         found = open(full, O_PATH | O_CLOEXEC);
+        reason = errno;
     }
-    if (found < 0 && errno == ENOENT)
+    if (found < 0 && has_link(set, full))
+        fail_link(set, name, error);
+    else if (found < 0 && reason == ENOENT)
         fail_absent(set, name, error);
     else if (found < 0)
         cli_fail(error, set->subject, "refers to \"%.200s\", which cannot be opened", name);
@@ -147,9 +173,7 @@ static int open_found(const source_set *set, const char *name, int found, cli_er
     const ssize_t length = readlink(link, real, sizeof real - 1);
     real[length > 0 ? length : 0] = 0;
     if (!is_inside(set->folder, real)) {
-        cli_fail(error, set->subject,
-                 "refers to \"%.200s\", a link that leaves its folder (only files inside are read)",
-                 name);
+        fail_link(set, name, error);
         return -1;
     }
     const int fd = file_open_descriptor(link, &reason);

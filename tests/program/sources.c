@@ -70,6 +70,32 @@ static void no_link_leads_outside_while_names_change(void **state) {
     printf("tried: %d openings of a name that changes\n", times);
 }
 
+static void a_link_tells_nothing_of_what_lies_outside(void **state) {
+    (void)state;
+    static const char *const targets[] = {
+        "../kept", "../gone", "../kept/below", "../gone/below", "/", "/gone", "link",
+    };
+    static const char *const names[] = { "link", "LINK", "link/below" };
+    source_set set = { .subject = "scene", .folder = inner };
+    cli_error error;
+    folder_write_text("kept", "kept");
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        char expected[128];
+        snprintf(expected, sizeof expected, "scene: refers to \"%s\", a link that leaves its",
+                 names[n]);
+        for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+            unlink(in_folder(in_scene("link")));
+            assert_int_equal(symlink(targets[i], in_folder(in_scene("link"))), 0);
+            assert_int_equal(sources_open(&set, names[n], &error), -1);
+            if (strncmp(error.text, expected, strlen(expected)) != 0)
+                fail_msg("of %s through %s it says: %s", targets[i], names[n], error.text);
+        }
+    }
+    unlink(in_folder(in_scene("link")));
+    assert_int_equal(sources_open(&set, "gone", &error), -1);
+    assert_string_equal(error.text, "scene: refers to \"gone\", which does not exist");
+}
+
 /* --- by what names ---------------------------------------------------------------------------- */
 
 static void a_name_is_decoded_once(void **state) {
@@ -213,6 +239,7 @@ static int empty(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(no_link_leads_outside_while_names_change, empty),
+        cmocka_unit_test_setup(a_link_tells_nothing_of_what_lies_outside, empty),
         cmocka_unit_test_setup(a_name_is_decoded_once, empty),
         cmocka_unit_test_setup(a_cached_scene_knows_its_files_by_the_same_names, empty),
         cmocka_unit_test_setup(a_file_by_many_names_is_read_and_counted_once, empty),
