@@ -131,8 +131,7 @@ static bool has_link(const source_set *set, char *full) {
     return found;
 }
 
-/* One answer whether or not there is something where the link leads: what lies outside is not told.
- */
+/* The same words whether or not there is something where the link leads: that is not told. */
 static bool fail_link(const source_set *set, const char *name, cli_error *error) {
     return cli_fail(error, set->subject,
                     "refers to \"%.200s\", a link that leaves its folder or leads nowhere (only "

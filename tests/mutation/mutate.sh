@@ -33,8 +33,8 @@ src/sh/*.c unit.sh unit.assertions
 src/light/double.c unit.double
 src/light/*.c unit.light unit.sphere unit.edges unit.assertions
 src/lobe/*.c unit.lobe unit.ggx_lobes unit.assertions
-src/probe/*.c unit.probe unit.peers unit.peers_engines unit.assertions
-src/shade/*.c unit.shade unit.shade_n unit.coat unit.environment unit.assertions
+src/probe/*.c unit.probe unit.probe_engines unit.peers unit.peers_engines unit.assertions
+src/shade/*.c unit.shade unit.shade_n unit.coat unit.fibers unit.environment unit.assertions
 src/field/*.c unit.field_bytes unit.field unit.field_changes unit.field_shade unit.assertions
 src/preintegrated/brdf*.c unit.preintegrated_brdf unit.preintegrated_brdf_bytes unit.assertions
 src/preintegrated/*.c unit.preintegrated_lobe unit.assertions
@@ -42,11 +42,17 @@ src/brdf/rgl*.c unit.brdf_rgl unit.brdf_rgl_refusals unit.read_back unit.asserti
 src/brdf/*.c unit.brdf_table_bytes unit.brdf unit.brdf_table unit.brdf_files unit.assertions
 src/kernels/*.h kernels.kernels kernels.batch
 app/trace/*.c reference.texture reference.estimate
+app/reference/sheen.c reference.sheen
+app/reference/ggx.c reference.ggx reference.layers
 app/reference/*.c reference.texture reference.kinds reference.environment reference.ggx reference.estimate
 app/compare/*.c reference.compare
 app/shadow/*.c gpu.shadow gpu.shadow_filter
 app/shade/*.c gpu.shade gpu.draw gpu.field
+app/gpu/table.c gpu.table gpu.draw
+app/gpu/environment.c gpu.devices
 app/gpu/*.c gpu.draw gpu.shade gpu.plate
+shaders/table.glsl gpu.table
+shaders/environment.glsl gpu.devices gpu.table
 shaders/*.glsl gpu.glsl gpu.draw gpu.plate gpu.shade
 shaders/*.comp gpu.draw gpu.shade
 shaders/*.frag gpu.draw gpu.plate

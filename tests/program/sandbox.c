@@ -98,6 +98,26 @@ static void files_come_from_the_parent_alone(void **state) {
     assert_error(&job, "no file can be opened");
 }
 
+/* Asks for the file again and again, until it is refused; says how often it was not. */
+static bool open_until_refused(void *context, int output, cli_error *error) {
+    int number, times = 0;
+    for (int file; (file = sandbox_open(context, &number, error)) >= 0; times++)
+        close(file);
+    char text[16];
+    snprintf(text, sizeof text, "%d", times);
+    return strstr(error->text, "no file can be opened") && say(output, text);
+}
+
+static void files_are_opened_so_many_times(void **state) {
+    (void)state;
+    static char page[] = "page";
+    folder_write_text("page", "a page");
+    const sandbox_job job = {
+        .subject = subject, .context = page, .work = open_until_refused, .open = open_in_folder
+    };
+    assert_string_equal(run(&job), "4096");
+}
+
 /* --- what ends it ----------------------------------------------------------------------------- */
 
 static bool report(void *context, int output, cli_error *error) {
@@ -362,6 +382,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_work_writes_comes_back),
         cmocka_unit_test(files_come_from_the_parent_alone),
+        cmocka_unit_test(files_are_opened_so_many_times),
         cmocka_unit_test(failures_and_crashes_are_errors),
         cmocka_unit_test(limits_end_the_work),
         cmocka_unit_test(every_escape_fails),

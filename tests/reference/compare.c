@@ -57,6 +57,18 @@ static void one_changed_value_gives_the_metrics_by_hand(void **state) {
     assert_int_equal(r.max_y, 5);
 }
 
+static void the_first_of_equal_differences_is_named(void **state) {
+    (void)state;
+    pair p;
+    make_pair(&p);
+    for (int i = 0; i < VALUES; i++) {
+        p.a_values[i] = 1;
+        p.b_values[i] = i / 3 == 2 * WIDTH + 3 || i / 3 == 4 * WIDTH + 1 ? 0.5f : 1;
+    }
+    const compare_result r = compare(&p, 0);
+    assert_true(r.max_x == 3 && r.max_y == 2);
+}
+
 static void the_peak_scales_psnr(void **state) {
     (void)state;
     pair p;
@@ -189,6 +201,123 @@ static void flip_of_flat_images_is_that_of_their_colors(void **state) {
     assert_true(flip == 0);
 }
 
+/* A color of the display as L*a*b*, D65, with Hunt's adjustment. */
+static void lab_of(const float rgb[3], double lab[3]) {
+    static const double from_rgb[3][3] = { { 0.4124564, 0.3575761, 0.1804375 },
+                                           { 0.2126729, 0.7151522, 0.0721750 },
+                                           { 0.0193339, 0.1191920, 0.9503041 } };
+    double f[3];
+    for (int k = 0; k < 3; k++) {
+        double sum = 0, white = 0;
+        for (int i = 0; i < 3; i++) {
+            const double v = (double)rgb[i];
+            sum += from_rgb[k][i] * (v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4));
+            white += from_rgb[k][i];
+        }
+        const double t = sum / white;
+        f[k] = t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116;
+    }
+    lab[0] = 116 * f[1] - 16;
+    lab[1] = 5 * lab[0] * (f[0] - f[1]);
+    lab[2] = 2 * lab[0] * (f[1] - f[2]);
+}
+
+static double color_distance(const float a[3], const float b[3]) {
+    double u[3], v[3];
+    lab_of(a, u);
+    lab_of(b, v);
+    return fabs(u[0] - v[0]) + hypot(u[1] - v[1], u[2] - v[2]);
+}
+
+/* The scale of the paper: 0.95 of it for 0.4 of the distance between green and blue, the largest.
+ */
+static double color_part(double distance) {
+    const float green[3] = { 0, 1, 0 }, blue[3] = { 0, 0, 1 };
+    const double part = pow(distance / color_distance(green, blue), 0.7);
+    return part < 0.4 ? 0.95 / 0.4 * part : 0.95 + 0.05 * (part - 0.4) / 0.6;
+}
+
+static void flip_of_two_colors_is_their_distance(void **state) {
+    (void)state;
+    static const float colors[][3] = { { 0.5f, 0.5f, 0.5f }, { 0.6f, 0.5f, 0.4f },
+                                       { 0.2f, 0.7f, 0.3f }, { 0.25f, 0.6f, 0.45f },
+                                       { 0.7f, 0.3f, 0.6f }, { 0.55f, 0.45f, 0.9f } };
+    enum { COLORS = sizeof colors / sizeof *colors };
+    pair p;
+    make_pair(&p);
+    for (int k = 0; k < COLORS * COLORS; k++) {
+        const float *a = colors[k / COLORS], *b = colors[k % COLORS];
+        double flip;
+        for (int i = 0; i < VALUES; i++) {
+            p.a_values[i] = a[i % 3];
+            p.b_values[i] = b[i % 3];
+        }
+        assert_true(compare_flip(&p.a, &p.b, &flip));
+        CHECK_WITHIN(fabs(flip - color_part(color_distance(a, b))), 2e-4);
+    }
+}
+
+/* The paper's kernels in two dimensions, 67.02 pixels a degree: where k is 0 the eye's sharpness,
+ * then an edge and a point, across or along. */
+static double kernel_at(int k, double x, double y) {
+    const double pi = acos(-1), sigma = 0.5 * 0.082 * 67.02, square = sigma * sigma;
+    const double degrees2 = (x * x + y * y) / (67.02 * 67.02);
+    if (k == 0)
+        return exp(-pi * pi * degrees2 / 0.0047);
+    if (fmax(fabs(x), fabs(y)) > ceil(3 * sigma))
+        return 0;
+    const double g = exp(-(x * x + y * y) / (2 * square)), along = k % 2 ? x : y;
+    return k < 3 ? -along * g : (along * along / square - 1) * g;
+}
+
+/* What a gray image is at a pixel through a kernel whose positive and negative weights sum to 1;
+ * it goes on past its sides. */
+static double filtered(const double *gray, int x, int y, int k) {
+    double sums[2] = { 0, 0 }, weights[2] = { 0, 0 };
+    for (int j = -10; j <= 10; j++)
+        for (int i = -10; i <= 10; i++) {
+            const int column = x + i < 0 ? 0 : x + i < WIDTH ? x + i : WIDTH - 1;
+            const int row = y + j < 0 ? 0 : y + j < HEIGHT ? y + j : HEIGHT - 1;
+            const double weight = kernel_at(k, i, j);
+            sums[weight < 0] += weight * gray[row * WIDTH + column];
+            weights[weight < 0] += fabs(weight);
+        }
+    return sums[0] / weights[0] + (weights[1] > 0 ? sums[1] / weights[1] : 0);
+}
+
+typedef struct sight {
+    double lightness, edge, point;
+} sight;
+
+static sight sight_of(const double *gray, int x, int y) {
+    const double t = filtered(gray, x, y, 0);
+    return (sight) { 116 * (t > 216.0 / 24389 ? cbrt(t) : (24389.0 / 27 * t + 16) / 116) - 16,
+                     hypot(filtered(gray, x, y, 1), filtered(gray, x, y, 2)),
+                     hypot(filtered(gray, x, y, 3), filtered(gray, x, y, 4)) };
+}
+
+static void flip_of_gray_images_is_that_of_its_definition(void **state) {
+    (void)state;
+    pair p;
+    double gray[2][WIDTH * HEIGHT], flip, expected = 0;
+    make_pair(&p);
+    for (int i = 0; i < VALUES; i++) {
+        p.a_values[i] = 0.2f + 0.6f * (float)((i / 3 * 37) % 101) / 100;
+        p.b_values[i] = i / 3 % WIDTH < 6 ? 0.35f : 0.65f;
+    }
+    for (int i = 0; i < WIDTH * HEIGHT; i++)
+        for (int k = 0; k < 2; k++)
+            gray[k][i] = pow(((double)(k ? p.b_values : p.a_values)[3 * i] + 0.055) / 1.055, 2.4);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const sight a = sight_of(gray[0], i % WIDTH, i / WIDTH);
+        const sight b = sight_of(gray[1], i % WIDTH, i / WIDTH);
+        const double feature = fmax(fabs(a.edge - b.edge), fabs(a.point - b.point));
+        expected += pow(color_part(fabs(a.lightness - b.lightness)), 1 - sqrt(feature / sqrt(2)));
+    }
+    assert_true(compare_flip(&p.a, &p.b, &flip));
+    CHECK_WITHIN(fabs(flip - expected / (WIDTH * HEIGHT)), 1e-4);
+}
+
 /* A line of another gray is more than its color: what an edge adds does not vanish with the
  * difference of lightness, and both grow. */
 static void flip_grows_with_a_line_in_a_gray_image(void **state) {
@@ -226,8 +355,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_images_have_no_difference),
         cmocka_unit_test(one_changed_value_gives_the_metrics_by_hand),
+        cmocka_unit_test(the_first_of_equal_differences_is_named),
         cmocka_unit_test(the_peak_scales_psnr),
         cmocka_unit_test(flip_of_flat_images_is_that_of_their_colors),
+        cmocka_unit_test(flip_of_two_colors_is_their_distance),
+        cmocka_unit_test(flip_of_gray_images_is_that_of_its_definition),
         cmocka_unit_test(flip_grows_with_a_line_in_a_gray_image),
         cmocka_unit_test(what_is_shown_is_judged),
         cmocka_unit_test(ssim_of_an_offset_is_the_luminance_term),

@@ -341,9 +341,8 @@ static void brdfs_reflect_as_their_lobes(void **state) {
     lmp_brdf_destroy(phong);
 }
 
-static void tables_reflect_as_the_library_shades_them(void **state) {
-    (void)state;
-    const lmp_ggx ggx = { 0.3f, 0, { 0.5f, 0.4f, 0.3f }, { 0.2f, 0.3f, 0.4f } };
+static void check_table(float across) {
+    const lmp_ggx ggx = { 0.3f, across, { 0.5f, 0.4f, 0.3f }, { 0.2f, 0.3f, 0.4f } };
     const lmp_brdf_table_desc desc = { .bands = 7 };
     lmp_brdf *brdf = NULL;
     lmp_brdf_table *table = NULL;
@@ -372,6 +371,12 @@ static void tables_reflect_as_the_library_shades_them(void **state) {
     }
     lmp_brdf_table_destroy(table);
     lmp_brdf_destroy(brdf);
+}
+
+static void tables_reflect_as_the_library_shades_them(void **state) {
+    (void)state;
+    check_table(0);
+    check_table(0.6f);
 }
 
 static void windows_have_the_documented_weights(void **state) {
