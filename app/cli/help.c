@@ -40,9 +40,9 @@ static void describe_values(const cli_option *option, char *text, size_t size) {
     if (option->minimum == -option->maximum && (option->maximum == 0.0 || option->maximum > 1e9))
         return; /* none, or none that anybody meets */
     if (option->maximum > 1e9 && option->minimum >= 0.0)
-        snprintf(text + used, size - used, "; at least %.7g", option->minimum);
+        snprintf(text + used, size - used, "; at least %.9g", option->minimum);
     else
-        snprintf(text + used, size - used, "; %.7g to %.7g", option->minimum, option->maximum);
+        snprintf(text + used, size - used, "; %.9g to %.9g", option->minimum, option->maximum);
 }
 
 /* Appends the default: what the target holds before parsing. */

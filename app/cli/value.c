@@ -59,7 +59,7 @@ static bool read_number(const char **text, const char *characters, char end, dou
 static bool out_of_range(const cli_option *option, const char *text, cli_error *error) {
     double minimum, maximum;
     option_limits(option, &minimum, &maximum);
-    return cli_fail(error, NULL, "--%s: %s is out of range (%.7g to %.7g)", option->name, text,
+    return cli_fail(error, NULL, "--%s: %s is out of range (%.9g to %.9g)", option->name, text,
                     minimum, maximum);
 }
 

@@ -3,8 +3,9 @@
 #include "app/command/command.h"
 
 static const char *const environment[][2] = {
-    { "XDG_CACHE_HOME", "The folder of the cache, lampion, lies in it, else in ~/.cache." },
-    { "LAMPION_CACHE_MIB", "As much may the cache hold; what was unused for longest goes first." },
+    { "XDG_CACHE_HOME", "The cache is the folder lampion in it, or in ~/.cache if it is not set." },
+    { "LAMPION_CACHE_MIB",
+      "The most that the cache may hold, in MiB; what was not used for longest is removed first." },
     { "LAMPION_GL_DEBUG", "If it is fatal, OpenGL checks every call and the first complaint ends "
                           "the program." },
     { "TERM", "Progress is shown on terminals alone, and on none that is dumb. There are no "

@@ -295,7 +295,8 @@ typedef struct scene_camera_options {
           .given = &(variable).fov_given },                                                        \
     {                                                                                              \
         .name = "orthographic", .kind = CLI_FLOAT, .target = &(variable).height,                   \
-        .argument = "HEIGHT", .help = "see by parallel rays so much of the scene, instead",        \
+        .argument = "HEIGHT",                                                                      \
+        .help = "without perspective: how much of the scene is seen, top to bottom",               \
         .minimum = 1e-6, .maximum = 1e12, .given = &(variable).height_given                        \
     }
 

@@ -170,9 +170,9 @@ function Reader(input)
         local code = declarations(group.code)
         if not title then
             local what
-            title, what, comment = comment:match('^(%S+) %- (.-)%.\n?(.*)$')
+            title, what, comment = (comment .. '\n\n'):match('^(%S+) %- (.-)\n\n(.*)$')
             blocks[#blocks + 1] = pandoc.Header(1, pandoc.Str(title:match('[^/]*$')))
-            append({ pandoc.Para(inlines(what:sub(1, 1):upper() .. what:sub(2) .. '.')) })
+            append({ pandoc.Para(inlines(what:sub(1, 1):upper() .. what:sub(2))) })
             append(comment_blocks(comment))
             blocks[#blocks + 1] = pandoc.Null() -- where the names go
             names.at, comment, code = #blocks, nil, ''

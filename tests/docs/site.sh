@@ -77,6 +77,11 @@ done
 printf '<a href="nowhere.html">x</a>\n<a href="index.html#nowhere">x</a>\n' >"$site/planted.html"
 [ "$(dead "$site/planted.html" | wc -l)" = 2 ] || fail "a dead link goes unseen"
 
+# the names of files end no sentence of what a header begins with
+for opening in 'preintegrated: (docs/preintegration.md derives it).' 'lampion: each header with all that it builds on:'; do
+    tr '\n' ' ' <"$site/include/lampion/${opening%%:*}.h.html" | grep -qF "${opening#*: }</p>" || fail "${opening%%:*}.h begins otherwise"
+done
+
 # a function without a comment is no page
 sed 's,^/\* The version.*,,' include/lampion/base.h >"$WORK/bare.h"
 if ROOT= API_SOURCES="$WORK/bare.h" pandoc -f docs/site/header.lua "$WORK/bare.h" >/dev/null 2>"$WORK/log"; then
