@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* An image is stored once, by however many names, images, samplers and materials a scene uses it.
- */
+/* An image is stored once, by however many names, images, samplers and materials a scene uses it;
+ * and it is of a format that is documented. */
+#include "app/scene/texture.h"
 #include "app/scene/scene.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
@@ -68,10 +69,41 @@ static int make_folder(void **state) {
     return 0;
 }
 
+/* The decoder reads them all: one pixel of each. */
+static void formats_that_no_page_names_are_refused(void **state) {
+    (void)state;
+    static const char gif[] =
+        "GIF87a\1\0\1\0\200\0\0\377\377\377\377\377\377,\0\0\0\0\1\0\1\0\0\2\2D"
+        "\1\0;";
+    static const char pnm[] = "P6\n1 1\n255\nabc";
+    static const char psd[] = "8BPS\0\1\0\0\0\0\0\0\0\3\0\0\0\1\0\0\0\1\0\10\0\3\0\0\0\0\0\0\0\0"
+                              "\0\0\0\0\0\0abc";
+    static const char hdr[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd";
+    static const struct {
+        const char *bytes;
+        size_t size;
+    } images[] = { { gif, sizeof gif - 1 },
+                   { pnm, sizeof pnm - 1 },
+                   { psd, sizeof psd - 1 },
+                   { hdr, sizeof hdr - 1 } };
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++) {
+        scene_builder builder = { .out_of_memory = false };
+        scene_texture texture;
+        cli_error error;
+        assert_false(texture_decode(&builder, images[i].bytes, images[i].size, TEXTURE_ANY, "scene",
+                                    "image", &texture, &error));
+        assert_string_equal(error.text,
+                            "scene: has a texture \"image\" that is no PNG, JPEG, TGA or BMP");
+        assert_int_equal(builder_count(&builder, BLOB_TEXELS), 0);
+        builder_free(&builder);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_gltf_stores_an_image_once),
         cmocka_unit_test(an_obj_stores_an_image_once),
+        cmocka_unit_test(formats_that_no_page_names_are_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

@@ -205,8 +205,12 @@ static void conventions_are_recognized(void **state) {
             assert_true(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
             assert_int_equal(found.sign, sign);
             assert_int_equal(found.normalization, norm);
-            theirs[7] += 0.5f;
-            assert_false(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
+            for (int k = 0; k < 25; k++) {
+                const float kept = theirs[k];
+                theirs[k] += 0.5f;
+                assert_false(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
+                theirs[k] = kept;
+            }
             theirs[7] = NAN;
             assert_false(lmp_probe_recognize(5, 1e-5f, ours, theirs, &found));
         }

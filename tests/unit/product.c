@@ -82,6 +82,10 @@ static void multiplies_as_quadrature_does(void **state) {
         float few[144];
         lmp_sh_multiply_few(bands, a, b, few);
         assert_memory_equal(few, c, LMP_SH_COUNT(bands) * sizeof *c);
+        const float nothing[LMP_SH_COUNT(LMP_SH_FEW_BANDS)] = { 0 };
+        lmp_sh_multiply_few(bands, nothing, b, few);
+        for (size_t k = 0; k < LMP_SH_COUNT(bands); k++)
+            assert_true(few[k] == 0);
     }
 }
 
