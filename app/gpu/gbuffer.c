@@ -157,34 +157,55 @@ static size_t first_pixel(const gpu_gbuffer *g, const gpu_span *span) {
     return (size_t)span->y * (size_t)g->width + (size_t)span->x;
 }
 
-/* Positions and views of every pixel, as camera.glsl has them; what is no surface is nonsense. */
-static void decode_points(const gpu_gbuffer *g, const gpu_span *span, const gpu_row *row) {
+/* Of the pixels of a row the first ray, and what a column adds. */
+typedef struct gpu_rays {
+    float from[3], left[3], aside[3], right[3], across, start;
+} gpu_rays;
+
+static gpu_rays rays_of(const gpu_gbuffer *g, const gpu_span *span) {
     const shared_frame *b = &g->block;
+    const float v = ((float)span->y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
+    const float parallel = b->forward[3], spread = 1 - parallel;
+    gpu_rays rays = { .across = 2 / b->size_lights[0] };
+    rays.start = 0.5f * rays.across - 1 + b->jitter[0];
+    for (int i = 0; i < 3; i++) {
+        rays.from[i] = b->eye[i] + b->down[i] * v * parallel;
+        rays.left[i] = b->forward[i] + b->down[i] * v * spread;
+        rays.aside[i] = b->right[i] * parallel;
+        rays.right[i] = b->right[i] * spread;
+    }
+    return rays;
+}
+
+/* Positions of every pixel, as camera.glsl has them; what is no surface is nonsense. */
+static void decode_positions(const gpu_gbuffer *g, const gpu_span *span, const gpu_row *row) {
+    const gpu_rays r = rays_of(g, span);
     const float *restrict depth = g->depth + first_pixel(g, span);
     float *restrict px = row->position[0] + span->at, *restrict py = row->position[1] + span->at;
-    float *restrict pz = row->position[2] + span->at, *restrict vx = row->view[0] + span->at;
-    float *restrict vy = row->view[1] + span->at, *restrict vz = row->view[2] + span->at;
-    const float v = ((float)span->y + 0.5f) / b->size_lights[1] * 2 - 1 + b->jitter[1];
-    const float parallel = b->forward[3], spread = 1 - parallel, scale = b->eye[3];
-    float from[3], left[3], aside[3], right[3]; /* the row's first ray, and what a column adds */
-    for (int i = 0; i < 3; i++) {
-        from[i] = b->eye[i] + b->down[i] * v * parallel;
-        left[i] = b->forward[i] + b->down[i] * v * spread;
-        aside[i] = b->right[i] * parallel;
-        right[i] = b->right[i] * spread;
-    }
-    const float across = 2 / b->size_lights[0], start = 0.5f * across - 1 + b->jitter[0];
+    float *restrict pz = row->position[2] + span->at;
+    const float parallel = g->block.forward[3], scale = g->block.eye[3];
     const int first = span->x, count = span->count;
 #pragma omp simd
     for (int x = 0; x < count; x++) {
-        const float u = (float)(first + x) * across + start;
-        const float rx = left[0] + right[0] * u, ry = left[1] + right[1] * u;
-        const float rz = left[2] + right[2] * u;
+        const float u = (float)(first + x) * r.across + r.start;
         const float distance = parallel > 0 ? 2 * scale * (1 - depth[x]) : scale / depth[x];
+        px[x] = r.from[0] + r.aside[0] * u + (r.left[0] + r.right[0] * u) * distance;
+        py[x] = r.from[1] + r.aside[1] * u + (r.left[1] + r.right[1] * u) * distance;
+        pz[x] = r.from[2] + r.aside[2] * u + (r.left[2] + r.right[2] * u) * distance;
+    }
+}
+
+static void decode_views(const gpu_gbuffer *g, const gpu_span *span, const gpu_row *row) {
+    const gpu_rays r = rays_of(g, span);
+    float *restrict vx = row->view[0] + span->at, *restrict vy = row->view[1] + span->at;
+    float *restrict vz = row->view[2] + span->at;
+    const int first = span->x, count = span->count;
+#pragma omp simd
+    for (int x = 0; x < count; x++) {
+        const float u = (float)(first + x) * r.across + r.start;
+        const float rx = r.left[0] + r.right[0] * u, ry = r.left[1] + r.right[1] * u;
+        const float rz = r.left[2] + r.right[2] * u;
         const float back = -1 / sqrtf(rx * rx + ry * ry + rz * rz);
-        px[x] = from[0] + aside[0] * u + rx * distance;
-        py[x] = from[1] + aside[1] * u + ry * distance;
-        pz[x] = from[2] + aside[2] * u + rz * distance;
         vx[x] = rx * back;
         vy[x] = ry * back;
         vz[x] = rz * back;
@@ -216,35 +237,33 @@ static float unit(uint16_t stored) {
     return (float)stored / 65535;
 }
 
-static float squared(uint16_t stored) {
-    return unit(stored) * unit(stored);
-}
-
 /* Of three bytes, each a root. */
 static lmp_rgb color_of(const uint8_t *root) {
     return (lmp_rgb) { (float)(root[0] * root[0]) / 65025, (float)(root[1] * root[1]) / 65025,
                        (float)(root[2] * root[2]) / 65025 };
 }
 
-/* Of a surface. */
-static lmp_material material_of(const gpu_gbuffer *g, size_t pixel) {
+/* Of a surface. In place, for it is large. */
+static void decode_material(const gpu_gbuffer *g, size_t pixel, lmp_material *material) {
     const gpu_base16 *base = &g->base_metallic[pixel];
     const gpu_pair16 *of = &g->roughness_kind[pixel];
     const bool layered = gpu_mesh_is_layered(g->mesh, of->v);
     const lmp_rgb tint = layered ? color_of(g->tint[pixel]) : (lmp_rgb) { 1, 1, 1 };
-    lmp_material material = gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v,
-                                              (float)g->layers[pixel].v / 255, tint);
+    gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v, (float)g->layers[pixel].v / 255, tint,
+                      material);
     if (layered) {
         const uint8_t *sheen = g->sheen[pixel];
-        material.coat = (lmp_coat) { unit(g->coat[pixel].weight), unit(g->coat[pixel].roughness) };
+        material->coat = (lmp_coat) { unit(g->coat[pixel].weight), unit(g->coat[pixel].roughness) };
         if (sheen[0] || sheen[1] || sheen[2])
-            material.fibers = (lmp_fibers) { color_of(sheen), (float)sheen[3] / 255, g->fibers };
+            material->fibers = (lmp_fibers) { color_of(sheen), (float)sheen[3] / 255, g->fibers };
     }
-    material.base_color =
-        (lmp_rgb) { squared(base->root[0]), squared(base->root[1]), squared(base->root[2]) };
-    material.metallic = unit(base->metallic);
-    material.roughness = unit(of->u);
-    return material;
+    float units[4]; /* divided together */
+    for (int i = 0; i < 4; i++)
+        units[i] = unit(i < 3 ? base->root[i] : base->metallic);
+    material->base_color =
+        (lmp_rgb) { units[0] * units[0], units[1] * units[1], units[2] * units[2] };
+    material->metallic = units[3];
+    material->roughness = unit(of->u);
 }
 
 static void decode_coat_normal(const gpu_gbuffer *g, size_t pixel, size_t x, const gpu_row *row) {
@@ -259,7 +278,7 @@ size_t gpu_gbuffer_surfaces(const gpu_gbuffer *g, int y, gpu_row *row) {
     const gpu_span span = { 0, y, g->width, 0 };
     const gpu_pair16 *of = g->roughness_kind + first_pixel(g, &span);
     size_t count = 0;
-    decode_points(g, &span, row);
+    decode_positions(g, &span, row);
     for (int x = 0; x < g->width; x++) {
         for (int c = 0; c < 3; c++)
             row->position[c][count] = row->position[c][x];
@@ -277,7 +296,8 @@ int gpu_gbuffer_sample(const gpu_gbuffer *g) {
 }
 
 static void decode_span(const gpu_gbuffer *g, const gpu_span *span, gpu_row *row) {
-    decode_points(g, span, row);
+    decode_positions(g, span, row);
+    decode_views(g, span, row);
     decode_normals(g, span, row);
     for (size_t i = 0; i < (size_t)span->count; i++) {
         const size_t pixel = first_pixel(g, span) + i, x = span->at + i;
@@ -291,7 +311,7 @@ static void decode_span(const gpu_gbuffer *g, const gpu_span *span, gpu_row *row
         row->kind[x] = (unsigned char)(kind < SHARED_KIND_SURFACE ? kind : GPU_KIND_SURFACE);
         if (kind < SHARED_KIND_SURFACE)
             continue;
-        row->material[x] = material_of(g, pixel);
+        decode_material(g, pixel, &row->material[x]);
         row->ambient[x] = (float)g->layers[pixel].u / 255;
         if (g->coat)
             decode_coat_normal(g, pixel, x, row);

@@ -64,9 +64,9 @@ void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table);
 
 /* What the renderer is told of a pixel of material number `kind` - SHARED_KIND_SURFACE, by factors
  * on its dielectric's reflection and F0; the rest of it is the pixel's own. */
-lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
-                               const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
-                               lmp_rgb tint);
+void gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
+                       const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
+                       lmp_rgb tint, lmp_material *material);
 
 /* Whether such a pixel has more in the attachments of layers. */
 bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind);

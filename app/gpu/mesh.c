@@ -126,21 +126,26 @@ bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind) {
     return material->layered && material->table < 0;
 }
 
-lmp_material gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
-                               const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
-                               lmp_rgb tint) {
+static float at_most_one(float x) {
+    return x < 1 ? x : 1;
+}
+
+void gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
+                       const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
+                       lmp_rgb tint, lmp_material *material) {
     const gpu_material *from = &mesh->materials[kind - SHARED_KIND_SURFACE];
-    if (from->table >= 0)
-        return (lmp_material) { .kind = LMP_MATERIAL_TABLE,
-                                .table = tables[from->table],
-                                .preintegrated = brdfs[from->table] };
     const float weight = from->f90 * specular;
-    return (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                            .dielectric = { true,
-                                            { fminf(from->f0[0] * tint.r, 1) * weight,
-                                              fminf(from->f0[1] * tint.g, 1) * weight,
-                                              fminf(from->f0[2] * tint.b, 1) * weight },
-                                            weight } };
+    if (from->table >= 0)
+        *material = (lmp_material) { .kind = LMP_MATERIAL_TABLE,
+                                     .table = tables[from->table],
+                                     .preintegrated = brdfs[from->table] };
+    else
+        *material = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
+                                     .dielectric = { true,
+                                                     { at_most_one(from->f0[0] * tint.r) * weight,
+                                                       at_most_one(from->f0[1] * tint.g) * weight,
+                                                       at_most_one(from->f0[2] * tint.b) * weight },
+                                                     weight } };
 }
 
 /* --- triangles -------------------------------------------------------------------------------- */

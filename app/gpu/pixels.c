@@ -28,8 +28,8 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
         };
         if (kind < SHARED_KIND_SURFACE)
             continue;
-        to[i].material = gpu_mesh_material(&r->mesh, r->tables, r->brdfs, kind, from[i].layers[1],
-                                           as_rgb(from[i].tint));
+        gpu_mesh_material(&r->mesh, r->tables, r->brdfs, kind, from[i].layers[1],
+                          as_rgb(from[i].tint), &to[i].material);
         if (gpu_mesh_is_layered(&r->mesh, kind))
             to[i].material.coat = (lmp_coat) { from[i].coat[3], from[i].tint[3] };
         to[i].material.base_color = as_rgb(from[i].base_color);

@@ -124,6 +124,9 @@ static lmp_field plan_level(const lmp_host *host, const lmp_field_desc *desc, bo
     plan.stride =
         (plan.values + LMP_KERNEL_LANES_MAX - 1) / LMP_KERNEL_LANES_MAX * LMP_KERNEL_LANES_MAX;
     plan.info.node_bytes = 4 * plan.stride * sizeof(float);
+    plan.per_cell[0] = 1 / desc->cell.x;
+    plan.per_cell[1] = 1 / desc->cell.y;
+    plan.per_cell[2] = 1 / desc->cell.z;
     plan.brick_count = plan.block_count = 1;
     for (int a = 0; a < 3; a++) {
         const uint32_t nodes = (uint32_t)desc->nodes[a];

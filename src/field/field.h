@@ -52,6 +52,7 @@ struct lmp_field {
     lmp_field *coarse;  /* or NULL */
     size_t values;      /* 3 bands² */
     size_t stride;      /* floats from a node's values to its derivatives by x, by y, by z */
+    float per_cell[3];  /* 1 / its edges */
     uint32_t bricks[3]; /* along each axis */
     size_t brick_count;
     uint32_t blocks[3]; /* of cells */
@@ -94,6 +95,47 @@ void lmp_field_add_spheres(const lmp_host *host, lmp_field *field, const field_s
 /* Computes a brick anew, if it has been computed, and one of each coarser field. */
 void lmp_field_refresh(lmp_field *field, uint64_t turn);
 
+/* --- places ----------------------------------------------------------------------------------- */
+
+/* Where a point lies in the grid: its cell, and how far along its edges. */
+typedef struct field_place {
+    uint32_t cell[3];
+    float fraction[3];
+} field_place;
+
+/* False of a point outside. Inline, for every point is looked for several times. */
+static inline bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_place *place) {
+    const lmp_vec3 origin = field->info.desc.origin;
+    const float at[3] = { (point.x - origin.x) * field->per_cell[0],
+                          (point.y - origin.y) * field->per_cell[1],
+                          (point.z - origin.z) * field->per_cell[2] };
+    for (int a = 0; a < 3; a++) {
+        const int last = field->info.desc.nodes[a] - 2;
+        if (!(at[a] >= 0 && at[a] <= (float)(last + 1)))
+            return false;
+        const int cell = (int)at[a] < last ? (int)at[a] : last;
+        place->cell[a] = (uint32_t)cell;
+        place->fraction[a] = at[a] - (float)cell;
+    }
+    return true;
+}
+
+/* A box, and how far a point lies from it, squared. */
+typedef struct field_box {
+    lmp_vec3 low, high;
+} field_box;
+
+static inline float lmp_field_gap(float low, float at, float high) {
+    return at < low ? low - at : at > high ? at - high : 0;
+}
+
+static inline float lmp_field_distance2(const field_box *box, lmp_vec3 at) {
+    const float x = lmp_field_gap(box->low.x, at.x, box->high.x);
+    const float y = lmp_field_gap(box->low.y, at.y, box->high.y);
+    const float z = lmp_field_gap(box->low.z, at.z, box->high.z);
+    return x * x + y * y + z * z;
+}
+
 /* --- near lights (near.c) --------------------------------------------------------------------- */
 
 /* Whether lights of its kind are interpolated, but near them. */
@@ -103,13 +145,6 @@ bool lmp_field_fades(const lmp_light *light);
 void lmp_field_list(lmp_field *field, uint32_t light);
 void lmp_field_unlist(lmp_field *field, uint32_t light);
 void lmp_field_unlist_all(lmp_field *field);
-
-/* Where a point lies in the grid: its cell, and how far along its edges; false if outside. */
-typedef struct field_place {
-    uint32_t cell[3];
-    float fraction[3];
-} field_place;
-bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_place *place);
 
 /* A bit for each light: those listed for some of the points given. */
 typedef struct field_set {
@@ -160,8 +195,8 @@ void lmp_field_rows(const lmp_field *field, const lmp_vec3 *points, size_t count
 /* Surfaces that are sorted together. */
 enum { FIELD_SORTED = 1024 };
 
-/* Sorts indices below FIELD_SORTED by the block of each, equal ones as they are. */
-void lmp_field_sort(const uint32_t *blocks, size_t count, uint16_t *order);
+/* Sorts indices below FIELD_SORTED by the key of each, equal ones as they are. */
+void lmp_field_sort(const uint32_t *keys, size_t count, uint16_t *order);
 
 /* --- layout ----------------------------------------------------------------------------------- */
 

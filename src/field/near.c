@@ -48,7 +48,7 @@ static bool reaches(const lmp_field *field, const near_ball *ball, const uint32_
     float distance2 = 0;
     for (int a = 0; a < 3; a++) {
         const float edge = block_edge(field, a), low = edge * (float)block[a];
-        const float gap = fmaxf(fmaxf(low - ball->center[a], ball->center[a] - low - edge), 0);
+        const float gap = lmp_field_gap(low, ball->center[a], low + edge);
         distance2 += gap * gap;
     }
     return distance2 <= ball->radius * ball->radius;
@@ -117,13 +117,21 @@ static void take(lmp_field *field, uint32_t light, size_t list) {
     field->free_count++;
 }
 
-/* As many entries are kept as all lights need that might be near everywhere. */
-static void list_light(lmp_field *field, uint32_t light) {
+/* Whether the lists of a ball's blocks find room, beside as many entries as all lights need that
+ * might be near everywhere. They are counted only where the box around the ball is too much. */
+static bool is_room(lmp_field *field, uint32_t light, const near_ball *ball) {
     const size_t kept = (size_t)field->info.desc.light_max / FIELD_ENTRY + 1;
+    size_t box = 1;
+    for (int a = 0; a < 3; a++)
+        box *= ball->end[a] - ball->first[a];
+    return box + kept <= field->free_count ||
+           each_list(field, light, ball, none) + kept <= field->free_count;
+}
+
+static void list_light(lmp_field *field, uint32_t light) {
     near_ball ball;
     const bool bounded = find_ball(field, light, &ball);
-    field->everywhere[light] =
-        !bounded || each_list(field, light, &ball, none) + kept > field->free_count;
+    field->everywhere[light] = !(bounded && is_room(field, light, &ball));
     if (field->everywhere[light])
         put(field, light, field->block_count);
     else
@@ -163,21 +171,6 @@ void lmp_field_unlist_all(lmp_field *field) {
 }
 
 /* --- points ----------------------------------------------------------------------------------- */
-
-bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_place *place) {
-    const lmp_field_desc *desc = &field->info.desc;
-    for (int a = 0; a < 3; a++) {
-        const float at =
-            (coordinate(point, a) - coordinate(desc->origin, a)) / coordinate(desc->cell, a);
-        const uint32_t last = (uint32_t)desc->nodes[a] - 2;
-        if (!(at >= 0 && at <= (float)(last + 1)))
-            return false;
-        const uint32_t cell = (uint32_t)at;
-        place->cell[a] = cell < last ? cell : last;
-        place->fraction[a] = at - (float)place->cell[a];
-    }
-    return true;
-}
 
 float lmp_field_lacks(const lmp_field *field, uint32_t light, lmp_vec3 point) {
     if (!lmp_field_fades(&field->lights[light]))

@@ -132,25 +132,17 @@ static void add_lights(const lmp_field *field, const brick_points *points,
             nodes[row * field->stride + v] += scratch[row * values + v];
 }
 
-/* A ball around a brick. */
-typedef struct brick_ball {
-    lmp_vec3 center;
-    float radius;
-} brick_ball;
-
-static brick_ball ball_of(const lmp_field *field, const brick_points *points) {
-    const lmp_vec3 cell = field->info.desc.cell;
-    const float x = 1.5f * cell.x, y = 0.5f * cell.y, z = 0.5f * cell.z;
-    return (brick_ball) { { points->at[0][0] + x, points->at[1][0] + y, points->at[2][0] + z },
-                          sqrtf(x * x + y * y + z * z) };
+static field_box box_of(const brick_points *points) {
+    const float(*at)[FIELD_BRICK] = points->at;
+    const int last = FIELD_BRICK - 1;
+    return (field_box) { { at[0][0], at[1][0], at[2][0] },
+                         { at[0][last], at[1][last], at[2][last] } };
 }
 
 /* Whether the coarser field may lack something of the sphere at a node of the brick. */
-static bool is_near(const lmp_field *field, const brick_ball *ball, const field_sphere *sphere) {
-    const float x = sphere->center.x - ball->center.x, y = sphere->center.y - ball->center.y;
-    const float z = sphere->center.z - ball->center.z;
-    const float reach = (sphere->radius + field->coarse->info.reach + ball->radius) * 1.0001f;
-    return x * x + y * y + z * z < reach * reach;
+static bool is_near(const lmp_field *field, const field_box *box, const field_sphere *sphere) {
+    const float reach = (sphere->radius + field->coarse->info.reach) * 1.0001f;
+    return lmp_field_distance2(box, sphere->center) < reach * reach;
 }
 
 /* Those near a brick, a pass at a time. */
@@ -158,7 +150,7 @@ typedef struct brick_lights {
     const lmp_field *field;
     uint32_t first[3]; /* the brick's first node */
     brick_points points;
-    brick_ball ball;
+    field_box box;
     field_sphere near[PASS];
     size_t count;
     float *scratch, *nodes;
@@ -179,7 +171,7 @@ static void begin(const lmp_field *field, size_t brick, float *scratch, float *n
     lights->nodes = nodes;
     find_brick(field, brick, lights->first);
     set_points(field, lights->first, &lights->points);
-    lights->ball = ball_of(field, &lights->points);
+    lights->box = box_of(&lights->points);
 }
 
 /* Near or far, where there is no coarser field. */
@@ -189,7 +181,7 @@ static void take_all(const brick_lights *lights, const field_sphere *spheres, si
 }
 
 static void take(brick_lights *lights, const field_sphere *sphere) {
-    if (!is_near(lights->field, &lights->ball, sphere))
+    if (!is_near(lights->field, &lights->box, sphere))
         return;
     lights->near[lights->count++] = *sphere;
     if (lights->count == PASS)

@@ -54,33 +54,33 @@ static __attribute__((noinline)) void shade_far(const field_shading *shading, si
 
 /* --- near lights ------------------------------------------------------------------------------ */
 
-/* A ball around a chunk's points. */
-typedef struct chunk_ball {
-    lmp_vec3 center;
-    float radius;
-} chunk_ball;
-
-static float distance(lmp_vec3 a, lmp_vec3 b) {
-    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-    return sqrtf(x * x + y * y + z * z);
+static float lower(float a, float b) {
+    return a < b ? a : b;
 }
 
-static chunk_ball ball_of(const shade_chunk *chunk) {
-    lmp_vec3 low = lmp_batch_get(&chunk->surfaces.point, 0), high = low;
+static float higher(float a, float b) {
+    return a > b ? a : b;
+}
+
+/* Around a chunk's points. */
+static field_box box_of(const shade_chunk *chunk) {
+    field_box box;
+    box.low = box.high = lmp_batch_get(&chunk->surfaces.point, 0);
     for (size_t i = 1; i < chunk->count; i++) {
         const lmp_vec3 p = lmp_batch_get(&chunk->surfaces.point, i);
-        low = (lmp_vec3) { fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z) };
-        high = (lmp_vec3) { fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z) };
+        box.low =
+            (lmp_vec3) { lower(box.low.x, p.x), lower(box.low.y, p.y), lower(box.low.z, p.z) };
+        box.high = (lmp_vec3) { higher(box.high.x, p.x), higher(box.high.y, p.y),
+                                higher(box.high.z, p.z) };
     }
-    const lmp_vec3 center = { (low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2 };
-    return (chunk_ball) { center, distance(center, high) };
+    return box;
 }
 
-/* Whether some point of the chunk may lack some of the light. */
-static bool is_near(const lmp_field *field, uint32_t light, const chunk_ball *ball) {
+/* Whether some point of the box may lack some of the light. */
+static bool is_near(const lmp_field *field, uint32_t light, const field_box *box) {
     const field_sphere *sphere = &field->spheres[light];
-    const float reach = sphere->radius + field->info.reach + ball->radius;
-    return field->everywhere[light] || distance(sphere->center, ball->center) < reach * 1.0001f;
+    const float reach = (sphere->radius + field->info.reach) * 1.0001f;
+    return lmp_field_distance2(box, sphere->center) < reach * reach || field->everywhere[light];
 }
 
 /* Lights near a chunk that are found at once. */
@@ -90,21 +90,22 @@ enum { FOUND = 128 };
  * function of its own: under the zonal kernel its set would be too much stack. */
 static __attribute__((noinline)) size_t find_near(const lmp_field *field, const shade_chunk *chunk,
                                                   uint32_t *next, uint32_t found[FOUND]) {
-    const chunk_ball ball = ball_of(chunk);
+    const field_box box = box_of(chunk);
     uint32_t last = FIELD_NONE, light = *next;
     size_t count = 0;
     field_set near;
     lmp_field_set_clear(field, &near);
     for (size_t i = 0; i < chunk->count; i++) {
         field_place place;
-        (void)lmp_field_find(field, lmp_batch_get(&chunk->surfaces.point, i), &place);
+        if (!lmp_field_find(field, lmp_batch_get(&chunk->surfaces.point, i), &place))
+            continue;
         const uint32_t block = lmp_field_block(field, place.cell);
         if (block != last)
             lmp_field_set_add(field, block, &near);
         last = block;
     }
     while (count < FOUND && (light = lmp_field_set_next(&near, light)) != FIELD_NONE) {
-        if (is_near(field, light, &ball))
+        if (is_near(field, light, &box))
             found[count++] = light;
         light++;
     }
@@ -112,32 +113,38 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
     return count;
 }
 
-/* Surfaces that are shaded together at most, and lights that the zonal kernel takes at once. */
-enum { FIELD_CHUNK = 64, PASS = 8 };
+/* Surfaces that are shaded together at most; lights that the zonal kernel takes at once, and how
+ * many of them may be spots, which have a plane of their own. */
+enum { FIELD_CHUNK = 64, PASS = LMP_KERNEL_LIGHTS_MAX, SPOTS = 3 };
 
-static void add_near(const field_shading *shading, const uint32_t *found, size_t count,
-                     shade_chunk *chunk) {
+/* Adds the first of the lights found; returns how many. */
+static size_t add_near(const field_shading *shading, const uint32_t *found, size_t count,
+                       shade_chunk *chunk) {
     const lmp_field *field = shading->field;
     lmp_kernel_light lights[PASS];
-    float scales[PASS][FIELD_CHUNK];
-    for (size_t i = 0; i < count; i++) {
+    float scales[SPOTS][FIELD_CHUNK];
+    size_t taken = 0;
+    for (int spots = 0; taken < count && taken < PASS && spots < SPOTS; taken++) {
+        const lmp_light *light = &field->lights[found[taken]];
         lmp_rgb ambient = { 0, 0, 0 };
-        lmp_shade_take_light(&field->lights[found[i]], chunk, scales[i], &lights[i], &ambient);
-        lights[i].per_reach = lmp_field_fades(&field->lights[found[i]]) ? 1 / field->info.reach : 0;
+        lmp_shade_take_light(light, chunk, scales[spots], &lights[taken], &ambient);
+        lights[taken].per_reach = lmp_field_fades(light) ? 1 / field->info.reach : 0;
         chunk->ambient[0] += ambient.r;
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
+        spots += light->kind == LMP_LIGHT_SPOT;
     }
     lmp_kernels_get()->shade_zonal(shading->settings.bands, shading->window, shading->diffuse,
-                                   &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
+                                   &chunk->surfaces, lights, taken, chunk->count, &chunk->sums);
+    return taken;
 }
 
 static void shade_near(const field_shading *shading, shade_chunk *chunk) {
     for (uint32_t next = 0; next != FIELD_NONE;) {
         uint32_t found[FOUND];
         const size_t count = find_near(shading->field, chunk, &next, found);
-        for (size_t i = 0; i < count; i += PASS)
-            add_near(shading, found + i, count - i < PASS ? count - i : PASS, chunk);
+        for (size_t i = 0; i < count;)
+            i += add_near(shading, found + i, count - i, chunk);
     }
 }
 
@@ -172,26 +179,30 @@ static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
-/* Surfaces with lobes, inside the grid. A function of its own, for shade_one must not be called on
- * top of its chunk. */
-static __attribute__((noinline)) void shade_chunks(const field_shading *shading,
-                                                   const lmp_surfaces *surfaces, size_t *left,
-                                                   size_t count, size_t stride, float *rgb) {
+/* Surfaces with lobes, inside the grid: moves from `left` those like its first and shades them;
+ * returns how many stay. A function of its own, for shade_one must not be called on top of its
+ * chunk. */
+static __attribute__((noinline)) size_t shade_alike(const field_shading *shading,
+                                                    const lmp_surfaces *surfaces, size_t *left,
+                                                    size_t count, size_t stride, float *rgb) {
     shade_chunk chunk;
-    while (count > 0) {
-        count = lmp_shade_take_alike(surfaces, false, left, count, &chunk);
-        lmp_shade_load_chunk(surfaces, &chunk);
-        for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
-            shade_far(shading, first, &chunk);
-        shade_near(shading, &chunk);
-        lmp_shade_sum_planes(chunk.count, chunk.phong_count, chunk.ambient, &chunk.planes);
-        lmp_shade_store(&chunk.planes, chunk.at, chunk.count, stride, rgb);
-    }
+    count = lmp_shade_take_alike(surfaces, false, left, count, &chunk);
+    lmp_shade_load_chunk(surfaces, &chunk);
+    for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
+        shade_far(shading, first, &chunk);
+    shade_near(shading, &chunk);
+    lmp_shade_sum_planes(chunk.count, chunk.phong_count, chunk.ambient, &chunk.planes);
+    lmp_shade_store(&chunk.planes, chunk.at, chunk.count, stride, rgb);
+    return count;
 }
 
-/* Whether the field and zonal sums have all that a surface reflects; then its block. */
+/* Blocks so many apart have the same key: they come mixed, which costs time alone. */
+enum { BLOCKS = 1 << 20 };
+
+/* Whether the field and zonal sums have all that a surface reflects; then a key of its lobes and
+ * block, by which it is sorted. */
 static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size_t i,
-                      uint32_t *block) {
+                      uint32_t *key) {
     const lmp_material *material = lmp_material_at(surfaces, i);
     field_place place;
     if ((material->kind != LMP_MATERIAL_LOBES &&
@@ -199,22 +210,24 @@ static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size
         lmp_is_over(material, SHADE_OVER_FIBERS) || lmp_is_over(material, SHADE_OVER_COAT) ||
         !lmp_field_find(field, lmp_vec3_element(&surfaces->position, i), &place))
         return false;
-    *block = lmp_field_block(field, place.cell);
+    const int lobes = lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, i),
+                                            lmp_vec3_element(&surfaces->view, i));
+    *key = (uint32_t)lobes / 2 * BLOCKS + lmp_field_block(field, place.cell) % BLOCKS;
     return true;
 }
 
 /* Those of FIELD_SORTED surfaces that have lobes, sorted, and behind them the others; returns how
- * many they are. A function of its own, for its blocks are not wanted on the stack below. */
+ * many they are. A function of its own, for its keys are not wanted on the stack below. */
 static __attribute__((noinline)) size_t sort(const lmp_field *field, const lmp_surfaces *surfaces,
                                              size_t first, size_t count, uint16_t *order) {
-    uint32_t blocks[FIELD_SORTED];
+    uint32_t keys[FIELD_SORTED];
     size_t sorted = 0, others = count;
     for (size_t i = 0; i < count; i++)
-        if (has_lobes(field, surfaces, first + i, &blocks[i]))
+        if (has_lobes(field, surfaces, first + i, &keys[i]))
             order[sorted++] = (uint16_t)i;
         else
             order[--others] = (uint16_t)i;
-    lmp_field_sort(blocks, sorted, order);
+    lmp_field_sort(keys, sorted, order);
     return sorted;
 }
 
@@ -242,13 +255,11 @@ void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *fiel
         const size_t sorted = sort(field, surfaces, first, some, order);
         for (size_t i = sorted; i < some; i++)
             shade_one(&shading, surfaces, first + order[i], stride, rgb);
-        for (size_t begin = 0; begin < sorted; begin += FIELD_CHUNK) {
-            const size_t rest = sorted - begin;
-            const size_t left_count = rest < FIELD_CHUNK ? rest : FIELD_CHUNK;
-            size_t left[FIELD_CHUNK];
-            for (size_t i = 0; i < left_count; i++)
-                left[i] = first + order[begin + i];
-            shade_chunks(&shading, surfaces, left, left_count, stride, rgb);
+        size_t left[FIELD_CHUNK], waiting = 0, next = 0;
+        while (next < sorted || waiting > 0) {
+            while (next < sorted && waiting < FIELD_CHUNK)
+                left[waiting++] = first + order[next++];
+            waiting = shade_alike(&shading, surfaces, left, waiting, stride, rgb);
         }
     }
 }

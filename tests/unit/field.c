@@ -151,10 +151,9 @@ static void the_reach_follows_from_the_error_asked_for(void **test) {
 
 /* A light goes through cells, past points, in steps that nothing could change by more than a few
  * times their size: what jumps would be seen. */
-static void nothing_jumps_where_a_light_crosses_a_cell(void **test) {
-    (void)test;
+static void check_no_jumps(int nodes) {
     enum { STEPS = 400, POINTS = 24 };
-    const lmp_field_desc desc = { .nodes = { 12, 12, 12 }, .error = 0.3f };
+    const lmp_field_desc desc = { .nodes = { nodes, nodes, nodes }, .error = 0.3f };
     lmp_light light = { .radius = 0.2f, .radiance = { 1, 1, 1 } };
     lmp_field *field = field_of(&desc, &light, 1);
     lmp_vec3 points[POINTS];
@@ -180,6 +179,17 @@ static void nothing_jumps_where_a_light_crosses_a_cell(void **test) {
         }
     }
     lmp_field_destroy(field);
+}
+
+static void nothing_jumps_where_a_light_crosses_a_cell(void **test) {
+    (void)test;
+    check_no_jumps(12);
+}
+
+/* So many nodes have coarser ones, whose cells and reaches the light crosses, too. */
+static void nothing_jumps_where_a_light_crosses_a_coarser_cell(void **test) {
+    (void)test;
+    check_no_jumps(14);
 }
 
 static void near_lights_are_told_with_what_the_field_lacks(void **test) {
@@ -264,6 +274,7 @@ int main(void) {
         cmocka_unit_test(a_light_errs_by_no_more_than_the_field_says),
         cmocka_unit_test(the_reach_follows_from_the_error_asked_for),
         cmocka_unit_test(nothing_jumps_where_a_light_crosses_a_cell),
+        cmocka_unit_test(nothing_jumps_where_a_light_crosses_a_coarser_cell),
         cmocka_unit_test(near_lights_are_told_with_what_the_field_lacks),
         cmocka_unit_test(outside_the_grid_every_light_is_summed),
         cmocka_unit_test(lobes_respond_as_to_the_coefficients),
