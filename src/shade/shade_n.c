@@ -97,22 +97,19 @@ void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *su
     shade_chunk chunk;
     if (method->prepare)
         method->prepare(&resolved, &prepared);
-    for (size_t first = 0; first < count; first += SHADE_SURFACES_MAX) {
-        const size_t rest = count - first;
-        size_t left[SHADE_SURFACES_MAX];
-        size_t left_count = rest < SHADE_SURFACES_MAX ? rest : SHADE_SURFACES_MAX;
-        for (size_t i = 0; i < left_count; i++)
-            left[i] = first + i;
-        while (left_count > 0) {
-            left_count =
-                lmp_shade_take_alike(surfaces, method->preintegrated, left, left_count, &chunk);
-            const bool lobes = chunk.phong_count > 0;
-            assert(!lobes || !method->preintegrated || resolved.lobe);
-            if (chunk.source.table || (lobes && !method->lobes_of_chunk))
-                shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,
-                           rgb);
-            else
-                shade_by_kernels(&prepared, surfaces, &chunk, lights, light_count, stride, rgb);
-        }
+    size_t left[SHADE_SURFACES_MAX], left_count = 0, next = 0;
+    while (left_count > 0 || next < count) {
+        /* Full chunks of each kind, also where kinds alternate. */
+        while (left_count < SHADE_SURFACES_MAX && next < count)
+            left[left_count++] = next++;
+        left_count =
+            lmp_shade_take_alike(surfaces, method->preintegrated, left, left_count, &chunk);
+        const bool lobes = chunk.phong_count > 0;
+        assert(!lobes || !method->preintegrated || resolved.lobe);
+        if (chunk.source.table || (lobes && !method->lobes_of_chunk))
+            shade_each(&resolved, surfaces, chunk.at, chunk.count, lights, light_count, stride,
+                       rgb);
+        else
+            shade_by_kernels(&prepared, surfaces, &chunk, lights, light_count, stride, rgb);
     }
 }
