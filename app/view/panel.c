@@ -109,15 +109,14 @@ static bool apply_open(view_state *s, int row, const char *typed, cli_error *err
 /* --- any -------------------------------------------------------------------------------------- */
 
 static const struct {
-    const char *title;
+    char title[sizeof((view_row *)NULL)->name];
     int (*count)(const view_state *state);
     void (*describe)(const view_state *state, int row, view_row *to);
     bool (*apply)(view_state *state, int row, const char *typed, cli_error *error);
 } panels[VIEW_PANELS] = {
     [VIEW_PANEL_LIGHT] = { "Light", count_light, describe_light, apply_light },
     [VIEW_PANEL_MATERIALS] = { "Materials", count_materials, describe_material, apply_material },
-    [VIEW_PANEL_OPEN] = { "Open a scene, lights or a material", count_open, describe_open,
-                          apply_open },
+    [VIEW_PANEL_OPEN] = { "Open scene, lights or material", count_open, describe_open, apply_open },
 };
 
 static void open_panel(view_state *s, view_panel_kind kind, int row) {
