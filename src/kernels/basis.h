@@ -16,12 +16,12 @@
 /* Blocks that run side by side: the recurrence of one waits for itself. */
 #define BASIS_BLOCKS (LMP_LANES == 16 ? 4 : 2)
 
-/* Values that wait in planes of lanes before they go out as rows: a band and 15. */
-#define BASIS_WAITING (LMP_LANES == 16 ? 2 * LMP_BANDS_MAX + 14 : 528)
+/* Values that wait in planes of lanes before they go out as rows: two bands and 15. */
+#define BASIS_WAITING (4 * LMP_BANDS_MAX + 11)
 
 /* Where a column stands. */
 typedef struct basis_column {
-    vf q0, q1, c, s;
+    vf q0, q1;
 } basis_column;
 
 /* The next of a column, q_l from q_(l-1) and q_(l-2). */
@@ -173,23 +173,23 @@ LMP_INLINE void basis_columns_wide(int bands, vf (*axis)[3], vf (*radial)[LMP_BA
     }
 }
 
-/* Bands first … end-1 into planes l*l+l±m - from: column by column, which stand at q0, q1, c, s. */
+/* Bands first … end-1 into planes l*l+l±m - from: column by column, which stand at q0 and q1. C_m
+ * and S_m are found anew, for the stack has no room for them. */
 LMP_INLINE void basis_stretch(int first, int end, const vf axis[3], const vf *radial,
                               basis_column *columns, float *planes, int from) {
     const float *a = lmp_table_a, *b = lmp_table_b;
+    vf c = vf_set(1), s = vf_set(0);
     for (int m = 0; m < end; m++) {
         basis_column *column = &columns[m];
+        const vf z = axis[2];
         int l = first;
+        if (m > 0)
+            basis_rotate(m, axis[0], axis[1], &c, &s);
         if (m >= first) {
             l = m;
             column->q0 = vf_set(0);
             column->q1 = vf_set(lmp_table_diagonal[m]);
-            column->c = m > 0 ? columns[m - 1].c : vf_set(1);
-            column->s = m > 0 ? columns[m - 1].s : vf_set(0);
-            if (m > 0)
-                basis_rotate(m, axis[0], axis[1], &column->c, &column->s);
         }
-        const vf c = column->c, s = column->s, z = axis[2];
         vf q0 = column->q0, q1 = column->q1;
         float *middle = planes + (l * l + l - from) * LMP_LANES;
         for (; l < end; l++) {
