@@ -200,7 +200,7 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "noise-seed", 0, CLI_SEED, &a.settings.seed, "SEED",
           "seed of the noise: the same seed gives the same image", 0, 0, NULL, NULL },
         { "shadows", 0, CLI_FLAG, &a.settings.shadows, NULL,
-          "let surfaces hide lights (render does not)", 0, 0, NULL, NULL },
+          "let surfaces hide lights, as render --shadows does", 0, 0, NULL, NULL },
         { "bands", 'n', CLI_INT, &a.bands, "N",
           "truncate the lobes to N bands, as render does; 0 means whole lobes", 0, LMP_BANDS_MAX,
           NULL, NULL },

@@ -31,7 +31,8 @@ bool shadow_planes_resize(shadow_planes *planes, int width, int height);
 void shadow_planes_free(shadow_planes *planes);
 
 /* Mixes the values of neighbors on one surface, as far as shadows are even, and the less far the
- * larger `narrowing` is, which is about the square of a factor on distances. */
-void shadow_filter(shadow_planes *planes, float narrowing);
+ * larger `narrowing` is, which is about the square of a factor on distances. Of `spacing` pixels of
+ * a row one has values, or all. */
+void shadow_filter(shadow_planes *planes, int spacing, float narrowing);
 
 #endif

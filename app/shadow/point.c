@@ -139,7 +139,7 @@ float shadow_footprint(const shadow_view *view, const gpu_row *row, int x) {
         const float d = row->position[c][x] - view->camera->eye[c];
         d2 += d * d;
     }
-    return scene_camera_height(view->camera, sqrtf(d2)) / (float)view->height;
+    return view->pixel * (view->camera->height > 0 ? 1 : sqrtf(d2));
 }
 
 void shadow_points_set(const shadow_view *view, const gpu_row *row, const int *pixels, int count,

@@ -38,7 +38,7 @@ typedef struct shadow_view {
     const trace_bvh *bvh;
     float lift; /* of rays off their surface */
     const scene_camera *camera;
-    int height; /* of the image */
+    float pixel; /* how wide a pixel is at distance 1, or anywhere of a parallel camera */
     lmp_shade_settings settings;
 } shadow_view;
 

@@ -138,13 +138,17 @@ static bool alike(const gpu_row *row, int a, int b, float footprint) {
     return fabsf(off) < 0.5f * footprint && facing > 0.9f;
 }
 
-/* Whether it takes what its neighbors find: one of every two, the other one in the next sample. */
+/* Whether it takes what the pixels find that send rays, which are others in the next row and in the
+ * next sample: of two, as the colors of a checkerboard; of four, in every row between those of the
+ * row before. */
 static bool borrows(const shadow_job *job, const gpu_row *row, int x, int y,
                     const shadow_planes *planes) {
     const float footprint = planes->footprint[(size_t)y * (size_t)planes->width + (size_t)x];
-    return job->sparse && (x + y + job->sample) % 2 != 0 &&
-           ((x > 0 && alike(row, x, x - 1, footprint)) ||
-            (x + 1 < planes->width && alike(row, x, x + 1, footprint)));
+    const int shift = job->spacing / 2;
+    const int after = (x + shift * y + job->sample) % job->spacing;
+    const int left = x - after, right = left + job->spacing;
+    return after != 0 && ((left >= 0 && alike(row, x, left, footprint)) ||
+                          (right < planes->width && alike(row, x, right, footprint)));
 }
 
 /* Pixels without rays. What is no surface is 0, and so without weight for the filter. */

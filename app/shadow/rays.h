@@ -11,7 +11,7 @@ typedef struct shadow_job {
     const shadow_source *sources;
     size_t source_count;
     int rays;    /* a pixel */
-    bool sparse; /* of every second pixel alone, where its neighbor may speak for it */
+    int spacing; /* of a row's pixels that send them, where these may speak for those between */
     int sample;  /* of the frame: which ones */
     uint32_t seed;
 } shadow_job;

@@ -72,6 +72,13 @@ static int sample_of(const shadow *s, const gpu_gbuffer *gbuffer) {
     return alternates(s) ? sample / 2 : sample;
 }
 
+/* Of samples that stand alone the first is shown while things move. */
+static int spacing_of(const shadow *s, const gpu_gbuffer *gbuffer) {
+    if (!s->settings.sparse || s->settings.raw)
+        return 1;
+    return s->settings.apart && gpu_gbuffer_sample(gbuffer) == 0 ? 4 : 2;
+}
+
 static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *gbuffer) {
     const bool shines = shadow_around_shines(&s->around);
     shadow_job job = {
@@ -79,11 +86,11 @@ static shadow_job job_of(shadow *s, const gpu_frame *frame, const gpu_gbuffer *g
                   .bvh = s->bvh,
                   .lift = (float)trace_lift(s->scene),
                   .camera = &frame->camera,
-                  .height = frame->height,
+                  .pixel = scene_camera_height(&frame->camera, 1) / (float)frame->height,
                   .settings = { .bands = frame->bands, .window = frame->window } },
         .sources = s->sources,
         .rays = s->settings.rays,
-        .sparse = s->settings.sparse && !s->settings.raw,
+        .spacing = spacing_of(s, gbuffer),
         .sample = sample_of(s, gbuffer),
         .seed = shadow_hash(s->settings.seed, (uint32_t)sample_of(s, gbuffer)),
     };
@@ -141,9 +148,9 @@ static void apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
 }
 
 /* Less for samples 1, 2, … of a pixel: of a mean of n, blur that falls as the fourth root falls as
- * the root of n, and so does variance. More for few rays. */
+ * the root of n, and so does variance. More where few pixels send rays. */
 static float narrowing_of(const shadow_job *job) {
-    return sqrtf((float)(job->sample + 1)) * (job->sparse ? 0.7f : 1);
+    return sqrtf((float)(job->sample + 1) / (float)job->spacing);
 }
 
 static bool cast(shadow *s, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba) {
@@ -154,7 +161,7 @@ static bool cast(shadow *s, const gpu_frame *frame, const gpu_gbuffer *gbuffer, 
         return false;
     const double sent = timing_now();
     if (!s->settings.raw)
-        shadow_filter(&s->planes, narrowing_of(&job));
+        shadow_filter(&s->planes, job.spacing, narrowing_of(&job));
     apply(s, gbuffer, rgba);
     s->statistics.rays_milliseconds = 1e3 * (sent - start);
     s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
