@@ -361,6 +361,49 @@ static void lights_that_meet_surfaces_are_finite(void **state) {
     close_stage(&s);
 }
 
+static void lay_floor(scene_shaper *shaper, float angle) {
+    const float a = cosf(angle) * 4, b = sinf(angle) * 4;
+    shape_quad(shaper, vec(-a, 0, b), vec(b, 0, a), vec(a, 0, -b), vec(-b, 0, -a));
+}
+
+static void make_floors(scene *world, int count) {
+    scene_builder builder = { .out_of_memory = false };
+    add_material(&builder, "floor", 0.8f);
+    scene_shaper shaper = { .builder = &builder };
+    for (int i = 0; i < count; i++)
+        lay_floor(&shaper, 0.3f * (float)i);
+    shaper_finish(&shaper);
+    open_scene(&builder, world);
+}
+
+static void make_floor(scene *world) {
+    make_floors(world, 1);
+}
+
+static void make_coinciding_floors(scene *world) {
+    make_floors(world, 2);
+}
+
+/* Triangles that differ, in one plane. */
+static void surfaces_that_coincide_do_not_shade_each_other(void **state) {
+    (void)state;
+    const lmp_light low = { .position = { -1, 0.4f, 0 }, .radius = 0.1f, .radiance = { 9, 9, 9 } };
+    stage one, both;
+    open_scene_stage(&one, make_floor);
+    open_scene_stage(&both, make_coinciding_floors);
+    const int lit = count_lit(&one, &low);
+    assert_in_range(lit, PIXELS / 4, PIXELS);
+    assert_true(count_lit(&both, &low) >= lit);
+    set_lights(&both, &low, 1);
+    image all = render_image(both.renderer, &both.frame);
+    image drawn = draw_shadows(&both, NULL, &(shadow_settings) { .rays = 2 });
+    assert_memory_equal(drawn.rgb, all.rgb, 3 * PIXELS * sizeof *all.rgb);
+    image_free(&all);
+    image_free(&drawn);
+    close_stage(&one);
+    close_stage(&both);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mean_ratio_is_the_truth_of_every_kind_of_light),
@@ -375,6 +418,7 @@ int main(void) {
         cmocka_unit_test(the_ground_truth_of_a_coarse_vase_is_that_of_a_fine_one),
         cmocka_unit_test(a_light_in_a_closed_box_lights_nothing_outside),
         cmocka_unit_test(lights_that_meet_surfaces_are_finite),
+        cmocka_unit_test(surfaces_that_coincide_do_not_shade_each_other),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }
