@@ -3,6 +3,7 @@
 
 #include "app/material/file.h"
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -52,12 +53,33 @@ static bool take_color(const char **text, lmp_rgb *color) {
     return true;
 }
 
-static bool finish(const char *name, const char *rest, lmp_result result, const char *ranges,
+/* What a number must be to make a material; the library refuses others without saying which. */
+typedef struct parameter_range {
+    const char *argument;
+    float least, most; /* most may be INFINITY */
+} parameter_range;
+
+static bool within(const char *name, const parameter_range *range, const float *values, int count,
                    cli_error *error) {
+    for (int i = 0; i < count; i++)
+        if (!(values[i] >= range->least && values[i] <= range->most))
+            return isinf(range->most)
+                       ? cli_fail(error, name, "%s is %g, out of range (at least %g)",
+                                  range->argument, (double)values[i], (double)range->least)
+                       : cli_fail(error, name, "%s is %g, out of range (%g to %g)", range->argument,
+                                  (double)values[i], (double)range->least, (double)range->most);
+    return true;
+}
+
+static bool color_within(const char *name, const char *argument, lmp_rgb color, float most,
+                         cli_error *error) {
+    return within(name, &(parameter_range) { argument, 0, most },
+                  (const float[]) { color.r, color.g, color.b }, 3, error);
+}
+
+static bool finish(const char *name, const char *rest, lmp_result result, cli_error *error) {
     if (*rest)
         return cli_fail(error, name, "too much after its last number");
-    if (result == LMP_ERROR_ARGUMENT)
-        return cli_fail(error, name, "a number is out of range (%s)", ranges);
     if (result != LMP_OK)
         return cli_fail(error, name, "%s", lmp_result_text(result));
     return true;
@@ -67,38 +89,46 @@ static bool open_lambert(const char *name, const char *text, material *m, cli_er
     lmp_rgb albedo;
     if (!*text || !take_color(&text, &albedo))
         return cli_fail(error, name, "is not lambert:COLOR (one number or R,G,B)");
-    return finish(name, text, lmp_brdf_create_lambert(NULL, albedo, &m->brdf), "COLOR at least 0",
-                  error);
+    return color_within(name, "COLOR", albedo, INFINITY, error) &&
+           finish(name, text, lmp_brdf_create_lambert(NULL, albedo, &m->brdf), error);
 }
 
 static bool open_phong(const char *name, const char *text, material *m, cli_error *error) {
+    static const parameter_range exponents = { "EXPONENT", 0, 1e6f };
     lmp_rgb reflectance = { 1, 1, 1 };
     float exponent;
     if (take_numbers(&text, ',', 1, &exponent) != 1 || !take_color(&text, &reflectance))
         return cli_fail(error, name, "is not phong:EXPONENT[:COLOR]");
-    return finish(name, text, lmp_brdf_create_phong(NULL, reflectance, exponent, &m->brdf),
-                  "EXPONENT and COLOR at least 0", error);
+    return within(name, &exponents, &exponent, 1, error) &&
+           color_within(name, "COLOR", reflectance, INFINITY, error) &&
+           finish(name, text, lmp_brdf_create_phong(NULL, reflectance, exponent, &m->brdf), error);
 }
 
 static bool open_ggx(const char *name, const char *text, material *m, cli_error *error) {
+    static const parameter_range alphas = { "ALPHA", 0.001f, 1 };
     lmp_ggx ggx = { .f0 = { 0.04f, 0.04f, 0.04f } };
     float alpha[2] = { 0, 0 };
-    if (!take_numbers(&text, 'x', 2, alpha) || !take_color(&text, &ggx.f0) ||
-        !take_color(&text, &ggx.diffuse))
+    const int alpha_count = take_numbers(&text, 'x', 2, alpha);
+    if (!alpha_count || !take_color(&text, &ggx.f0) || !take_color(&text, &ggx.diffuse))
         return cli_fail(error, name, "is not ggx:ALPHA[xALPHA_Y][:F0[:DIFFUSE]]");
     ggx.alpha_x = alpha[0];
     ggx.alpha_y = alpha[1];
-    return finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf),
-                  "ALPHA 0.001 to 1, F0 0 to 1, DIFFUSE at least 0", error);
+    return within(name, &alphas, alpha, alpha_count, error) &&
+           color_within(name, "F0", ggx.f0, 1, error) &&
+           color_within(name, "DIFFUSE", ggx.diffuse, INFINITY, error) &&
+           finish(name, text, lmp_brdf_create_ggx(NULL, &ggx, &m->brdf), error);
 }
 
 static bool open_sheen(const char *name, const char *text, material *m, cli_error *error) {
+    static const parameter_range roughnesses = { "ROUGHNESS", 0.07f, 1 };
     lmp_sheen sheen = { .color = { 1, 1, 1 } };
     if (take_numbers(&text, ',', 1, &sheen.roughness) != 1 || !take_color(&text, &sheen.color) ||
         !take_color(&text, &sheen.diffuse))
         return cli_fail(error, name, "is not sheen:ROUGHNESS[:COLOR[:DIFFUSE]]");
-    return finish(name, text, lmp_brdf_create_sheen(NULL, &sheen, &m->brdf),
-                  "ROUGHNESS 0.07 to 1, COLOR 0 to 1, DIFFUSE at least 0", error);
+    return within(name, &roughnesses, &sheen.roughness, 1, error) &&
+           color_within(name, "COLOR", sheen.color, 1, error) &&
+           color_within(name, "DIFFUSE", sheen.diffuse, INFINITY, error) &&
+           finish(name, text, lmp_brdf_create_sheen(NULL, &sheen, &m->brdf), error);
 }
 
 /* --- SGD -------------------------------------------------------------------------------------- */
@@ -133,8 +163,7 @@ static bool open_sgd(const char *name, const char *text, material *m, cli_error 
     if (!find_sgd(name, text, &sgd, error))
         return false;
     file_hash_add(&m->hash, &sgd, sizeof sgd);
-    return finish(name, "", lmp_brdf_create_sgd(NULL, &sgd, &m->brdf), "the fit's parameters",
-                  error);
+    return finish(name, "", lmp_brdf_create_sgd(NULL, &sgd, &m->brdf), error);
 }
 
 /* --- by name ---------------------------------------------------------------------------------- */

@@ -44,10 +44,12 @@ refuse() {
 }
 refuse 1 'sgd:gold-metallic-paint?' info sgd:gold-metalic-paint
 refuse 1 'ggx:ALPHA' info ggx:rough
-refuse 1 'out of range (ALPHA 0.001 to 1' info ggx:7
+refuse 1 'ALPHA is 7, out of range (0.001 to 1)' info ggx:7
+refuse 1 'ALPHA is 3, out of range (0.001 to 1)' info ggx:0.2x3
+refuse 1 'F0 is 1.5, out of range (0 to 1)' info ggx:0.2:1,1.5,1
 refuse 1 'sheen:ROUGHNESS' info sheen:soft
-refuse 1 'out of range (ROUGHNESS 0.07 to 1' info sheen:0
-refuse 1 'out of range (EXPONENT and COLOR at least 0)' info phong:-1
+refuse 1 'ROUGHNESS is 0, out of range (0.07 to 1)' info sheen:0
+refuse 1 'EXPONENT is -1, out of range (0 to 1e+06)' info phong:-1
 refuse 1 'nickel: does not exist (is it sgd:nickel?)' info nickel
 refuse 1 'missing.binary' info "$WORK/missing.binary"
 head -c 1000 "$WORK/l.binary" >"$WORK/short.binary"
