@@ -39,10 +39,12 @@ static void describe_values(const cli_option *option, char *text, size_t size) {
         return; /* its argument says it */
     if (option->minimum == -option->maximum && (option->maximum == 0.0 || option->maximum > 1e9))
         return; /* none, or none that anybody meets */
+    const int digits = option_digits(option);
     if (option->maximum > 1e9 && option->minimum >= 0.0)
-        snprintf(text + used, size - used, "; at least %.9g", option->minimum);
+        snprintf(text + used, size - used, "; at least %.*g", digits, option->minimum);
     else
-        snprintf(text + used, size - used, "; %.9g to %.9g", option->minimum, option->maximum);
+        snprintf(text + used, size - used, "; %.*g to %.*g", digits, option->minimum, digits,
+                 option->maximum);
 }
 
 /* Appends the default: what the target holds before parsing. */

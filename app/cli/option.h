@@ -29,4 +29,7 @@ void option_fish(const cli_command *command, const cli_option *options);
 /* A table's limits: its own, or those of its kind. */
 void option_limits(const cli_option *option, double *minimum, double *maximum);
 
+/* How many digits tell them: what floats are rounded to has no more than seven. */
+int option_digits(const cli_option *option);
+
 #endif

@@ -38,6 +38,10 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
     }
 }
 
+int option_digits(const cli_option *option) {
+    return option->kind == CLI_INT ? 10 : 7;
+}
+
 bool cli_number(const char *text, size_t length, double *value) {
     char number[64], *stop; /* copied, for strtod would read on: 0x480 is also a number */
     if (length == 0 || length >= sizeof number || strspn(text, "+-.eE" DIGITS) < length)
@@ -59,8 +63,9 @@ static bool read_number(const char **text, const char *characters, char end, dou
 static bool out_of_range(const cli_option *option, const char *text, cli_error *error) {
     double minimum, maximum;
     option_limits(option, &minimum, &maximum);
-    return cli_fail(error, NULL, "--%s: %s is out of range (%.9g to %.9g)", option->name, text,
-                    minimum, maximum);
+    const int digits = option_digits(option);
+    return cli_fail(error, NULL, "--%s: %s is out of range (%.*g to %.*g)", option->name, text,
+                    digits, minimum, digits, maximum);
 }
 
 static bool in_range(const cli_option *option, double value) {
