@@ -132,3 +132,15 @@ cmp -s "$WORK/b_1.png" "$WORK/f_001.png" && fail "--animate changes nothing"
 refused 1 builtin:ball -o "$WORK/x.png" --frames 1 --animate scene
 refused 1 builtin:ball -o "$WORK/x.png" --frames 1 --animate none.json
 refused 2 builtin:ball -o "$WORK/x.png" --animate orbit
+
+# rays [OPTION…]: how many shadows take
+rays() {
+    "$PROGRAM" render builtin:ball $small --device cpu --shadows --stats -o "$WORK/rays.exr" "$@" >"$WORK/rays" 2>&1 ||
+        fail "shadows $*: $(cat "$WORK/rays")"
+    sed -n 's/.*"rays":[^0-9]*\([0-9]*\).*/\1/p' "$WORK/rays"
+}
+all=$(rays)
+twice=$(rays --shadow-rays 4) sparse=$(rays --shadow-sparse)
+[ $((twice * 100)) -gt $((all * 195)) ] && [ $((twice * 100)) -lt $((all * 205)) ] ||
+    fail "four rays a pixel are $twice, two $all"
+[ "$sparse" -gt 0 ] && [ $((sparse * 9)) -lt $((all * 5)) ] || fail "--shadow-sparse sends $sparse of $all rays"
