@@ -24,7 +24,6 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
     const shade_likeness first = likeness_of(surfaces, preintegrated, left[0]);
     const size_t most = lmp_shade_capacity(first.phong_count);
     const bool own_lobe = lmp_material_at(surfaces, left[0])->kind == LMP_MATERIAL_LOBES;
-    const size_t begin = left[0];
     size_t taken = 0, others = 0;
     bool in_a_row = true; /* surfaces come in any order where the caller sorts them */
     for (size_t i = 0; i < count; i++) {
@@ -40,8 +39,9 @@ size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, si
             left[others++] = at;
             continue;
         }
-        in_a_row = in_a_row && at == begin + taken;
-        chunk->at[taken++] = at;
+        chunk->at[taken] = at;
+        in_a_row = in_a_row && at == chunk->at[0] + taken;
+        taken++;
     }
     lmp_shade_fill(chunk->at, taken);
     chunk->source = first.source;
