@@ -2,12 +2,8 @@
 # lampion view in a window, by real input: a session checked step by step, by its state and images.
 set -eu
 . tests/checks/common.sh
-for tool in xvfb-run xdotool; do
-    command -v $tool >/dev/null || {
-        echo "skipped: $tool is not installed (packages xvfb, xauth, xdotool)"
-        exit 0
-    }
-done
+. tests/program/window.sh
+tries=600
 # leaks are looked for in view_memory.sh, for the driver and fontconfig have some
 export ASAN_OPTIONS=detect_leaks=0
 export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
@@ -52,17 +48,6 @@ second() {
     sed -n "s/^[[:space:]]*\"$1\":[[:space:]]*\(.*[^,]\),\{0,1\}$/\1/p" state.json | sed -n 2p
 }
 
-# until WHAT COMMAND…: waits for the command to succeed.
-until_true() {
-    what=$1
-    shift
-    for _ in $(seq 600); do
-        if "$@"; then return 0; fi
-        kill -0 $viewer 2>/dev/null || fail "$what: the viewer has ended: $(cat view.err)"
-        sleep 0.1
-    done
-    fail "$what: the state is $(cat state.json)"
-}
 is() { [ "$("$1" "$2")" = "$3" ]; }
 isnt() { [ "$("$1" "$2")" != "$3" ]; }
 says() { value message | grep -q "$1"; }

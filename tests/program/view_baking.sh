@@ -2,9 +2,8 @@
 # lampion view while tables are made: it goes on drawing as before and takes input, then shows what was asked for.
 set -eu
 . tests/checks/common.sh
-for tool in xvfb-run xdotool; do
-    command -v $tool >/dev/null || { echo "skipped: $tool is not installed (packages xvfb, xauth, xdotool)"; exit 0; }
-done
+. tests/program/window.sh
+tries=900
 export ASAN_OPTIONS=detect_leaks=0 LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
 mkdir -p "$XDG_CACHE_HOME"
 if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
@@ -17,16 +16,6 @@ cd "$WORK"
 is() { grep -q "\"$1\":[[:space:]]*$2" state.json 2>/dev/null; }
 eye() { sed -n '/"eye"/,/\]/p' state.json | tr -d ' \n'; }
 moved() { [ "$(eye)" != "$before" ]; }
-until_true() {
-    what=$1
-    shift
-    for _ in $(seq 900); do
-        if "$@"; then return 0; fi
-        kill -0 $viewer 2>/dev/null || fail "$what: the viewer has ended: $(cat view.err)"
-        sleep 0.1
-    done
-    fail "$what: the state is $(cat state.json)"
-}
 # Stops the process that makes tables as soon as it is there.
 stop_baking() {
     for _ in $(seq 3000); do
