@@ -29,9 +29,11 @@ static pid_t start(view_baking *baking, const view_shading *shading) {
     if (preintegrated)
         arguments[count++] = too;
     arguments[count++] = names;
-    for (int i = 0; i < baking->material_count; i++)
-        if (strchr(baking->materials[i], '='))
-            arguments[count++] = strchr(baking->materials[i], '=') + 1;
+    for (int i = 0; i < baking->material_count; i++) {
+        char *equals = strchr(baking->materials[i], '=');
+        if (equals)
+            arguments[count++] = equals + 1;
+    }
     arguments[count] = NULL;
     posix_spawn_file_actions_t files;
     pid_t process = 0;
