@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* info.c - lampion info: what is in a scene. */
-#include "app/command/command.h"
+/* info.c - lampion info: what is in a scene, or in a field (info_field.c). */
+#include "app/command/info.h"
 #include "app/file/file.h"
 #include "app/scene/scene.h"
 
@@ -161,6 +161,10 @@ static int run(const cli_command *command, int argc, char **argv) {
         return status;
     if (operand_count != 1)
         return cli_usage(command, "needs one scene");
+    if (info_is_field(operands[0]) && materials)
+        return cli_usage(command, "a field has no --materials");
+    if (info_is_field(operands[0]))
+        return info_print_field(operands[0], json);
     scene loaded;
     cli_error error = { 0 };
     if (!scene_load(operands[0], &load, &loaded, &error))
@@ -179,8 +183,9 @@ static int run(const cli_command *command, int argc, char **argv) {
 const cli_command command_info = {
     .name = "info",
     .operands = "SCENE",
-    .summary = "tell what is in a scene",
+    .summary = "tell what is in a scene, or in a field (.lmpf)",
     .examples = "lampion info builtin:atrium\n"
-                "lampion info --json model.gltf\n",
+                "lampion info --json model.gltf\n"
+                "lampion info field.lmpf\n",
     .run = run,
 };

@@ -110,17 +110,17 @@ static bool render_frames(render_job *j, cli_error *error) {
 /* --- the command ------------------------------------------------------------------------------ */
 
 /* Whether the frame is drawn, or timed, by a method that reads such. */
-static bool reads(const render_options *o, unsigned what) {
-    return o->compare || method_table[o->method].reads & what;
+static bool reads(const render_job *j, unsigned what) {
+    return j->options->compare || method_table[j->method].reads & what;
 }
 
 /* Has ready what the method reads. */
 static bool settle_tables(render_job *j, cli_error *error) {
     const render_options *o = j->options;
-    if (reads(o, METHOD_READS_PREINTEGRATED) &&
+    if (reads(j, METHOD_READS_PREINTEGRATED) &&
         !bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error))
         return false;
-    if (reads(o, METHOD_READS_FIELD) && o->bands <= LMP_FIELD_BANDS_MAX) {
+    if (reads(j, METHOD_READS_FIELD) && o->bands <= LMP_FIELD_BANDS_MAX) {
         j->field = shade_field_create(&j->world, &o->field, o->bands, error);
         if (!j->field)
             return false;
@@ -128,6 +128,25 @@ static bool settle_tables(render_job *j, cli_error *error) {
     j->frame.lobes = j->lobes;
     j->frame.field = j->field;
     return true;
+}
+
+static bool is_layered(const scene *world) {
+    for (size_t i = 0; i < world->material_count; i++)
+        if (scene_is_layered(&world->materials[i]))
+            return true;
+    return false;
+}
+
+/* Chooses what so many lights cost least by. A field sums all of them at a surface of a table or
+ * under layers. */
+static void settle_method(render_job *j) {
+    const render_options *o = j->options;
+    const method_work work = { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
+    const bool by_lobes = o->materials.count == 0 && !is_layered(&j->world);
+    j->method = o->method;
+    if (o->method_choice == 0 && j->shading == DEVICE_CPU && by_lobes)
+        j->method = method_for_lights(o->method, &work);
+    j->frame.method = j->method;
 }
 
 /* Chooses where to shade. */
@@ -143,6 +162,7 @@ static bool settle_shading(render_job *j, cli_error *error) {
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
                         o->bands, method_table[method].name);
     j->frame.host = shade_on(j->shading);
+    settle_method(j);
     return settle_tables(j, error);
 }
 
@@ -177,7 +197,6 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
     j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
     j->frame.width = o->size[0];
     j->frame.height = o->size[1];
-    j->frame.method = o->method;
     j->frame.bands = o->bands;
     j->frame.window = (lmp_window)o->window;
     j->frame.samples = o->samples_given ? o->samples : default_samples(o);

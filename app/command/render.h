@@ -16,7 +16,7 @@
 typedef struct render_options {
     const char *output, *device, *animate, *from;
     int size[2], bands, method_choice, window, tone, device_kind, repeat, samples, pixels_max;
-    method_kind method;      /* what the choice and the bands come to */
+    method_kind method;      /* what the choice and the bands come to, whatever the lights */
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];
     bool exposure_given, frames_given, shard_given, background_given, samples_given, stats, compare;
@@ -38,6 +38,7 @@ typedef struct render_job {
     gpu_renderer *renderer;
     gpu_frame frame;
     device_kind shading;
+    method_kind method;            /* of these lights, on that device */
     lmp_preintegrated_lobe *lobes; /* of methods that read them */
     shade_field *field;            /* of methods that read one */
     shadow *shadow;                /* with --shadows */

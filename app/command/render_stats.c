@@ -38,7 +38,7 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], c
 
 /* Whether --stats times a method: its own, or with --compare-methods all that run as it does. */
 static bool compared(const render_job *j, method_kind method) {
-    if (method == j->options->method)
+    if (method == j->method)
         return true;
     return j->options->compare && method_table[method].bands_max[j->shading] >= j->options->bands;
 }
@@ -66,6 +66,18 @@ static bool add_timings(render_job *j, cJSON *stats, cli_error *error) {
     return true;
 }
 
+/* By which auto chooses, where the CPU shades. */
+static void add_estimates(const render_job *j, cJSON *stats) {
+    const render_options *o = j->options;
+    const method_work work = { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
+    cJSON *estimates = cJSON_AddObjectToObject(stats, "estimated_milliseconds");
+    for (int m = 0; m < METHODS; m++) {
+        const double milliseconds = method_estimate((method_kind)m, &work);
+        if (milliseconds > 0)
+            cJSON_AddNumberToObject(estimates, method_table[m].name, milliseconds);
+    }
+}
+
 /* Of the last frame that was timed. */
 static void add_shadows(const render_job *j, cJSON *stats) {
     const shadow_statistics s = shadow_describe(j->shadow);
@@ -90,6 +102,28 @@ static void add_field(const render_job *j, cJSON *stats) {
     cJSON_AddNumberToObject(field, "evaluate_milliseconds", s.evaluate_milliseconds);
 }
 
+/* The median of shading frames whose lights rest, while the camera moves on: the field keeps its
+ * nodes, and computes those that come into view. */
+static bool add_rest(render_job *j, cJSON *stats, cli_error *error) {
+    static double samples[RENDER_REPEAT_MAX];
+    gpu_frame frame = j->frame;
+    const float step = 0.002f * (j->world.maximum[0] - j->world.minimum[0]);
+    bool ok = true;
+    frame.method = METHOD_FIELD;
+    frame.samples = 1;
+    for (int i = 0; i < j->options->repeat && ok; i++) {
+        gpu_times times;
+        frame.camera.eye[0] += step;
+        ok = gpu_render(j->renderer, &frame, &times, error);
+        samples[i] = ok ? times.shade : 0;
+    }
+    if (ok)
+        cJSON_AddNumberToObject(cJSON_GetObjectItemCaseSensitive(stats, "field"),
+                                "resting_milliseconds",
+                                timing_of(samples, j->options->repeat).median);
+    return ok;
+}
+
 bool render_print_stats(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     cJSON *stats = cJSON_CreateObject();
@@ -97,7 +131,7 @@ bool render_print_stats(render_job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "triangles", (double)(j->world.index_count / 3));
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
-    cJSON_AddStringToObject(stats, "method", method_table[o->method].name);
+    cJSON_AddStringToObject(stats, "method", method_table[j->method].name);
     cJSON_AddStringToObject(stats, "window", lmp_sh_window_name((lmp_window)o->window));
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
@@ -110,12 +144,19 @@ bool render_print_stats(render_job *j, cli_error *error) {
     if (j->lobes)
         cJSON_AddNumberToObject(stats, "preintegrated_bytes",
                                 (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
+    if (j->shading == DEVICE_CPU)
+        add_estimates(j, stats);
     if (!add_timings(j, stats, error)) {
         cJSON_Delete(stats);
         return false;
     }
-    if (j->field)
+    if (j->field) {
         add_field(j, stats);
+        if (j->shading == DEVICE_CPU && !add_rest(j, stats, error)) {
+            cJSON_Delete(stats);
+            return false;
+        }
+    }
     if (j->shadow)
         add_shadows(j, stats);
     char *text = file_json_text(stats, true, NULL, error);

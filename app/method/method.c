@@ -23,7 +23,8 @@ const method_row method_table[METHODS_TIMED] = {
                        .shader = "shade.comp",
                        .function = "lmp_shade_zonal",
                        .speedup = "zonal_speedup",
-                       .compared = METHOD_COEFFICIENTS },
+                       .compared = METHOD_COEFFICIENTS,
+                       .cost = { .pixel = 100, .light = 0.9f, .light_band = 0.1f } },
     [METHOD_COEFFICIENTS] = { .name = "coefficients",
                               .help = "is the paper's",
                               .method = LMP_SHADE_COEFFICIENTS,
@@ -40,7 +41,8 @@ const method_row method_table[METHODS_TIMED] = {
                                .reads = METHOD_READS_PREINTEGRATED,
                                .shader = "shade.comp",
                                .function = "lmp_shade_preintegrated",
-                               .defines = "#define SHADE_PREINTEGRATED\n" },
+                               .defines = "#define SHADE_PREINTEGRATED\n",
+                               .cost = { .pixel = 100, .light = 8 } },
     [METHOD_FIELD] = { .name = "field",
                        .help = "costs nearly the same for thousands of lights",
                        .method = LMP_SHADE_ZONAL,
@@ -49,7 +51,12 @@ const method_row method_table[METHODS_TIMED] = {
                        .tabulated = true,
                        .reads = METHOD_READS_FIELD,
                        .speedup = "field_speedup",
-                       .compared = METHOD_ZONAL },
+                       .compared = METHOD_ZONAL,
+                       .cost = { .pixel = 90,
+                                 .pixel_value = 2,
+                                 .light = 0.01f,
+                                 .frame_value = 0.8f,
+                                 .frame_light = 0.0013f } },
     [METHOD_PAPER] = { .name = "paper",
                        .baseline = true,
                        .bands_max = BANDS(GPU_COEFFICIENTS_MAX, 0),
@@ -90,10 +97,28 @@ method_kind method_chosen(int choice, int bands) {
                                                                      : METHOD_PREINTEGRATED;
 }
 
+double method_estimate(method_kind method, const method_work *work) {
+    const method_row *row = &method_table[method];
+    const method_cost c = row->cost;
+    const double lights = (double)work->lights, bands = work->bands, values = bands * bands;
+    if (work->bands > row->bands_max[DEVICE_CPU])
+        return 0;
+    const double light = (double)c.light + (double)c.light_band * bands;
+    const double pixel = (double)c.pixel + (double)c.pixel_value * values + lights * light;
+    return 1e-6 * work->pixels * pixel +
+           values * ((double)c.frame_value + (double)c.frame_light * lights);
+}
+
+method_kind method_for_lights(method_kind chosen, const method_work *work) {
+    const double by_field = method_estimate(METHOD_FIELD, work);
+    return by_field > 0 && 2 * by_field <= method_estimate(chosen, work) ? METHOD_FIELD : chosen;
+}
+
 const char *method_help(void) {
-    static char text[640];
+    static char text[768];
     size_t used = (size_t)snprintf(text, sizeof text,
-                                   "how to shade; auto is zonal to %d bands, then preintegrated",
+                                   "how to shade; auto is zonal to %d bands, then preintegrated, "
+                                   "and in render field where so many lights cost half by it",
                                    method_table[METHOD_ZONAL].bands_max[DEVICE_GPU]);
     for (int m = 0; m < METHODS; m++) {
         const method_row *row = &method_table[m];

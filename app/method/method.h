@@ -34,6 +34,13 @@ enum {
     METHOD_READS_FIELD = 4 /* of all lights, so that its cost is not that of their number */
 };
 
+/* What it costs on the CPU, measured on two cores: nanoseconds of a pixel, of it for each of bands²
+ * coefficients, for each light, and for each light and band; then milliseconds of a frame, for each
+ * coefficient, and for each of them and each light. */
+typedef struct method_cost {
+    float pixel, pixel_value, light, light_band, frame_value, frame_light;
+} method_cost;
+
 typedef struct method_row {
     const char *name, *help;
     lmp_shade_method method; /* the library's */
@@ -48,6 +55,7 @@ typedef struct method_row {
     const char *defines;  /* put before the shader, or NULL */
     const char *speedup;  /* NULL, or the statistic that tells its speed against this method's: */
     method_kind compared;
+    method_cost cost; /* all 0: it is not estimated */
 } method_row;
 
 extern const method_row method_table[METHODS_TIMED];
@@ -68,6 +76,21 @@ const char *method_help(void);
 /* The row of a choice. auto: zonal, the exact sum, while every device takes the bands; from there
  * on preintegrated, whose cost does not grow with them. */
 method_kind method_chosen(int choice, int bands);
+
+/* What is to be shaded. */
+typedef struct method_work {
+    size_t lights;
+    int bands;
+    double pixels;
+} method_work;
+
+/* Milliseconds that the CPU takes about, more or fewer on other machines; 0 of a method that takes
+ * not so many bands there, or is not estimated. */
+double method_estimate(method_kind method, const method_work *work);
+
+/* Of auto, on the CPU: a field in place of the row chosen, where it costs at most half. Its images
+ * are not quite those of exact sums, so less is no reason. */
+method_kind method_for_lights(method_kind chosen, const method_work *work);
 
 /* Where a frame is shaded. DEVICE_AUTO: on the GPU, but where OpenGL is software on the CPU if it
  * has batch kernels, and where the bands are too many for a shader; tables under an environment are

@@ -82,4 +82,12 @@ typedef struct volume_output {
 bool volume_write(const volume *volume, const volume_output *output, cli_error *error);
 bool volume_write_field(const lmp_field *field, const char *path, cli_error *error);
 
+/* What a .lmpf holds; it is read in a sandbox. */
+typedef struct volume_facts {
+    lmp_field_info info;
+    size_t of_kind[LMP_LIGHT_KINDS]; /* lights */
+    size_t bytes;                    /* of the file */
+} volume_facts;
+bool volume_describe_field(const char *path, volume_facts *facts, cli_error *error);
+
 #endif

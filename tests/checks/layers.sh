@@ -48,7 +48,7 @@ may_include() {
     app/gpu) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
     app/shade) echo app/timing app/device app/cli app/bake app/scene app/environment app/gpu app/shade LIBRARY ;;
     app/shadow) echo app/timing app/cli app/scene app/environment app/trace app/gpu app/shadow LIBRARY ;;
-    app/volume) echo app/cli app/file app/csv app/bake app/scene app/environment app/trace app/gpu app/shadow app/volume LIBRARY ;;
+    app/volume) echo app/cli app/sandbox app/file app/csv app/bake app/scene app/environment app/trace app/gpu app/shadow app/volume LIBRARY ;;
     app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/shadow app/override app/view LIBRARY ;;
     app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;

@@ -50,7 +50,8 @@ done
 "$PROGRAM" render builtin:balls $small --method zonal --device cpu -o "$WORK/sums.exr"
 "$PROGRAM" render builtin:balls $small --method field --field-grid 12x9x12 --field-error 0.02 --stats --repeat 1 \
     -o "$WORK/field.exr" >"$WORK/stats"
-for word in '"field"' '"nodes"' '"bytes"' '"update_milliseconds"' '"evaluate_milliseconds"'; do
+for word in '"field"' '"nodes"' '"bytes"' '"update_milliseconds"' '"evaluate_milliseconds"' \
+    '"resting_milliseconds"' '"estimated_milliseconds"'; do
     grep -q "$word" "$WORK/stats" || fail "--stats of a field without $word"
 done
 "$PROGRAM" compare "$WORK/field.exr" "$WORK/sums.exr" --fail-above rmse=1e-3 || fail "a field's image is another"
@@ -58,6 +59,13 @@ done
 for rule in "32 zonal" "33 preintegrated"; do
     "$PROGRAM" render builtin:ball --size 8x8 --bands "${rule% *}" --stats --repeat 1 -o "$WORK/rule.png" >"$WORK/rule"
     grep -q "\"method\":.*\"${rule#* }\"" "$WORK/rule" || fail "${rule% *} bands are not shaded by ${rule#* }"
+done
+# and of so many lights, where the CPU shades
+for rule in "3 cpu zonal 480x270" "2000 cpu field 480x270" "2000 gpu zonal 64x36"; do
+    set -- $rule
+    "$PROGRAM" render builtin:balls --size "$4" --bands 3 --random-lights "$1" --device "$2" --samples 1 --stats \
+        --repeat 1 -o "$WORK/rule.png" >"$WORK/rule"
+    grep -q "\"method\":.*\"$3\"" "$WORK/rule" || fail "$1 lights are not shaded by $3 on the $2"
 done
 "$PROGRAM" render builtin:balls $small --method field --device gpu -o "$WORK/no.png" 2>"$WORK/err" &&
     fail "a field on the GPU"

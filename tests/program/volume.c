@@ -198,6 +198,48 @@ static void the_library_reads_its_field(void **state) {
     lmp_field_destroy(read);
 }
 
+/* Runs `lampion info` with arguments for the shell; its status. */
+static int info(const char *arguments) {
+    char command[512];
+    snprintf(command, sizeof command, "cd '%s' && \"$LAMPION_PROGRAM\" info %s >out 2>err", folder,
+             arguments);
+    const int status = system(command);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void info_tells_what_a_field_holds(void **state) {
+    (void)state;
+    size_t size;
+    assert_int_equal(field("--bands 4 -o told.lmpf"), 0);
+    assert_int_equal(info("told.lmpf"), 0);
+    const char *text = read_text("out", &size);
+    assert_non_null(strstr(text, "4x3x5 nodes, cells of 1 0.75 1\n"));
+    assert_non_null(strstr(text, "bounds     -2 0 -1 … 1 1.5 3\n"));
+    assert_non_null(strstr(text, "bands      4\n"));
+    assert_non_null(strstr(text, "lights     2: 2 sphere ("));
+    assert_int_equal(info("--json told.lmpf"), 0);
+    cJSON *root = cJSON_Parse(read_text("out", &size));
+    const cJSON *nodes = cJSON_GetObjectItemCaseSensitive(root, "nodes");
+    const cJSON *maximum = cJSON_GetObjectItemCaseSensitive(root, "maximum");
+    assert_int_equal((int)number_at(nodes, 0), NX);
+    assert_int_equal((int)number_at(nodes, 2), NZ);
+    assert_true(number_at(maximum, 1) == 1.5);
+    assert_string_equal(text_of(root, "layout"), "interleaved");
+    assert_string_equal(text_of(root, "precision"), "float");
+    cJSON_Delete(root);
+    assert_int_equal(info("--materials told.lmpf"), 2);
+    assert_int_equal(info("missing.lmpf"), 1);
+    char *bytes = read_text("told.lmpf", &size);
+    bytes[size / 2] ^= 1;
+    folder_write("damaged.lmpf", bytes, size);
+    assert_int_equal(info("damaged.lmpf"), 1);
+    assert_non_null(strstr(read_text("err", &size), "damaged.lmpf: "));
+    folder_write_text("none.lmpf", "{}");
+    assert_int_equal(info("none.lmpf"), 1);
+    assert_non_null(strstr(read_text("err", &size), "none.lmpf: is no field"));
+}
+
 /* --- shadows ---------------------------------------------------------------------------------- */
 
 /* The wall ends at z = 0.5: it hides the first light from the probes whose rays to it all cross
@@ -336,6 +378,7 @@ int main(void) {
         cmocka_unit_test(half_is_the_nearest_of_16_bits),
         cmocka_unit_test(the_own_preset_keeps_coefficients_of_any_bands),
         cmocka_unit_test(the_library_reads_its_field),
+        cmocka_unit_test(info_tells_what_a_field_holds),
         cmocka_unit_test(walls_keep_light_from_probes),
         cmocka_unit_test(the_environment_lights_every_probe),
         cmocka_unit_test(what_cannot_be_written_is_refused_in_one_line),
