@@ -19,6 +19,8 @@ typedef struct measurement {
     const char *isa;
     timing_quartiles ns; /* a light-point pair */
     double peak_fraction, vs_paper;
+    double stores;    /* ns a pair, of nothing but stores of as much */
+    size_t output;    /* bytes a call writes */
     double vs_scalar; /* 0: scalar was not measured */
 } measurement;
 
@@ -55,7 +57,8 @@ static int calls_of(const bench_kernel *kernel, const bench_batch *b) {
 /* ns a pair; the peak is measured between the runs, for other loads come and go. */
 static measurement measure(const bench_kernel *kernel, const bench_batch *b, unsigned flag,
                            int runs) {
-    static double ns[RUNS_MAX], fraction[RUNS_MAX];
+    static double ns[RUNS_MAX], fraction[RUNS_MAX], stores[RUNS_MAX];
+    const size_t written = b->count * kernel->values(b->bands);
     const double pairs = (double)b->count * kernel->lights;
     const double lanes = flag == LMP_CPU_AVX512   ? 16
                          : flag == LMP_CPU_AVX2   ? 8
@@ -64,12 +67,15 @@ static measurement measure(const bench_kernel *kernel, const bench_batch *b, uns
     const int calls = calls_of(kernel, b);
     for (int i = 0; i < runs; i++) {
         const double before = bench_peak(flag);
+        stores[i] = bench_stores(flag, b->out, written) / pairs;
         ns[i] = time_calls(kernel, b, calls) / pairs;
         const double after = bench_peak(flag), peak = before < after ? before : after;
         fraction[i] = kernel->slots(b->bands) / lanes / ns[i] * peak;
     }
     measurement m = { .ns = timing_of(ns, runs) };
     m.peak_fraction = timing_of(fraction, runs).median;
+    m.stores = timing_of(stores, runs).lower;
+    m.output = written * sizeof(float);
     return m;
 }
 
@@ -95,13 +101,14 @@ static void print_row(const bench_options *o, bool first, const bench_kernel *ke
     if (o->json)
         printf("%s    {\"kernel\": \"%s\", \"bands\": %d, \"isa\": \"%s\", \"layout\": \"%s\", "
                "\"ns\": %.4g, \"ns_quartiles\": [%.4g, %.4g], \"peak_fraction\": %.3f, "
-               "\"vs_paper\": %.3g, \"vs_scalar\": %s}",
+               "\"stores_ns\": %.3g, \"output_bytes\": %zu, \"vs_paper\": %.3g, "
+               "\"vs_scalar\": %s}",
                first ? "" : ",\n", kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower,
-               m->ns.upper, m->peak_fraction, m->vs_paper, vs_scalar);
+               m->ns.upper, m->peak_fraction, m->stores, m->output, m->vs_paper, vs_scalar);
     else
-        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %9.3g %9s\n", kernel->name, bands,
-               m->isa, name, m->ns.median, m->ns.lower, m->ns.upper, m->peak_fraction, m->vs_paper,
-               vs_scalar);
+        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %6.3g %5.4g %9.3g %9s\n",
+               kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower, m->ns.upper,
+               m->peak_fraction, m->stores, (double)m->output / 1024, m->vs_paper, vs_scalar);
     fflush(stdout);
 }
 
@@ -208,11 +215,12 @@ static void print_header(const bench_options *o) {
     printf(
         "ns a light-point pair (%d lights a point where lights are summed): median, quartiles; "
         "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each), "
-        "above 1 where additions\nhave units of their own; times the speed of the paper's Eq. 12 "
-        "and 13 one by one, and of the scalar build\n",
+        "above 1 where additions\nhave units of their own; ns of nothing but stores of the output, "
+        "and its KiB; times the speed of\nthe paper's Eq. 12 and 13 one by one, and of the scalar "
+        "build\n",
         BENCH_LIGHTS);
-    printf("%-23s %5s  %-7s %-6s %10s  %-21s %5s %9s %9s\n", "kernel", "bands", "isa", "layout",
-           "ns", "quartiles", "peak", "x paper", "x scalar");
+    printf("%-23s %5s  %-7s %-6s %10s  %-21s %5s %6s %5s %9s %9s\n", "kernel", "bands", "isa",
+           "layout", "ns", "quartiles", "peak", "stores", "KiB", "x paper", "x scalar");
 }
 
 int bench_cpu(const bench_options *o) {

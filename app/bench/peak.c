@@ -35,6 +35,25 @@ enum { PEAK_CHAINS = 12, PEAK_ROUNDS = 3400 };
         PEAK_STEP(l, step)                                                                         \
     }                                                                                              \
     return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_ROUNDS);
+/* A pass is a few cache lines an iteration; the passes together about 20 µs of the first cache. */
+enum { STORE_FLOATS = 400000 };
+#define STORE_LOOP(type, one, store)                                                               \
+    const size_t width = sizeof(type) / sizeof *to, passes = STORE_FLOATS / count + 1;             \
+    const type value = one;                                                                        \
+    const double from = 1e9 * timing_now();                                                        \
+    for (size_t pass = 0; pass < passes; pass++) {                                                 \
+        size_t i = 0;                                                                              \
+        for (; i + 4 * width <= count; i += 4 * width) {                                           \
+            store(to + i, value);                                                                  \
+            store(to + i + width, value);                                                          \
+            store(to + i + 2 * width, value);                                                      \
+            store(to + i + 3 * width, value);                                                      \
+        }                                                                                          \
+        for (; i + width <= count; i += width)                                                     \
+            store(to + i, value);                                                                  \
+        __asm__ volatile("" ::: "memory");                                                         \
+    }                                                                                              \
+    return (1e9 * timing_now() - from) / (double)passes;
 #define PEAK_MULTIPLY(a, b, c) _mm_mul_ps(a, b)
 __attribute__((target("avx512f"))) static double peak_avx512(void) {
     const __m512 one = _mm512_set1_ps(1);
@@ -47,6 +66,20 @@ __attribute__((target("avx2,fma"))) static double peak_avx2(void) {
 static double peak_sse2(void) {
     const __m128 one = _mm_set1_ps(1);
     PEAK_LOOP(__m128, PEAK_MULTIPLY)
+}
+__attribute__((target("avx512f"))) static double stores_avx512(float *to, size_t count) {
+    STORE_LOOP(__m512, _mm512_set1_ps(1), _mm512_store_ps)
+}
+__attribute__((target("avx2"))) static double stores_avx2(float *to, size_t count) {
+    STORE_LOOP(__m256, _mm256_set1_ps(1), _mm256_store_ps)
+}
+static double stores_sse2(float *to, size_t count) {
+    STORE_LOOP(__m128, _mm_set1_ps(1), _mm_store_ps)
+}
+double bench_stores(unsigned flag, float *to, size_t count) {
+    return flag == LMP_CPU_AVX512 ? stores_avx512(to, count)
+           : flag == LMP_CPU_AVX2 ? stores_avx2(to, count)
+                                  : stores_sse2(to, count);
 }
 double bench_peak(unsigned flag) {
     return flag == LMP_CPU_AVX512 ? peak_avx512()
@@ -67,5 +100,17 @@ double bench_peak(unsigned flag) {
             __asm__ volatile("" : "+w"(a[i]));
         }
     return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_ROUNDS);
+}
+double bench_stores(unsigned flag, float *to, size_t count) {
+    (void)flag;
+    const peak_lanes value = { 1, 1, 1, 1 };
+    const size_t passes = 400000 / count + 1;
+    const double from = 1e9 * timing_now();
+    for (size_t pass = 0; pass < passes; pass++) {
+        for (size_t i = 0; i + 4 <= count; i += 4)
+            *(peak_lanes *)(void *)(to + i) = value;
+        __asm__ volatile("" ::: "memory");
+    }
+    return (1e9 * timing_now() - from) / (double)passes;
 }
 #endif

@@ -34,7 +34,20 @@
     LMP_CASE(5, body, __VA_ARGS__)                                                                 \
     LMP_CASE(6, body, __VA_ARGS__)
 
-/* Calls body(bands, …); few bands as a constant. */
+#define LMP_SMALL_CASES(body, ...)                                                                 \
+    LMP_FEW_CASES(body, __VA_ARGS__)                                                               \
+    LMP_CASE(7, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(8, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(9, body, __VA_ARGS__)                                                                 \
+    LMP_CASE(10, body, __VA_ARGS__)
+
+/* Calls body(bands, …); few bands as a constant, or up to 10 of what is small. */
+#define LMP_STRAIGHT_SMALL(bands, body, ...)                                                       \
+    switch (bands) {                                                                               \
+        LMP_SMALL_CASES(body, __VA_ARGS__)                                                         \
+    default:                                                                                       \
+        body(bands, __VA_ARGS__);                                                                  \
+    }
 #define LMP_STRAIGHT(bands, body, ...)                                                             \
     switch (bands) {                                                                               \
         LMP_FEW_CASES(body, __VA_ARGS__)                                                           \

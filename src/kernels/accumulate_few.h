@@ -10,9 +10,11 @@
 
 #include "src/kernels/accumulate.h"
 
-/* Points that are few; and the bands whose sums fit the stack. */
-#define FEW_POINTS (2 + LMP_LANES / 8)
-#define FEW_BANDS  32
+/* Points that are few, as measured: below 5 bands the sums of 16 lanes take less; and the bands
+ * whose sums fit the stack. */
+#define FEW_POINTS(bands)                                                                          \
+    (LMP_LANES == 16 ? (bands) < 5 ? 3 : 4 : LMP_LANES == 8 ? 3 : LMP_LANES == 4 ? 1 : 0)
+#define FEW_BANDS 32
 
 /* Orders of a block, and the diagonals of it that are summed at a time. */
 #define FEW_ORDERS  (LMP_LANES > 1 ? LMP_LANES / 2 : 1)
@@ -41,7 +43,7 @@ typedef struct few_lanes {
 
 /* Whether `live` points cost less one by one, as measured: a block of them costs as much as one. */
 LMP_INLINE int few_pays(int bands, size_t lights, size_t live) {
-    return LMP_LANES > 1 && bands <= FEW_BANDS && live <= FEW_POINTS && 8 * live <= lights + 14;
+    return bands <= FEW_BANDS && live <= FEW_POINTS(bands) && 8 * live <= lights + 13;
 }
 
 /* Elements i, i + 1, … of an array that is no plane. */
@@ -227,9 +229,21 @@ static LMP_NOINLINE void accumulate_few(int bands, const lmp_kernel_lights *ligh
     LMP_STRAIGHT(bands, few_point, lights, point, out, element, &work)
 }
 
+/* Lights that fill no more than the lanes of AVX2 cost less there, with the same bits. */
+#if LMP_LANES == 16
+#define FEW_LIGHTS 8
+extern const lmp_kernels lmp_kernels_avx2;
+#endif
+
 static void kernel_accumulate(const lmp_scratch *scratch, int bands,
                               const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
                               size_t count, const lmp_kernel_out *out) {
+#if LMP_LANES == 16
+    if (lights->count <= FEW_LIGHTS && few_pays(bands, lights->count, count)) {
+        lmp_kernels_avx2.accumulate(scratch, bands, lights, points, count, out);
+        return;
+    }
+#endif
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const size_t live = layout_live(count, e);
         if (!few_pays(bands, lights->count, live)) {

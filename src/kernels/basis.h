@@ -256,11 +256,7 @@ LMP_INLINE void basis_put_straight(int bands, const vf axis[3], const vf *radial
 /* Calls body(BANDS, 1, …) with BANDS a constant from 1 to 10, else body(bands, 0, …). */
 #define BASIS_SPECIALISE(bands, body, ...)                                                         \
     switch (bands) {                                                                               \
-        LMP_FEW_CASES(body, 1, __VA_ARGS__)                                                        \
-        LMP_CASE(7, body, 1, __VA_ARGS__)                                                          \
-        LMP_CASE(8, body, 1, __VA_ARGS__)                                                          \
-        LMP_CASE(9, body, 1, __VA_ARGS__)                                                          \
-        LMP_CASE(10, body, 1, __VA_ARGS__)                                                         \
+        LMP_SMALL_CASES(body, 1, __VA_ARGS__)                                                      \
     default:                                                                                       \
         body(bands, 0, __VA_ARGS__);                                                               \
     }

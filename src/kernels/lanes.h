@@ -196,11 +196,31 @@ LMP_INLINE void vf_store(float *to, vf v) {
 }
 /* The first `count` of them, 1 … LMP_LANES - 1; nothing past them is written. */
 LMP_INLINE void vf_store_first(float *to, vf v, int count) {
+#if LMP_LANES >= 8
+    /* By halves: AMD's cores take a masked store apart into dozens of operations. */
 #if LMP_LANES == 16
-    _mm512_mask_storeu_ps(to, (__mmask16)((1u << count) - 1), (__m512)v);
-#elif LMP_LANES == 8
-    const vi lane = { 0, 1, 2, 3, 4, 5, 6, 7 };
-    _mm256_maskstore_ps(to, (__m256i)(lane < count), (__m256)v);
+    __m256 half = _mm512_castps512_ps256((__m512)v);
+    if (count & 8) {
+        _mm256_storeu_ps(to, half);
+        half = _mm512_extractf32x8_ps((__m512)v, 1);
+        to += 8;
+    }
+#else
+    const __m256 half = (__m256)v;
+#endif
+    __m128 left = _mm256_castps256_ps128(half);
+    if (count & 4) {
+        _mm_storeu_ps(to, left);
+        left = _mm256_extractf128_ps(half, 1);
+        to += 4;
+    }
+    if (count & 2) {
+        _mm_storel_pi((__m64 *)(void *)to, left);
+        left = _mm_movehl_ps(left, left);
+        to += 2;
+    }
+    if (count & 1)
+        _mm_store_ss(to, left);
 #elif LMP_LANES == 4
     to[0] = v[0];
     if (count > 1)

@@ -5,6 +5,7 @@
 
 #include "src/base/precondition.h"
 #include "src/base/tables.h"
+#include "src/base/unroll.h"
 
 #include <lampion/light.h>
 
@@ -42,7 +43,7 @@ void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]);
 
 /* R_l(1 - one_minus_cos), l < bands, one_minus_cos in 0 … 1, by differences: cos a itself, rounded
  * near 1, would cost l² units. */
-static inline void lmp_cap_polynomials(int bands, float one_minus_cos, float *r) {
+LMP_INLINE void lmp_cap_polynomials(int bands, float one_minus_cos, float *r) {
     r[0] = 2 / (2 - one_minus_cos);
     float difference = 0, now = 1;
     for (int l = 1; l < bands; l++) {

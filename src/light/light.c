@@ -155,11 +155,19 @@ static void add_column(int low, int high, int m, const float *radial, lmp_azimut
     }
 }
 
-/* All bands of a cap, few of them. */
-static void add_few(int bands, const lmp_cap *cap, const float *r, const float strength[3],
-                    float *const planes[3]) {
-    float sh[LMP_SH_COUNT(LMP_FEW_BANDS)];
-    LMP_STRAIGHT(bands, lmp_sh_put, cap->axis, r, NULL, sh)
+/* Bands whose values are found before any is added, which leaves the sums to vectors. */
+#define CAP_BANDS 32
+
+/* All bands of a cap, at most CAP_BANDS. */
+LMP_INLINE void cap_put(int bands, const lmp_cap *cap, float *sh) {
+    float r[LMP_BANDS_MAX];
+    lmp_cap_polynomials(bands, cap->one_minus_cos, r);
+    lmp_sh_put(bands, cap->axis, r, NULL, sh);
+}
+static void add_at_once(int bands, const lmp_cap *cap, const float strength[3],
+                        float *const planes[3]) {
+    float sh[LMP_SH_COUNT(CAP_BANDS)];
+    LMP_STRAIGHT_SMALL(bands, cap_put, cap, sh)
     for (int c = 0; c < 3; c++)
         for (size_t i = 0; planes[c] && i < LMP_SH_COUNT(bands); i++)
             planes[c][i] += strength[c] * sh[i];
@@ -170,14 +178,14 @@ void lmp_cap_add(int low, int high, const lmp_cap *cap, float *const planes[3]) 
     const float ambient[3] = { cap->ambient.r, cap->ambient.g, cap->ambient.b };
     float r[LMP_BANDS_MAX], q[LMP_BANDS_MAX];
     lmp_azimuth a = { 1, 0 };
-    lmp_cap_polynomials(high, cap->one_minus_cos, r);
     for (int c = 0; low == 0 && c < 3; c++)
         if (planes[c])
             planes[c][0] += ambient[c] / lmp_table_pole[0];
-    if (low == 0 && high <= LMP_FEW_BANDS) {
-        add_few(high, cap, r, strength, planes);
+    if (low == 0 && high <= CAP_BANDS) {
+        add_at_once(high, cap, strength, planes);
         return;
     }
+    lmp_cap_polynomials(high, cap->one_minus_cos, r);
     for (int m = 0; m < high; m++) {
         lmp_sh_column(high, m, cap->axis.z, q);
         for (int l = m > low ? m : low; l < high; l++)

@@ -31,10 +31,11 @@ void lmp_sight_sphere(lmp_vec3 center, float radius, lmp_vec3 point, lmp_sight *
 
 /* L_lm = factors[l] Y_lm(axis), radiance 1. Inside, cos a < 0: R_l has the parity of l-1, and
  * sin²a R_0 = 2 (1 - cos a). */
-static void sight_factors(int bands, const lmp_sight *sight, float *factors) {
+LMP_INLINE void sight_factors(int bands, const lmp_sight *sight, float *factors) {
+    const float odd = pi * sight->sin2, even = sight->inside ? -odd : odd;
     lmp_cap_polynomials(bands, sight->one_minus_cos, factors);
-    for (int l = 0; l < bands; l++)
-        factors[l] *= sight->inside && l % 2 == 0 ? -pi * sight->sin2 : pi * sight->sin2;
+    for (int l = 1; l < bands; l++)
+        factors[l] *= l % 2 == 0 ? even : odd;
     factors[0] = 2 * pi * (sight->inside ? 1 + sight->cosine : sight->one_minus_cos);
 }
 
@@ -47,14 +48,18 @@ void lmp_sphere_zonal(int bands, float radius, float distance, float *zonal) {
         zonal[l] *= lmp_table_pole[l];
 }
 
+LMP_INLINE void sight_project(int bands, const lmp_sight *sight, float *sh) {
+    float factors[LMP_BANDS_MAX];
+    sight_factors(bands, sight, factors);
+    lmp_sh_put(bands, sight->axis, NULL, factors, sh);
+}
+
 void lmp_sphere_project(int bands, lmp_vec3 center, float radius, lmp_vec3 point, float *sh) {
     assert(lmp_is_bands(bands) && lmp_is_length(radius));
     assert(lmp_is_point(center) && lmp_is_point(point));
-    float factors[LMP_BANDS_MAX];
     lmp_sight sight;
     lmp_sight_sphere(center, radius, point, &sight);
-    sight_factors(bands, &sight, factors);
-    lmp_sh_scaled_values(bands, sight.axis, factors, sh);
+    LMP_STRAIGHT_SMALL(bands, sight_project, &sight, sh)
 }
 
 /* --- the gradient ----------------------------------------------------------------------------- */

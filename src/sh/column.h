@@ -54,9 +54,8 @@ LMP_INLINE void lmp_sh_put(int bands, lmp_vec3 direction, const float *radial, c
     }
 }
 
-/* lmp_sh_eval of a direction that need not be quite unit; and with Y_lm times factors[l]. */
+/* lmp_sh_eval of a direction that need not be quite unit. */
 void lmp_sh_values(int bands, lmp_vec3 direction, float *sh);
-void lmp_sh_scaled_values(int bands, lmp_vec3 direction, const float *factors, float *sh);
 
 /* factors[l] Y_lm(axis) of bands low … high-1. */
 void lmp_sh_zonal_bands(int low, int high, const float *factors, lmp_vec3 axis, float *sh);

@@ -5,11 +5,7 @@
 #include <lampion/sh.h>
 
 void lmp_sh_values(int bands, lmp_vec3 direction, float *sh) {
-    LMP_STRAIGHT(bands, lmp_sh_put, direction, NULL, NULL, sh)
-}
-
-void lmp_sh_scaled_values(int bands, lmp_vec3 direction, const float *factors, float *sh) {
-    LMP_STRAIGHT(bands, lmp_sh_put, direction, NULL, factors, sh)
+    LMP_STRAIGHT_SMALL(bands, lmp_sh_put, direction, NULL, NULL, sh)
 }
 
 void lmp_sh_eval(int bands, lmp_vec3 direction, float *sh) {

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/* accumulate_tile.h - sums of pairs (l, m), which lie in memory by columns m, a tile of them at a
+ * time, and how a tile is written. */
+#ifndef LAMPION_KERNELS_ACCUMULATE_TILE_H
+#define LAMPION_KERNELS_ACCUMULATE_TILE_H
+
+#include "src/kernels/basis.h"
+
+/* Registers of the bands of a pass at least, 8 KiB: values on their way out wait there, too. */
+#define ACCUMULATE_WAITING (LMP_LANES > 4 ? 2048 / LMP_LANES : 512)
+
+/* Columns first … end-1 of bands low … high-1: whole columns, which begin at their own band m, or
+ * a part of one. */
+typedef struct accumulate_tile {
+    int first, end, low, high;
+} accumulate_tile;
+
+/* The tile after this one, of at most `most` pairs (l, m); its first is `bands` when all are done.
+ * Parts of a column are alike, for each of them runs its recurrences from the start. */
+static inline accumulate_tile accumulate_next(int bands, accumulate_tile tile, int most) {
+    const int begun = tile.high < bands, first = begun ? tile.first : tile.end;
+    const int column = bands - first;
+    if (column > most) {
+        const int parts = (column + most - 1) / most, low = begun ? tile.high : first;
+        const int high = low + (column + parts - 1) / parts;
+        return (accumulate_tile) { first, first + 1, low, high < bands ? high : bands };
+    }
+    int end = first;
+    for (int left = most; end < bands && left >= bands - end; end++)
+        left -= bands - end;
+    return (accumulate_tile) { first, end, first, bands };
+}
+
+static inline accumulate_tile accumulate_first(int bands, int most) {
+    return accumulate_next(bands, (accumulate_tile) { .high = bands }, most);
+}
+
+/* Pairs (l, m) of a tile. */
+static inline size_t accumulate_pairs(accumulate_tile tile) {
+    size_t pairs = 0;
+    for (int m = tile.first; m < tile.end; m++)
+        pairs += (size_t)(tile.high - (m > tile.low ? m : tile.low));
+    return pairs;
+}
+
+/* What accumulate_put writes: of a (l, m) with `planes` sums of +m, then as many of -m, the sums
+ * skip … skip+sets-1, which are the output's sets of bands^2 values. */
+typedef struct accumulate_sets {
+    int planes, skip, sets;
+} accumulate_sets;
+#define ACCUMULATE_SETS                                                                            \
+    (accumulate_sets) {                                                                            \
+        3, 0, 3                                                                                    \
+    }
+
+/* Band l of a set: value m at plus + m * stride, value -m at minus - m * stride. */
+LMP_INLINE void accumulate_band(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
+                                float *plus, float *minus, size_t stride) {
+    const vf *sum = sums + (l - tile.low) * 2 * planes;
+    for (int m = tile.first; m < tile.end && m <= l; m++) {
+        const float norm = monic ? lmp_table_norm[lmp_table_index(l, m)] : 1;
+        vf_store(plus + (size_t)m * stride, norm * sum[0]);
+        if (m > 0)
+            vf_store(minus - (size_t)m * stride, norm * sum[planes]);
+        sum += (tile.high - (m + 1 > tile.low ? m + 1 : tile.low)) * 2 * planes;
+    }
+}
+
+/* Band l of a set as rows, from `index` on: its values from -last to -first and from first to last,
+ * or all between. */
+LMP_INLINE void accumulate_runs(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
+                                float *block, size_t index, const lmp_kernel_out *out,
+                                size_t element, size_t live) {
+    const int last = l < tile.end ? l : tile.end - 1, middle = l * l + l;
+    const int wide = tile.first == 0 ? 2 * last + 1 : last - tile.first + 1;
+    float *minus = block + last * LMP_LANES;
+    float *plus = tile.first == 0 ? minus : block + (wide - tile.first) * LMP_LANES;
+    accumulate_band(tile, l, monic, planes, sums, plus, minus, LMP_LANES);
+    layout_put(block, index + (size_t)(middle - last), (size_t)wide, out, element, live);
+    if (tile.first > 0)
+        layout_put(block + wide * LMP_LANES, index + (size_t)(middle + tile.first), (size_t)wide,
+                   out, element, live);
+}
+
+/* Bands low … high-1 of a set, which are whole, as rows. */
+LMP_INLINE void accumulate_whole(accumulate_tile tile, int low, int high, int monic, int planes,
+                                 const vf *sums, float *block, size_t index,
+                                 const lmp_kernel_out *out, size_t element, size_t live) {
+    for (int l = low; l < high; l++) {
+        float *middle = block + (l * l + l - low * low) * LMP_LANES;
+        accumulate_band(tile, l, monic, planes, sums, middle, middle, LMP_LANES);
+    }
+    layout_put(block, index + (size_t)(low * low), (size_t)(high * high - low * low), out, element,
+               live);
+}
+
+/* A tile of whole columns of a set, in the order of its sums: value l*l+l±m at
+ * to + (l*l+l±m) * stride. */
+LMP_INLINE void accumulate_columns(int bands, accumulate_tile tile, int monic, int planes,
+                                   const vf *sums, float *to, size_t stride) {
+    for (int m = tile.first; m < tile.end; m++) {
+        const float *norm = lmp_table_norm + lmp_table_index(m, m);
+        float *plus = to + (size_t)(m * m + 2 * m) * stride, *minus = to + (size_t)(m * m) * stride;
+        size_t step = (size_t)(2 * m + 2) * stride;
+        for (int l = m; l < bands; l++, norm++, sums += 2 * planes) {
+            vf_store(plus, (monic ? *norm : 1) * sums[0]);
+            if (m > 0)
+                vf_store(minus, (monic ? *norm : 1) * sums[planes]);
+            plus += step;
+            minus += step;
+            step += 2 * stride;
+        }
+    }
+}
+
+/* Writes a tile; ACCUMULATE_WAITING registers are lent to it. */
+LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accumulate_sets of,
+                               const vf *sums, vf *waiting, const lmp_kernel_out *out,
+                               size_t element, size_t live) {
+    const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
+    const int columns = tile.low == tile.first && tile.high == bands;
+    const int all = tile.first == 0 && tile.end == bands && bands * bands <= ACCUMULATE_WAITING;
+    const size_t stride = out->planar ? out->stride : 1;
+    float *to = out->at + element * (out->planar ? 1 : out->stride);
+    float *block = (float *)(void *)waiting;
+    for (int p = 0; p < of.sets; p++) {
+        const vf *set = sums + of.skip + p;
+        const size_t index = (size_t)(p * bands * bands);
+        int low = tile.low, high;
+        if (direct && columns) {
+            accumulate_columns(bands, tile, monic, of.planes, set, to + index * stride, stride);
+            continue;
+        }
+        if (columns && all) {
+            accumulate_columns(bands, tile, monic, of.planes, set, block, LMP_LANES);
+            layout_put(block, index, (size_t)(bands * bands), out, element, live);
+            continue;
+        }
+        for (; low < tile.high; low = high) {
+            high = low + 1;
+            float *middle = to + (index + (size_t)(low * low + low)) * stride;
+            if (direct) {
+                accumulate_band(tile, low, monic, of.planes, set, middle, middle, stride);
+            } else if (tile.first > 0 || low >= tile.end) {
+                accumulate_runs(tile, low, monic, of.planes, set, block, index, out, element, live);
+            } else {
+                while (high < tile.end && high < tile.high &&
+                       (high + 1) * (high + 1) - low * low <= ACCUMULATE_WAITING)
+                    high++;
+                accumulate_whole(tile, low, high, monic, of.planes, set, block, index, out, element,
+                                 live);
+            }
+        }
+    }
+}
+
+#endif
