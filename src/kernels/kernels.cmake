@@ -36,8 +36,8 @@ endif()
 set_source_files_properties(${kernels}/kernels.c PROPERTIES
   COMPILE_DEFINITIONS "${lampion_kernel_builds}")
 
-# Straight-line code of few bands, one light at a time: what gcc packs of it into vectors, it takes
+# Straight-line code of few bands, one direction at a time: what gcc packs of it into vectors, it takes
 # apart again to store.
 set(lampion_straight_options $<IF:$<C_COMPILER_ID:Clang>,-fno-slp-vectorize,-fno-tree-slp-vectorize>)
-set_source_files_properties(${PROJECT_SOURCE_DIR}/src/sh/eval.c ${PROJECT_SOURCE_DIR}/src/light/light.c
-  ${PROJECT_SOURCE_DIR}/src/light/sphere.c PROPERTIES COMPILE_OPTIONS "${lampion_straight_options}")
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/sh/eval.c PROPERTIES
+  COMPILE_OPTIONS "${lampion_straight_options}")
