@@ -37,8 +37,8 @@ typedef struct lmp_field lmp_field;
 typedef struct lmp_field_desc {
     int bands;       /* 1 … LMP_FIELD_BANDS_MAX; 5 */
     int nodes[3];    /* along x, y, z: 2 … LMP_FIELD_NODES_MAX; 16. At most 2^24 in all */
-    lmp_vec3 origin; /* position of the first node */
-    lmp_vec3 cell;   /* from a node to the next, along x, y, z, > 0; 1 each */
+    lmp_vec3 origin; /* position of the first node, within 1e15 of 0 */
+    lmp_vec3 cell;   /* from a node to the next, along x, y, z: 1e-12 … 1e12; 1 each */
     int light_max;   /* how many lights it has room for, 1 … LMP_FIELD_LIGHTS_MAX; 1024 */
     /* Largest error of a light's interpolated coefficients, relative to that light's own there:
      * root of the sum of squares, wherever the light is. That of a sum of many lights is far

@@ -24,6 +24,21 @@ grep -q '^"library: fused with Eq. 13, by differences",3,' "$WORK/page/operation
     fail "a comma in a label is not the label's"
 grep -q 'the recurrence takes fewer operations from 3 bands on, 7 against 8' "$WORK/page/index.html" ||
     fail "the page hides what contradicts the paper"
+# what the table step says of the paper's words follows from the figures beside it, whichever way they fall
+set -- $(sed -n 's/^the zonal coefficients cost little.*[,"]\([0-9]*\) of \([0-9]*\) ns a light, 10 bands",\([a-z]*\).*/\1 \2 \3/p' \
+    "$WORK/page/verdict.csv")
+[ $# = 3 ] || fail "nothing is said of what Y_lm costs beside Z_l: $(cat "$WORK/page/verdict.csv")"
+[ $((2 * $1)) -ge $(($2 - 1)) ] || [ $3 = holds ] || fail "$1 of $2 ns, and Y_lm does not dominate?"
+[ $((2 * $1)) -le $(($2 + 1)) ] || [ $3 = does ] || fail "$1 of $2 ns, and Y_lm dominates?"
+said="Y<sub>lm</sub> does not dominate here"
+[ $3 = does ] || said="Y<sub>lm</sub> dominates, as the paper says"
+grep -qF "$said" "$WORK/page/index.html" || fail "the page does not say: $said"
+set -- $(sed -n 's/.*half a millisecond a frame,"\([0-9]*\) ns a light, \([0-9]*\) by a table of 1024, of \([0-9]*\) for all",\([a-z]*\).*/\1 \2 \3 \4/p' \
+    "$WORK/page/verdict.csv")
+[ $# = 4 ] || fail "nothing is said of what a table saves: $(cat "$WORK/page/verdict.csv")"
+saved=$((10 * ($1 - $2)))
+[ $saved -ge $(($3 - 11)) ] || [ $4 = holds ] || fail "a table saves $1 - $2 of $3 ns, and that is much?"
+[ $saved -le $(($3 + 11)) ] || [ $4 = does ] || fail "a table saves $1 - $2 of $3 ns, and that is little?"
 awk -F, '!/^form|^"?largest/ { if ($(NF - 1) + 0 > $NF + 0) exit 1 }' "$WORK/page/tabulated.csv" ||
     fail "a part of the angles has a larger error than all of them"
 awk -F, '/none/ { none = $(NF - 1) } /^[0-9]+,2,/ { if (!($(NF - 1) * 10 <= none)) exit 1; found++ } END { exit found != 2 }' \

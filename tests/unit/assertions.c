@@ -15,7 +15,7 @@
 
 enum { BANDS = 4, VALUES = BANDS * BANDS };
 
-static float a[3 * VALUES], b[3 * VALUES], c[3 * VALUES], matrices[LMP_SH_ROTATION_COUNT(BANDS)];
+static float a[4 * VALUES], b[3 * VALUES], c[3 * VALUES], matrices[LMP_SH_ROTATION_COUNT(BANDS)];
 static const lmp_vec3 up = { 0, 0, 1 }, long_up = { 0, 0, 2 }, nowhere = { NAN, 0, 0 };
 static const lmp_vec3 at = { 0, 0, 0 };
 static const float identity[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
@@ -90,6 +90,22 @@ static void create_half_a_host(void) {
     X(keep, lmp_sh_window_laplacian(BANDS, 1, a, b), lmp_sh_window_laplacian(BANDS, 0, a, b)) \
     X(cube_faces, project_cube(a), project_cube(NULL)) \
     X(channels, lmp_light_project_channels(BANDS, NULL, 0, at, a, b, NULL), lmp_light_project_channels(BANDS, NULL, 0, at, a, a + 1, NULL)) \
+    X(zonal_behind, lmp_sh_from_zonal(BANDS, a + VALUES, up, a), lmp_sh_from_zonal(BANDS, a + VALUES - 1, up, a)) \
+    X(zonal_before, lmp_sh_from_zonal(BANDS, a, up, a + BANDS), lmp_sh_from_zonal(BANDS, a, up, a + BANDS - 1)) \
+    X(gradient_behind, lmp_sh_eval_gradient(2, up, a, a + 4), lmp_sh_eval_gradient(2, up, a, a + 3)) \
+    X(gradient_before, lmp_sh_eval_gradient(2, up, a + 12, a), lmp_sh_eval_gradient(2, up, a + 11, a)) \
+    X(sphere_behind, lmp_sphere_project_gradient(2, at, 1, up, a, a + 4), lmp_sphere_project_gradient(2, at, 1, up, a, a + 3)) \
+    X(sphere_before, lmp_sphere_project_gradient(2, at, 1, up, a + 12, a), lmp_sphere_project_gradient(2, at, 1, up, a + 11, a)) \
+    X(double_before, lmp_sh_eval_gradient_double(2, up_double, wide + 12, wide), lmp_sh_eval_gradient_double(2, up_double, wide + 11, wide)) \
+    X(laplacian_behind, lmp_sh_window_laplacian(BANDS, 1, a, a + VALUES), lmp_sh_window_laplacian(BANDS, 1, a, a + VALUES - 1)) \
+    X(laplacian_before, lmp_sh_window_laplacian(BANDS, 1, a + BANDS, a), lmp_sh_window_laplacian(BANDS, 1, a + BANDS - 1, a)) \
+    X(positive_behind, lmp_probe_window_positive(BANDS, a, 2, a + 2 * VALUES), lmp_probe_window_positive(BANDS, a, 2, a + 2 * VALUES - 1)) \
+    X(positive_before, lmp_probe_window_positive(BANDS, a + BANDS, 2, a), lmp_probe_window_positive(BANDS, a + BANDS - 1, 2, a)) \
+    X(export_behind, lmp_probe_export(3, lmp_probe_format_of(LMP_PROBE_UNITY), a, a + 27), lmp_probe_export(3, lmp_probe_format_of(LMP_PROBE_UNITY), a, a + 26)) \
+    X(rotate_matrices, lmp_sh_rotate(2, a, b, a + 10), lmp_sh_rotate(2, a, b, a + 9)) \
+    X(rotate_before, lmp_sh_rotate(2, a + 4, b, a), lmp_sh_rotate(2, a + 3, b, a)) \
+    X(rotate_double_behind, lmp_sh_rotate_double(2, wide, wide + 11, wide + 15), lmp_sh_rotate_double(2, wide, wide + 11, wide + 14)) \
+    X(rotate_double_before, lmp_sh_rotate_double(2, wide + 4, wide + 15, wide), lmp_sh_rotate_double(2, wide + 3, wide + 15, wide)) \
     X(gradient_double, lmp_sh_eval_gradient_double(2, up_double, wide, wide + 4), lmp_sh_eval_gradient_double(2, up_double, wide, wide + 3)) \
     X(rotate_double, lmp_sh_rotate_double(2, wide, wide + 10, wide + 14), lmp_sh_rotate_double(2, wide, wide + 14, wide + 9)) \
     X(sphere_double, lmp_sphere_project_double(2, up_double, 1, up_double, wide), lmp_sphere_project_double(2, up_double, -1, up_double, wide)) \

@@ -255,6 +255,46 @@ static void mirrored_tables_of_measurements_are_their_even_part(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
+/* Whether a table is mirrored and how finely it is integrated depend on the shape of a measurement,
+ * not on how bright it is; one of nothing is even, and done at once. */
+static void a_dim_measurement_is_tabulated_like_a_bright_one(void **state) {
+    (void)state;
+    enum { CELLS = 4 * 4 * 8 };
+    static const double scales[] = { 1500, 1, 1e-3, 1e-6, 0 };
+    double cells[3 * CELLS];
+    for (size_t i = 0; i < 3 * CELLS; i++)
+        cells[i] = check_random();
+    for (int even = 0; even < 2; even++) {
+        lmp_brdf_table_info first = { .bands = 0 };
+        for (size_t i = 0; i < 3 * CELLS && even; i++) /* light and view may change places */
+            cells[i] = cells[i / 8 * 8 + (i % 8 < 4 ? i % 8 : 7 - i % 8)];
+        for (int k = 0; k < 5; k++) {
+            const int32_t shape[3] = { 4, 4, 8 };
+            unsigned char bytes[12 + 24 * CELLS];
+            lmp_brdf *brdf = NULL;
+            lmp_brdf_table *table = NULL;
+            memcpy(bytes, shape, sizeof shape);
+            for (size_t i = 0; i < 3 * CELLS; i++) {
+                const double value = scales[k] * cells[i];
+                memcpy(bytes + 12 + 8 * i, &value, sizeof value);
+            }
+            assert_int_equal(lmp_brdf_read_merl(NULL, bytes, sizeof bytes, NULL, &brdf), LMP_OK);
+            const lmp_brdf_table_desc desc = {
+                .bands = 4, .views = 4, .rings_max = 256, .tolerance = 0.02f
+            };
+            assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
+            const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+            first = k == 0 ? info : first;
+            assert_int_equal(info.mirrored, even || scales[k] <= 0);
+            if (scales[k] > 0)
+                assert_int_equal(info.rings, first.rings);
+            CHECK_WITHIN(info.change, scales[k] > 0 ? 0.02 : 0);
+            lmp_brdf_table_destroy(table);
+            lmp_brdf_destroy(brdf);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lambert_and_phong_match_the_vectors),
@@ -267,6 +307,7 @@ int main(void) {
         cmocka_unit_test(anisotropic_tables_rotate_with_the_view),
         cmocka_unit_test(lobes_that_rotate_have_rotated_coefficients),
         cmocka_unit_test(mirrored_tables_of_measurements_are_their_even_part),
+        cmocka_unit_test(a_dim_measurement_is_tabulated_like_a_bright_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,11 +125,36 @@ static void numbers_outside_their_ranges_are_refused(void **test) {
     free(bytes);
 }
 
+/* A member of 0, the default, is no member: a reader that took it for the default would take these.
+ */
+static void no_member_is_left_to_its_default(void **test) {
+    (void)test;
+    lmp_field *dark = field_of(&(lmp_field_desc) { .bands = 5 }, NULL, 0);
+    size_t size;
+    unsigned char *bytes = written(dark, &size);
+    lmp_field_destroy(dark);
+    for (size_t at = 12; at < 60; at += 4) {
+        if (at >= 28 && at < 40) /* the origin, which may be 0 */
+            continue;
+        unsigned char kept[4];
+        memcpy(kept, bytes + at, 4);
+        lmp_bytes_store_u32(bytes + at, 0);
+        damage_sign(bytes, size);
+        assert_int_equal(read_and_use(bytes, size), LMP_ERROR_FORMAT);
+        memcpy(bytes + at, kept, 4);
+    }
+    memset(bytes + 40, 0, 12); /* all edges of a cell */
+    damage_sign(bytes, size);
+    assert_int_equal(read_and_use(bytes, size), LMP_ERROR_FORMAT);
+    free(bytes);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_field_comes_back_and_goes_on),
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(numbers_outside_their_ranges_are_refused),
+        cmocka_unit_test(no_member_is_left_to_its_default),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

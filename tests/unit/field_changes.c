@@ -179,10 +179,25 @@ static void what_cannot_be_made_is_refused(void **test) {
         { .nodes = { 1, 4, 4 } },
         { .nodes = { 4, LMP_FIELD_NODES_MAX + 1, 4 } },
         { .nodes = { 1024, 1024, 1024 } },
+        { .nodes = { 4, 1, 4 } },
+        { .nodes = { 4, 4, 1 } },
+        { .nodes = { LMP_FIELD_NODES_MAX + 1, 4, 4 } },
+        { .nodes = { 4, 4, LMP_FIELD_NODES_MAX + 1 } },
         { .cell = { 1, 0, 1 } },
+        { .cell = { 0, 1, 1 } },
+        { .cell = { 1, 1, 0 } },
+        { .cell = { 1.01e12f, 1, 1 } },
+        { .cell = { 1, 1.01e12f, 1 } },
+        { .cell = { 1, 1, 1.01e12f } },
+        { .cell = { 0.99e-12f, 1, 1 } },
+        { .cell = { 1, 0.99e-12f, 1 } },
+        { .cell = { 1, 1, 0.99e-12f } },
         { .cell = { 1, -1, 1 } },
         { .cell = { NAN, 1, 1 } },
         { .origin = { INFINITY, 0, 0 } },
+        { .origin = { 1.01e15f, 0, 0 } },
+        { .origin = { 0, -1.01e15f, 0 } },
+        { .origin = { 0, 0, 1.01e15f } },
         { .light_max = -1 },
         { .light_max = LMP_FIELD_LIGHTS_MAX + 1 },
         { .error = -1 },
@@ -197,6 +212,16 @@ static void what_cannot_be_made_is_refused(void **test) {
         assert_int_equal(lmp_field_create(NULL, &wrong[i], &field), LMP_ERROR_ARGUMENT);
         assert_null(field);
     }
+    const lmp_field_desc extreme[] = {
+        { .bands = 1, .nodes = { 2, 2, 2 }, .origin = { 1e15f, 1e15f, 1e15f } },
+        { .nodes = { 2, 2, 2 }, .origin = { -1e15f, -1e15f, -1e15f }, .light_max = 1, .error = 1 },
+        { .nodes = { 2, 2, LMP_FIELD_NODES_MAX }, .cell = { 1e12f, 1e-12f, 1 }, .error = 1e-5f },
+        { .bands = LMP_FIELD_BANDS_MAX, .nodes = { 2, 2, 2 }, .reach = 1 },
+        { .nodes = { 2, 2, 2 }, .cell = { 1, 1e12f, 1e-12f }, .reach = 64 },
+        { .nodes = { 2, 2, 2 }, .light_max = LMP_FIELD_LIGHTS_MAX },
+    };
+    for (size_t i = 0; i < sizeof extreme / sizeof *extreme; i++)
+        lmp_field_destroy(field_of(&extreme[i], NULL, 0));
     check_hooks hooks = { .refuse = 0 };
     const lmp_host host = check_host(&hooks);
     lmp_field *field = (lmp_field *)1;

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+# Little input asks for little: what a small file or a short name makes the program do is bounded, is refused by
+# its size before it is read, or says how long it takes and can be stopped.
+set -eu
+. tests/checks/common.sh
+export XDG_CACHE_HOME="$WORK/cache"
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 0; }
+
+# png WIDTH HEIGHT FILE: black, 8 bits, deflated as well as can be
+png() {
+    python3 - "$@" <<'PY'
+import struct, sys, zlib
+width, height = int(sys.argv[1]), int(sys.argv[2])
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+rows = zlib.compressobj(9)
+data = b"".join(rows.compress(b"\0" * (3 * width + 1)) for _ in range(height)) + rows.flush()
+with open(sys.argv[3], "wb") as file:
+    file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+               chunk(b"IDAT", data) + chunk(b"IEND", b""))
+PY
+}
+
+# within KILOBYTES COMMAND…: in so much memory; its output in $WORK/out, its errors in $WORK/err
+within() {
+    room=$1
+    shift
+    (ulimit -v "$room" && exec "$@") >"$WORK/out" 2>"$WORK/err"
+}
+
+# sanitizers take all addresses there are
+sanitized=no
+grep -q 'LAMPION_SANITIZE:STRING=..*' "$BUILD/CMakeCache.txt" && sanitized=yes
+
+# the least that the program takes: of an image of one pixel, found by halves
+png 1 1 "$WORK/one.png"
+"$PROGRAM" compare "$WORK/one.png" "$WORK/one.png" >/dev/null || fail "an image of one pixel is not compared"
+if [ $sanitized = no ]; then
+    low=1024 least=4194304
+    while [ $((least - low)) -gt 4096 ]; do
+        middle=$(((low + least) / 2))
+        if within $middle "$PROGRAM" compare "$WORK/one.png" "$WORK/one.png"; then least=$middle; else low=$middle; fi
+    done
+    # 1024² pixels take 80 bytes each, as the help says, and not twice as much
+    "$PROGRAM" compare --help | tr -s ' \n' ' ' | grep -q 'take 80 bytes a pixel' || fail "the help does not say what a pixel takes"
+    png 1024 1024 "$WORK/many.png"
+    within $((least + 80 * 1024 + 8192)) "$PROGRAM" compare "$WORK/many.png" "$WORK/many.png" ||
+        fail "more than 80 bytes a pixel: $(cat "$WORK/err")"
+    # 8192² pixels in some kilobytes are refused by their number, before anything is made for them
+    png 8192 8192 "$WORK/bomb.png"
+    for pair in "bomb one" "one bomb"; do
+        if within $((least + 8192)) "$PROGRAM" compare "$WORK/${pair% *}.png" "$WORK/${pair#* }.png"; then
+            fail "8192 x 8192 pixels are compared"
+        fi
+        [ "$(cat "$WORK/err")" = "lampion: $WORK/bomb.png: an image of 8192 x 8192 is too large (33554432 pixels; see --max-pixels)" ] ||
+            fail "8192 x 8192 pixels: $(cat "$WORK/err")"
+    done
+fi
+
+# --max-pixels is the number of pixels that are allowed, and no other
+png 30 20 "$WORK/some.png"
+"$PROGRAM" compare "$WORK/some.png" "$WORK/some.png" --max-pixels 600 >/dev/null || fail "600 of 600 pixels are refused"
+! "$PROGRAM" compare "$WORK/some.png" "$WORK/some.png" --max-pixels 599 2>"$WORK/err" || fail "600 pixels pass for 599"
+grep -qF '(599 pixels; see --max-pixels)' "$WORK/err" || fail "600 of 599 pixels: $(cat "$WORK/err")"
+
+# what takes minutes tells how much of it is done, and how long the rest takes, to who sits there; who stops it has
+# no part of it
+command -v script >/dev/null || exit 0
+for pass in bake info; do
+    set -- "$PROGRAM" brdf $pass ggx:0.001x0.002
+    [ $pass = info ] || set -- "$@" -o "$WORK/mirror.lmpt"
+    rm -f "$WORK/bar" "$WORK/status"
+    mkfifo "$WORK/bar"
+    # the pipe ends the wait: no time is asserted
+    TERM=xterm script -qfec "echo \$\$ >'$WORK/pid'; exec $*" "$WORK/log" </dev/null >"$WORK/bar" 2>&1 &
+    shell=$!
+    tr '\r' '\n' <"$WORK/bar" | while IFS= read -r line; do
+        case $line in *%*left*)
+            printf '%s\n' "$line" >"$WORK/line"
+            kill -TERM "$(cat "$WORK/pid")" 2>/dev/null || true # again at each line, until there are no more
+            ;;
+        esac
+    done
+    wait $shell || true
+    grep -qE '\[ *=* *\] +[0-9]+%, [0-9]+:[0-9]+ left' "$WORK/line" || fail "$pass tells no progress"
+    ! kill -0 "$(cat "$WORK/pid")" 2>/dev/null || fail "$pass goes on after it was stopped"
+    [ ! -e "$WORK/mirror.lmpt" ] || fail "$pass left a part of its table"
+    [ -z "$(find "$WORK/cache" -name '*.lmpt' 2>/dev/null)" ] || fail "$pass left an entry of what it did not finish"
+done

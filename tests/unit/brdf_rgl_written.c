@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/* The model in a tensor file that the library writes: what readers other than ours sample by. From
+ * its definition, the distribution of normals seen in retro-reflection, D ~ f_r(m, m) cos² of their
+ * mean color. */
+#include "src/brdf/brdf.h"
+#include "tests/oracle/check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static lmp_brdf *written_and_read(lmp_brdf *brdf) {
+    lmp_brdf *copy;
+    void *data;
+    size_t size;
+    assert_int_equal(lmp_brdf_write_rgl(NULL, brdf, &data, &size), LMP_OK);
+    assert_int_equal(lmp_brdf_read_rgl(NULL, data, size, NULL, &copy), LMP_OK);
+    free(data);
+    return copy;
+}
+
+/* The normal of a node: theta = pi/2 u², a turn of phi from -pi on. */
+static void node_of(const brdf_grid *grid, int i, double m[3]) {
+    const double u = (double)(i % grid->width) / (grid->width - 1);
+    const double v = (double)(i / grid->width) / (grid->height - 1);
+    const double theta = PI / 2 * u * u, phi = PI * (2 * v - 1);
+    m[0] = sin(theta) * cos(phi);
+    m[1] = sin(theta) * sin(phi);
+    m[2] = cos(theta);
+}
+
+static double seen_back(const lmp_brdf *brdf, const double m[3]) {
+    double rgb[3];
+    lmp_brdf_eval_double(brdf, m, m, rgb);
+    return (rgb[0] + rgb[1] + rgb[2]) / 3 * m[2] * m[2];
+}
+
+/* Normals are as frequent as the light they send back: the most frequent 1, the fewest a
+ * thousandth. */
+static void check_normals(lmp_brdf *brdf) {
+    lmp_brdf *copy = written_and_read(brdf);
+    const brdf_grid *ndf = &copy->rgl.ndf;
+    double largest = 0, m[3];
+    int above = 0;
+    for (int i = 0; i < ndf->width * ndf->height; i++) {
+        node_of(ndf, i, m);
+        largest = fmax(largest, seen_back(brdf, m));
+    }
+    for (int i = 0; i < ndf->width * ndf->height; i++) {
+        node_of(ndf, i, m);
+        const double expected = fmax(seen_back(brdf, m) / largest, 1e-3);
+        CHECK_WITHIN(fabs((double)ndf->values[i] - expected), 1e-6);
+        above += expected > 1e-3;
+    }
+    assert_true(above > ndf->width / 4);
+    lmp_brdf_destroy(copy);
+    lmp_brdf_destroy(brdf);
+}
+
+static void normals_are_those_seen_in_retro_reflection(void **state) {
+    (void)state;
+    /* fits whose colors have lobes of their own */
+    const char *const names[] = { "gold-metallic-paint", "green-fabric" };
+    lmp_brdf *brdf;
+    for (int i = 0; i < 2; i++) {
+        lmp_sgd sgd;
+        assert_int_equal(lmp_sgd_find(names[i], &sgd), LMP_OK);
+        assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
+        check_normals(brdf);
+    }
+    const lmp_ggx ggx = { 0.6f, 0.3f, { 0.9f, 0.8f, 0.6f }, { 0.1f, 0.1f, 0.1f } };
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
+    check_normals(brdf);
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 0, 0, 0 }, &brdf), LMP_OK);
+    lmp_brdf *black = written_and_read(brdf);
+    for (int i = 0; i < black->rgl.ndf.width; i++)
+        CHECK_WITHIN(fabs((double)black->rgl.ndf.values[i] - 1), 0);
+    lmp_brdf_destroy(black);
+    lmp_brdf_destroy(brdf);
+}
+
+/* Of D = cos² theta: pi/2 from above, pi/8 along the horizon, and in between the integral. */
+static void their_projected_area_is_the_integral_over_the_hemisphere(void **state) {
+    (void)state;
+    enum { STEPS = 200 };
+    lmp_brdf *brdf;
+    assert_int_equal(lmp_brdf_create_lambert(NULL, (lmp_rgb) { 0.2f, 0.5f, 0.8f }, &brdf), LMP_OK);
+    lmp_brdf *copy = written_and_read(brdf);
+    const brdf_grid *sigma = &copy->rgl.sigma;
+    for (int i = 0; i < sigma->width * sigma->height; i++) {
+        double a[3], sum = 0;
+        node_of(sigma, i, a);
+        for (int t = 0; t < STEPS; t++)
+            for (int p = 0; p < STEPS; p++) {
+                const double theta = PI / 2 * (t + 0.5) / STEPS, phi = 2 * PI * (p + 0.5) / STEPS;
+                const double along = sin(theta) * (cos(phi) * a[0] + sin(phi) * a[1]);
+                sum += cos(theta) * cos(theta) * sin(theta) * fmax(along + cos(theta) * a[2], 0);
+            }
+        CHECK_WITHIN(fabs((double)sigma->values[i] - sum * PI * PI / (STEPS * STEPS)), 2e-3);
+    }
+    CHECK_WITHIN(fabs((double)sigma->values[0] - PI / 2), 2e-3);
+    CHECK_WITHIN(fabs((double)sigma->values[sigma->width - 1] - PI / 8), 2e-3);
+    lmp_brdf_destroy(copy);
+    lmp_brdf_destroy(brdf);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(normals_are_those_seen_in_retro_reflection),
+        cmocka_unit_test(their_projected_area_is_the_integral_over_the_hemisphere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
