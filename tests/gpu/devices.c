@@ -242,6 +242,16 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     s.frame.method = METHOD_PAPER;
     draw(s.renderer, &s.frame, second);
     assert_int_equal(beyond(1), 0);
+    const int bands = s.frame.bands;
+    s.frame.bands = 1; /* which has no table */
+    s.frame.method = METHOD_ZONAL;
+    draw_first(s.renderer, &s.frame);
+    for (int m = 0; m < 2; m++) {
+        s.frame.method = m == 0 ? METHOD_PAPER : METHOD_TABULATED_Z;
+        draw(s.renderer, &s.frame, second);
+        assert_int_equal(beyond(1), 0);
+    }
+    s.frame.bands = bands;
     /* the tabulation loses the digits of far lights, and Diracs wholly */
     s.frame.light_count -= KINDS;
     s.frame.method = METHOD_ZONAL;

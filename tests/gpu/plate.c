@@ -2,6 +2,7 @@
 /* A plate of a glTF material under one sphere light: its image against glTF 2.0, appendix B,
  * integrated over the light in double precision; and how exactly its material comes through. */
 #include "app/shade/shade.h"
+#include "app/timing/timing.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
@@ -199,6 +200,11 @@ static void check_material(const lmp_material *m, const scene_material *from) {
         CHECK_WITHIN(fabsf((&m->base_color.r)[c] / from->base_color[c] - 1), 1e-3);
     CHECK_WITHIN(fabsf(m->metallic - from->metallic), 1e-5);
     CHECK_WITHIN(fabsf(m->roughness - from->roughness), 1e-5);
+    assert_true(m->dielectric.given); /* an index of 1.5, no tint, no coat, no sheen */
+    for (int c = 0; c < 3; c++)
+        CHECK_WITHIN(fabsf((&m->dielectric.f0.r)[c] - 0.04f), 1e-6);
+    CHECK_WITHIN(fabsf(m->dielectric.f90 - 1), 1e-6);
+    CHECK_WITHIN(m->coat.weight, 0);
 }
 
 /* Albedos from 0.0005 to 1, roughnesses in steps of 0.0005: on both devices. */
@@ -221,9 +227,31 @@ static void materials_come_through_exactly(void **state) {
     }
 }
 
+/* However long they take: the passes of a frame come one after another, and all of them within it.
+ */
+static void passes_take_no_longer_than_their_frame(void **state) {
+    (void)state;
+    plate p;
+    lay_plate(&p, 0.5, 0.2);
+    gpu_renderer *renderer = open_renderer(&p.world);
+    cli_error error = { "" };
+    for (int samples = 1; samples <= 4; samples += 3) {
+        gpu_times times = { 0 };
+        p.frame.samples = samples;
+        const double began = timing_now();
+        expect(gpu_render(renderer, &p.frame, &times, &error), &error);
+        const double all = 1000 * (timing_now() - began);
+        assert_true(times.gbuffer >= 0 && times.shade >= 0 && times.total > 0);
+        CHECK_WITHIN(times.gbuffer + times.shade, times.total * 1.001 + 0.01);
+        CHECK_WITHIN(times.gbuffer + times.shade, all + 0.01);
+    }
+    gpu_renderer_destroy(renderer);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_come_through_exactly),
+        cmocka_unit_test(passes_take_no_longer_than_their_frame),
         cmocka_unit_test(plates_look_as_the_specification_says),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);

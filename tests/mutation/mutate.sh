@@ -2,7 +2,8 @@
 # sh tests/mutation/mutate.sh [COUNT [FOLDER]]: whether the tests notice COUNT small changes (by default 40), drawn
 # evenly from those that mutants.awk makes of the files below, or of those in FOLDER alone. Works on a copy of the
 # tree in build/mutation; prints the survivors, as FILE:LINE:COLUMN: THE CHANGED LINE, and the score. Many survivors
-# change nothing that could be seen; those that leave the compiled tests as they were are counted apart, as the same.
+# change nothing that could be seen: those that leave the compiled tests as they were are counted apart, as the same,
+# and those of equivalent.txt (file, changed line and why nothing differs, between tabs) as equivalent.
 # build/mutation/build.results has the verdicts so far, and a stopped run goes on from there.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -38,13 +39,14 @@ src/shade/*.c unit.shade unit.shade_n unit.coat unit.fibers unit.environment uni
 src/field/*.c unit.field_bytes unit.field unit.field_changes unit.field_shade unit.assertions
 src/preintegrated/brdf*.c unit.preintegrated_brdf unit.preintegrated_brdf_bytes unit.assertions
 src/preintegrated/*.c unit.preintegrated_lobe unit.assertions
-src/brdf/rgl*.c unit.brdf_rgl unit.brdf_rgl_refusals unit.read_back unit.assertions
+src/brdf/rgl*.c unit.brdf_rgl unit.brdf_rgl_written unit.brdf_rgl_refusals unit.read_back unit.assertions
 src/brdf/*.c unit.brdf_table_bytes unit.brdf unit.brdf_table unit.brdf_files unit.assertions
 src/kernels/*.h kernels.kernels kernels.batch
+app/trace/trace.c reference.estimator reference.render reference.texture
 app/trace/*.c reference.texture reference.estimate
 app/reference/sheen.c reference.sheen
 app/reference/ggx.c reference.ggx reference.layers
-app/reference/*.c reference.texture reference.kinds reference.environment reference.ggx reference.estimate
+app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
 app/compare/*.c reference.compare
 app/shadow/*.c gpu.shadow gpu.shadow_filter
 app/shade/*.c gpu.shade gpu.draw gpu.field
@@ -53,10 +55,10 @@ app/gpu/environment.c gpu.devices
 app/gpu/*.c gpu.draw gpu.shade gpu.plate
 shaders/table.glsl gpu.table
 shaders/environment.glsl gpu.devices gpu.table
-shaders/*.glsl gpu.glsl gpu.draw gpu.plate gpu.shade
+shaders/*.glsl gpu.glsl gpu.draw gpu.plate gpu.shade gpu.devices
 shaders/*.comp gpu.draw gpu.shade
-shaders/*.frag gpu.draw gpu.plate
-shaders/*.vert gpu.draw
+shaders/*.frag gpu.draw gpu.plate reference.layers
+shaders/*.vert gpu.draw gpu.plate
 END
 }
 
@@ -113,11 +115,15 @@ tail -n +$(($(wc -l <"$build.results") + 1)) "$build.drawn" |
         awk -v line="$line" -v column="$column" -v length_="$length" -v text="$text" '
             NR == line { $0 = substr($0, 1, column - 1) text substr($0, column + length_) } { print }' \
             "$file" >"$tree/$file"
-        echo "$(verdict $tests </dev/null): $file:$line:$column: $(sed -n "${line}s/^ *//p" "$tree/$file")" >>"$build.results"
+        changed=$(sed -n "${line}s/^ *//p" "$tree/$file") result=$(verdict $tests </dev/null)
+        if [ "$result" = survived ] && grep -qF "$file$tab$changed$tab" tests/mutation/equivalent.txt; then
+            result=equivalent
+        fi
+        printf '%s\n' "$result: $file:$line:$column: $changed" >>"$build.results"
         cp "$file" "$tree/$file"
     done
 grep '^survived' "$build.results" || true
-for result in killed survived same invalid; do
+for result in killed survived equivalent same invalid; do
     printf '%s %s  ' "$(grep -c "^$result" "$build.results" || true)" $result
 done
 echo "of $count drawn from $total"

@@ -4,6 +4,7 @@
 #include "tests/unit/preintegrated_brdfs.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* --- making ----------------------------------------------------------------------------------- */
 
@@ -144,6 +145,99 @@ static void damaged_bytes_are_refused(void **state) {
     free(bytes);
 }
 
+/* A file of the very size that its steps ask for, but more of them than a reader has room for, or
+ * fewer nodes than it interpolates between: the numbers at 48 … 63 are views, caps, and the steps
+ * of either. */
+static void counts_out_of_range_are_refused_though_the_size_agrees(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    lmp_preintegrated_brdf *preintegrated = created(table, 0.1f);
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(preintegrated);
+    const uint32_t counts[4] = { info.view_count, info.cap_count, info.view_steps, info.cap_steps };
+    const uint32_t wrong[4][3] = {
+        { 0, 1, counts[2] + 2 }, { 0, 1, counts[3] + 2 }, { 0, 1025, 5000 }, { 0, 1025, 5000 }
+    };
+    size_t size;
+    unsigned char *bytes = written(preintegrated, &size);
+    lmp_preintegrated_brdf_destroy(preintegrated);
+    lmp_brdf_table_destroy(table);
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t now[4];
+            memcpy(now, counts, sizeof now);
+            now[i] = wrong[i][k];
+            const size_t asked = 68 + 4 * ((size_t)now[2] + 1 + now[3] + 1) + 12 * (size_t)now[0] +
+                                 24 * (size_t)now[0] * now[1] + 6 * info.texel_count + 4;
+            unsigned char *other = calloc(asked, 1);
+            assert_non_null(other);
+            memcpy(other, bytes, asked < size ? asked : size);
+            for (size_t c = 0; c < 4; c++) {
+                assert_int_equal(lmp_bytes_at_u32(bytes + 48 + 4 * c), counts[c]);
+                lmp_bytes_store_u32(other + 48 + 4 * c, now[c]);
+            }
+            if (i >= 2 &&
+                now[i] >
+                    counts[i]) { /* remaps that rise to their last slice, and all that follows */
+                const size_t tail = 68 + 4 * ((size_t)counts[2] + 1 + counts[3] + 1);
+                memcpy(other + asked - (size - tail), bytes + tail, size - tail);
+                unsigned char *p = other + 68;
+                for (size_t r = 0; r < 2; r++)
+                    for (uint32_t step = 0; step <= now[2 + r]; step++)
+                        p = lmp_bytes_store_f32(p, (float)step / (float)now[2 + r] *
+                                                       (float)(counts[r] - 1));
+            }
+            damage_sign(other, asked);
+            lmp_preintegrated_brdf *read;
+            assert_int_equal(lmp_preintegrated_brdf_read(NULL, other, asked, &read),
+                             LMP_ERROR_FORMAT);
+            free(other);
+        }
+    free(bytes);
+}
+
+static lmp_rgb at_an_end(const lmp_preintegrated_brdf *brdf, int remap, int end, int i) {
+    const float part = (float)i / 19;
+    const lmp_vec3 axis = { sinf(part), 0.3f * part, cosf(part) };
+    return remap == 0 ? lmp_preintegrated_brdf_eval(brdf, end ? 0 : 1, axis, 0.02f + 0.9f * part)
+                      : lmp_preintegrated_brdf_eval(brdf, 1 - part, axis, end ? 1 : 1e-12f);
+}
+
+/* The first and the last view, and cap, are those of the first and the last node, wherever the
+ * nodes between lie. */
+static void ends_of_a_remap_are_its_end_nodes(void **state) {
+    (void)state;
+    const lmp_brdf_table_desc desc = { .bands = 5, .views = 12, .rings_max = 64 };
+    lmp_brdf_table *table = table_of(sgd_brdf("gold-metallic-paint"), &desc);
+    lmp_preintegrated_brdf *preintegrated = created(table, 0.02f), *other;
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(preintegrated);
+    const uint32_t steps[2] = { info.view_steps, info.cap_steps };
+    size_t size;
+    for (int remap = 0; remap < 2; remap++) {
+        unsigned char *bytes = written(preintegrated, &size);
+        unsigned char *node = bytes + 68 + (remap ? 4 * ((size_t)steps[0] + 1) : 0);
+        assert_true(steps[remap] > 2);
+        for (uint32_t i = 1; i < steps[remap]; i++) { /* nearer to the node before, in turn */
+            const float before = lmp_bytes_at_f32(node + 4 * (size_t)(i - 1));
+            const float here = lmp_bytes_at_f32(node + 4 * (size_t)i);
+            lmp_bytes_store_f32(node + 4 * (size_t)i,
+                                before + (i % 2 ? 0.4f : 0.8f) * (here - before));
+        }
+        damage_sign(bytes, size);
+        assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &other), LMP_OK);
+        for (int end = 0; end < 2; end++)
+            for (int i = 0; i < 20; i++) {
+                const lmp_rgb a = at_an_end(preintegrated, remap, end, i),
+                              b = at_an_end(other, remap, end, i);
+                for (int c = 0; c < 3; c++)
+                    CHECK_WITHIN(fabsf((&a.r)[c] - (&b.r)[c]), 1e-4F * fabsf((&a.r)[c]) + 1e-7F);
+            }
+        lmp_preintegrated_brdf_destroy(other);
+        free(bytes);
+    }
+    lmp_preintegrated_brdf_destroy(preintegrated);
+    lmp_brdf_table_destroy(table);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
@@ -151,6 +245,8 @@ int main(void) {
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
         cmocka_unit_test(bytes_read_back_are_the_same_brdf),
         cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(counts_out_of_range_are_refused_though_the_size_agrees),
+        cmocka_unit_test(ends_of_a_remap_are_its_end_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
