@@ -148,12 +148,39 @@ static void impossible_grids_are_refused_with_a_reason(void **state) {
     scene_free(&world);
 }
 
+/* Of the nodes asked for, or of as many as are chosen, the first lies before the scene and the last
+ * past it, no further than a cell. */
+static void grids_cover_the_scene(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    open_world("builtin:atrium", 3);
+    for (int given = 0; given < 2; given++) {
+        const shade_field_options options = { .grid = { 9, 5, 12 },
+                                              .grid_given = given,
+                                              .error = SHADE_FIELD_ERROR };
+        shade_field *field = shade_field_create(&world, &options, 3, &error);
+        expect(field != NULL, &error);
+        const lmp_field_desc desc = shade_field_describe(field).info.desc;
+        for (int a = 0; a < 3; a++) {
+            const float first = (&desc.origin.x)[a], cell = (&desc.cell.x)[a];
+            const float last = first + cell * (float)(desc.nodes[a] - 1);
+            if (given)
+                assert_int_equal(desc.nodes[a], options.grid[a]);
+            assert_true(first <= world.minimum[a] && first > world.minimum[a] - cell);
+            assert_true(last >= world.maximum[a] && last < world.maximum[a] + cell);
+        }
+        shade_field_destroy(field);
+    }
+    scene_free(&world);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_thousand_lights_look_as_their_sums_do),
         cmocka_unit_test(every_kind_of_light_is_drawn),
         cmocka_unit_test(lights_that_move_leave_the_image_of_where_they_are),
         cmocka_unit_test(impossible_grids_are_refused_with_a_reason),
+        cmocka_unit_test(grids_cover_the_scene),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

@@ -181,6 +181,7 @@ static void plates_look_as_the_specification_says(void **state) {
 /* --- what comes through ----------------------------------------------------------------------- */
 
 static lmp_material seen_by_host;
+static lmp_rgb emitted_to_host;
 
 static bool keep_material(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
                           cli_error *error) {
@@ -189,6 +190,8 @@ static bool keep_material(const gpu_frame *frame, const gpu_gbuffer *gbuffer, fl
     assert_true(gpu_row_create(frame->width, &row));
     gpu_gbuffer_row(gbuffer, frame->height / 2, &row);
     seen_by_host = row.material[frame->width / 2];
+    emitted_to_host = gpu_gbuffer_emission(
+        gbuffer, (size_t)(frame->height / 2) * (size_t)frame->width + (size_t)frame->width / 2);
     gpu_row_free(&row);
     memset(rgba, 0, 4 * sizeof *rgba * (size_t)frame->width * (size_t)frame->height);
     return true;
@@ -207,7 +210,14 @@ static void check_material(const lmp_material *m, const scene_material *from) {
     CHECK_WITHIN(m->coat.weight, 0);
 }
 
-/* Albedos from 0.0005 to 1, roughnesses in steps of 0.0005: on both devices. */
+/* In floats of 11 bits, blue in 10. */
+static void check_emission(lmp_rgb seen, const float emission[3]) {
+    for (int c = 0; c < 3; c++)
+        CHECK_WITHIN(fabsf((&seen.r)[c] / emission[c] - 1), c < 2 ? 1.0 / 64 : 1.0 / 32);
+}
+
+/* Albedos from 0.0005 to 1, roughnesses in steps of 0.0005, emissions of 1e-3 to 1e4: on both
+ * devices. */
 static void materials_come_through_exactly(void **state) {
     (void)state;
     for (int i = 0; i < 12; i++) {
@@ -217,11 +227,15 @@ static void materials_come_through_exactly(void **state) {
             p.material.base_color[c] = 0.0005f * powf(2000, (float)(3 * i + c) / 35);
         p.material.metallic = (float)i / 11;
         p.material.roughness = 0.1f + 0.0005f * (float)i;
+        for (int c = 0; c < 3; c++)
+            p.material.emission[c] = 1e-3f * powf(1e7f, (float)((3 * i + 17 * c) % 36) / 35);
         p.frame.host = keep_material;
         gpu_renderer *renderer = open_renderer(&p.world);
         gpu_pixel *pixels = render_pixels(renderer, &p.frame);
         check_material(&pixels[HEIGHT / 2 * WIDTH + WIDTH / 2].material, &p.material);
         check_material(&seen_by_host, &p.material);
+        check_emission(pixels[HEIGHT / 2 * WIDTH + WIDTH / 2].emission, p.material.emission);
+        check_emission(emitted_to_host, p.material.emission);
         free(pixels);
         gpu_renderer_destroy(renderer);
     }

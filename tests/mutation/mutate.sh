@@ -52,7 +52,8 @@ app/shadow/*.c gpu.shadow gpu.shadow_filter
 app/shade/*.c gpu.shade gpu.draw gpu.field
 app/gpu/table.c gpu.table gpu.draw
 app/gpu/environment.c gpu.devices
-app/gpu/*.c gpu.draw gpu.shade gpu.plate
+app/gpu/zonal.c gpu.devices
+app/gpu/*.c gpu.draw gpu.plate gpu.shade gpu.devices
 shaders/table.glsl gpu.table
 shaders/environment.glsl gpu.devices gpu.table
 shaders/*.glsl gpu.glsl gpu.draw gpu.plate gpu.shade gpu.devices
