@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* How preintegrated BRDFs are made, and the bytes that they are kept as. */
+#include "src/preintegrated/brdf_make.h"
 #include "tests/unit/damage.h"
 #include "tests/unit/preintegrated_brdfs.h"
 
@@ -238,6 +239,29 @@ static void ends_of_a_remap_are_its_end_nodes(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
+/* Rows that vary slowly are kept by every other one: a cubic spline through a cosine of step h errs
+ * by about h⁴/384 of it; one of fewer than two rows a wave is lost. */
+static void smooth_rows_are_thinned_and_rough_ones_are_not(void **state) {
+    (void)state;
+    enum { ROWS = 129, COLUMNS = 5 };
+    static float values[3 * ROWS * COLUMNS], coefficients[ROWS * COLUMNS];
+    const brdf_grid grid = {
+        .values = values, .rows = ROWS, .columns = COLUMNS, .coefficients = coefficients
+    };
+    for (double frequency = 0.08; frequency < 0.5; frequency *= 1.3) {
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < ROWS; i++)
+                for (int k = 0; k < COLUMNS; k++)
+                    values[(c * ROWS + i) * COLUMNS + k] =
+                        (float)((k + 1) * cos(frequency * i + 0.7 * k + c));
+        const double error = COLUMNS * pow(2 * frequency, 4) / 384;
+        assert_true(lmp_preintegrated_brdf_rows_hold(&grid, 2, (float)(1.4 * error + 5e-6)));
+        assert_false(lmp_preintegrated_brdf_rows_hold(&grid, 2, (float)(0.8 * error)));
+        values[(2 * ROWS + 63) * COLUMNS + 3] += 1; /* one row of one color counts */
+        assert_false(lmp_preintegrated_brdf_rows_hold(&grid, 2, 0.9f));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
@@ -247,6 +271,7 @@ int main(void) {
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(counts_out_of_range_are_refused_though_the_size_agrees),
         cmocka_unit_test(ends_of_a_remap_are_its_end_nodes),
+        cmocka_unit_test(smooth_rows_are_thinned_and_rough_ones_are_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -243,6 +243,21 @@ static void arguments_outside_their_range_are_refused(void **state) {
     }
 }
 
+static void its_bytes_are_those_of_its_parts(void **state) {
+    (void)state;
+    for (int bands = 1; bands < 40; bands += 9) {
+        lmp_preintegrated_lobe *lobe = created(bands, LMP_WINDOW_NONE, 0.1f);
+        const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
+        size_t pairs = 0;
+        for (uint32_t i = 0; i < info.cell_count; i++)
+            pairs += (size_t)info.cells[i].rows * info.cells[i].columns;
+        assert_int_equal(info.pair_count, pairs);
+        assert_int_equal(info.bytes, info.cell_count * sizeof *info.cells + 4 * pairs +
+                                         LMP_PREINTEGRATED_LOBE_REMAP_COUNT * sizeof(float));
+        lmp_preintegrated_lobe_destroy(lobe);
+    }
+}
+
 static void a_refused_allocation_leaks_nothing(void **state) {
     (void)state;
     const lmp_preintegrated_lobe_desc desc = { .bands = 2, .error = 0.1f };
@@ -367,6 +382,7 @@ int main(void) {
         cmocka_unit_test(slices_join_without_a_step),
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
         cmocka_unit_test(arguments_outside_their_range_are_refused),
+        cmocka_unit_test(its_bytes_are_those_of_its_parts),
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
         cmocka_unit_test(bytes_read_back_are_the_same_lobe),
         cmocka_unit_test(damaged_bytes_are_refused),
