@@ -40,6 +40,7 @@ src/field/*.c unit.field_bytes unit.field unit.field_changes unit.field_shade un
 src/preintegrated/brdf*.c unit.preintegrated_brdf unit.preintegrated_brdf_bytes unit.assertions
 src/preintegrated/*.c unit.preintegrated_lobe unit.assertions
 src/brdf/rgl*.c unit.brdf_rgl unit.brdf_rgl_written unit.brdf_rgl_refusals unit.read_back unit.assertions
+src/brdf/sheen.c unit.brdf_sheen unit.assertions
 src/brdf/*.c unit.brdf_table_bytes unit.brdf unit.brdf_table unit.brdf_files unit.assertions
 src/kernels/*.h kernels.kernels kernels.batch
 app/trace/trace.c reference.estimator reference.render reference.texture

@@ -101,6 +101,33 @@ static void files_of_tables_round_trip(void **state) {
     }
 }
 
+/* 4 and more, and even: a view past the pole is at the opposite azimuth. */
+static void every_even_number_of_azimuths_is_made_and_read(void **state) {
+    (void)state;
+    lmp_brdf *brdf = ggx(0.6f, 0.3f);
+    for (int azimuths = 2; azimuths <= 18; azimuths++) {
+        const lmp_brdf_table_desc desc = {
+            .bands = 2, .views = 2, .azimuths = azimuths, .rings_max = 16, .tolerance = 1
+        };
+        lmp_brdf_table *table = NULL, *copy = NULL;
+        const bool even = azimuths >= 4 && azimuths % 2 == 0;
+        assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table),
+                         even ? LMP_OK : LMP_ERROR_ARGUMENT);
+        if (!even)
+            continue;
+        unsigned char *bytes = malloc(lmp_brdf_table_size(table));
+        assert_non_null(bytes);
+        lmp_brdf_table_write(table, bytes);
+        assert_int_equal(lmp_brdf_table_read(NULL, bytes, lmp_brdf_table_size(table), NULL, &copy),
+                         LMP_OK);
+        assert_int_equal(lmp_brdf_table_describe(copy).azimuths, azimuths);
+        free(bytes);
+        lmp_brdf_table_destroy(table);
+        lmp_brdf_table_destroy(copy);
+    }
+    lmp_brdf_destroy(brdf);
+}
+
 static void damaged_tables_are_refused_with_their_reason(void **state) {
     (void)state;
     lmp_brdf *brdf = phong(5);
@@ -193,6 +220,7 @@ int main(void) {
         cmocka_unit_test(every_failing_allocation_is_reported),
         cmocka_unit_test(descriptions_out_of_range_are_refused),
         cmocka_unit_test(files_of_tables_round_trip),
+        cmocka_unit_test(every_even_number_of_azimuths_is_made_and_read),
         cmocka_unit_test(damaged_tables_are_refused_with_their_reason),
         cmocka_unit_test(every_truncation_and_bit_of_a_table_is_noticed),
         cmocka_unit_test(every_failing_allocation_of_a_projection_is_reported),
