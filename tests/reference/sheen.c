@@ -4,6 +4,7 @@
 #include "tests/reference/sheet.h"
 
 #include "app/override/override.h"
+#include "app/reference/sheen.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/sheen.h"
 
@@ -94,10 +95,30 @@ static void sheen_under_a_light_is_the_ground_truth(void **state) {
     cloth_free(&c);
 }
 
+/* Seen from above and aslant, on nodes of its table of albedos and between them. */
+static void the_reference_leaves_what_fibers_do_not_reflect(void **state) {
+    (void)state;
+    static reference_sheen_albedos albedos;
+    const double white[3] = { 1, 1, 1 }, colors[3] = { 0.3, 0.8, 0.1 };
+    const reference_vec up = { 0, 0, 1 };
+    reference_sheen_albedos_fill(&albedos);
+    for (double roughness = 0.1; roughness <= 1; roughness += 0.15)
+        for (double angle = 0; angle < 1.5; angle += 0.13) {
+            const reference_vec view = { sin(angle), 0, cos(angle) };
+            const double e = oracle_sheen_albedo(roughness, angle);
+            reference_sheen sheen;
+            reference_sheen_set(&sheen, &albedos, white, roughness, up, view);
+            CHECK_WITHIN(fabs(1 - sheen.under - fmin(e, 1)), 0.01);
+            reference_sheen_set(&sheen, &albedos, colors, roughness, up, view);
+            CHECK_WITHIN(fabs(1 - sheen.under - 0.8 * fmin(e, 1.25)), 0.01);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sheen_reflects_by_its_maps_and_leaves_the_rest),
         cmocka_unit_test(sheen_under_a_light_is_the_ground_truth),
+        cmocka_unit_test(the_reference_leaves_what_fibers_do_not_reflect),
     };
     return cmocka_run_group_tests(tests, sheet_folder, folder_remove);
 }
