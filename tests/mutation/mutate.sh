@@ -49,7 +49,7 @@ app/reference/sheen.c reference.sheen
 app/reference/ggx.c reference.ggx reference.layers
 app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
 app/compare/*.c reference.compare
-app/shadow/*.c gpu.shadow gpu.shadow_filter
+app/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
 app/shade/*.c gpu.shade gpu.draw gpu.field
 app/gpu/table.c gpu.table gpu.draw
 app/gpu/environment.c gpu.devices

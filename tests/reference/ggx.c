@@ -6,6 +6,8 @@
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
 
+#include <string.h>
+
 static const reference_vec origin = { 0, 0, 0 }, up = { 0, 0, 1 };
 static const reference_band_limit whole = { .bands = 0 };
 static const reference_dielectric common = { { 0.04, 0.04, 0.04 }, 1 };
@@ -217,9 +219,41 @@ static void visible_lights_give_the_same_series(void **state) {
                  4 * (drawn.standard_error[0] + plain.standard_error[0]));
 }
 
+/* Light and view turned about the normal together reflect, are drawn and are dense as before. */
+static void turning_light_and_view_together_changes_nothing(void **state) {
+    (void)state;
+    const double color[3] = { 0.7, 0.4, 0.2 };
+    const reference_dielectric layer = { { 0.1, 0.05, 0.02 }, 0.8 };
+    for (int i = 0; i < 40; i++) {
+        const double to = check_random_between(0, 1.5), view = check_random_between(0, 1.5);
+        const double apart = check_random_between(0, 6.3), alpha = check_random_between(0.05, 1);
+        const double u = check_random(), v = check_random();
+        double first[3] = { 0, 0, 0 }, density = 0, drawn = 0;
+        for (int turn = 0; turn < 7; turn++) {
+            const reference_vec w = direction(view, 0.9 * turn),
+                                l = direction(to, 0.9 * turn + apart);
+            reference_ggx ggx;
+            double rgb[3];
+            reference_ggx_set(&ggx, color, 0.3, sqrt(alpha), &layer, up, w);
+            reference_ggx_at(&ggx, l, rgb);
+            const double here = reference_ggx_density(&ggx, l);
+            const double along = reference_dot(reference_ggx_draw(&ggx, u, v), w);
+            if (turn == 0) {
+                memcpy(first, rgb, sizeof first);
+                density = here, drawn = along;
+            }
+            for (int c = 0; c < 3; c++)
+                CHECK_WITHIN(fabs(rgb[c] - first[c]), 1e-9 * (1 + first[c]));
+            CHECK_WITHIN(fabs(here - density), 1e-9 * (1 + density));
+            CHECK_WITHIN(fabs(along - drawn), 1e-9);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reflection_is_that_of_the_specification),
+        cmocka_unit_test(turning_light_and_view_together_changes_nothing),
         cmocka_unit_test(a_coated_surface_is_estimated_without_bias),
         cmocka_unit_test(samples_follow_the_specular_part),
         cmocka_unit_test(the_lights_series_does_what_the_lobes_would),
