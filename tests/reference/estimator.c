@@ -61,17 +61,25 @@ static void integrals_have_their_closed_forms(void **state) {
 
 /* --- colors ----------------------------------------------------------------------------------- */
 
-enum { LIGHTS = 4 };
+enum { SPHERES = 4, LIGHTS = 6 };
 
+/* Spheres, a point and a direction, of one color or white. */
 static reference_result estimate(const reference_material *material, int light_color) {
     scene_light lights[LIGHTS];
     for (int i = 0; i < LIGHTS; i++) {
+        lmp_light *light = &lights[i].emitter;
         lights[i] =
             (scene_light) { .emitter = { .position = { (float)i - 1.5f, 2, 0.5f * (float)i },
+                                         .direction = { 0.6f, 0.8f, 0 },
                                          .radius = 0.2f + 0.2f * (float)i } };
+        light->kind = i < SPHERES    ? LMP_LIGHT_SPHERE
+                      : i == SPHERES ? LMP_LIGHT_POINT
+                                     : LMP_LIGHT_DIRECTIONAL;
+        lmp_rgb *color = i < SPHERES    ? &light->radiance
+                         : i == SPHERES ? &light->intensity
+                                        : &light->irradiance;
         for (int c = 0; c < 3; c++)
-            (&lights[i].emitter.radiance.r)[c] =
-                light_color < 0 || light_color == c ? (float)(i + 1) : 0;
+            (&color->r)[c] = light_color < 0 || light_color == c ? (float)(i + 1) : 0;
     }
     reference_surface surface;
     reference_estimator estimator;
@@ -100,6 +108,8 @@ static void a_color_alone_is_estimated_as_white_is(void **state) {
     const reference_material white = material_of(-1, -1);
     const reference_result of_white = estimate(&white, -1);
     const double bound = 1e-9 * of_white.mean[0];
+    const reference_material first_two = material_of(0, 1);
+    const reference_result of_first_two = estimate(&first_two, -1);
     assert_true(of_white.mean[0] > 0.1);
     for (int c = 0; c < 3; c++) {
         const reference_material colored = material_of(c, c);
@@ -118,6 +128,8 @@ static void a_color_alone_is_estimated_as_white_is(void **state) {
                          4 * (of_two.standard_error[c] + of_two.standard_error[d] +
                               of_white.standard_error[0]));
             CHECK_WITHIN(fabs(of_two.mean[3 - c - d]), bound);
+            CHECK_WITHIN(fabs(of_two.mean[c] - of_first_two.mean[0]), bound);
+            CHECK_WITHIN(fabs(of_two.mean[d] - of_first_two.mean[1]), bound);
             assert_true(of_two.standard_error[c] < 0.05 * of_two.mean[c]);
         }
     }
