@@ -219,8 +219,8 @@ static void visible_lights_give_the_same_series(void **state) {
                  4 * (drawn.standard_error[0] + plain.standard_error[0]));
 }
 
-/* Light and view turned about the normal together reflect, are drawn and are dense as before. */
-static void turning_light_and_view_together_changes_nothing(void **state) {
+/* Light and view rotated about the normal together reflect, are drawn and are dense as before. */
+static void rotating_light_and_view_together_changes_nothing(void **state) {
     (void)state;
     const double color[3] = { 0.7, 0.4, 0.2 };
     const reference_dielectric layer = { { 0.1, 0.05, 0.02 }, 0.8 };
@@ -229,16 +229,16 @@ static void turning_light_and_view_together_changes_nothing(void **state) {
         const double apart = check_random_between(0, 6.3), alpha = check_random_between(0.05, 1);
         const double u = check_random(), v = check_random();
         double first[3] = { 0, 0, 0 }, density = 0, drawn = 0;
-        for (int turn = 0; turn < 7; turn++) {
-            const reference_vec w = direction(view, 0.9 * turn),
-                                l = direction(to, 0.9 * turn + apart);
+        for (int step = 0; step < 7; step++) {
+            const reference_vec w = direction(view, 0.9 * step),
+                                l = direction(to, 0.9 * step + apart);
             reference_ggx ggx;
             double rgb[3];
             reference_ggx_set(&ggx, color, 0.3, sqrt(alpha), &layer, up, w);
             reference_ggx_at(&ggx, l, rgb);
             const double here = reference_ggx_density(&ggx, l);
             const double along = reference_dot(reference_ggx_draw(&ggx, u, v), w);
-            if (turn == 0) {
+            if (step == 0) {
                 memcpy(first, rgb, sizeof first);
                 density = here, drawn = along;
             }
@@ -253,7 +253,7 @@ static void turning_light_and_view_together_changes_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reflection_is_that_of_the_specification),
-        cmocka_unit_test(turning_light_and_view_together_changes_nothing),
+        cmocka_unit_test(rotating_light_and_view_together_changes_nothing),
         cmocka_unit_test(a_coated_surface_is_estimated_without_bias),
         cmocka_unit_test(samples_follow_the_specular_part),
         cmocka_unit_test(the_lights_series_does_what_the_lobes_would),
