@@ -11,16 +11,7 @@
 
 bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
                       cli_error *error) {
-    file_writer writer;
-    png_image png = { .version = PNG_IMAGE_VERSION,
-                      .width = (png_uint_32)width,
-                      .height = (png_uint_32)height,
-                      .format = PNG_FORMAT_RGB };
-    if (!file_write_begin(&writer, path, error))
-        return false;
-    if (!png_image_write_to_stdio(&png, writer.stream, 0, rgb8, 0, NULL))
-        return file_write_fail(&writer, png.message, error);
-    return file_write_commit(&writer, error);
+    return image_write_png8_text(rgb8, width, height, NULL, path, error);
 }
 
 static float linearize(unsigned char byte) {

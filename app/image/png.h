@@ -9,7 +9,7 @@
 bool image_write_png8(const unsigned char *rgb8, int width, int height, const char *path,
                       cli_error *error);
 
-/* The same with a text chunk (iTXt, UTF-8, compressed). */
+/* The same with a text chunk (iTXt, UTF-8, compressed), or with NULL without. */
 #define IMAGE_TEXT_MAX (1 << 22)
 typedef struct image_text {
     const char *key, *text;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* PNG with a text chunk, which libpng's simple functions do not know. */
+/* PNG with or without a text chunk, which libpng's simple functions do not know. */
 #include "app/image/png.h"
 
 #include "app/file/file.h"
@@ -21,23 +21,32 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
+/* A third of the time of zlib's own level 6, for 6 % more bytes of a rendered image. */
+static const int compression = 4;
+
 /* --- writing ---------------------------------------------------------------------------------- */
+
+static void set_text(png_structp png, png_infop info, const image_text *text) {
+    /* libpng takes pointers to what it only reads */
+    char *key = strdup(text->key), *value = strdup(text->text);
+    png_text chunk = { .compression = PNG_ITXT_COMPRESSION_zTXt, .key = key, .text = value };
+    if (key && value)
+        png_set_text(png, info, &chunk, 1);
+    free(key);
+    free(value);
+}
 
 static bool write_stream(png_structp png, png_infop info, FILE *stream, const unsigned char *rgb8,
                          int width, int height, const image_text *text) {
     if (setjmp(png_jmpbuf(png)))
         return false;
-    /* libpng takes pointers to what it only reads */
-    char *key = strdup(text->key), *value = strdup(text->text);
-    png_text chunk = { .compression = PNG_ITXT_COMPRESSION_zTXt, .key = key, .text = value };
     png_init_io(png, stream);
+    png_set_compression_level(png, compression);
     png_set_IHDR(png, info, (png_uint_32)width, (png_uint_32)height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    if (key && value)
-        png_set_text(png, info, &chunk, 1);
-    free(key);
-    free(value);
+    if (text)
+        set_text(png, info, text);
     png_write_info(png, info);
     for (int y = 0; y < height; y++)
         png_write_row(png, rgb8 + 3 * (size_t)width * (size_t)y);
