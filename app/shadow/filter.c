@@ -151,11 +151,11 @@ static void divide_looks(shadow_planes *p) {
 }
 
 /* Slopes and edges are looked at over a few pixels: far enough to tell them from noise, near enough
- * to lie where they are; twice as far where most have no rays. */
+ * to lie where they are; twice as far where some have no rays, or single rays stay as dots. */
 void shadow_filter(shadow_planes *planes, int spacing, float narrowing) {
     enum { LOOKS = 2, PASSES = 4 };
     for (int i = 0; i < LOOKS; i++)
-        run_pass(&(filter_pass) { planes, SHADOW_SLOPE, 3, spacing > 2 ? 1 << i : 1, 0 });
+        run_pass(&(filter_pass) { planes, SHADOW_SLOPE, 3, spacing > 1 ? 1 << i : 1, 0 });
     divide_looks(planes);
     for (int i = 0; i < PASSES; i++)
         run_pass(&(filter_pass) { planes, SHADOW_UNHIDDEN, SHADOW_SLOPE, 1 << i, narrowing });

@@ -61,7 +61,10 @@ shadow_statistics shadow_describe(const shadow *s) {
     return s->statistics;
 }
 
-/* Whether every second sample of a pixel takes its shadows from the one before. */
+/* One of so many samples of a sparse image sends rays. */
+enum { SAMPLES_APART = 3 };
+
+/* Whether the samples between take their shadows from the one before that sent rays. */
 static bool alternates(const shadow *s) {
     return s->settings.sparse && !s->settings.apart && !s->settings.raw;
 }
@@ -69,7 +72,7 @@ static bool alternates(const shadow *s) {
 /* Which of the samples that send rays it is, from 0. */
 static int sample_of(const shadow *s, const gpu_gbuffer *gbuffer) {
     const int sample = gpu_gbuffer_sample(gbuffer);
-    return alternates(s) ? sample / 2 : sample;
+    return alternates(s) ? sample / SAMPLES_APART : sample;
 }
 
 /* Of samples that stand alone the first is shown while things move. */
@@ -189,7 +192,7 @@ static bool reuse(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
 bool shadow_frame(void *user, const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
                   cli_error *error) {
     shadow *s = user;
-    const bool again = alternates(s) && gpu_gbuffer_sample(gbuffer) % 2 != 0;
+    const bool again = alternates(s) && gpu_gbuffer_sample(gbuffer) % SAMPLES_APART != 0;
     return (again ? reuse(s, gbuffer, rgba) : cast(s, frame, gbuffer, rgba)) ||
            fail_memory(NULL, error);
 }

@@ -11,7 +11,7 @@ typedef struct shadow_settings {
     int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
     uint32_t seed; /* of the noise: the same seed gives the same bits on any number of threads */
     bool raw;      /* without the filter */
-    bool sparse;   /* of two neighbors one sends rays, and of two samples of a pixel */
+    bool sparse;   /* of two neighbors one sends rays, and of three samples of a pixel */
     bool apart;    /* samples know nothing of those before: all of them send rays */
 } shadow_settings;
 #define SHADOW_RAYS_MAX     1024
@@ -44,8 +44,8 @@ typedef struct shadow_options {
         { .name = "shadow-sparse",                                                                 \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.sparse,                                                   \
-          .help = "rays of --shadows from one of two neighbors and of two samples: a third of "    \
-                  "the time" },                                                                    \
+          .help = "rays of --shadows from one of two neighbors and of three samples: a "           \
+                  "quarter of the time" },                                                         \
     {                                                                                              \
         .name = "shadow-rays", .kind = CLI_INT, .target = &(variable).settings.rays,               \
         .argument = "N", .help = "rays of --shadows for each sample of a pixel", .minimum = 1,     \
