@@ -74,19 +74,29 @@ LMP_INLINE void field_all_weights(const lmp_kernel_cells *cells, size_t e, int d
     }
 }
 
+/* The rows of a cell that count, and where the weights of each are. */
+typedef struct field_terms {
+    int count;
+    int weight[FIELD_WEIGHTS];
+    const float *row[FIELD_WEIGHTS];
+} field_terms;
+
 /* `width` vectors of each sum. */
-LMP_INLINE void field_add(int sums, int width, size_t stride, const float *const rows[8],
+LMP_INLINE void field_add(int sums, int width, const field_terms *terms,
                           const float *const *weights, float *const *to, size_t at) {
     vf sum[FIELD_SUMS][5];
     LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++) sum[i][j] =
         vf_set(0);
-    LMP_ROLLED for (int k = 0; k < 8; k++) LMP_UNROLL for (int q = 0; q < 4; q++) {
-        const float *row = rows[k] + (size_t)q * stride + at;
+    LMP_ROLLED for (int k = 0; k < terms->count; k++) {
+        const float *row = terms->row[k] + at;
         vf value[5];
         LMP_UNROLL for (int j = 0; j < width; j++) value[j] = vf_load(row + j * LMP_LANES);
         LMP_UNROLL for (int i = 0; i < sums; i++) {
-            const float weight = weights[i][(4 * k + q) * LMP_LANES];
-            LMP_UNROLL for (int j = 0; j < width; j++) sum[i][j] = sum[i][j] + weight * value[j];
+            const float weight = weights[i][terms->weight[k]];
+            LMP_UNROLL for (int j = 0; j < width; j++) {
+                sum[i][j] = sum[i][j] + weight * value[j];
+                LMP_OPAQUE_LANES(sum[i][j]);
+            }
         }
     }
     LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++)
@@ -94,24 +104,24 @@ LMP_INLINE void field_add(int sums, int width, size_t stride, const float *const
 }
 
 /* `count` coefficients of each sum, and what fills their last vector. */
-LMP_INLINE void field_run(int sums, size_t stride, size_t count, const float *const rows[8],
+LMP_INLINE void field_run(int sums, const field_terms *terms, size_t count,
                           const float *const *weights, float *const *to) {
     const size_t step = (size_t)FIELD_WIDTH(sums) * LMP_LANES;
     size_t at = 0;
     for (; at + step <= count + LMP_LANES - 1; at += step)
-        field_add(sums, FIELD_WIDTH(sums), stride, rows, weights, to, at);
+        field_add(sums, FIELD_WIDTH(sums), terms, weights, to, at);
     for (; at < count; at += LMP_LANES)
-        field_add(sums, 1, stride, rows, weights, to, at);
+        field_add(sums, 1, terms, weights, to, at);
 }
 
-static LMP_NOINLINE void field_one(size_t stride, size_t count, const float *const rows[8],
+static LMP_NOINLINE void field_one(const field_terms *terms, size_t count,
                                    const float *const *weights, float *const *to) {
-    field_run(1, stride, count, rows, weights, to);
+    field_run(1, terms, count, weights, to);
 }
 
-static LMP_NOINLINE void field_four(size_t stride, size_t count, const float *const rows[8],
+static LMP_NOINLINE void field_four(const field_terms *terms, size_t count,
                                     const float *const *weights, float *const *to) {
-    field_run(FIELD_SUMS, stride, count, rows, weights, to);
+    field_run(FIELD_SUMS, terms, count, weights, to);
 }
 
 /* Coefficients of each point that are transposed and go out together. */
@@ -119,52 +129,92 @@ static LMP_NOINLINE void field_four(size_t stride, size_t count, const float *co
 
 typedef float field_rows[FIELD_TOGETHER * LMP_LANES];
 
+/* Row k of a cell: of each corner the values, then the derivatives. */
+LMP_INLINE const float *field_row(const lmp_kernel_cells *cells, const uint32_t *corners, int k) {
+    return cells->nodes + (4 * (size_t)corners[k / 4] + (size_t)(k % 4)) * cells->stride;
+}
+
 /* Coefficients at … at + count - 1 of points e … e + live - 1. */
 LMP_INLINE void field_values(const lmp_kernel_cells *cells, size_t e, size_t live, size_t at,
                              size_t count, const float *weights, float *rows) {
     for (size_t lane = 0, some; lane < live; lane += some) {
         const uint32_t *corners = cells->corners + 8 * (e + lane);
-        const float *from[8], *by[FIELD_SUMS];
+        const float *by[FIELD_SUMS];
         float *to[FIELD_SUMS];
+        field_terms terms = { .count = FIELD_WEIGHTS };
         for (some = 1; some < FIELD_SUMS && lane + some < live &&
                        memcmp(corners, corners + 8 * some, 8 * sizeof *corners) == 0;)
             some++;
         if (some < FIELD_SUMS)
             some = 1;
-        for (int k = 0; k < 8; k++)
-            from[k] = cells->nodes + 4 * cells->stride * corners[k] + at;
+        for (int k = 0; k < FIELD_WEIGHTS; k++) {
+            terms.row[k] = field_row(cells, corners, k) + at;
+            terms.weight[k] = k * LMP_LANES;
+        }
         for (size_t i = 0; i < some; i++) {
             by[i] = weights + lane + i;
             to[i] = rows + (lane + i) * FIELD_TOGETHER;
         }
-        (some == 1 ? field_one : field_four)(cells->stride, count, from, by, to);
+        (some == 1 ? field_one : field_four)(&terms, count, by, to);
     }
 }
 
-/* The same, of each point the value and the derivatives. */
+/* Of each row and point the largest of its weights, in size. */
+LMP_INLINE void field_largest(float (*weights)[FIELD_WEIGHTS * LMP_LANES], float *largest) {
+    for (int at = 0; at < FIELD_WEIGHTS * LMP_LANES; at += LMP_LANES) {
+        vf most = vf_set(0);
+        LMP_UNROLL for (int i = 0; i < FIELD_SUMS; i++) {
+            const vf weight = vf_load(weights[i] + at);
+            most = vf_max(most, vf_max(weight, vf_set(0) - weight));
+        }
+        vf_store(largest + at, most);
+    }
+}
+
+/* The same, of each point the value and the derivatives. Nodes of a finer grid lie on edges and
+ * sides of the cells, where nearly half of the rows weigh nothing: a sum without them has the same
+ * bits. */
 LMP_INLINE void field_gradients(const lmp_kernel_cells *cells, size_t e, size_t live, size_t at,
                                 size_t count, float (*weights)[FIELD_WEIGHTS * LMP_LANES],
-                                field_rows *rows) {
+                                const float *largest, float *const rows[FIELD_SUMS],
+                                const size_t stride[FIELD_SUMS]) {
     for (size_t lane = 0; lane < live; lane++) {
         const uint32_t *corners = cells->corners + 8 * (e + lane);
-        const float *from[8], *by[FIELD_SUMS];
+        const float *by[FIELD_SUMS];
         float *to[FIELD_SUMS];
-        for (int k = 0; k < 8; k++)
-            from[k] = cells->nodes + 4 * cells->stride * corners[k] + at;
+        field_terms terms;
+        terms.count = 0;
         for (int i = 0; i < FIELD_SUMS; i++) {
             by[i] = weights[i] + lane;
-            to[i] = rows[i] + lane * FIELD_TOGETHER;
+            to[i] = rows[i] + lane * stride[i];
         }
-        field_four(cells->stride, count, from, by, to);
+        for (int k = 0; k < FIELD_WEIGHTS; k++) {
+            terms.row[terms.count] = field_row(cells, corners, k) + at;
+            terms.weight[terms.count] = k * LMP_LANES;
+            terms.count += largest[(size_t)(k * LMP_LANES) + lane] != 0;
+        }
+        field_four(&terms, count, by, to);
     }
 }
 
+/* Rows go out as they are, or as planes. */
 LMP_INLINE void field_put(const float *rows, size_t at, size_t count, const lmp_kernel_out *out,
                           size_t e, size_t live) {
-    float LMP_ALIGNED block[FIELD_TOGETHER * LMP_LANES];
-    const lmp_kernel_in in = { rows, FIELD_TOGETHER, 0 };
-    layout_get(block, 0, count, &in, 0, live);
-    layout_put(block, at, count, out, e, live);
+    if (!out->planar) {
+        for (size_t i = 0; i < live; i++)
+            memcpy(out->at + (e + i) * out->stride + at, rows + i * FIELD_TOGETHER,
+                   count * sizeof *rows);
+        return;
+    }
+    float *const to = out->at + at * out->stride + e;
+    for (size_t v = 0; v < count; v += 4) {
+        float LMP_ALIGNED block[4 * LMP_LANES];
+        const lmp_kernel_in in = { rows + v, FIELD_TOGETHER, 0 };
+        const size_t some = count - v < 4 ? count - v : 4;
+        layout_get(block, 0, some, &in, 0, live);
+        for (size_t i = 0; i < some; i++)
+            layout_put_plane(to + (v + i) * out->stride, block + i * LMP_LANES, live);
+    }
 }
 
 /* Functions of their own, for the second takes more stack than there is under surfaces. */
@@ -185,11 +235,25 @@ static LMP_NOINLINE void field_interpolate_gradient(size_t values, const lmp_ker
                                                     const lmp_kernel_out *out,
                                                     const lmp_kernel_out *gradient) {
     float LMP_ALIGNED weights[FIELD_SUMS][FIELD_WEIGHTS * LMP_LANES];
+    float LMP_ALIGNED largest[FIELD_WEIGHTS * LMP_LANES];
     field_rows LMP_ALIGNED rows[FIELD_SUMS];
+    /* Rows of whole vectors go where they belong at once. */
+    const int direct = !out->planar && !gradient->planar && values % LMP_LANES == 0;
+    size_t stride[FIELD_SUMS];
+    for (int i = 0; i < FIELD_SUMS; i++)
+        stride[i] = !direct ? FIELD_TOGETHER : i == 0 ? out->stride : gradient->stride;
     field_all_weights(cells, e, 1, weights);
+    field_largest(weights, largest);
     for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
         const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
-        field_gradients(cells, e, live, at, some, weights, rows);
+        float *to[FIELD_SUMS] = { out->at + e * out->stride + at };
+        for (size_t a = 0; a < 3; a++)
+            to[1 + a] = gradient->at + e * gradient->stride + a * values + at;
+        for (int i = 0; i < FIELD_SUMS && !direct; i++)
+            to[i] = rows[i];
+        field_gradients(cells, e, live, at, some, weights, largest, to, stride);
+        if (direct)
+            continue;
         field_put(rows[0], at, some, out, e, live);
         for (size_t a = 0; a < 3; a++)
             field_put(rows[1 + a], a * values + at, some, gradient, e, live);
