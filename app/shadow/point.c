@@ -180,10 +180,10 @@ static lmp_rgb reflect_series(const shadow_points *p, int lane, lmp_vec3 w) {
     return lmp_shade(p->settings, p->material[lane], &surface, &light, 1);
 }
 
-/* GGX and its masking, times the cosine of w. */
-static float glossy(lmp_vec3 n, lmp_vec3 v, lmp_vec3 w, float a2) {
+/* GGX and its masking, times the cosine of w; h is half way between v and w. */
+static float glossy(lmp_vec3 n, lmp_vec3 v, lmp_vec3 w, lmp_vec3 h, float a2) {
     const float in = vec_dot(n, w), out = fmaxf(vec_dot(n, v), 1e-3f);
-    const float nh = vec_dot(n, vec_normalize(vec_add(v, w), n)), peak = nh * nh * (a2 - 1) + 1;
+    const float nh = vec_dot(n, h), peak = nh * nh * (a2 - 1) + 1;
     const float masking =
         in * sqrtf(out * out * (1 - a2) + a2) + out * sqrtf(in * in * (1 - a2) + a2);
     return in > 0 ? in * a2 / (2 * PI * peak * peak * masking) : 0;
@@ -194,11 +194,12 @@ lmp_rgb shadow_reflect(const shadow_points *p, int lane, lmp_vec3 w) {
         return reflect_series(p, lane, w);
     const lmp_vec3 n = lane_of(&p->normal, lane), v = lane_of(&p->view, lane);
     const float in = fmaxf(vec_dot(n, w), 0), coat = p->coat[lane];
-    const float across = 1 - fminf(fabsf(vec_dot(v, vec_normalize(vec_add(v, w), n))), 1);
+    const lmp_vec3 h = vec_normalize(vec_add(v, w), n);
+    const float across = 1 - fminf(fabsf(vec_dot(v, h)), 1);
     const float square = across * across, grazing = square * square * across;
-    const float specular = glossy(n, v, w, p->alpha2[lane]);
+    const float specular = glossy(n, v, w, h, p->alpha2[lane]);
     const float over =
-        coat > 0 ? coat * glossy(lane_of(&p->coat_normal, lane), v, w, p->coat_alpha2[lane]) : 0;
+        coat > 0 ? coat * glossy(lane_of(&p->coat_normal, lane), v, w, h, p->coat_alpha2[lane]) : 0;
     float k[3];
     for (int c = 0; c < 3; c++) {
         const float f0 = p->f0.of[c][lane];

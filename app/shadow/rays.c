@@ -5,6 +5,8 @@
 #include "app/shadow/sequence.h"
 #include "app/shadow/wide.h"
 
+#include <string.h>
+
 /* One ray a lane, and what it stands for. */
 typedef struct ray_shot {
     trace_rays rays;
@@ -18,7 +20,7 @@ typedef struct shadow_sums {
 } shadow_sums;
 
 static float mean_of(lmp_rgb rgb) {
-    return (rgb.r + rgb.g + rgb.b) / 3;
+    return (rgb.r + rgb.g + rgb.b) * (1 / 3.0f);
 }
 
 /* The next numbers in 0 … 1 of every pixel. */
@@ -56,7 +58,8 @@ static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *wei
     const float scale = heeded / weight;
     const lmp_rgb value = { sample.arrives.r * k.r * scale, sample.arrives.g * k.g * scale,
                             sample.arrives.b * k.b * scale };
-    if (!(mean_of(value) > 0) || !isfinite(mean_of(value)))
+    const float mean = mean_of(value);
+    if (!(mean > 0) || !isfinite(mean))
         return;
     shot->value[i] = value;
     shot->size[i] = sample.size;
@@ -86,17 +89,16 @@ static size_t add_shot(const ray_shot *shot, const trace_hit hits[SHADOW_LANES],
             continue;
         count++;
         const bool hidden = hits[i].mesh != TRACE_NOTHING && distance < shot->rays.length[i];
-        const float rgb[3] = { value.r, value.g, value.b };
+        const float rgb[3] = { value.r, value.g, value.b }, mean = mean_of(value);
         for (int c = 0; c < 3; c++) {
             sums->of[SHADOW_ALL + c][i] += rgb[c];
             sums->of[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : rgb[c];
         }
-        sums->of[SHADOW_WEIGHT][i] += mean_of(value);
+        sums->of[SHADOW_WEIGHT][i] += mean;
         if (!hidden)
             continue;
-        sums->of[SHADOW_HIDDEN][i] += mean_of(value);
-        sums->of[SHADOW_SLOPE][i] +=
-            mean_of(value) / penumbra_of(shot, i, distance, points->footprint[i]);
+        sums->of[SHADOW_HIDDEN][i] += mean;
+        sums->of[SHADOW_SLOPE][i] += mean / penumbra_of(shot, i, distance, points->footprint[i]);
     }
     return count;
 }
@@ -153,16 +155,17 @@ static bool borrows(const shadow_job *job, const gpu_row *row, int x, int y,
 
 /* Pixels without rays. What is no surface is 0, and so without weight for the filter. */
 static void store_row(const shadow_job *job, const gpu_row *row, int y, shadow_planes *planes) {
+    const size_t first = (size_t)y * (size_t)planes->width;
+    for (int k = 0; k < SHADOW_VALUES; k++)
+        memset(planes->values[k] + first, 0, (size_t)planes->width * sizeof *planes->values[k]);
     for (int x = 0; x < planes->width; x++) {
-        const size_t pixel = (size_t)y * (size_t)planes->width + (size_t)x;
+        const size_t pixel = first + (size_t)x;
         const bool lit = row->kind[x] == GPU_KIND_SURFACE;
         for (int c = 0; c < 3; c++) {
             planes->position[c][pixel] = lit ? row->position[c][x] : 0;
             planes->normal[c][pixel] = lit ? row->normal[c][x] : 0;
         }
         planes->footprint[pixel] = lit ? shadow_footprint(&job->view, row, x) : 1;
-        for (int k = 0; k < SHADOW_VALUES; k++)
-            planes->values[k][pixel] = 0;
     }
 }
 

@@ -196,9 +196,10 @@ SHADOW_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count
 
 /* --- a direction ------------------------------------------------------------------------------ */
 
-/* Around an orthonormal basis without branches at the poles (Duff et al. 2017). */
-static lmp_vec3 in_cap(lmp_vec3 axis, float one_minus_cos, float u, float v) {
-    const float t = u * one_minus_cos, sine = sqrtf(t * (2 - t)), angle = 2 * PI * v;
+/* Off the axis by that much, the part v of a turn around it: in an orthonormal basis without
+ * branches at the poles (Duff et al. 2017). */
+static lmp_vec3 around_axis(lmp_vec3 axis, float one_minus_cos, float v) {
+    const float t = one_minus_cos, sine = sqrtf(t * (2 - t)), angle = 2 * PI * v;
     const float sign = copysignf(1, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
     const lmp_vec3 across = vec(1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
     const lmp_vec3 along = vec(b, sign + axis.y * axis.y * a, -axis.y);
@@ -210,11 +211,12 @@ static shadow_sample draw_sphere(const shadow_source *source, lmp_vec3 point, fl
     const lmp_vec3 to = vec_sub(source->light->position, point);
     const float r = source->light->radius, distance = vec_length(to);
     const float one_minus_cos = one_minus_cos_of(r, distance);
-    const lmp_vec3 w = in_cap(vec_normalize(to, vec(0, 0, 1)), one_minus_cos, u, v);
-    const float off = vec_length(vec_cross(to, w)), along = vec_dot(to, w);
+    const lmp_vec3 axis = distance > 0 ? vec_scale(to, 1 / distance) : vec(0, 0, 1);
+    const float t = u * one_minus_cos, along = distance * (1 - t);
+    const float off = distance * sqrtf(t * (2 - t));
     const float half = sqrtf(fmaxf((r - off) * (r + off), 0));
     const float length = distance < r ? along + half : along - half;
-    return (shadow_sample) { .direction = w,
+    return (shadow_sample) { .direction = around_axis(axis, t, v),
                              .length = fmaxf(length, 0),
                              .size = sine_of(one_minus_cos),
                              .arrives = rgb_scale(source->color, 2 * PI * one_minus_cos) };
@@ -233,7 +235,7 @@ static shadow_sample draw_point(const shadow_source *source, lmp_vec3 point) {
 static shadow_sample draw_far(const shadow_source *source, float u, float v) {
     const float one_minus_cos = source->one_minus_cos;
     const float solid_angle = one_minus_cos > 0 ? 2 * PI * one_minus_cos : 1;
-    return (shadow_sample) { .direction = in_cap(source->axis, one_minus_cos, u, v),
+    return (shadow_sample) { .direction = around_axis(source->axis, u * one_minus_cos, v),
                              .length = INFINITY,
                              .size = sine_of(one_minus_cos),
                              .arrives = rgb_scale(source->color, solid_angle) };
