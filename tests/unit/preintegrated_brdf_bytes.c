@@ -198,7 +198,7 @@ static void counts_out_of_range_are_refused_though_the_size_agrees(void **state)
 
 static lmp_rgb at_an_end(const lmp_preintegrated_brdf *brdf, int remap, int end, int i) {
     const float part = (float)i / 19;
-    const lmp_vec3 axis = { sinf(part), 0.3f * part, cosf(part) };
+    const lmp_vec3 axis = { sinf(part) * cosf(0.3f), sinf(part) * sinf(0.3f), cosf(part) };
     return remap == 0 ? lmp_preintegrated_brdf_eval(brdf, end ? 0 : 1, axis, 0.02f + 0.9f * part)
                       : lmp_preintegrated_brdf_eval(brdf, 1 - part, axis, end ? 1 : 1e-12f);
 }
