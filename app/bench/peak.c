@@ -12,6 +12,8 @@
  * and take roots (multiplications where the instruction set has no FMA). Enough chains for two
  * units of 5 cycles, and rounds for the clock's own 30 ns not to count. */
 enum { PEAK_CHAINS = 12, PEAK_ROUNDS = 3400 };
+/* Floats that the passes of bench_stores write together: about 20 µs of the first cache. */
+enum { STORE_FLOATS = 400000 };
 #if defined(__x86_64__)
 #define PEAK_STEP(a, step)                                                                         \
     (a) = step(a, one, one);                                                                       \
@@ -35,8 +37,6 @@ enum { PEAK_CHAINS = 12, PEAK_ROUNDS = 3400 };
         PEAK_STEP(l, step)                                                                         \
     }                                                                                              \
     return (1e9 * timing_now() - from) / ((double)PEAK_CHAINS * PEAK_ROUNDS);
-/* A pass is a few cache lines an iteration; the passes together about 20 µs of the first cache. */
-enum { STORE_FLOATS = 400000 };
 #define STORE_LOOP(type, one, store)                                                               \
     const size_t width = sizeof(type) / sizeof *to, passes = STORE_FLOATS / count + 1;             \
     const type value = one;                                                                        \
@@ -104,7 +104,7 @@ double bench_peak(unsigned flag) {
 double bench_stores(unsigned flag, float *to, size_t count) {
     (void)flag;
     const peak_lanes value = { 1, 1, 1, 1 };
-    const size_t passes = 400000 / count + 1;
+    const size_t passes = STORE_FLOATS / count + 1;
     const double from = 1e9 * timing_now();
     for (size_t pass = 0; pass < passes; pass++) {
         for (size_t i = 0; i + 4 <= count; i += 4)

@@ -161,10 +161,9 @@ static int run(const cli_command *command, int argc, char **argv) {
         return status;
     if (operand_count != 1)
         return cli_usage(command, "needs one scene");
-    if (info_is_field(operands[0]) && materials)
-        return cli_usage(command, "a field has no --materials");
     if (info_is_field(operands[0]))
-        return info_print_field(operands[0], json);
+        return materials ? cli_usage(command, "a field has no --materials")
+                         : info_print_field(operands[0], json);
     scene loaded;
     cli_error error = { 0 };
     if (!scene_load(operands[0], &load, &loaded, &error))

@@ -141,11 +141,11 @@ static bool is_layered(const scene *world) {
  * under layers. */
 static void settle_method(render_job *j) {
     const render_options *o = j->options;
-    const method_work work = { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
     const bool by_lobes = o->materials.count == 0 && !is_layered(&j->world);
+    j->work = (method_work) { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
     j->method = o->method;
     if (o->method_choice == 0 && j->shading == DEVICE_CPU && by_lobes)
-        j->method = method_for_lights(o->method, &work);
+        j->method = method_for_lights(o->method, &j->work);
     j->frame.method = j->method;
 }
 

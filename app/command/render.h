@@ -38,6 +38,7 @@ typedef struct render_job {
     gpu_renderer *renderer;
     gpu_frame frame;
     device_kind shading;
+    method_work work;              /* by which methods are estimated */
     method_kind method;            /* of these lights, on that device */
     lmp_preintegrated_lobe *lobes; /* of methods that read them */
     shade_field *field;            /* of methods that read one */

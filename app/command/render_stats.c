@@ -68,11 +68,9 @@ static bool add_timings(render_job *j, cJSON *stats, cli_error *error) {
 
 /* By which auto chooses, where the CPU shades. */
 static void add_estimates(const render_job *j, cJSON *stats) {
-    const render_options *o = j->options;
-    const method_work work = { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
     cJSON *estimates = cJSON_AddObjectToObject(stats, "estimated_milliseconds");
     for (int m = 0; m < METHODS; m++) {
-        const double milliseconds = method_estimate((method_kind)m, &work);
+        const double milliseconds = method_estimate((method_kind)m, &j->work);
         if (milliseconds > 0)
             cJSON_AddNumberToObject(estimates, method_table[m].name, milliseconds);
     }

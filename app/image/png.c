@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/image/png.h"
 
-#include "app/file/file.h"
-
-#include <errno.h>
 #include <math.h>
 #include <png.h>
 #include <stdlib.h>

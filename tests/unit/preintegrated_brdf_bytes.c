@@ -176,9 +176,8 @@ static void counts_out_of_range_are_refused_though_the_size_agrees(void **state)
                 assert_int_equal(lmp_bytes_at_u32(bytes + 48 + 4 * c), counts[c]);
                 lmp_bytes_store_u32(other + 48 + 4 * c, now[c]);
             }
-            if (i >= 2 &&
-                now[i] >
-                    counts[i]) { /* remaps that rise to their last slice, and all that follows */
+            /* remaps that rise to their last slice, and all that follows */
+            if (i >= 2 && now[i] > counts[i]) {
                 const size_t tail = 68 + 4 * ((size_t)counts[2] + 1 + counts[3] + 1);
                 memcpy(other + asked - (size - tail), bytes + tail, size - tail);
                 unsigned char *p = other + 68;
