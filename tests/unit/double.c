@@ -179,6 +179,20 @@ static void rotated_coefficients_are_those_of_the_rotated_direction(void **state
     }
 }
 
+/* One buffer of all: apart, but not by a single byte. */
+static void results_may_lie_side_by_side(void **state) {
+    (void)state;
+    double w[3], sh[COUNT], gradient[3 * COUNT], both[4 * COUNT];
+    random_direction(w);
+    lmp_sh_eval_gradient_double(BANDS, w, sh, gradient);
+    lmp_sh_eval_gradient_double(BANDS, w, both, both + COUNT);
+    assert_memory_equal(both, sh, sizeof sh);
+    assert_memory_equal(both + COUNT, gradient, sizeof gradient);
+    lmp_sh_eval_gradient_double(BANDS, w, both + 3 * (size_t)COUNT, both);
+    assert_memory_equal(both, gradient, sizeof gradient);
+    assert_memory_equal(both + 3 * (size_t)COUNT, sh, sizeof sh);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(evaluates_the_vector_file),
@@ -188,6 +202,7 @@ int main(void) {
         cmocka_unit_test(second_derivatives_are_those_of_the_gradient),
         cmocka_unit_test(few_bands_are_the_first_of_many),
         cmocka_unit_test(rotated_coefficients_are_those_of_the_rotated_direction),
+        cmocka_unit_test(results_may_lie_side_by_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

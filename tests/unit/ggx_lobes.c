@@ -308,6 +308,22 @@ static void axes_lie_in_the_plane_of_incidence_on_the_mirror_side(void **state) 
     }
 }
 
+/* The table for shaders: a lobe's four values at its nodes, then what the lobes leave of F90, and
+ * nothing where a texel has no more values. */
+static void texels_hold_the_lobes_and_else_nothing(void **state) {
+    (void)state;
+    enum { ROWS = 32, LAST = LMP_GGX_TEXELS - ROWS };
+    static float texels[4 * LMP_GGX_TEXELS + 1];
+    texels[4 * LMP_GGX_TEXELS] = 7;
+    lmp_lobe_ggx_texels(texels);
+    for (int i = 0; i < ROWS; i++) {
+        const float *texel = texels + 4 * (LAST + i);
+        assert_true(texel[0] > 0 && texel[0] < 1 && texel[1] > 0);
+        assert_true(texel[2] == 0 && texel[3] == 0);
+    }
+    assert_true(texels[4 * LMP_GGX_TEXELS] == 7);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_exact_side_is_within_a_proven_enclosure),
@@ -320,6 +336,7 @@ int main(void) {
         cmocka_unit_test(lobes_change_smoothly_with_view_and_roughness),
         cmocka_unit_test(beyond_the_table_lobes_stay_as_at_its_edge),
         cmocka_unit_test(axes_lie_in_the_plane_of_incidence_on_the_mirror_side),
+        cmocka_unit_test(texels_hold_the_lobes_and_else_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
