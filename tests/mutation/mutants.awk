@@ -23,7 +23,8 @@ BEGIN {
     }
     rest = line
     for (at = 0; match(rest, /[^A-Za-z0-9_.][0-9]+/); ) {
-        print NR "\t" at + RSTART + 1 "\t" RLENGTH - 1 "\t" substr(rest, RSTART + 1, RLENGTH - 1) + 1
+        if (substr(rest, RSTART + RLENGTH, 1) != "x") # but those of 16 digits
+            print NR "\t" at + RSTART + 1 "\t" RLENGTH - 1 "\t" substr(rest, RSTART + 1, RLENGTH - 1) + 1
         at += RSTART + RLENGTH - 1
         rest = substr(rest, RSTART + RLENGTH)
     }

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: MIT
-# sh tests/mutation/mutate.sh [COUNT [FOLDER]]: whether the tests notice COUNT small changes (by default 40), drawn
-# evenly from those that mutants.awk makes of the files below, or of those in FOLDER alone. Works on a copy of the
-# tree in build/mutation; prints the survivors, as FILE:LINE:COLUMN: THE CHANGED LINE, and the score. Many survivors
-# change nothing that could be seen: those that leave the compiled tests as they were are counted apart, as the same,
-# and those of equivalent.txt (file, changed line and why nothing differs, between tabs) as equivalent.
-# build/mutation/build.results has the verdicts so far, and a stopped run goes on from there.
+# sh tests/mutation/mutate.sh [COUNT [FOLDER]]: whether the tests notice COUNT small changes (by default 40) of those
+# that mutants.awk makes of the files below, or of those in FOLDER alone. Which are drawn depends on their text, so
+# that a draw stays nearly the same while the sources grow. Works on a copy of the tree in build/mutation; prints the
+# survivors, as FILE:LINE:COLUMN: THE CHANGED LINE, and the score. Survivors are tried once more by programs with
+# sanitizers, which see reads and writes past an end. Many change nothing that could be seen: those that leave the
+# compiled tests as they were are counted apart, as the same, and those of equivalent.txt (file, changed line and why
+# nothing differs, between tabs) as equivalent. build/mutation/results has the verdicts so far: a stopped run goes on
+# from there, and what is taken out of it is judged anew.
 set -eu
 cd "$(dirname "$0")/../.."
 count=${1:-40} folder=${2:-}
-tree=$PWD/build/mutation/tree
-build=$PWD/build/mutation/build
+work=$PWD/build/mutation
+tree=$work/tree results=$work/results log=$work/log
 
 # What is changed, and the tests that should notice, the quickest first; the first row that names a file counts.
 # Tables that programs wrote stay as they are: a test of their own compares them with what their generator writes.
@@ -66,66 +68,95 @@ END
 
 mkdir -p "$tree"
 git ls-files -z | tar -c --null -T - | tar -x -C "$tree"
+touch "$results"
 target() { echo "test_$1" | tr . _; }
-# make TEST…: their programs.
+# make BUILD TEST…: their programs.
 make() {
-    timeout 300 cmake --build "$build" --target $(for test; do target "$test"; done) >"$build.log" 2>&1
+    build=$1
+    shift
+    timeout 600 cmake --build "$build" --target $(for test; do target "$test"; done) >"$log" 2>&1
 }
-tests=$(subjects | cut -d' ' -f2- | tr ' ' '\n' | sort -u)
-{
+
+# prepare BUILD SANITIZERS TEST…: what each test is without a change, that it passes, and for how long it may run.
+prepare() {
+    build=$1 sanitizers=$2
+    shift 2
     # one instruction set: it compiles in a third of the time, and gives the same bits; assertions stay in
-    cmake -G Ninja -S "$tree" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O2 -DLAMPION_SIMD=OFF
-    cmake --build "$build" --target $(for test in $tests; do target "$test"; done)
-} >"$build.log" 2>&1 || { tail -n 20 "$build.log"; exit 1; }
-
-# What each test is without a change, and that it passes.
-for test in $tests; do
-    program=$(find "$build/tests" -name "$(target "$test")" -type f)
-    echo "$test $program $(cksum <"$program")"
-done >"$build.programs"
-ctest --test-dir "$build" -R "^($(echo $tests | tr ' ' '|'))\$" >"$build.log" 2>&1 || { tail -n 20 "$build.log"; exit 1; }
-
-subjects | while read -r file tests; do
-    awk -f tests/mutation/mutants.awk "$file" | sed "s|^|$file\t|; s|\$|\t$tests|"
-done >"$build.all"
-total=$(wc -l <"$build.all")
-awk -v count="$count" -v total="$total" 'int(NR * count / total) > int((NR - 1) * count / total)' \
-    "$build.all" >"$build.drawn.new"
-# A run that was stopped goes on where it was.
-cmp -s "$build.drawn" "$build.drawn.new" || rm -f "$build.results"
-mv "$build.drawn.new" "$build.drawn"
-touch "$build.results"
-
-# verdict TEST…: of the change that is in place. A program that is what it was before has nothing to notice.
-verdict() {
-    result=same
+    cmake -G Ninja -S "$tree" -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O2 -DLAMPION_SIMD=OFF \
+        -DLAMPION_SANITIZE="$sanitizers" >"$log" 2>&1 || { tail -n 20 "$log"; exit 1; }
+    timeout 3600 cmake --build "$build" --target $(for test; do target "$test"; done) >"$log" 2>&1 ||
+        { tail -n 20 "$log"; exit 1; }
+    : >"$build.programs"
     for test; do
-        make "$test" || { echo invalid; return; }
-        read -r name program sum <<END
+        began=$(date +%s)
+        ctest --test-dir "$build" -R "^$test\$" >"$log" 2>&1 || { tail -n 20 "$log"; exit 1; }
+        program=$(find "$build/tests" -name "$(target "$test")" -type f)
+        echo "$test $program $(cksum <"$program" | tr ' ' _) $((20 + 5 * ($(date +%s) - began)))" >>"$build.programs"
+    done
+}
+
+# verdict BUILD TEST…: of the change that is in place. A program that is what it was before has nothing to notice.
+verdict() {
+    build=$1 result=same
+    shift
+    for test; do
+        make "$build" "$test" || { echo invalid; return; }
+        read -r name program sum limit <<END
 $(grep "^$test " "$build.programs")
 END
-        [ "$(cksum <"$program")" != "$sum" ] || continue
+        [ "$(cksum <"$program" | tr ' ' _)" != "$sum" ] || continue
         result=survived
-        ctest --test-dir "$build" -R "^$name\$" --timeout 60 >"$build.log" 2>&1 || { echo "killed by $name"; return; }
+        ctest --test-dir "$build" -R "^$name\$" --timeout "$limit" >"$log" 2>&1 || { echo "killed by $name"; return; }
     done
     echo "$result"
 }
 
 tab=$(printf '\t')
-tail -n +$(($(wc -l <"$build.results") + 1)) "$build.drawn" |
+# judge BUILD: each mutant of the input, for the results.
+judge() {
     while IFS=$tab read -r file line column length text tests; do
         awk -v line="$line" -v column="$column" -v length_="$length" -v text="$text" '
             NR == line { $0 = substr($0, 1, column - 1) text substr($0, column + length_) } { print }' \
             "$file" >"$tree/$file"
-        changed=$(sed -n "${line}s/^ *//p" "$tree/$file") result=$(verdict $tests </dev/null)
-        if [ "$result" = survived ] && grep -qF "$file$tab$changed$tab" tests/mutation/equivalent.txt; then
+        changed=$(sed -n "${line}s/^ *//p" "$tree/$file")
+        if grep -qF "$file$tab$changed$tab" tests/mutation/equivalent.txt; then
             result=equivalent
+        else
+            result=$(verdict "$1" $tests </dev/null)
         fi
-        printf '%s\n' "$result: $file:$line:$column: $changed" >>"$build.results"
+        printf '%s: %s\n' "$result" "$file:$line:$column: $changed"
         cp "$file" "$tree/$file"
     done
-grep '^survived' "$build.results" || true
+}
+
+# with VERDICT: the drawn mutants whose results begin so; nothing: those that have none yet.
+with() {
+    awk -F '\t' -v wanted="$1" '
+        FILENAME == ARGV[1] { at = index($0, ": "); split(substr($0, at + 2), place, ": "); verdict[place[1]] = substr($0, 1, at - 1); next }
+        { place[1] = $1 ":" $2 ":" $3 }
+        wanted == "" ? !(place[1] in verdict) : index(verdict[place[1]], wanted) == 1' "$results" "$work/drawn"
+}
+
+subjects | while read -r file tests; do
+    awk -f tests/mutation/mutants.awk "$file" | awk -v file="$file" -v tests="$tests" -f tests/mutation/draw.awk - "$file"
+done >"$work/all"
+sort -n "$work/all" | head -n "$count" | cut -f2- | LC_ALL=C sort >"$work/drawn"
+
+with '' >"$work/left"
+prepare "$work/build" '' $(cut -f6 "$work/left" | tr ' ' '\n' | sort -u)
+judge "$work/build" <"$work/left" >>"$results"
+with survived >"$work/left"
+if [ -s "$work/left" ]; then
+    export ASAN_OPTIONS=detect_leaks=0 # drivers leak
+    prepare "$work/sanitized" address,undefined $(cut -f6 "$work/left" | tr ' ' '\n' | sort -u)
+    judge "$work/sanitized" <"$work/left" | sed 's/^same: /survived: /; s/^killed by /&sanitized /' >"$results.sanitized"
+    grep -v '^survived' "$results" >"$results.new" || true
+    cat "$results.sanitized" >>"$results.new"
+    mv "$results.new" "$results"
+fi
+
+grep '^survived' "$results" || true
 for result in killed survived equivalent same invalid; do
-    printf '%s %s  ' "$(grep -c "^$result" "$build.results" || true)" $result
+    printf '%s %s  ' "$(with $result | wc -l)" $result
 done
-echo "of $count drawn from $total"
+echo "of $count drawn from $(wc -l <"$work/all")"
