@@ -189,6 +189,14 @@ static void angles_out_of_order_or_range_are_refused(void **state) {
     expect_refusal(with_phis(5, -3.2f, 4), "'phi_i' leaves one turn");
     expect_refusal(with_phis(5, 0, 2.2f), "half or quarter turn");
     expect_refusal(with_phis(5, 0.3f, 0.3f + 1.57f), "half or quarter turn");
+    /* a thousandth more is rounding */
+    const float pi = 3.14159274f;
+    expect_refusal(with_value("theta_i", 1, pi / 2 + 0.0015f), "'theta_i' leaves 0 to pi/2");
+    expect_refusal(with_value("phi_i", 0, 2 * pi + 0.0015f), "'phi_i' leaves one turn");
+    expect_refusal(with_phis(5, -pi, pi + 0.0015f), "'phi_i' leaves one turn");
+    lmp_brdf_destroy(opened(with_value("theta_i", 1, pi / 2 + 0.0005f)));
+    lmp_brdf_destroy(opened(with_value("phi_i", 0, 2 * pi + 0.0005f)));
+    lmp_brdf_destroy(opened(with_phis(5, -pi, pi + 0.0005f)));
     lmp_brdf_destroy(opened(with_phis(5, 0, 1.5708f)));
     lmp_brdf_destroy(opened(with_phis(5, 0.3f, 0.3f + 3.1416f)));
     const float flat_spectrum[2] = { 1, 1 };
