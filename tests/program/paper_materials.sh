@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+# The step of materials of lampion paper: five, each within 20 bands and past them; what the page says of the paper's
+# words follows from its rows.
+set -eu
+. tests/checks/common.sh
+
+"$PROGRAM" paper -o "$WORK/materials" --step materials >/dev/null || fail "the step of materials fails"
+! grep -q 'class="failed"' "$WORK/materials/index.html" || fail "the step of materials failed"
+# verdict HOLDS TEXT: that of the claim
+judged() {
+    told="does not hold"
+    [ "$1" = 0 ] || told=holds
+    grep -q "^\"\?$2.*,$told," "$WORK/materials/verdict.csv" ||
+        fail "not \"$told\": $(cat "$WORK/materials/verdict.csv" "$WORK/materials/figure6.csv")"
+}
+set -- $(awk -F, 'BEGIN { few = many = 1 } /^[a-e],/ {
+        rows[$1 " " $4]++
+        if ($4 == "noise alone") noisy += !($6 < 0.005)
+        if ($4 == 10 && $1 < "d") few = few && $6 <= 0.02
+        if ($4 == 100 && $1 > "c") many = many && $6 > 0.02
+    }
+    END {
+        for (i = 1; i <= 5; i++)
+            for (k = split("10 20 100", bands, " "); k; k--) missing += rows[substr("abcde", i, 1) " " bands[k]] != 1
+        print few, many, missing, noisy + 0
+    }' "$WORK/materials/figure6.csv")
+[ "$3" = 0 ] || fail "materials without a row of 10, 20 or 100 bands: $(cat "$WORK/materials/figure6.csv")"
+[ "$4" = 0 ] || fail "the truths are too noisy to judge by: $(cat "$WORK/materials/figure6.csv")"
+judged "$1" '10 bands are enough for materials (a) to (c) up to 70°'
+judged "$2" 'materials (d) and (e) need more than a hundred bands'
+grep -q 'more than about 70° from the' "$WORK/materials/index.html" || fail "the page hides the angles that the paper leaves out"
