@@ -2,79 +2,101 @@
 #include "app/shadow/point.h"
 
 #include "app/scene/vector.h"
+#include "app/shadow/wide.h"
 
 /* The triangle of a pixel is looked for this many lifts before and behind its position. */
 static const float near_lifts = 10;
 
-static lmp_vec3 lane_of(const shadow_vectors *v, int lane) {
-    return vec(v->of[0][lane], v->of[1][lane], v->of[2][lane]);
-}
-
-static void set_lane(shadow_vectors *v, int lane, lmp_vec3 value) {
-    v->of[0][lane] = value.x;
-    v->of[1][lane] = value.y;
-    v->of[2][lane] = value.z;
-}
-
 /* --- where rays start ------------------------------------------------------------------------- */
+
+/* Triangles beside each other, and where on them the points lie. */
+typedef struct triangle_lanes {
+    shadow_vectors corners[3], normals[3];
+    shadow_lanes weights[3];
+} triangle_lanes;
+
+static void set_triangle(const shadow_view *view, const trace_hit *hit, int lane,
+                         triangle_lanes *t) {
+    const scene_vertex *corners[3];
+    double weights[3];
+    trace_corners(view->scene, hit, corners, weights);
+    for (int i = 0; i < 3; i++) {
+        shadow_set_lane(&t->corners[i], lane, vec_load(corners[i]->position));
+        shadow_set_lane(&t->normals[i], lane, vec_load(corners[i]->normal));
+        t->weights[i][lane] = (float)weights[i];
+    }
+}
+
+/* How far the smooth surface bulges past the triangle at a point of it. */
+static float bulge(const triangle_lanes *t, int lane, lmp_vec3 at) {
+    float height = 0;
+    for (int i = 0; i < 3; i++) {
+        const lmp_vec3 to_corner = vec_sub(shadow_lane(&t->corners[i], lane), at);
+        height +=
+            0.5f * t->weights[i][lane] * vec_dot(to_corner, shadow_lane(&t->normals[i], lane));
+    }
+    return height;
+}
+
+static lmp_vec3 mix(const shadow_vectors corners[3], const shadow_lanes weights[3], int lane) {
+    return vec_add(vec_scale(shadow_lane(&corners[0], lane), weights[0][lane]),
+                   vec_add(vec_scale(shadow_lane(&corners[1], lane), weights[1][lane]),
+                           vec_scale(shadow_lane(&corners[2], lane), weights[2][lane])));
+}
 
 /* A smooth normal says that the surface bulges past its flat triangle: a ray that starts on the
  * triangle would meet its neighbors. So it starts as high as the surface of second degree that has
  * the corners' normals, which lies half as far off the triangle as the corners' tangent planes,
  * and, against rounding, a little off the triangle. Hollows stay where they are drawn. */
-static void leave_triangle(const shadow_view *view, const trace_hit *hit, int lane,
-                           shadow_points *p) {
-    const scene_vertex *corners[3];
-    double weights[3];
-    lmp_vec3 at = { 0, 0, 0 }, sum = { 0, 0, 0 };
-    float height = 0;
-    trace_corners(view->scene, hit, corners, weights);
-    const lmp_vec3 a = vec_load(corners[0]->position);
-    const lmp_vec3 face = vec_normalize(vec_cross(vec_sub(vec_load(corners[1]->position), a),
-                                                  vec_sub(vec_load(corners[2]->position), a)),
-                                        vec(0, 1, 0));
-    const float side = vec_dot(face, lane_of(&p->view, lane)) < 0 ? -1.0f : 1.0f;
-    for (int i = 0; i < 3; i++) {
-        at = vec_add(at, vec_scale(vec_load(corners[i]->position), (float)weights[i]));
-        sum = vec_add(sum, vec_scale(vec_load(corners[i]->normal), (float)weights[i] * side));
+static SHADOW_WIDE void leave_triangles(const triangle_lanes *t, float lift, shadow_points *p) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 a = shadow_lane(&t->corners[0], i);
+        const lmp_vec3 cross = vec_cross(vec_sub(shadow_lane(&t->corners[1], i), a),
+                                         vec_sub(shadow_lane(&t->corners[2], i), a));
+        const float area = vec_length(cross), scale = 1 / (area > 0 ? area : 1);
+        const lmp_vec3 face = { cross.x * scale, area > 0 ? cross.y * scale : 1, cross.z * scale };
+        const float side = vec_dot(face, shadow_lane(&p->view, i)) < 0 ? -1.0f : 1.0f;
+        const lmp_vec3 at = mix(t->corners, t->weights, i), sum = mix(t->normals, t->weights, i);
+        const float length = vec_length(sum), to_unit = side / (length > 0 ? length : 1);
+        const lmp_vec3 smooth = { length > 0 ? sum.x * to_unit : side * face.x,
+                                  length > 0 ? sum.y * to_unit : side * face.y,
+                                  length > 0 ? sum.z * to_unit : side * face.z };
+        const float height = side * bulge(t, i, at), off = height > 0 ? height : 0;
+        shadow_set_lane(&p->smooth, i, smooth);
+        shadow_set_lane(&p->origin, i,
+                        vec_add(vec_add(at, vec_scale(smooth, off)), vec_scale(face, side * lift)));
     }
-    for (int i = 0; i < 3; i++) {
-        const lmp_vec3 to_corner = vec_sub(vec_load(corners[i]->position), at);
-        const lmp_vec3 normal = vec_load(corners[i]->normal);
-        height += 0.5f * (float)weights[i] * side * vec_dot(to_corner, normal);
-    }
-    const lmp_vec3 smooth = vec_normalize(sum, vec_scale(face, side));
-    const lmp_vec3 start = vec_add(at, vec_scale(smooth, fmaxf(height, 0)));
-    set_lane(&p->smooth, lane, smooth);
-    set_lane(&p->origin, lane, vec_add(start, vec_scale(face, side * view->lift)));
 }
 
 /* Where rounding hides the triangle from the ray, what the pixel knows serves. */
 static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
-    const lmp_vec3 normal = lane_of(&p->normal, lane);
-    set_lane(&p->smooth, lane, normal);
-    set_lane(&p->origin, lane,
-             vec_add(lane_of(&p->position, lane), vec_scale(normal, near_lifts * view->lift)));
+    const lmp_vec3 normal = shadow_lane(&p->normal, lane);
+    shadow_set_lane(&p->smooth, lane, normal);
+    shadow_set_lane(
+        &p->origin, lane,
+        vec_add(shadow_lane(&p->position, lane), vec_scale(normal, near_lifts * view->lift)));
 }
 
 static void find_origins(const shadow_view *view, shadow_points *p) {
     const float before = near_lifts * view->lift;
+    triangle_lanes triangles = { 0 };
     trace_rays rays;
     trace_hit hits[SHADOW_LANES];
-    for (int i = 0; i < SHADOW_LANES; i++) {
+    for (int i = 0; i < SHADOW_LANES; i++)
         rays.length[i] = p->lit[i] ? 2 * before : -1;
-        for (int c = 0; c < 3; c++) {
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < SHADOW_LANES; i++) {
             rays.origin[c][i] = p->position.of[c][i] + before * p->view.of[c][i];
             rays.direction[c][i] = -p->view.of[c][i];
         }
-    }
     trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
-    for (int i = 0; i < SHADOW_LANES; i++) {
+    for (int i = 0; i < SHADOW_LANES; i++)
         if (p->lit[i] && hits[i].mesh != TRACE_NOTHING)
-            leave_triangle(view, &hits[i], i, p);
-        else if (p->lit[i])
+            set_triangle(view, &hits[i], i, &triangles);
+    leave_triangles(&triangles, view->lift, p);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        if (p->lit[i] && hits[i].mesh == TRACE_NOTHING)
             leave_pixel(view, i, p);
-    }
 }
 
 /* --- what they reflect ------------------------------------------------------------------------ */
@@ -98,6 +120,9 @@ static void set_material(const lmp_material *m, float least, int i, shadow_point
     if (m->kind != LMP_MATERIAL_METALLIC_ROUGHNESS) {
         p->albedo[i] = p->shine[i] = 0.5f;
         p->alpha2[i] = least;
+        p->f90[i] = 0;
+        shadow_set_lane(&p->diffuse, i, vec(0, 0, 0));
+        shadow_set_lane(&p->f0, i, vec(0, 0, 0));
         return;
     }
     for (int c = 0; c < 3; c++) {
@@ -119,7 +144,7 @@ static void set_coat(const gpu_row *row, int x, float least, int i, shadow_point
     lmp_vec3 normal = { 0, 0, 0 }, mirror = { 0, 0, 0 };
     p->coat[i] = p->coat_alpha2[i] = 0;
     if (coated) {
-        const lmp_vec3 view = lane_of(&p->view, i);
+        const lmp_vec3 view = shadow_lane(&p->view, i);
         normal = vec(row->coat_normal[0][x], row->coat_normal[1][x], row->coat_normal[2][x]);
         p->coat[i] = lmp_material_coated(coat, normal, view);
         p->coat_alpha2[i] =
@@ -129,8 +154,8 @@ static void set_coat(const gpu_row *row, int x, float least, int i, shadow_point
         p->shine[i] *= 1 - p->coat[i];
         p->coated = true;
     }
-    set_lane(&p->coat_normal, i, normal);
-    set_lane(&p->coat_mirror, i, mirror);
+    shadow_set_lane(&p->coat_normal, i, normal);
+    shadow_set_lane(&p->coat_mirror, i, mirror);
 }
 
 float shadow_footprint(const shadow_view *view, const gpu_row *row, int x) {
@@ -169,43 +194,69 @@ void shadow_points_set(const shadow_view *view, const gpu_row *row, const int *p
     find_origins(view, p);
 }
 
-static lmp_rgb reflect_series(const shadow_points *p, int lane, lmp_vec3 w) {
+static void reflect_series(const shadow_points *p, const shadow_vectors *directions, int lane,
+                           shadow_vectors *k) {
     const lmp_light light = { .kind = LMP_LIGHT_DIRECTIONAL,
-                              .direction = w,
+                              .direction = shadow_lane(directions, lane),
                               .irradiance = { 1, 1, 1 } };
-    const lmp_surface surface = { .position = lane_of(&p->position, lane),
-                                  .normal = lane_of(&p->normal, lane),
-                                  .view = lane_of(&p->view, lane),
-                                  .coat_normal = lane_of(&p->coat_normal, lane) };
-    return lmp_shade(p->settings, p->material[lane], &surface, &light, 1);
+    const lmp_surface surface = { .position = shadow_lane(&p->position, lane),
+                                  .normal = shadow_lane(&p->normal, lane),
+                                  .view = shadow_lane(&p->view, lane),
+                                  .coat_normal = shadow_lane(&p->coat_normal, lane) };
+    const lmp_rgb rgb = lmp_shade(p->settings, p->material[lane], &surface, &light, 1);
+    shadow_set_lane(k, lane, vec(rgb.r, rgb.g, rgb.b));
 }
 
-/* GGX and its masking, times the cosine of w; h is half way between v and w. */
-static float glossy(lmp_vec3 n, lmp_vec3 v, lmp_vec3 w, lmp_vec3 h, float a2) {
-    const float in = vec_dot(n, w), out = fmaxf(vec_dot(n, v), 1e-3f);
-    const float nh = vec_dot(n, h), peak = nh * nh * (a2 - 1) + 1;
+/* GGX and its masking, times the cosine with the light; `out` is that with the viewer, and `half`
+ * that with the direction half way between. */
+static float glossy(float in, float out, float half, float a2) {
+    const float held = out > 1e-3f ? out : 1e-3f, peak = half * half * (a2 - 1) + 1;
     const float masking =
-        in * sqrtf(out * out * (1 - a2) + a2) + out * sqrtf(in * in * (1 - a2) + a2);
-    return in > 0 ? in * a2 / (2 * PI * peak * peak * masking) : 0;
+        in * sqrtf(held * held * (1 - a2) + a2) + held * sqrtf(in * in * (1 - a2) + a2);
+    const float value = in * a2 / (2 * PI * peak * peak * (in > 0 ? masking : 1));
+    return in > 0 ? value : 0;
 }
 
-lmp_rgb shadow_reflect(const shadow_points *p, int lane, lmp_vec3 w) {
-    if (p->material[lane]->kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
-        return reflect_series(p, lane, w);
-    const lmp_vec3 n = lane_of(&p->normal, lane), v = lane_of(&p->view, lane);
-    const float in = fmaxf(vec_dot(n, w), 0), coat = p->coat[lane];
-    const lmp_vec3 h = vec_normalize(vec_add(v, w), n);
-    const float across = 1 - fminf(fabsf(vec_dot(v, h)), 1);
-    const float square = across * across, grazing = square * square * across;
-    const float specular = glossy(n, v, w, h, p->alpha2[lane]);
-    const float over =
-        coat > 0 ? coat * glossy(lane_of(&p->coat_normal, lane), v, w, h, p->coat_alpha2[lane]) : 0;
-    float k[3];
-    for (int c = 0; c < 3; c++) {
-        const float f0 = p->f0.of[c][lane];
-        const float under =
-            p->diffuse.of[c][lane] / PI * in + specular * (f0 + (p->f90[lane] - f0) * grazing);
-        k[c] = (1 - coat) * under + over;
+/* The direction half way between v and w; where they are opposite there is none, and no light. */
+static lmp_vec3 half_way(lmp_vec3 v, lmp_vec3 w) {
+    const lmp_vec3 sum = vec_add(v, w);
+    const float length = vec_length(sum);
+    return vec_scale(sum, 1 / (length > 0 ? length : 1));
+}
+
+static SHADOW_WIDE void reflect_bare(const shadow_points *p, const shadow_vectors *directions,
+                                     shadow_vectors *k) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 n = shadow_lane(&p->normal, i), v = shadow_lane(&p->view, i);
+        const lmp_vec3 w = shadow_lane(directions, i), h = half_way(v, w);
+        const float in = vec_dot(n, w), lit = in > 0 ? in / PI : 0;
+        const float along = fabsf(vec_dot(v, h)), across = 1 - (along < 1 ? along : 1);
+        const float square = across * across, grazing = square * square * across;
+        const float specular = glossy(in, vec_dot(n, v), vec_dot(n, h), p->alpha2[i]);
+        for (int c = 0; c < 3; c++) {
+            const float f0 = p->f0.of[c][i];
+            k->of[c][i] = p->diffuse.of[c][i] * lit + specular * (f0 + (p->f90[i] - f0) * grazing);
+        }
     }
-    return rgb_load(k);
+}
+
+static SHADOW_WIDE void add_coats(const shadow_points *p, const shadow_vectors *directions,
+                                  shadow_vectors *k) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 n = shadow_lane(&p->coat_normal, i), v = shadow_lane(&p->view, i);
+        const lmp_vec3 w = shadow_lane(directions, i), h = half_way(v, w);
+        const float coat = p->coat[i];
+        const float over = glossy(vec_dot(n, w), vec_dot(n, v), vec_dot(n, h), p->coat_alpha2[i]);
+        for (int c = 0; c < 3; c++)
+            k->of[c][i] = (1 - coat) * k->of[c][i] + (coat > 0 ? coat * over : 0);
+    }
+}
+
+void shadow_reflect(const shadow_points *p, const shadow_vectors *w, shadow_vectors *k) {
+    reflect_bare(p, w, k);
+    if (p->coated)
+        add_coats(p, w, k);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        if (p->lit[i] && p->material[i]->kind != LMP_MATERIAL_METALLIC_ROUGHNESS)
+            reflect_series(p, w, i, k);
 }

@@ -14,6 +14,16 @@ typedef struct shadow_vectors {
     shadow_lanes of[3];
 } shadow_vectors;
 
+static inline lmp_vec3 shadow_lane(const shadow_vectors *v, int lane) {
+    return (lmp_vec3) { v->of[0][lane], v->of[1][lane], v->of[2][lane] };
+}
+
+static inline void shadow_set_lane(shadow_vectors *v, int lane, lmp_vec3 value) {
+    v->of[0][lane] = value.x;
+    v->of[1][lane] = value.y;
+    v->of[2][lane] = value.z;
+}
+
 typedef struct shadow_points {
     bool lit[SHADOW_LANES]; /* there is one; the rest means nothing elsewhere */
     shadow_vectors position, normal, view, mirror;
@@ -50,8 +60,9 @@ float shadow_footprint(const shadow_view *view, const gpu_row *row, int x);
 void shadow_points_set(const shadow_view *view, const gpu_row *row, const int *pixels, int count,
                        shadow_points *points);
 
-/* f_r cos(theta) of light from the unit direction w at one of the points, never negative: glTF's
- * own, but no sharper than the bands resolve; of tables, the series. */
-lmp_rgb shadow_reflect(const shadow_points *points, int lane, lmp_vec3 w);
+/* f_r cos(theta), red, green and blue, of light from a unit direction w at each of the points,
+ * never negative: glTF's own, but no sharper than the bands resolve; of tables, the series. Of
+ * points that are not lit it is nonsense. */
+void shadow_reflect(const shadow_points *points, const shadow_vectors *w, shadow_vectors *k);
 
 #endif

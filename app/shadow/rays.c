@@ -5,23 +5,20 @@
 #include "app/shadow/sequence.h"
 #include "app/shadow/wide.h"
 
+#include <float.h>
 #include <string.h>
 
 /* One ray a lane, and what it stands for. */
 typedef struct ray_shot {
     trace_rays rays;
-    shadow_lanes size; /* of the light, as in shadow_sample */
-    lmp_rgb value[SHADOW_LANES];
+    shadow_lanes size, mean; /* of the light, as in shadow_samples; of the value's colors */
+    shadow_vectors value;
 } ray_shot;
 
 /* Of the values of planes.h. */
 typedef struct shadow_sums {
     shadow_lanes of[SHADOW_VALUES];
 } shadow_sums;
-
-static float mean_of(lmp_rgb rgb) {
-    return (rgb.r + rgb.g + rgb.b) * (1 / 3.0f);
-}
 
 /* The next numbers in 0 … 1 of every pixel. */
 static SHADOW_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
@@ -44,61 +41,89 @@ static SHADOW_WIDE void choose(const shadow_job *job, shadow_lanes *weights, con
             chosen[i] += weights[s][i] <= u[i] * weights[last][i];
 }
 
-static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *weights, int source,
-                shadow_lanes *u, int i, ray_shot *shot) {
-    const float weight = weights[source][i] - (source > 0 ? weights[source - 1][i] : 0);
-    shot->rays.length[i] = -1;
-    shot->value[i] = (lmp_rgb) { 0, 0, 0 };
-    if (!p->lit[i] || !(weight > 0))
-        return;
-    const lmp_vec3 at = { p->position.of[0][i], p->position.of[1][i], p->position.of[2][i] };
-    const shadow_sample sample = shadow_source_draw(&job->sources[source], at, u[1][i], u[2][i]);
-    const lmp_rgb k = shadow_reflect(p, i, sample.direction);
-    const float heeded = job->sources[source].kind == SHADOW_AROUND ? p->ambient[i] : 1;
-    const float scale = heeded / weight;
-    const lmp_rgb value = { sample.arrives.r * k.r * scale, sample.arrives.g * k.g * scale,
-                            sample.arrives.b * k.b * scale };
-    const float mean = mean_of(value);
-    if (!(mean > 0) || !isfinite(mean))
-        return;
-    shot->value[i] = value;
-    shot->size[i] = sample.size;
-    shot->rays.length[i] = sample.length;
-    for (int c = 0; c < 3; c++)
-        shot->rays.origin[c][i] = p->origin.of[c][i];
-    shot->rays.direction[0][i] = sample.direction.x;
-    shot->rays.direction[1][i] = sample.direction.y;
-    shot->rays.direction[2][i] = sample.direction.z;
+/* The probability with which each was chosen, in parts of the pixel's guess of what it gets; 0
+ * where nothing is to be sent. */
+static void weigh_choice(const shadow_points *p, shadow_lanes *weights, const int *chosen,
+                         shadow_lanes weight) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const int source = chosen[i];
+        const float before = source > 0 ? weights[source - 1][i] : 0;
+        weight[i] = p->lit[i] ? weights[source][i] - before : 0;
+    }
 }
 
-/* How wide the half-shadow is of what hides a light, at least half a pixel. */
-static float penumbra_of(const ray_shot *shot, int i, float distance, float footprint) {
-    const float length = shot->rays.length[i];
-    const float beyond = isfinite(length) ? length / (length - distance) : 1;
-    return 2 * shot->size[i] * distance * beyond + 0.6f * footprint;
+/* What each ray brings; rays that would bring nothing are not sent. */
+static SHADOW_WIDE void value_rays(const shadow_samples *samples, const shadow_vectors *k,
+                                   const float *weight, ray_shot *shot) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float scale = 1 / (weight[i] > 0 ? weight[i] : 1);
+        const float r = samples->arrives.of[0][i] * k->of[0][i] * scale;
+        const float g = samples->arrives.of[1][i] * k->of[1][i] * scale;
+        const float b = samples->arrives.of[2][i] * k->of[2][i] * scale;
+        const float mean = weight[i] > 0 ? (r + g + b) * (1 / 3.0f) : 0;
+        const bool sent = mean > 0 && mean <= FLT_MAX;
+        shot->mean[i] = sent ? mean : 0;
+        shot->value.of[0][i] = sent ? r : 0;
+        shot->value.of[1][i] = sent ? g : 0;
+        shot->value.of[2][i] = sent ? b : 0;
+        shot->rays.length[i] = sent ? samples->length[i] : -1;
+    }
+}
+
+static void aim(const shadow_job *job, const shadow_points *p, shadow_lanes *weights,
+                const int *chosen, shadow_lanes *u, ray_shot *shot) {
+    const shadow_source *sources[SHADOW_LANES];
+    shadow_samples samples;
+    shadow_vectors k;
+    shadow_lanes weight;
+    for (int i = 0; i < SHADOW_LANES; i++)
+        sources[i] = &job->sources[chosen[i]];
+    shadow_sources_draw(sources, &p->position, u[1], u[2], &samples);
+    shadow_reflect(p, &samples.direction, &k);
+    weigh_choice(p, weights, chosen, weight);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        if (sources[i]->kind == SHADOW_AROUND)
+            shadow_set_lane(&samples.arrives, i,
+                            vec_scale(shadow_lane(&samples.arrives, i), p->ambient[i]));
+    value_rays(&samples, &k, weight, shot);
+    memcpy(shot->size, samples.size, sizeof shot->size);
+    memcpy(shot->rays.origin, p->origin.of, sizeof shot->rays.origin);
+    memcpy(shot->rays.direction, samples.direction.of, sizeof shot->rays.direction);
+}
+
+/* Over how wide the half-shadow is of what hides a light, at least half a pixel. */
+static float slope_of(float size, float length, float distance, float footprint) {
+    const float beyond = length / (length - distance);
+    return 1 / (2 * size * distance * (length <= FLT_MAX ? beyond : 1) + 0.6f * footprint);
 }
 
 /* Adds what the rays have found to the pixels' sums. */
-static size_t add_shot(const ray_shot *shot, const trace_hit hits[SHADOW_LANES],
-                       const shadow_points *points, shadow_sums *sums) {
-    size_t count = 0;
+static SHADOW_WIDE void add_shot(const ray_shot *shot, const float *distances,
+                                 const shadow_points *points, shadow_sums *sums) {
     for (int i = 0; i < SHADOW_LANES; i++) {
-        const lmp_rgb value = shot->value[i];
-        const float distance = hits[i].distance;
-        if (shot->rays.length[i] < 0)
-            continue;
-        count++;
-        const bool hidden = hits[i].mesh != TRACE_NOTHING && distance < shot->rays.length[i];
-        const float rgb[3] = { value.r, value.g, value.b }, mean = mean_of(value);
+        const float length = shot->rays.length[i], mean = shot->mean[i];
+        const bool hidden = distances[i] < length;
+        const float slope =
+            slope_of(shot->size[i], length, hidden ? distances[i] : 0, points->footprint[i]);
         for (int c = 0; c < 3; c++) {
-            sums->of[SHADOW_ALL + c][i] += rgb[c];
-            sums->of[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : rgb[c];
+            const float value = shot->value.of[c][i];
+            sums->of[SHADOW_ALL + c][i] += value;
+            sums->of[SHADOW_UNHIDDEN + c][i] += hidden ? 0 : value;
         }
         sums->of[SHADOW_WEIGHT][i] += mean;
-        if (!hidden)
-            continue;
-        sums->of[SHADOW_HIDDEN][i] += mean;
-        sums->of[SHADOW_SLOPE][i] += mean / penumbra_of(shot, i, distance, points->footprint[i]);
+        sums->of[SHADOW_HIDDEN][i] += hidden ? mean : 0;
+        sums->of[SHADOW_SLOPE][i] += hidden ? mean * slope : 0;
+    }
+}
+
+/* Sends what has a length, and returns how many those are. */
+static size_t send(const shadow_job *job, const ray_shot *shot, shadow_lanes distances) {
+    trace_hit hits[SHADOW_LANES];
+    size_t count = 0;
+    trace_nearest_n(job->view.bvh, TRACE_LIGHT, &shot->rays, hits);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        distances[i] = hits[i].distance;
+        count += shot->rays.length[i] >= 0;
     }
     return count;
 }
@@ -114,14 +139,13 @@ static size_t send_rays(const shadow_job *job, const shadow_points *points, cons
     for (int ray = 0; ray < job->rays; ray++) {
         shadow_lanes u[3];
         int chosen[SHADOW_LANES];
+        shadow_lanes distances;
         ray_shot shot;
-        trace_hit hits[SHADOW_LANES];
         draw(sequences, (uint32_t)ray, u);
         choose(job, weights, u[0], chosen);
-        for (int i = 0; i < SHADOW_LANES; i++)
-            aim(job, points, weights, chosen[i], u, i, &shot);
-        trace_nearest_n(job->view.bvh, TRACE_LIGHT, &shot.rays, hits);
-        count += add_shot(&shot, hits, points, sums);
+        aim(job, points, weights, chosen, u, &shot);
+        count += send(job, &shot, distances);
+        add_shot(&shot, distances, points, sums);
     }
     return count;
 }

@@ -59,16 +59,6 @@ size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow
 
 /* --- from a point ----------------------------------------------------------------------------- */
 
-/* Of a sphere at a distance; inside it the cap goes on growing, as in <lampion/light.h>. */
-static float one_minus_cos_of(float radius, float distance) {
-    if (distance < radius) {
-        const float s = distance / radius;
-        return 1 + sqrtf((1 - s) * (1 + s));
-    }
-    const float s = distance > 0 ? radius / distance : 1;
-    return s * s / (1 + sqrtf((1 - s) * (1 + s)));
-}
-
 /* As of KHR_lights_punctual, whose difference of cosines is held to 1e-3. */
 static float spot_falloff(const lmp_light *light, lmp_vec3 axis) {
     if (light->kind != LMP_LIGHT_SPOT)
@@ -186,77 +176,161 @@ static void weigh(const shadow_source *source, const shadow_points *p, float *we
 
 SHADOW_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
                                       const shadow_points *points, shadow_lanes *sums) {
-    shadow_lanes sum = { 0 }, weights;
+    static const shadow_lanes none = { 0 };
     for (size_t s = 0; s < count; s++) {
+        const float *before = s > 0 ? sums[s - 1] : none;
+        shadow_lanes weights;
         weigh(&sources[s], points, weights);
+#pragma omp simd
         for (int i = 0; i < SHADOW_LANES; i++)
-            sums[s][i] = sum[i] += weights[i] > 0 ? weights[i] : 0;
+            sums[s][i] = before[i] + (weights[i] > 0 ? weights[i] : 0);
     }
 }
 
-/* --- a direction ------------------------------------------------------------------------------ */
+/* --- directions ------------------------------------------------------------------------------- */
 
-/* Off the axis by that much, the part v of a turn around it: in an orthonormal basis without
- * branches at the poles (Duff et al. 2017). */
-static lmp_vec3 around_axis(lmp_vec3 axis, float one_minus_cos, float v) {
-    const float t = one_minus_cos, sine = sqrtf(t * (2 - t)), angle = 2 * PI * v;
-    const float sign = copysignf(1, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
-    const lmp_vec3 across = vec(1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
-    const lmp_vec3 along = vec(b, sign + axis.y * axis.y * a, -axis.y);
-    return vec_add(vec_scale(axis, 1 - t), vec_add(vec_scale(across, sine * cosf(angle)),
-                                                   vec_scale(along, sine * sinf(angle))));
-}
+/* The sources, beside each other. */
+typedef struct source_lanes {
+    shadow_vectors at, color; /* the center of what is near, the axis of what is far */
+    shadow_lanes radius;
+    shadow_lanes far; /* one_minus_cos of what is far, -1 of what is near */
+} source_lanes;
 
-static shadow_sample draw_sphere(const shadow_source *source, lmp_vec3 point, float u, float v) {
-    const lmp_vec3 to = vec_sub(source->light->position, point);
-    const float r = source->light->radius, distance = vec_length(to);
-    const float one_minus_cos = one_minus_cos_of(r, distance);
-    const lmp_vec3 axis = distance > 0 ? vec_scale(to, 1 / distance) : vec(0, 0, 1);
-    const float t = u * one_minus_cos, along = distance * (1 - t);
-    const float off = distance * sqrtf(t * (2 - t));
-    const float half = sqrtf(fmaxf((r - off) * (r + off), 0));
-    const float length = distance < r ? along + half : along - half;
-    return (shadow_sample) { .direction = around_axis(axis, t, v),
-                             .length = fmaxf(length, 0),
-                             .size = sine_of(one_minus_cos),
-                             .arrives = rgb_scale(source->color, 2 * PI * one_minus_cos) };
-}
+/* The caps that points see of them. */
+typedef struct seen_lanes {
+    shadow_vectors axis;
+    shadow_lanes distance, one_minus_cos;
+} seen_lanes;
 
-static shadow_sample draw_point(const shadow_source *source, lmp_vec3 point) {
-    const lmp_vec3 to = vec_sub(source->light->position, point);
-    const float distance = vec_length(to), held = fmaxf(distance, LMP_POINT_DISTANCE_MIN);
-    const lmp_vec3 w = vec_normalize(to, vec(0, 0, 1));
-    return (shadow_sample) { .direction = w,
-                             .length = distance,
-                             .arrives = rgb_scale(source->color,
-                                                  spot_falloff(source->light, w) / (held * held)) };
-}
-
-static shadow_sample draw_far(const shadow_source *source, float u, float v) {
-    const float one_minus_cos = source->one_minus_cos;
-    const float solid_angle = one_minus_cos > 0 ? 2 * PI * one_minus_cos : 1;
-    return (shadow_sample) { .direction = around_axis(source->axis, u * one_minus_cos, v),
-                             .length = INFINITY,
-                             .size = sine_of(one_minus_cos),
-                             .arrives = rgb_scale(source->color, solid_angle) };
-}
-
-static shadow_sample draw_around(const shadow_source *source, float u, float v) {
-    shadow_sample sample = { .length = INFINITY, .size = 1 };
-    sample.direction = shadow_around_draw(source->around, u, v, &sample.arrives);
-    return sample;
-}
-
-shadow_sample shadow_source_draw(const shadow_source *source, lmp_vec3 point, float u, float v) {
-    switch (source->kind) {
-    case SHADOW_SPHERE:
-        return draw_sphere(source, point, u, v);
-    case SHADOW_POINT:
-        return draw_point(source, point);
-    case SHADOW_FAR:
-        return draw_far(source, u, v);
-    case SHADOW_AROUND:
-        break;
+static void collect(const shadow_source *const sources[SHADOW_LANES], source_lanes *lanes) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const shadow_source *s = sources[i];
+        const bool near = s->kind == SHADOW_SPHERE || s->kind == SHADOW_POINT;
+        const lmp_vec3 at = near ? s->light->position : s->axis;
+        lanes->at.of[0][i] = at.x;
+        lanes->at.of[1][i] = at.y;
+        lanes->at.of[2][i] = at.z;
+        lanes->color.of[0][i] = s->color.r;
+        lanes->color.of[1][i] = s->color.g;
+        lanes->color.of[2][i] = s->color.b;
+        lanes->radius[i] = s->kind == SHADOW_SPHERE ? s->light->radius : 0;
+        lanes->far[i] = near ? -1 : s->one_minus_cos;
     }
-    return draw_around(source, u, v);
+}
+
+/* Inside a sphere the cap goes on growing, as in <lampion/light.h>. */
+static void see(const source_lanes *lanes, const shadow_vectors *positions, seen_lanes *seen) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float x = lanes->at.of[0][i] - positions->of[0][i];
+        const float y = lanes->at.of[1][i] - positions->of[1][i];
+        const float z = lanes->at.of[2][i] - positions->of[2][i];
+        const float r = lanes->radius[i], far = lanes->far[i];
+        const float distance = sqrtf(x * x + y * y + z * z);
+        const float less = distance < r ? distance : r, more = distance < r ? r : distance;
+        const float s = less / (more > 0 ? more : 1), root = sqrtf((1 - s) * (1 + s));
+        const float inside = 1 + root, outside = s * s / (1 + root);
+        const float near = distance < r ? inside : outside;
+        const float scale = 1 / (distance > 0 ? distance : 1),
+                    upward = distance > 0 ? z * scale : 1;
+        seen->axis.of[0][i] = far < 0 ? x * scale : lanes->at.of[0][i];
+        seen->axis.of[1][i] = far < 0 ? y * scale : lanes->at.of[1][i];
+        seen->axis.of[2][i] = far < 0 ? upward : lanes->at.of[2][i];
+        seen->one_minus_cos[i] = far < 0 ? near : far;
+        seen->distance[i] = distance;
+    }
+}
+
+/* Of an angle in parts of a circle, 0 … 1, within 4e-7: by their series in the eighth of a circle
+ * on either side of the nearest quarter. */
+static void sine_cosine(float part, float *sine, float *cosine) {
+    const int quarter = (int)(4 * part + 0.5f);
+    const float x = (4 * part - (float)quarter) * (PI / 2), x2 = x * x;
+    const float s = x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42)));
+    const float c = 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56)));
+    const float up = quarter & 1 ? c : s, right = quarter & 1 ? s : c;
+    *sine = quarter & 2 ? -up : up;
+    *cosine = (quarter + 1) & 2 ? -right : right;
+}
+
+/* Off the axis by the part u of the cap, the part v of a turn around it: in an orthonormal basis
+ * without branches at the poles (Duff et al. 2017). */
+static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shadow_lanes v,
+                       shadow_vectors *direction) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float t = u[i] * seen->one_minus_cos[i], off = sqrtf(t * (2 - t));
+        const float x = seen->axis.of[0][i], y = seen->axis.of[1][i], z = seen->axis.of[2][i];
+        const float sign = copysignf(1, z), a = -1 / (sign + z), b = x * y * a;
+        float sine, cosine;
+        sine_cosine(v[i], &sine, &cosine);
+        const float across = off * cosine, along = off * sine;
+        direction->of[0][i] = x * (1 - t) + (1 + sign * x * x * a) * across + b * along;
+        direction->of[1][i] = y * (1 - t) + sign * b * across + (sign + y * y * a) * along;
+        direction->of[2][i] = z * (1 - t) - sign * x * across - y * along;
+    }
+}
+
+/* To the near side of a sphere, from inside it to the far one. */
+static void end_rays(const source_lanes *lanes, const seen_lanes *seen, const shadow_lanes u,
+                     float *length) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float distance = seen->distance[i], r = lanes->radius[i];
+        const float t = u[i] * seen->one_minus_cos[i], along = distance * (1 - t);
+        const float off = distance * sqrtf(t * (2 - t));
+        const float half = sqrtf(larger((r - off) * (r + off), 0));
+        const float near = larger(distance < r ? along + half : along - half, 0);
+        length[i] = lanes->far[i] < 0 ? near : INFINITY;
+    }
+}
+
+static void bring_light(const source_lanes *lanes, const seen_lanes *seen,
+                        shadow_samples *samples) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float t = seen->one_minus_cos[i], sine = sqrtf(t * (2 - t));
+        const float solid_angle = lanes->far[i] == 0 ? 1 : 2 * PI * t;
+        samples->size[i] = t < 1 ? sine : 1;
+        for (int c = 0; c < 3; c++)
+            samples->arrives.of[c][i] = lanes->color.of[c][i] * solid_angle;
+    }
+}
+
+static SHADOW_WIDE void draw_caps(const source_lanes *lanes, const shadow_vectors *positions,
+                                  const float *u, const float *v, seen_lanes *seen,
+                                  shadow_samples *samples) {
+    see(lanes, positions, seen);
+    leave_axis(seen, u, v, &samples->direction);
+    end_rays(lanes, seen, u, samples->length);
+    bring_light(lanes, seen, samples);
+}
+
+/* A point's cap is a single direction. */
+static void draw_point(const shadow_source *source, const seen_lanes *seen, int lane,
+                       shadow_samples *samples) {
+    const float held = fmaxf(seen->distance[lane], LMP_POINT_DISTANCE_MIN);
+    const float falloff = spot_falloff(source->light, shadow_lane(&seen->axis, lane));
+    const lmp_rgb arrives = rgb_scale(source->color, falloff / (held * held));
+    shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
+}
+
+static void draw_around(const shadow_source *source, float u, float v, int lane,
+                        shadow_samples *samples) {
+    lmp_rgb arrives;
+    shadow_set_lane(&samples->direction, lane, shadow_around_draw(source->around, u, v, &arrives));
+    shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
+    samples->length[lane] = INFINITY;
+    samples->size[lane] = 1;
+}
+
+void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
+                         const shadow_vectors *positions, const shadow_lanes u,
+                         const shadow_lanes v, shadow_samples *samples) {
+    source_lanes lanes;
+    seen_lanes seen;
+    collect(sources, &lanes);
+    draw_caps(&lanes, positions, u, v, &seen, samples);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        if (sources[i]->kind == SHADOW_POINT)
+            draw_point(sources[i], &seen, i, samples);
+        if (sources[i]->kind == SHADOW_AROUND)
+            draw_around(sources[i], u[i], v[i], i, samples);
+    }
 }

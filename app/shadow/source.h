@@ -30,13 +30,18 @@ size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow
 void shadow_sources_weigh(const shadow_source *sources, size_t count, const shadow_points *points,
                           shadow_lanes *sums);
 
-/* A direction of the source as a point sees it. */
-typedef struct shadow_sample {
-    lmp_vec3 direction;
-    float length;    /* of the ray, to the light; INFINITY */
-    float size;      /* sine of the source's angular radius */
-    lmp_rgb arrives; /* radiance over the density of the direction */
-} shadow_sample;
-shadow_sample shadow_source_draw(const shadow_source *source, lmp_vec3 point, float u, float v);
+/* Directions of sources as points see them, beside each other. */
+typedef struct shadow_samples {
+    shadow_vectors direction;
+    shadow_lanes length;    /* of the ray, to the light; INFINITY */
+    shadow_lanes size;      /* sine of the source's angular radius */
+    shadow_vectors arrives; /* radiance over the density of the direction */
+} shadow_samples;
+
+/* One for each of the positions, of the source that stands there, by the uniform numbers u and v.
+ */
+void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
+                         const shadow_vectors *positions, const shadow_lanes u,
+                         const shadow_lanes v, shadow_samples *samples);
 
 #endif

@@ -5,6 +5,7 @@
 #include "app/shadow/source.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct volume_visibility {
     const scene *world;
@@ -47,25 +48,30 @@ typedef struct arrival {
 /* Rays first … first + TRACE_LANES - 1 of v->rays, spread evenly over the source. */
 static void send_rays(const volume_visibility *v, const shadow_source *source, lmp_vec3 point,
                       int first, arrival *sum) {
+    const shadow_source *sources[TRACE_LANES];
+    shadow_vectors points;
+    shadow_lanes along, around;
+    shadow_samples samples;
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
-    float arrives[TRACE_LANES];
     for (int i = 0; i < TRACE_LANES; i++) {
-        const bool sent = first + i < v->rays;
         const float number = (float)(first + i), golden = 0.618033989f * number;
-        const shadow_sample sample = shadow_source_draw(
-            source, point, sent ? (number + 0.5f) / (float)v->rays : 0, golden - floorf(golden));
-        arrives[i] = sent ? sample.arrives.r + sample.arrives.g + sample.arrives.b : 0;
-        rays.length[i] = sent ? fmaxf(sample.length - v->lift, 0) : -1;
-        for (int a = 0; a < 3; a++) {
-            rays.origin[a][i] = (&point.x)[a];
-            rays.direction[a][i] = (&sample.direction.x)[a];
-        }
+        sources[i] = source;
+        shadow_set_lane(&points, i, point);
+        along[i] = first + i < v->rays ? (number + 0.5f) / (float)v->rays : 0;
+        around[i] = golden - floorf(golden);
     }
+    shadow_sources_draw(sources, &points, along, around, &samples);
+    memcpy(rays.origin, points.of, sizeof rays.origin);
+    memcpy(rays.direction, samples.direction.of, sizeof rays.direction);
+    for (int i = 0; i < TRACE_LANES; i++)
+        rays.length[i] = first + i < v->rays ? fmaxf(samples.length[i] - v->lift, 0) : -1;
     trace_nearest_n(v->bvh, TRACE_LIGHT, &rays, hits);
-    for (int i = 0; i < TRACE_LANES; i++) {
-        sum->all += (double)arrives[i];
-        sum->unhidden += hits[i].mesh == TRACE_NOTHING ? (double)arrives[i] : 0;
+    for (int i = 0; i < TRACE_LANES && first + i < v->rays; i++) {
+        const lmp_vec3 rgb = shadow_lane(&samples.arrives, i);
+        const float arrives = rgb.x + rgb.y + rgb.z;
+        sum->all += (double)arrives;
+        sum->unhidden += hits[i].mesh == TRACE_NOTHING ? (double)arrives : 0;
     }
 }
 

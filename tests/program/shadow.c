@@ -5,12 +5,20 @@
 
 #include <math.h>
 
-static const lmp_vec3 origin = { 0, 0, 0 };
-
 static shadow_source source_of(const scene_light *light) {
     shadow_source sources[SHADOW_SOURCES(1)];
     assert_int_equal(shadow_sources_make(light, 1, NULL, sources), 1);
     return sources[0];
+}
+
+/* What the source brings to the origin, for each pair of numbers. */
+static void draw(const shadow_source *source, const shadow_lanes u, const shadow_lanes v,
+                 shadow_samples *samples) {
+    static const shadow_vectors origins = { { { 0 } } };
+    const shadow_source *sources[SHADOW_LANES];
+    for (int i = 0; i < SHADOW_LANES; i++)
+        sources[i] = source;
+    shadow_sources_draw(sources, &origins, u, v, samples);
 }
 
 static double dot(lmp_vec3 a, lmp_vec3 b) {
@@ -27,14 +35,20 @@ static void rays_to_a_sphere_end_on_it(void **state) {
                                                  .radius = r,
                                                  .radiance = { 1, 2, 3 } } };
         const shadow_source source = source_of(&light);
-        for (int k = 0; k < 20; k++) {
-            const shadow_sample s =
-                shadow_source_draw(&source, origin, (float)check_random(), (float)check_random());
-            const double length = (double)s.length, along = dot(d, s.direction);
+        shadow_lanes u, v;
+        shadow_samples samples;
+        for (int k = 0; k < SHADOW_LANES; k++) {
+            u[k] = (float)check_random();
+            v[k] = (float)check_random();
+        }
+        draw(&source, u, v, &samples);
+        for (int k = 0; k < SHADOW_LANES; k++) {
+            const lmp_vec3 direction = shadow_lane(&samples.direction, k);
+            const double length = (double)samples.length[k], along = dot(d, direction);
             const double from_middle = sqrt(fmax(
                 length * length - 2 * length * (double)away * along + (double)away * (double)away,
                 0));
-            CHECK_WITHIN(fabs(dot(s.direction, s.direction) - 1), 1e-5);
+            CHECK_WITHIN(fabs(dot(direction, direction) - 1), 1e-5);
             CHECK_WITHIN(fabs(from_middle / (double)r - 1), 2e-3);
             if (away > r)
                 CHECK_WITHIN(length, (double)away);
@@ -70,16 +84,22 @@ static void rays_bring_the_irradiance(void **state) {
     for (int i = 0; i < 5; i++) {
         const shadow_source source = source_of(&lights[i]);
         double sum[3] = { 0, 0, 0 }, across[3] = { 0, 0, 0 };
-        for (int u = 0; u < STEPS; u++)
-            for (int v = 0; v < STEPS; v++) {
-                const shadow_sample s = shadow_source_draw(
-                    &source, origin, ((float)u + 0.5f) / STEPS, ((float)v + 0.5f) / STEPS);
-                const double cosine = dot(s.direction, to) / (STEPS * STEPS);
+        for (int step = 0; step < STEPS * STEPS; step += SHADOW_LANES) {
+            shadow_lanes u, v;
+            shadow_samples samples;
+            for (int k = 0; k < SHADOW_LANES; k++) {
+                u[k] = ((float)((step + k) / STEPS) + 0.5f) / STEPS;
+                v[k] = ((float)((step + k) % STEPS) + 0.5f) / STEPS;
+            }
+            draw(&source, u, v, &samples);
+            for (int k = 0; k < SHADOW_LANES; k++) {
+                const double cosine = dot(shadow_lane(&samples.direction, k), to);
                 for (int c = 0; c < 3; c++) {
-                    sum[c] += (double)(&s.arrives.r)[c] * cosine;
-                    across[c] += (double)(&s.direction.x)[c] / (STEPS * STEPS);
+                    sum[c] += (double)samples.arrives.of[c][k] * cosine / (STEPS * STEPS);
+                    across[c] += (double)samples.direction.of[c][k] / (STEPS * STEPS);
                 }
             }
+        }
         const double size =
             sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
         for (int c = 0; c < 3; c++) {
@@ -89,10 +109,65 @@ static void rays_bring_the_irradiance(void **state) {
     }
 }
 
+/* Sources of every kind beside each other bring what each brings alone. */
+static void neighbors_do_not_mix(void **state) {
+    (void)state;
+    const scene_light lights[] = {
+        { .emitter = { .position = { 1, 2, 2 }, .radius = 1, .radiance = { 1, 2, 4 } } },
+        { .emitter = { .position = { 0.1f, 0, 0 }, .radius = 1, .radiance = { 1, 2, 4 } } },
+        { .emitter = { .kind = LMP_LIGHT_CAP,
+                       .direction = { 0, 0.6f, 0.8f },
+                       .angle = 2,
+                       .radiance = { 4, 2, 1 } } },
+        { .emitter = { .kind = LMP_LIGHT_SPOT,
+                       .position = { 0, 3, 0 },
+                       .direction = { 0, -1, 0 },
+                       .inner = 0.1f,
+                       .outer = 0.3f,
+                       .intensity = { 1, 5, 1 } } },
+        { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL,
+                       .direction = { 0, 0, -1 },
+                       .irradiance = { 3, 2, 1 } } },
+    };
+    enum { COUNT = sizeof lights / sizeof *lights };
+    shadow_source made[COUNT];
+    const shadow_source *mixed[SHADOW_LANES];
+    shadow_vectors positions;
+    shadow_lanes u, v;
+    shadow_samples together;
+    for (int i = 0; i < COUNT; i++)
+        made[i] = source_of(&lights[i]);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        mixed[i] = &made[i % COUNT];
+        shadow_set_lane(&positions, i, i % 2 ? (lmp_vec3) { 0.2f, 0, 0 } : (lmp_vec3) { 0, 0, 0 });
+        u[i] = (float)check_random();
+        v[i] = (float)check_random();
+    }
+    shadow_sources_draw(mixed, &positions, u, v, &together);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const shadow_source *alone[SHADOW_LANES];
+        shadow_samples samples;
+        for (int k = 0; k < SHADOW_LANES; k++)
+            alone[k] = mixed[i];
+        shadow_sources_draw(alone, &positions, u, v, &samples);
+        const lmp_vec3 a = shadow_lane(&together.direction, i);
+        const lmp_vec3 b = shadow_lane(&samples.direction, i);
+        const lmp_vec3 more = shadow_lane(&together.arrives, i);
+        const lmp_vec3 less = shadow_lane(&samples.arrives, i);
+        assert_memory_equal(&a, &b, sizeof a);
+        assert_memory_equal(&more, &less, sizeof more);
+        CHECK_WITHIN(fabs(dot(a, a) - 1), 1e-5);
+        assert_true(more.x > 0);
+        assert_true(isinf(together.length[i]) == (i % COUNT == 2 || i % COUNT == 4));
+        assert_true(together.length[i] == samples.length[i]);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_to_a_sphere_end_on_it),
         cmocka_unit_test(rays_bring_the_irradiance),
+        cmocka_unit_test(neighbors_do_not_mix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
