@@ -12,6 +12,7 @@ layout(binding = SHARED_LAYERS) uniform sampler2D layers_texture;
 #ifdef PIXEL_LAYERED
 layout(binding = SHARED_COAT) uniform sampler2D coat_texture;
 layout(binding = SHARED_TINT) uniform sampler2D tint_texture;
+layout(binding = SHARED_SHEEN) uniform sampler2D sheen_texture;
 #endif
 layout(std430, binding = SHARED_REFLECTORS) readonly restrict buffer reflectors_block {
     shared_reflector reflectors[];
@@ -25,6 +26,7 @@ struct pixel {
     int table; /* instead of the material, or -1 */
     lmp_coat coat;
     vec3 coat_normal, tint;
+    vec4 sheen; /* color, roughness */
 };
 
 int pixel_kind(ivec2 at) {
@@ -64,12 +66,15 @@ pixel pixel_read(ivec2 at) {
     p.coat = lmp_coat(0.0, 0.0);
     p.coat_normal = p.surface.normal;
     p.tint = vec3(1.0);
+    p.sheen = vec4(0.0);
 #ifdef PIXEL_LAYERED
     if (reflector.table.y > 0.0 && reflector.table.x < 0.0) {
         vec4 coat = texelFetch(coat_texture, at, 0);
         p.coat = lmp_coat(coat.z, coat.w);
         p.coat_normal = gbuffer_decode_normal(coat.xy);
         p.tint = gbuffer_decode_color(texelFetch(tint_texture, at, 0).rgb);
+        vec4 sheen = texelFetch(sheen_texture, at, 0);
+        p.sheen = vec4(gbuffer_decode_color(sheen.rgb), sheen.a);
     }
 #endif
     float weight = reflector.dielectric.a * p.layers.y;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* One thread a pixel: G-buffer in, radiance out. SHADE is the method; all have one signature.
- * PIXEL_LAYERED: some materials have a coat. */
+ * PIXEL_LAYERED: some materials have a coat. PIXEL_FIBERS: fibers.comp has been there. */
 #include "gbuffer.glsl"
 #include "shared.h"
 
@@ -61,6 +61,23 @@ vec3 shade_by_table(lmp_surface surface, int table) {
 }
 #endif
 
+layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
+#ifdef PIXEL_FIBERS
+layout(binding = 0, rgba32f) uniform restrict image2D hdr;
+#else
+layout(binding = 0, rgba32f) uniform writeonly restrict image2D hdr;
+#endif
+
+/* What a pixel reflects without its fibers, with them. */
+vec3 under_fibers(vec3 reflected) {
+#ifdef PIXEL_FIBERS
+    vec4 fibers = imageLoad(hdr, ivec2(gl_GlobalInvocationID.xy));
+    return reflected * fibers.a + fibers.rgb;
+#else
+    return reflected;
+#endif
+}
+
 /* By lobes: of a coated pixel first what is under the coat, then the coat. */
 vec3 shade_by_lobes(pixel p) {
     lmp_lobes lobes = pixel_lobes(p);
@@ -74,6 +91,8 @@ vec3 shade_by_lobes(pixel p) {
             lobes = lmp_lobes_of(over, p.coat);
         }
         sum += SHADE(p.surface, lobes) + environment_shade(p.surface, lobes) * p.layers.x;
+        if (layer == 0)
+            sum = under_fibers(sum);
     }
     return sum;
 #else
@@ -93,9 +112,6 @@ vec3 shade_surface(pixel p) {
 #endif
     return shade_by_lobes(p);
 }
-
-layout(local_size_x = SHARED_GROUP, local_size_y = SHARED_GROUP) in;
-layout(binding = 0, rgba32f) uniform writeonly restrict image2D hdr;
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);

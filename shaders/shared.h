@@ -62,7 +62,7 @@ typedef float mat4[16]; /* column-major */
  * and, of a scene that has such layers, written and read for materials with one alone (16 bytes):
  *   5  RGBA16          of a coat: octahedral normal, weight, roughness
  *   6  RGBA8           root of a factor on the dielectric's F0
- *   7  RGBA8           root of the color of a sheen, its roughness; the host alone reads them
+ *   7  RGBA8           root of the color of a sheen, its roughness
  * The root keeps dark colors: of 0.0005 to 7e-4, of brighter ones to less. Every device squares it
  * alike. */
 #define SHARED_KIND_NONE     0
@@ -84,6 +84,10 @@ typedef struct shared_reflector {
 #else
 } shared_reflector;
 #endif
+
+/* As lmp_fibers has them. */
+#define SHARED_FIBER_TABLES        16
+#define SHARED_FIBER_ROUGHNESS_MIN 0.07
 
 /* Texture unit and storage block of a preintegrated lobe (lampion/preintegrated.h), and the most
  * cells and the entries of the remap that the block holds: those of 128 bands at the default error
@@ -185,6 +189,7 @@ typedef struct shared_pixel {
     vec4 layers; /* as in the G-buffer */
     vec4 coat;   /* normal, weight */
     vec4 tint;   /* factor on F0; roughness of the coat */
+    vec4 sheen;  /* color, roughness */
 #ifdef LAMPION_SHADER
 };
 #else
@@ -205,7 +210,7 @@ static_assert(sizeof(shared_light) == 48, "std140");
 static_assert(offsetof(shared_material, matrix) == 144, "std140");
 static_assert(offsetof(shared_material, offset) == 336, "std140");
 static_assert(sizeof(shared_material) == 528, "std140");
-static_assert(sizeof(shared_pixel) == 128, "std430");
+static_assert(sizeof(shared_pixel) == 144, "std430");
 static_assert(sizeof(shared_reflector) == 32, "std430");
 #endif
 

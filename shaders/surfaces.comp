@@ -33,5 +33,6 @@ void main() {
     o.layers = vec4(p.layers, 0.0, 0.0);
     o.coat = vec4(p.coat_normal, p.coat.weight);
     o.tint = vec4(p.tint, p.coat.roughness);
+    o.sheen = p.sheen;
     pixels[(at.y - first_row) * int(size_lights.x) + at.x] = o;
 }

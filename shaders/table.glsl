@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* table.glsl - surfaces shaded by tabulated BRDFs: lmp_shade_table of the library, straight-line.
  *
- * TABLE_FULL is 0 where every table is mirror-symmetric: then half the coefficients do.
+ * TABLE_FULL is 0 where every table is mirror-symmetric: then half the coefficients do. TABLE_PAIR:
+ * those lie between two tables without columns.
  * table_values begins with a vec4 a table: its first value, rows over theta_o from 0 to pi/2, and
  * columns over phi_o. Then the tables, [column][row][coefficient], all of LMP_BANDS bands; rows and
  * columns are so many that linear interpolation between them follows the library's cubic.
@@ -13,11 +14,14 @@ layout(std430, binding = SHARED_TABLES) readonly restrict buffer tables_block {
 #if TABLE_FULL
 #define TABLE_COUNT       LMP_SH_COUNT
 #define TABLE_INDEX(l, m) LMP_INDEX(l, m)
-#define TABLE_FAR(first, weight, i)                                                                \
-    (weight.z * table_values[first.z + i].rgb + weight.w * table_values[first.w + i].rgb)
 #else
 #define TABLE_COUNT       (LMP_BANDS * (LMP_BANDS + 1) / 2)
 #define TABLE_INDEX(l, m) LMP_HALF_INDEX(l, m)
+#endif
+#if TABLE_FULL || defined(TABLE_PAIR)
+#define TABLE_FAR(first, weight, i)                                                                \
+    (weight.z * table_values[first.z + i].rgb + weight.w * table_values[first.w + i].rgb)
+#else
 #define TABLE_FAR(first, weight, i) 0.0
 #endif
 
@@ -64,9 +68,8 @@ table_frame table_frame_of(lmp_surface surface) {
     return f;
 }
 
-vec3 shade_table(lmp_surface surface, int table) {
-    table_frame f = table_frame_of(surface);
-
+/* By the rows of a view. */
+vec3 shade_rows(lmp_surface surface, table_frame f, ivec4 first, vec4 weight) {
     vec3 sum[LMP_SH_COUNT];
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
@@ -98,9 +101,6 @@ vec3 shade_table(lmp_surface surface, int table) {
 #undef LMP_ROW
     }
 
-    ivec4 first;
-    vec4 weight;
-    table_rows(table, dot(surface.view, f.n), f.phi, first, weight);
     vec3 reflected = vec3(0.0);
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
@@ -113,6 +113,14 @@ vec3 shade_table(lmp_surface surface, int table) {
 #undef LMP_COLUMN
 #undef LMP_ROW
     return max(reflected, vec3(0.0));
+}
+
+vec3 shade_table(lmp_surface surface, int table) {
+    table_frame f = table_frame_of(surface);
+    ivec4 first;
+    vec4 weight;
+    table_rows(table, dot(surface.view, f.n), f.phi, first, weight);
+    return shade_rows(surface, f, first, weight);
 }
 
 /* --- an environment ----------------------------------------------------------------------------
@@ -148,13 +156,9 @@ void table_tilt(int l, bool back, inout vec3 band[2 * TABLE_ENVIRONMENT - 1]) {
     }
 }
 
-vec3 shade_table_environment(lmp_surface surface, int table) {
-    table_frame f = table_frame_of(surface);
+vec3 shade_rows_environment(table_frame f, ivec4 first, vec4 weight) {
     vec3 angles = table_angles(f), reflected = vec3(0.0), band[2 * TABLE_ENVIRONMENT - 1];
     int bands = min(min(int(surroundings.x), LMP_BANDS), TABLE_ENVIRONMENT);
-    ivec4 first;
-    vec4 weight;
-    table_rows(table, dot(surface.view, f.n), f.phi, first, weight);
     for (int l = 0; l < bands; l++) {
         for (int i = 0; i <= 2 * l; i++)
             band[i] = environment_sh[environment_whole() + l * l + i].rgb;
@@ -167,5 +171,13 @@ vec3 shade_table_environment(lmp_surface surface, int table) {
             reflected += band[l + m] * TABLE_AT(first, weight, TABLE_INDEX(l, m));
     }
     return max(reflected, vec3(0.0));
+}
+
+vec3 shade_table_environment(lmp_surface surface, int table) {
+    table_frame f = table_frame_of(surface);
+    ivec4 first;
+    vec4 weight;
+    table_rows(table, dot(surface.view, f.n), f.phi, first, weight);
+    return shade_rows_environment(f, first, weight);
 }
 #endif

@@ -154,10 +154,9 @@ static bool settle_shading(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     const method_kind method = o->method;
     const bool tables = o->materials.count > 0 && environment_shines(&j->around);
-    const bool sheen = override_is_needed(0, &j->world); /* that no shader has */
     /* Methods are compared where all of them run. */
     j->shading = method_device(method, (device_kind)o->device_kind, tables,
-                               (j->context.software || sheen) && !o->compare, o->bands);
+                               j->context.software && !o->compare, o->bands);
     if (o->bands > method_table[method].bands_max[j->shading])
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
                         o->bands, method_table[method].name);

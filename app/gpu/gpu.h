@@ -102,8 +102,8 @@ bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables,
 void gpu_set_preintegrated_brdfs(gpu_renderer *renderer,
                                  const lmp_preintegrated_brdf *const *brdfs);
 
-/* The tables of white fibers (lmp_fibers) by which host shaders draw the sheen of materials, or
- * NULL: none is drawn. They must outlive the renderer. */
+/* The tables of white fibers (lmp_fibers) by which the sheen of materials is drawn, or NULL: none
+ * is. They must outlive the renderer. */
 void gpu_set_fibers(gpu_renderer *renderer, const lmp_brdf_table *const *white);
 
 /* Ambient light from far away, whose coefficients environment_project has made, or NULL. It must

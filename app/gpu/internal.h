@@ -90,6 +90,7 @@ typedef struct gpu_variant {
     int tables;               /* summed by bands: 0 none, 1 mirrored ones, 2 any */
     bool preintegrated_brdfs; /* some tables are read preintegrated */
     int environment_bands;    /* of the one that tables reflect; 0: none */
+    bool fibers;              /* another pass has drawn them */
     GLuint program;
 } gpu_variant;
 
@@ -99,7 +100,23 @@ typedef struct gpu_variant {
 bool gpu_bind_preintegrated_lobe(gpu_renderer *renderer, const lmp_preintegrated_lobe *lobe,
                                  cli_error *error);
 
+/* --- fibers.c --------------------------------------------------------------------------------- */
+
+/* Whether the GPU draws the sheen of materials in the frame. */
+bool gpu_shades_fibers(const gpu_renderer *renderer, const gpu_frame *frame);
+
+/* If so, uploads the tables once and compiles the pass that does, on its first use. */
+bool gpu_prepare_fibers(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
+
 /* --- table.c ---------------------------------------------------------------------------------- */
+
+/* Views of a table as the shader reads them: rows over their angle, columns over their azimuth,
+ * each of `stride` values, of tables that are mirror-symmetric the half unless `full`. */
+typedef struct gpu_table_shape {
+    size_t rows, columns;
+} gpu_table_shape;
+bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, bool full, size_t stride,
+                    vec4 *values);
 
 /* Which tables a frame sums by bands: as in gpu_variant. */
 int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
@@ -206,6 +223,8 @@ struct gpu_renderer {
     method_kind tables_method;                           /* that it was made for */
     const lmp_preintegrated_brdf *brdfs[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
     const lmp_brdf_table *const *fibers;                 /* or NULL; not owned */
+    GLuint fibers_buffer, fibers_program;                /* of those; or 0 */
+    int fibers_bands, fibers_environment_bands;          /* that the program was made for */
     bool sheen_noted;                                    /* that it is left out */
     GLuint brdf_texels, brdf_block;                      /* texture, buffer; or 0 */
     const environment *environment;                      /* or NULL; not owned */
@@ -242,9 +261,10 @@ void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
 
 /* --- variant.c -------------------------------------------------------------------------------- */
 
-/* The program that shades the frame, 0 on failure; and what its method reads, uploaded and bound.
- */
+/* The program that shades the frame, 0 on failure; of so many bands those of the environment that
+ * tables reflect; and what the method reads, uploaded and bound. */
 GLuint gpu_variant_find(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
+int gpu_reflected_bands(const gpu_renderer *renderer, int bands);
 bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
 
 /* --- passes.c --------------------------------------------------------------------------------- */

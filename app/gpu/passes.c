@@ -79,8 +79,26 @@ static GLuint groups(int pixels) {
     return (GLuint)(pixels + SHARED_GROUP - 1) / SHARED_GROUP;
 }
 
+/* One thread a pixel. */
+static void dispatch(const gpu_renderer *r) {
+    glDispatchCompute(groups(r->width), groups(r->height), 1);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+/* Their tables take the place of those of materials for so long. */
+static void draw_fibers(const gpu_renderer *r) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->fibers_buffer);
+    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+    glUseProgram(r->fibers_program);
+    dispatch(r);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);
+}
+
 void gpu_shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
     gpu_bind_gbuffer(r);
+    const bool fibers = gpu_shades_fibers(r, frame);
+    if (fibers)
+        draw_fibers(r);
     glUseProgram(program);
     if (method_table[frame->method].fragment) {
         glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->hdr, 0);
@@ -91,9 +109,9 @@ void gpu_shade(gpu_renderer *r, const gpu_frame *frame, GLuint program) {
         glNamedFramebufferTexture(r->ldr_framebuffer, GL_COLOR_ATTACHMENT0, r->ldr, 0);
         return;
     }
-    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-    glDispatchCompute(groups(r->width), groups(r->height), 1);
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    glBindImageTexture(0, r->hdr, 0, GL_FALSE, 0, fibers ? GL_READ_WRITE : GL_WRITE_ONLY,
+                       GL_RGBA32F);
+    dispatch(r);
 }
 
 /* Adds the HDR target to the sums; the last sample leaves the mean there, with `show` every one. */
@@ -108,6 +126,5 @@ void gpu_resolve(gpu_renderer *r, const gpu_frame *frame, int index, bool show) 
     const bool last = index == frame->samples - 1;
     glUniform1i(2, !last);
     glUniform1i(3, last || show);
-    glDispatchCompute(groups(r->width), groups(r->height), 1);
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    dispatch(r);
 }

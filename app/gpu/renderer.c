@@ -113,6 +113,8 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteBuffers(1, &r->ggx_block);
     gpu_set_preintegrated_brdfs(r, NULL);
     gpu_set_environment(r, NULL);
+    gpu_set_fibers(r, NULL);
+    glDeleteProgram(r->fibers_program);
     glDeleteBuffers(1, &r->lobe_block);
     glDeleteTextures(1, &r->lobe_pairs);
     glDeleteTextures(1, &r->zonal);
@@ -120,10 +122,6 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
     free(r->lights);
     free(r);
-}
-
-void gpu_set_fibers(gpu_renderer *r, const lmp_brdf_table *const *white) {
-    r->fibers = white;
 }
 
 /* --- a frame ---------------------------------------------------------------------------------- */
@@ -181,14 +179,15 @@ static bool render_sample(gpu_renderer *r, const gpu_frame *frame, int index, GL
            shade_host(r, frame, &block, index, times, error);
 }
 
-/* Says once that shaders have no sheen. */
+/* Says once that sheen is not drawn: without its tables, and by the paper's method. */
 static void note_sheen(gpu_renderer *r, const gpu_frame *frame) {
     char text[64];
     const scene_left_out sheen = { "sheen", "material", gpu_mesh_sheens(&r->mesh) };
-    if (sheen.count == 0 || r->sheen_noted || (frame->host && r->fibers))
+    const bool drawn = r->fibers && (frame->host || gpu_shades_fibers(r, frame));
+    if (sheen.count == 0 || r->sheen_noted || drawn)
         return;
     scene_left_out_text(&sheen, text, sizeof text);
-    cli_note(NULL, "left out on the GPU: %s (--device cpu draws it)", text);
+    cli_note(NULL, "left out: %s", text);
     r->sheen_noted = true;
 }
 

@@ -9,14 +9,10 @@
 /* Rows and columns that linear interpolation reads. */
 enum { ROWS = 1024, ANISOTROPIC_ROWS = 192, COLUMNS_OF_AZIMUTH = 4 };
 
-typedef struct resampled {
-    size_t rows, columns;
-} resampled;
-
-static resampled shape_of(const lmp_brdf_table_info *info) {
+static gpu_table_shape shape_of(const lmp_brdf_table_info *info) {
     if (info->azimuths == 1)
-        return (resampled) { ROWS, 1 };
-    return (resampled) { ANISOTROPIC_ROWS, (size_t)(COLUMNS_OF_AZIMUTH * info->azimuths) };
+        return (gpu_table_shape) { ROWS, 1 };
+    return (gpu_table_shape) { ANISOTROPIC_ROWS, (size_t)(COLUMNS_OF_AZIMUTH * info->azimuths) };
 }
 
 /* One view as vec4s in the order of the shader. */
@@ -29,9 +25,9 @@ static void fill_view(const lmp_brdf_table_info *info, bool full, const float *r
             }
 }
 
-static bool fill_table(const lmp_brdf_table *table, bool full, size_t stride, vec4 *values) {
+bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, bool full, size_t stride,
+                    vec4 *values) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
-    const resampled shape = shape_of(&info);
     float *rgb = malloc(3 * info.count * sizeof *rgb);
     if (!rgb)
         return false;
@@ -72,7 +68,7 @@ static size_t count_values(const gpu_renderer *r, method_kind method, size_t str
     size_t total = (size_t)r->table_count;
     for (int t = 0; t < r->table_count; t++) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
-        const resampled shape = shape_of(&info);
+        const gpu_table_shape shape = shape_of(&info);
         total += by_bands(r, method, t) ? shape.rows * shape.columns * stride : 0;
     }
     return total;
@@ -83,13 +79,13 @@ static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, si
     size_t first = (size_t)r->table_count;
     for (int t = 0; t < r->table_count; t++) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
-        const resampled shape = shape_of(&info);
+        const gpu_table_shape shape = shape_of(&info);
         if (!by_bands(r, method, t))
             continue;
         values[t][0] = (float)first;
         values[t][1] = (float)shape.rows;
         values[t][2] = (float)shape.columns;
-        if (!fill_table(r->tables[t], full, stride, values + first))
+        if (!gpu_table_fill(r->tables[t], shape, full, stride, values + first))
             return false;
         first += shape.rows * shape.columns * stride;
     }

@@ -11,7 +11,7 @@ static int variant_bands_max(const gpu_variant *v) {
 }
 
 /* Of the environment, those that tables reflect. */
-static int reflected_bands(const gpu_renderer *r, int bands) {
+int gpu_reflected_bands(const gpu_renderer *r, int bands) {
     if (!environment_shines(r->environment))
         return 0;
     return bands < LMP_ENVIRONMENT_TABLE_BANDS ? bands : LMP_ENVIRONMENT_TABLE_BANDS;
@@ -27,8 +27,9 @@ static gpu_variant variant_of(const gpu_renderer *r, const gpu_frame *frame) {
                            .bands = by_bands ? frame->bands : 1,
                            .window = by_bands ? frame->window : LMP_WINDOW_NONE,
                            .tables = tables,
-                           .environment_bands = tables ? reflected_bands(r, frame->bands) : 0,
-                           .preintegrated_brdfs = preintegrated && gpu_has_preintegrated_brdf(r) };
+                           .environment_bands = tables ? gpu_reflected_bands(r, frame->bands) : 0,
+                           .preintegrated_brdfs = preintegrated && gpu_has_preintegrated_brdf(r),
+                           .fibers = gpu_shades_fibers(r, frame) };
 }
 
 /* The weights of the windowing filter, as the shader's list of numbers. */
@@ -49,11 +50,11 @@ static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *err
     print_weights(v, weights, sizeof weights);
     snprintf(defines, sizeof defines,
              "%s#define SHADE %s\n#define LMP_BANDS %d\n#define LMP_WINDOW_WEIGHTS %s\n"
-             "#define TABLE_ENVIRONMENT %d\n%s%s%s",
+             "#define TABLE_ENVIRONMENT %d\n%s%s%s%s",
              row->defines ? row->defines : "", row->function, v->bands, weights,
              v->environment_bands, table_defines[v->tables],
              v->preintegrated_brdfs ? "#define SHADE_PREINTEGRATED_BRDF\n" : "",
-             layered ? "#define PIXEL_LAYERED\n" : "");
+             layered ? "#define PIXEL_LAYERED\n" : "", v->fibers ? "#define PIXEL_FIBERS\n" : "");
     const gpu_stage compute = { GL_COMPUTE_SHADER, row->shader };
     const gpu_stage screen[] = { { GL_VERTEX_SHADER, "screen.vert" },
                                  { GL_FRAGMENT_SHADER, row->shader } };
@@ -78,7 +79,7 @@ GLuint gpu_variant_find(gpu_renderer *r, const gpu_frame *frame, cli_error *erro
         const gpu_variant *v = &r->variants[i];
         if (v->method == wanted.method && v->bands == wanted.bands && v->window == wanted.window &&
             v->tables == wanted.tables && v->preintegrated_brdfs == wanted.preintegrated_brdfs &&
-            v->environment_bands == wanted.environment_bands)
+            v->environment_bands == wanted.environment_bands && v->fibers == wanted.fibers)
             return v->program;
     }
     wanted.program = compile_variant(&wanted, r->mesh.layered, error);
@@ -99,5 +100,6 @@ bool gpu_variant_bind(gpu_renderer *r, const gpu_frame *frame, cli_error *error)
         return false;
     if (reads & METHOD_READS_TABULATED_Z && !gpu_bind_zonal(r, frame->bands, error))
         return false;
-    return !gpu_tables_by_bands(r, frame->method) || gpu_bind_tables(r, frame->method, error);
+    return gpu_prepare_fibers(r, frame, error) &&
+           (!gpu_tables_by_bands(r, frame->method) || gpu_bind_tables(r, frame->method, error));
 }

@@ -2,6 +2,7 @@
 /* The same image from both shading devices and every method, in 8 bits, under lights of every kind.
  */
 #include "app/bake/bake.h"
+#include "app/override/override.h"
 #include "app/shade/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/kinds.h"
@@ -71,18 +72,20 @@ static void close_fixture(fixture *s) {
     scene_free(&s->world);
 }
 
-/* Both devices draw the frame by each method, within one level of 255. */
+/* Both devices draw the frame by a method, within one level of 255. */
+static void check_method(fixture *s, method_kind method) {
+    s->frame.method = method;
+    s->frame.host = NULL;
+    draw_first(s->renderer, &s->frame);
+    s->frame.host = shade_frame;
+    draw(s->renderer, &s->frame, second);
+    assert_int_equal(beyond(1), 0);
+}
+
 static void check_every_method(fixture *s) {
-    for (int m = 0; m < METHODS; m++) {
-        if (method_table[m].bands_max[DEVICE_GPU] == 0)
-            continue;
-        s->frame.method = (method_kind)m;
-        s->frame.host = NULL;
-        draw_first(s->renderer, &s->frame);
-        s->frame.host = shade_frame;
-        draw(s->renderer, &s->frame, second);
-        assert_int_equal(beyond(1), 0);
-    }
+    for (int m = 0; m < METHODS; m++)
+        if (method_table[m].bands_max[DEVICE_GPU] > 0)
+            check_method(s, (method_kind)m);
 }
 
 static lmp_preintegrated_lobe *lobe_of(const gpu_frame *frame) {
@@ -121,18 +124,24 @@ static void parallel_rays_are_drawn_alike(void **state) {
     close_fixture(&f);
 }
 
+/* Ambient light of no symmetry. */
+static void open_sky(environment *sky) {
+    cli_error error;
+    *sky = (environment) { .azimuth = 0.4f };
+    expect(image_create(&sky->light, 32, 16, &error), &error);
+    for (int i = 0; i < 3 * 32 * 16; i++)
+        sky->light.rgb[i] = (float)(i * 7919 % 101) / 25;
+    sky->backdrop = sky->light;
+    expect(environment_project(sky, LMP_SHADE_BANDS_DEFAULT, &error), &error);
+}
+
 /* Its light on the surfaces and its image past them; lights beside it, and without them. */
 static void an_environment_is_drawn_alike(void **state) {
     (void)state;
     fixture s;
-    cli_error error;
-    environment e = { .azimuth = 0.4f };
-    expect(image_create(&e.light, 32, 16, &error), &error);
-    for (int i = 0; i < 3 * 32 * 16; i++)
-        e.light.rgb[i] = (float)(i * 7919 % 101) / 25;
-    e.backdrop = e.light;
+    environment e;
     open_fixture(&s, "builtin:ball");
-    expect(environment_project(&e, 12, &error), &error);
+    open_sky(&e);
     gpu_set_environment(s.renderer, &e);
     lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
     s.frame.lobes = lobes;
@@ -233,6 +242,57 @@ static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **sta
     }
 }
 
+/* Cloth of every roughness, some of it under a coat. */
+enum { DRESSED = 64 };
+static void dress(scene *world, scene_material *all) {
+    const size_t count = world->material_count;
+    assert_true(count <= DRESSED);
+    memcpy(all, world->materials, count * sizeof *all);
+    for (size_t i = 0; i < count; i++) {
+        const float part = (float)i / (float)count, color[3] = { 1, 0.5f, part };
+        memcpy(all[i].sheen_color, color, sizeof color);
+        all[i].sheen_roughness = part;
+        all[i].coat = i % 3 == 0 ? 0.5f : 0;
+    }
+    world->materials = all;
+}
+
+/* Under lights, with more bands than fibers have as from 21 on, and under a sky. */
+static void sheen_is_drawn_alike(void **state) {
+    (void)state;
+    fixture s;
+    environment sky;
+    override_set tables = { .count = 0 };
+    cli_error error = { "" };
+    open_fixture(&s, "builtin:balls");
+    gpu_renderer_destroy(s.renderer);
+    scene_material materials[DRESSED];
+    dress(&s.world, materials);
+    s.renderer = open_renderer(&s.world);
+    open_sky(&sky);
+    const int fiber_bands[] = { 6, 4, 6 };
+    s.frame.bands = 6;
+    for (int pass = 0; pass < 3; pass++) {
+        s.frame.window = pass == 0 ? LMP_WINDOW_HANNING : LMP_WINDOW_NONE;
+        if (pass == 2)
+            gpu_set_environment(s.renderer, &sky);
+        lmp_preintegrated_lobe *lobes = lobe_of(&s.frame);
+        s.frame.lobes = lobes;
+        override_free(&tables);
+        expect(override_bake_fibers(&tables, &s.world, fiber_bands[pass], s.frame.window, &error) &&
+                   override_apply(&tables, &s.world, s.renderer, &error),
+               &error);
+        if (pass == 0)
+            check_every_method(&s);
+        else
+            check_method(&s, pass == 1 ? METHOD_PREINTEGRATED : METHOD_ZONAL);
+        lmp_preintegrated_lobe_destroy(lobes);
+    }
+    close_fixture(&s);
+    override_free(&tables);
+    environment_free(&sky);
+}
+
 static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     (void)state;
     fixture s;
@@ -295,6 +355,7 @@ int main(void) {
         cmocka_unit_test(an_environment_is_drawn_alike),
         cmocka_unit_test(preintegrated_images_are_those_of_coefficients),
         cmocka_unit_test(tabulated_materials_are_drawn_alike_by_sums_and_by_tables),
+        cmocka_unit_test(sheen_is_drawn_alike),
         cmocka_unit_test(what_is_timed_for_comparison_draws_the_same_image),
         cmocka_unit_test(a_hundred_bands_are_drawn_alike_by_sums_and_by_tables),
     };
