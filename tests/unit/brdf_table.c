@@ -286,9 +286,12 @@ static void a_dim_measurement_is_tabulated_like_a_bright_one(void **state) {
             const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
             first = k == 0 ? info : first;
             assert_int_equal(info.mirrored, even || scales[k] <= 0);
-            if (scales[k] > 0)
+            if (scales[k] > 0) {
                 assert_int_equal(info.rings, first.rings);
+                CHECK_WITHIN(fabsf(info.change - first.change), 1e-5);
+            }
             CHECK_WITHIN(info.change, scales[k] > 0 ? 0.02 : 0);
+            assert_true(info.change > 0 || !(scales[k] > 0));
             lmp_brdf_table_destroy(table);
             lmp_brdf_destroy(brdf);
         }
