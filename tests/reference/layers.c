@@ -82,6 +82,33 @@ static void occlusion_leaves_lights_alone(void **state) {
     sheet_close(&s);
 }
 
+/* Four texels that shine, by either set of coordinates. */
+static void both_coordinates_of_both_sets_tell_where_a_texture_is_read(void **state) {
+    (void)state;
+    static const float texels[2][2][3] = { { { 1, 0, 0 }, { 0, 1, 0 } },
+                                           { { 0, 0, 1 }, { 1, 1, 1 } } };
+    for (int set = 0; set < 2; set++) {
+        sheet s;
+        image images[SHEET_IMAGES], noise;
+        char material[256];
+        snprintf(material, sizeof material,
+                 "{\"pbrMetallicRoughness\":{\"metallicFactor\":0},\"emissiveFactor\":[1,1,1],"
+                 "\"emissiveTexture\":{\"index\":1,\"texCoord\":%d}}",
+                 set);
+        sheet_open(&s, material);
+        s.world.light_count = 0;
+        sheet_draw(&s, false, 1, images, &noise);
+        for (int i = 0; i < 3 * 4 * SHEET_IMAGES; i++) {
+            const int c = i % 3, right = i / 3 % 2, below = i / 6 % 2;
+            const int x = right ? SHEET_SIDE - 2 : 1, y = below ? SHEET_SIDE - 2 : 1;
+            const float *texel = set ? texels[right][below] : texels[below][right];
+            CHECK_WITHIN(fabsf(images[i / 12].rgb[3 * (y * SHEET_SIDE + x) + c] - texel[c]), 1e-3);
+        }
+        sheet_free(images, &noise);
+        sheet_close(&s);
+    }
+}
+
 /* Of a column in the middle of a half. */
 static double blue_of(const image *drawn, int half) {
     double sum = 0;
@@ -188,6 +215,7 @@ int main(void) {
         cmocka_unit_test(what_a_layer_lacks_passes_to_the_base_and_metals_have_none),
         cmocka_unit_test(occlusion_keeps_off_the_light_of_the_environment),
         cmocka_unit_test(occlusion_leaves_lights_alone),
+        cmocka_unit_test(both_coordinates_of_both_sets_tell_where_a_texture_is_read),
         cmocka_unit_test(what_blends_shows_what_is_behind),
         cmocka_unit_test(a_map_of_specular_colors_tints_the_dielectric),
         cmocka_unit_test(a_coat_reflects_by_its_weight_and_dims_what_is_under_it),

@@ -19,7 +19,8 @@ enum { SHEET_GPU, SHEET_CPU, SHEET_REFERENCE, SHEET_IMAGES };
 
 /* From -1 to 1 in x and y, at z = 0, seen from +z, and once more behind it at z = -1. Texture 0 has
  * two texels, the halves of the square: red, green, blue and alpha of 0.2, 0.4, 1 and 0.4 on the
- * left, white on the right. */
+ * left, white on the right; texture 1 four: red and green above, blue and white below. The second
+ * set of coordinates is the first with u and v in each other's place. */
 static const char sheet_gltf[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2]}],"
     "\"extensionsUsed\":[\"KHR_materials_specular\",\"KHR_materials_ior\"],"
@@ -27,24 +28,28 @@ static const char sheet_gltf[] =
     "{\"mesh\":0,\"translation\":[0,0,-1]}],"
     "\"cameras\":[{\"type\":\"orthographic\","
     "\"orthographic\":{\"xmag\":1,\"ymag\":1,\"znear\":0.1,\"zfar\":9}}],"
-    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1,\"TEXCOORD_1\":"
+    "3},\"indices\":2,"
     "\"material\":0}]}],\"materials\":[%s],"
-    "\"textures\":[{\"source\":0,\"sampler\":0}],"
+    "\"textures\":[{\"source\":0,\"sampler\":0},{\"source\":1,\"sampler\":0}],"
     "\"samplers\":[{\"wrapS\":33071,\"wrapT\":33071}],"
     "\"images\":[{\"uri\":\"data:image/png;base64,"
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAYAAAD0In+KAAAAD0lEQVR42mMwTvuf9h8IABZZBftaHCSxAAAAAElFTkSu"
-    "QmCC\"}],"
+    "QmCC\"},{\"uri\":\"data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR42mP4z8DAAMIM/4EAAB/uBfvxq7p3"
+    "AAAAAElFTkSuQmCC\"}],"
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\","
     "\"min\":[-1,-1,0],\"max\":[1,1,0]},"
     "{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
-    "{\"bufferView\":2,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],"
+    "{\"bufferView\":2,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},"
+    "{\"bufferView\":3,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"}],"
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"
     "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":32},"
-    "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12}],"
-    "\"buffers\":[{\"byteLength\":92,\"uri\":\"data:application/octet-stream;base64,"
-    "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAAAAAAAAAAgD8AAIA/"
-    "AACAPwAAgD8AAAAA"
-    "AAAAAAAAAAAAAAEAAgAAAAIAAwA=\"}]}";
+    "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12},"
+    "{\"buffer\":0,\"byteOffset\":92,\"byteLength\":32}],"
+    "\"buffers\":[{\"byteLength\":124,\"uri\":\"data:application/octet-stream;base64,"
+    "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAACAPwAAgD8AAAAAAACAvwAAgD8AAAAAAAAAAAAAgD8AAIA/AACA"
+    "PwAAgD8AAAAAAAAAAAAAAAAAAAEAAgAAAAIAAwAAAIA/AAAAAAAAgD8AAIA/AAAAAAAAgD8AAAAAAAAAAA==\"}]}";
 
 typedef struct sheet {
     scene world;
