@@ -6,6 +6,8 @@
 #include "app/trace/trace.h"
 #include "tests/oracle/check.h"
 
+#include <lampion/shade.h>
+
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -169,10 +171,56 @@ static void a_wide_limit_of_addresses_leaves_room_for_rays(void **state) {
     assert_int_equal(status, 0);
 }
 
+/* --- tables ----------------------------------------------------------------------------------- */
+
+/* Seen from its nodes a table's value is the series of its coefficients, sines among them. */
+static void a_table_is_its_series_at_its_nodes(void **state) {
+    (void)state;
+    enum { BANDS = 5, COUNT = BANDS * BANDS };
+    const lmp_ggx ggx = { 0.3f, 0.6f, { 0.5f, 0.4f, 0.3f }, { 0.2f, 0.3f, 0.4f } };
+    const lmp_brdf_table_desc desc = { .bands = BANDS, .views = 8, .azimuths = 12 };
+    lmp_brdf *brdf = NULL;
+    lmp_brdf_table *table = NULL;
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
+    const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
+    const float *all = lmp_brdf_table_coefficients(table);
+    const reference_material_source source = { .coefficients = all, .table = info };
+    assert_true(!info.mirrored && info.count == COUNT);
+    for (int trial = 0; trial < 200; trial++) {
+        const int view = 1 + trial % (info.views - 1), azimuth = trial % info.azimuths;
+        const double theta = view * (double)info.theta_step;
+        const double phi = 2 * acos(-1) * azimuth / info.azimuths;
+        const reference_vec to_eye = { sin(theta) * cos(phi), cos(theta), -sin(theta) * sin(phi) };
+        const reference_vec x = { cos(phi), 0, -sin(phi) }, y = { -sin(phi), 0, -cos(phi) };
+        const double w[3] = { check_random() - 0.5, check_random() - 0.5, check_random() - 0.5 };
+        const reference_vec to = reference_normalize((reference_vec) { w[0], w[1], w[2] });
+        const double own[3] = { reference_dot(to, x), reference_dot(to, y), to.y };
+        double basis[COUNT], rgb[3];
+        reference_tabulated tabulated;
+        assert_true(reference_tabulated_create(&tabulated, &source, 1));
+        reference_tabulated_orient(&tabulated, &source, up, (reference_vec) { 1, 0, 0 }, to_eye);
+        reference_tabulated_at(&tabulated, to, rgb);
+        reference_tabulated_free(&tabulated);
+        lmp_sh_eval_double(BANDS, own, basis);
+        for (int c = 0; c < 3; c++) {
+            const float *node =
+                all + ((size_t)(azimuth * info.views + view) * 3 + (size_t)c) * COUNT;
+            double sum = 0;
+            for (int k = 0; k < COUNT; k++)
+                sum += (double)node[k] * basis[k];
+            CHECK_WITHIN(fabs(rgb[c] - sum), 1e-4);
+        }
+    }
+    lmp_brdf_table_destroy(table);
+    lmp_brdf_destroy(brdf);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integrals_have_their_closed_forms),
         cmocka_unit_test(a_color_alone_is_estimated_as_white_is),
+        cmocka_unit_test(a_table_is_its_series_at_its_nodes),
         cmocka_unit_test(a_wide_limit_of_addresses_leaves_room_for_rays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
