@@ -4,6 +4,7 @@
 #include "tests/oracle/check.h"
 
 #include <math.h>
+#include <string.h>
 
 static shadow_source source_of(const scene_light *light) {
     shadow_source sources[SHADOW_SOURCES(1)];
@@ -163,11 +164,77 @@ static void neighbors_do_not_mix(void **state) {
     }
 }
 
+static const lmp_vec3 stands = { 3, -2, 5 };
+
+/* One point in all lanes: up is z, and the eye is reflected at 50 degrees. */
+static void fill_lanes(shadow_points *points, float albedo, float shine, float coat) {
+    const lmp_vec3 up = { 0, 0, 1 };
+    const lmp_vec3 mirror = { (float)sin(50 * acos(-1) / 180), 0, (float)cos(50 * acos(-1) / 180) };
+    memset(points, 0, sizeof *points);
+    points->coated = coat > 0;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        points->lit[i] = true;
+        for (int k = 0; k < 3; k++)
+            points->position.of[k][i] = (&stands.x)[k];
+        points->albedo[i] = albedo;
+        points->shine[i] = shine;
+        points->coat[i] = coat;
+        points->alpha2[i] = points->coat_alpha2[i] = 0.04f;
+        for (int k = 0; k < 3; k++) {
+            points->normal.of[k][i] = points->coat_normal.of[k][i] = (&up.x)[k];
+            points->mirror.of[k][i] = points->coat_mirror.of[k][i] = (&mirror.x)[k];
+        }
+    }
+}
+
+/* Rays are shared out by what lights are expected to bring: the cosine of small ones, and a lobe,
+ * of the surface as of its coat, that falls off with the angle from the mirror direction by its
+ * width. */
+static void small_lights_weigh_what_is_reflected_of_them(void **state) {
+    (void)state;
+    const double pi = acos(-1);
+    for (int degrees = 2; degrees < 88; degrees += 12) {
+        const double angle = degrees * pi / 180, apart = (degrees - 50) * pi / 180;
+        const lmp_vec3 w = { (float)sin(angle), 0, (float)cos(angle) };
+        const lmp_rgb color = { 1, 2, 6 };
+        const scene_light lights[] = {
+            { .emitter = { .position = { stands.x + 10 * w.x, stands.y, stands.z + 10 * w.z },
+                           .radius = 0.1f,
+                           .radiance = color } },
+            { .emitter = { .kind = LMP_LIGHT_POINT,
+                           .position = { stands.x + 2 * w.x, stands.y, stands.z + 2 * w.z },
+                           .intensity = color } },
+            { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL, .direction = w, .irradiance = color } },
+        };
+        const double arrives[] = { 3 * pi * 1e-4, 3 / 4.0, 3 };
+        for (int kind = 0; kind < 3; kind++) {
+            const shadow_source source = source_of(&lights[kind]);
+            shadow_points points;
+            shadow_lanes diffuse, shiny, coated;
+            fill_lanes(&points, 0.7f, 0, 0);
+            shadow_sources_weigh(&source, 1, &points, &diffuse);
+            fill_lanes(&points, 0, 0.7f, 0);
+            shadow_sources_weigh(&source, 1, &points, &shiny);
+            fill_lanes(&points, 0, 0, 0.7f);
+            shadow_sources_weigh(&source, 1, &points, &coated);
+            const double off = 0.04 + pow(sin(apart / 2), 2);
+            const double lobe = arrives[kind] / pi * 0.7 * 0.04 / (4 * off * off);
+            for (int i = 0; i < SHADOW_LANES; i++) {
+                CHECK_WITHIN(fabs((double)diffuse[i] / (arrives[kind] / pi * 0.7 * cos(angle)) - 1),
+                             0.2);
+                CHECK_WITHIN(fabs((double)shiny[i] / lobe - 1), 0.05);
+                CHECK_WITHIN(fabs((double)coated[i] / lobe - 1), 0.05);
+            }
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_to_a_sphere_end_on_it),
         cmocka_unit_test(rays_bring_the_irradiance),
         cmocka_unit_test(neighbors_do_not_mix),
+        cmocka_unit_test(small_lights_weigh_what_is_reflected_of_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
