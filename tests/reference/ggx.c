@@ -219,6 +219,47 @@ static void visible_lights_give_the_same_series(void **state) {
                  4 * (drawn.standard_error[0] + plain.standard_error[0]));
 }
 
+/* Under a light that may be hidden. */
+static reference_result estimate_in_view(const reference_ggx *ggx, const scene_light *light) {
+    const reference_band_limit limit = { 5, LMP_WINDOW_HANNING, 0 };
+    const reference_stop stop = { .samples = 20000 };
+    reference_surface surface = { .position = origin, .ray_origin = origin };
+    reference_estimator estimator;
+    reference_surface_shine(&surface, &limit, ggx, up, direction(0.6, REFERENCE_PI));
+    assert_true(reference_estimator_create(&estimator, light, 1));
+    estimator.visibility = never;
+    const reference_result result = reference_estimate(&estimator, &surface, &stop, 3);
+    reference_estimator_free(&estimator);
+    return result;
+}
+
+/* Light of any color takes the samples that white takes; a metal's color says which lobe they are
+ * drawn from, but not what they come to. */
+static void colors_of_series_are_estimated_as_white_is(void **state) {
+    (void)state;
+    const reference_vec view = direction(0.6, REFERENCE_PI);
+    const double ones[3] = { 1, 1, 1 };
+    scene_light light = sphere(direction(0.5, 0.3), 0.4);
+    reference_ggx white, colored;
+    reference_ggx_set(&white, ones, 1, sqrt(0.4), &common, up, view);
+    const reference_result of_white = estimate_in_view(&white, &light);
+    for (int c = 0; c < 3; c++) {
+        double base[3] = { 0, 0, 0 };
+        base[c] = 1;
+        reference_ggx_set(&colored, base, 1, sqrt(0.4), &common, up, view);
+        const reference_result result = estimate_in_view(&colored, &light);
+        CHECK_WITHIN(fabs(result.mean[c] - of_white.mean[c]),
+                     4 * (result.standard_error[c] + of_white.standard_error[c]));
+        CHECK_WITHIN(result.standard_error[c], 0.05 * of_white.mean[c]);
+    }
+    light.emitter.radiance.r *= 0.5f;
+    light.emitter.radiance.b *= 4;
+    const reference_result by_light = estimate_in_view(&white, &light);
+    const double parts[3] = { 0.5, 1, 4 };
+    for (int c = 0; c < 3; c++)
+        CHECK_WITHIN(fabs(by_light.mean[c] - of_white.mean[c] * parts[c]), 1e-6 * of_white.mean[c]);
+}
+
 /* Light and view rotated about the normal together reflect, are drawn and are dense as before. */
 static void rotating_light_and_view_together_changes_nothing(void **state) {
     (void)state;
@@ -259,6 +300,7 @@ int main(void) {
         cmocka_unit_test(the_lights_series_does_what_the_lobes_would),
         cmocka_unit_test(many_bands_come_near_the_whole),
         cmocka_unit_test(visible_lights_give_the_same_series),
+        cmocka_unit_test(colors_of_series_are_estimated_as_white_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
