@@ -46,8 +46,8 @@ LMP_INLINE void basis_rotate(int m, vf x, vf y, vf *c, vf *s) {
 
 /* Plane l*l+l±m at to + (l*l+l±m) * stride; radial NULL means 1 for every band. Straight-line code,
  * for `bands` is a constant. */
-LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, float *to,
-                               size_t stride) {
+LMP_INLINE void basis_straight_columns(int bands, const vf axis[3], const vf *radial, float *to,
+                                       size_t stride) {
     const float *a = lmp_table_a, *b = lmp_table_b, *diagonal = lmp_table_diagonal;
     LMP_OPAQUE(a);
     LMP_OPAQUE(b);
@@ -80,6 +80,59 @@ LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, fl
                 vf_store(middles[l] - (size_t)m * stride, value * s);
         }
     }
+}
+
+/* Band l of column m, which stands one before. */
+LMP_INLINE void basis_pair_put(const float *a, const float *b, int l, int m, vf z, vf *q0, vf *q1,
+                               vf c, vf s, float *middle, size_t stride) {
+    if (l > m) {
+        const vf q2 = basis_step(a, b, l, m, z, *q1, *q0);
+        *q0 = *q1;
+        *q1 = q2;
+    }
+    vf_store(middle + (size_t)m * stride, m > 0 ? *q1 * c : *q1);
+    if (m > 0)
+        vf_store(middle - (size_t)m * stride, *q1 * s);
+}
+
+/* The same of radial NULL, two columns side by side, for each waits for itself. The second of the
+ * last two may lie past `bands`, and is not stored. */
+LMP_INLINE void basis_straight_pairs(int bands, const vf axis[3], float *to, size_t stride) {
+    const float *a = lmp_table_a, *b = lmp_table_b, *diagonal = lmp_table_diagonal;
+    LMP_OPAQUE(a);
+    LMP_OPAQUE(b);
+    LMP_OPAQUE(diagonal);
+    const vf x = axis[0], y = axis[1], z = axis[2];
+    float *middles[BASIS_STRAIGHT];
+    LMP_UNROLL for (int l = 0; l < bands; l++) {
+        middles[l] = to + (size_t)(l * l + l) * stride;
+        LMP_OPAQUE(middles[l]);
+    }
+    vf c = vf_set(1), s = vf_set(0);
+    LMP_UNROLL for (int m = 0; m < bands; m += 2) {
+        vf p0 = vf_set(0), p1 = vf_set(diagonal[m]), q0 = vf_set(0), q1 = vf_set(diagonal[m + 1]);
+        LMP_OPAQUE_LANES(p1);
+        LMP_OPAQUE_LANES(q1);
+        if (m > 0)
+            basis_rotate(m, x, y, &c, &s);
+        const vf cp = c, sp = s;
+        basis_rotate(m + 1, x, y, &c, &s);
+        LMP_UNROLL for (int l = m; l < bands; l++) {
+            basis_pair_put(a, b, l, m, z, &p0, &p1, cp, sp, middles[l], stride);
+            if (l > m)
+                basis_pair_put(a, b, l, m + 1, z, &q0, &q1, c, s, middles[l], stride);
+        }
+    }
+}
+
+/* The order of columns that takes less, of a constant number of bands: up to 8 bands and beside
+ * radial factors the CPU finds enough else to do. */
+LMP_INLINE void basis_straight(int bands, const vf axis[3], const vf *radial, float *to,
+                               size_t stride) {
+    if (LMP_LANES > 1 && !radial && bands > 8)
+        basis_straight_pairs(bands, axis, to, stride);
+    else
+        basis_straight_columns(bands, axis, radial, to, stride);
 }
 
 /* The same for any number of bands. */
