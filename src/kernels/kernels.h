@@ -133,10 +133,8 @@ typedef struct lmp_kernel_cells {
 /* Bands of a field at most. */
 #define LMP_KERNEL_FIELD_BANDS_MAX 10
 
-/* Lights that one call of a shading kernel takes at most: of lobes, and of a preintegrated BRDF,
- * the sums of whose calls are added. */
-#define LMP_KERNEL_LIGHTS_MAX      32
-#define LMP_KERNEL_BRDF_LIGHTS_MAX 16
+/* Lights that one call of a shading kernel takes at most. */
+#define LMP_KERNEL_LIGHTS_MAX 32
 
 /* What the lobes receive, in planes of red, green, blue; added to. */
 typedef struct lmp_kernel_accumulated {

@@ -154,16 +154,10 @@ typedef struct slice_lanes {
 #if LMP_LANES > 1
 /* Four words of lanes 0, 4, …, each at its own offset. */
 LMP_INLINE vf slice_quarters(const char *slices, const int32_t *at) {
-    vf v;
-#if LMP_LANES == 8
-    v = (vf)_mm256_insertf128_ps(
-        _mm256_castps128_ps256(_mm_loadu_ps((const float *)(const void *)(slices + at[0]))),
-        _mm_loadu_ps((const float *)(const void *)(slices + at[4])), 1);
-#else
-    LMP_UNROLL for (int q = 0; q < LMP_LANES / 4; q++)
-        memcpy((char *)&v + 16 * q, slices + at[4 * q], 16);
-#endif
-    return v;
+    const float *from[LMP_LANES / 4];
+    LMP_UNROLL for (int q = 0; q < LMP_LANES / 4; q++) from[q] =
+        (const float *)(const void *)(slices + at[4 * q]);
+    return layout_quarters(from);
 }
 #endif
 
@@ -248,7 +242,7 @@ typedef struct brdf_sums {
 /* Adds one light's part to surface e's; radiance: its red, green, blue, as the numbers lie. */
 LMP_INLINE void brdf_read(const int16_t *texels, const brdf_slice slices[4], int e,
                           const texel_lanes radiance[TEXEL_PARTS], float *sums) {
-    texel_lanes total[TEXEL_PARTS], sum[TEXEL_PARTS];
+    texel_lanes total[TEXEL_PARTS];
     LMP_UNROLL for (int s = 0; s < 4; s++) {
         const brdf_slice *slice = &slices[s];
         const uint32_t rows[2] = { slice->rows[0][e], slice->rows[1][e] };
@@ -257,13 +251,19 @@ LMP_INLINE void brdf_read(const int16_t *texels, const brdf_slice slices[4], int
         texel_columns(&slice->columns[e % 4][e / 4 * 4], columns);
         LMP_UNROLL for (int i = 0; i < TEXEL_PARTS; i++) {
             const texel_lanes value = columns[i] * values[i];
-            total[i] = s == 0 ? value : total[i] + value;
-            LMP_OPAQUE_LANES(total[i]);
+            /* Hidden as a variable: gcc would keep a member of an array in memory. */
+            texel_lanes sum = s == 0 ? value : total[i] + value;
+            LMP_OPAQUE_LANES(sum);
+            total[i] = sum;
         }
     }
-    memcpy(sum, sums, sizeof sum);
-    LMP_UNROLL for (int i = 0; i < TEXEL_PARTS; i++) sum[i] = sum[i] + radiance[i] * total[i];
-    memcpy(sums, sum, sizeof sum);
+    /* Part by part: a load of both would wait for the stores of each before. */
+    LMP_UNROLL for (int i = 0; i < TEXEL_PARTS; i++) {
+        texel_lanes sum;
+        memcpy(&sum, sums + TEXEL_LANES * i, sizeof sum);
+        sum = sum + radiance[i] * total[i];
+        memcpy(sums + TEXEL_LANES * i, &sum, sizeof sum);
+    }
 }
 
 /* --- surfaces --------------------------------------------------------------------------------- */
@@ -297,38 +297,58 @@ LMP_INLINE void brdf_ambient(const brdf_block *block, lmp_rgb radiance, vf weigh
     rgb[2] = rgb[2] + radiance.b * weight * block->ambient[2];
 }
 
+/* Lights whose readings are found before any is summed; a surface's sums are added to its color
+ * after each so many. */
+#define BRDF_LIGHTS 16
+
+/* What a block reflects of `count` lights, and of `ambient` light. */
+static LMP_NOINLINE void brdf_lights(const lmp_kernel_preintegrated_brdf *material,
+                                     const brdf_block *block, const lmp_kernel_light *lights,
+                                     texel_lanes (*radiance)[TEXEL_PARTS], size_t count,
+                                     lmp_rgb ambient, size_t e, int live, float *const rgb[3]) {
+    brdf_direction directions[BRDF_LIGHTS];
+    brdf_position positions[BRDF_LIGHTS];
+    brdf_sums sums;
+    vf from_all[3] = { vf_set(0), vf_set(0), vf_set(0) }, from_caps[3];
+    memset(&sums, 0, sizeof sums);
+    brdf_ambient(block, ambient, vf_set(1), from_all);
+    for (size_t i = 0; i < count; i++)
+        brdf_direction_of(material, &lights[i], e, block, &directions[i]);
+    for (size_t i = 0; i < count; i++)
+        brdf_position_of(material, block, &directions[i], &positions[i]);
+    for (size_t i = 0; i < count; i++) {
+        brdf_slice slices[4];
+        brdf_slices(material, block, &positions[i], slices);
+        for (int k = 0; k < live; k++)
+            brdf_read(material->texels, slices, k, radiance[i], sums.at[k]);
+        if (__builtin_expect(directions[i].cap.is_ambient, 0))
+            brdf_ambient(block, lights[i].radiance, directions[i].cap.ambient, from_all);
+    }
+    brdf_channels(&sums, from_caps);
+    for (int c = 0; c < 3; c++)
+        vf_store(rgb[c] + e, vf_load(rgb[c] + e) + (from_all[c] + from_caps[c]));
+}
+
 static void kernel_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
                                             const lmp_kernel_surfaces *surfaces,
                                             const lmp_kernel_light *lights, size_t light_count,
                                             lmp_rgb ambient, size_t count, float *const rgb[3]) {
-    brdf_direction directions[LMP_KERNEL_BRDF_LIGHTS_MAX];
-    brdf_position positions[LMP_KERNEL_BRDF_LIGHTS_MAX];
-    texel_lanes radiance[LMP_KERNEL_BRDF_LIGHTS_MAX][TEXEL_PARTS];
+    texel_lanes radiance[LMP_KERNEL_LIGHTS_MAX][TEXEL_PARTS];
+    const lmp_rgb none = { 0, 0, 0 };
     for (size_t i = 0; i < light_count; i++)
         brdf_radiance(lights[i].radiance, radiance[i]);
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const int live = count - e < LMP_LANES ? (int)(count - e) : LMP_LANES;
         brdf_block block;
-        brdf_sums sums;
-        vf from_all[3] = { vf_set(0), vf_set(0), vf_set(0) }, from_caps[3];
-        memset(&sums, 0, sizeof sums);
         brdf_block_load(material, surfaces, e, &block);
-        brdf_ambient(&block, ambient, vf_set(1), from_all);
-        for (size_t i = 0; i < light_count; i++)
-            brdf_direction_of(material, &lights[i], e, &block, &directions[i]);
-        for (size_t i = 0; i < light_count; i++)
-            brdf_position_of(material, &block, &directions[i], &positions[i]);
-        for (size_t i = 0; i < light_count; i++) {
-            brdf_slice slices[4];
-            brdf_slices(material, &block, &positions[i], slices);
-            for (int k = 0; k < live; k++)
-                brdf_read(material->texels, slices, k, radiance[i], sums.at[k]);
-            if (__builtin_expect(directions[i].cap.is_ambient, 0))
-                brdf_ambient(&block, lights[i].radiance, directions[i].cap.ambient, from_all);
-        }
-        brdf_channels(&sums, from_caps);
-        for (int c = 0; c < 3; c++)
-            vf_store(rgb[c] + e, vf_load(rgb[c] + e) + (from_all[c] + from_caps[c]));
+        size_t first = 0;
+        do {
+            const size_t left = light_count - first;
+            brdf_lights(material, &block, lights + first, radiance + first,
+                        left < BRDF_LIGHTS ? left : BRDF_LIGHTS, first == 0 ? ambient : none, e,
+                        live, rgb);
+            first += BRDF_LIGHTS;
+        } while (first < light_count);
     }
 }
 

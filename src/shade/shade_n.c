@@ -49,10 +49,8 @@ static void shade_brdf_planes(const shade_chunk *chunk, const lmp_kernel_light *
 static size_t take_lights(const lmp_light *lights, size_t count, const shade_chunk *chunk,
                           float (*scales)[SHADE_SURFACES_MAX], lmp_kernel_light *taken,
                           lmp_rgb *ambient) {
-    const size_t most =
-        chunk->source.preintegrated ? LMP_KERNEL_BRDF_LIGHTS_MAX : LMP_KERNEL_LIGHTS_MAX;
     size_t n = 0, spots = 0;
-    for (; n < count && n < most; n++) {
+    for (; n < count && n < LMP_KERNEL_LIGHTS_MAX; n++) {
         const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
         if (spot && spots == SPOTS_MAX)
             break;
