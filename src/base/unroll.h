@@ -19,6 +19,10 @@
 #define LMP_ROLLED _Pragma("GCC unroll 1")
 #endif
 
+/* At the end of a loop over `i`: no vectors are made of it. A vector's load would wait for the
+ * stores of single values just before to reach the cache, longer than a few bands take. */
+#define LMP_ONE_BY_ONE(i) __asm__ volatile("" : "+r"(i))
+
 /* Cases of a switch over bands: of one number, and of those that engines ask for one light at a
  * time. */
 #define LMP_CASE(bands, body, ...)                                                                 \

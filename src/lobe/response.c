@@ -5,8 +5,10 @@
 #include "src/light/cap.h"
 
 void lmp_lobe_weights(int bands, const float *lambda, float *weights) {
-    for (int l = 0; l < bands; l++)
+    for (int l = 0; l < bands; l++) {
         weights[l] = lmp_table_pole[l] * lmp_table_pole[l] * lambda[l];
+        LMP_ONE_BY_ONE(l);
+    }
 }
 
 /* P_l(q·w) by differences from 1 - |q·w| = |q ∓ w|²/2, as exact as q and w are where a narrow lobe

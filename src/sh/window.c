@@ -41,6 +41,11 @@ void lmp_sh_window(int bands, lmp_window window, float size, float *weights) {
     assert(size >= 0 && isfinite(size));
     const double last = size > 0 ? (double)size : bands;
     weights[0] = 1;
+    if (window == LMP_WINDOW_NONE) {
+        for (int l = 1; l < bands; l++)
+            weights[l] = 1;
+        return;
+    }
     for (int l = 1; l < bands; l++)
         weights[l] =
             windows[window].ends && l >= last ? 0 : (float)windows[window].weight(l / last);

@@ -100,6 +100,9 @@ void lmp_shade_lobes(const lmp_shade_settings *resolved, const lmp_material *mat
         lobes->lobe[k].axis = phong->axis;
         lobes->lobe[k].weight = phong->weight;
     }
+    /* Not multiplied by ones. */
+    if (resolved->window == LMP_WINDOW_NONE)
+        return;
     lmp_sh_window(bands, resolved->window, resolved->window_size, window);
     for (int k = 0; k < lobes->count; k++)
         for (int l = 0; l < bands; l++)
