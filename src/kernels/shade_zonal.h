@@ -214,19 +214,20 @@ typedef struct zonal_work {
 
 /* The weights of Phong's lobes from `first` on; those of the block before are there, if `kept`. */
 LMP_INLINE void zonal_weigh(int first, int lobes, int bands, const zonal_work *work, size_t e,
-                            int kept) {
+                            int kept, vf (*weights)[LMP_BANDS_MAX]) {
     for (int k = 0; k < lobes; k++) {
         const float *exponent = work->surfaces->lobe[first + k].exponent + e;
         /* Neighbors are often of one material. */
         if (!kept || memcmp(exponent, exponent - LMP_LANES, sizeof(vf)) != 0)
-            zonal_phong(bands, work->tables, vf_load(exponent), work->weights[k]);
+            zonal_phong(bands, work->tables, vf_load(exponent), weights[k]);
     }
 }
 
-/* `count` lights from `light` on, on Phong's lobes from `first` on, and on the diffuse one; `all`
- * lobes have cosines. */
+/* `count` lights from `light` on, on Phong's lobes from `first` on, of these weights, and on the
+ * diffuse one; `all` lobes have cosines. */
 LMP_INLINE void zonal_lobes(int first, int lobes, int all, int diffuse, int bands, int monic,
-                            const zonal_work *work, size_t light, size_t count, size_t e) {
+                            const zonal_work *work, const vf (*weights)[LMP_BANDS_MAX],
+                            size_t light, size_t count, size_t e) {
     const lmp_kernel_accumulated *accumulated = work->accumulated;
     const zonal_tables *tables = work->tables;
     zonal_accumulated sums;
@@ -236,9 +237,8 @@ LMP_INLINE void zonal_lobes(int first, int lobes, int all, int diffuse, int band
         shade_sums_load(accumulated->specular[first + k], e, sums.specular[k]);
     for (size_t i = 0; i < count; i++) {
         LMP_OPAQUE(tables);
-        zonal_light(lobes, diffuse, bands, monic, tables, (const vf(*)[LMP_BANDS_MAX])work->weights,
-                    &work->directions[i], work->v + i * (size_t)all + first,
-                    work->lights[light + i].radiance, &sums);
+        zonal_light(lobes, diffuse, bands, monic, tables, weights, &work->directions[i],
+                    work->v + i * (size_t)all + first, work->lights[light + i].radiance, &sums);
     }
     if (diffuse)
         shade_sums_store(sums.diffuse, e, accumulated->diffuse);
@@ -246,27 +246,36 @@ LMP_INLINE void zonal_lobes(int first, int lobes, int all, int diffuse, int band
         shade_sums_store(sums.specular[k], e, accumulated->specular[first + k]);
 }
 
+/* Where there are more lobes than go together, the weights of both groups are kept for all lights
+ * in the halves of rows, if they fit; else they take turns. */
 LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_work *work) {
+    typedef const vf(*rows)[LMP_BANDS_MAX];
     const lmp_kernel_light *lights = work->lights;
     const int more = lobes == ZONAL_LOBES_MAX && work->surfaces->lobe_count > lobes;
     const int rest = LMP_KERNEL_LOBES_MAX - ZONAL_LOBES_MAX;
+    const int kept = !more || bands <= LMP_BANDS_MAX / 2;
+    vf(*const first)[LMP_BANDS_MAX] = work->weights;
+    vf(*const second)[LMP_BANDS_MAX] = (void *)(work->weights[0] + (kept ? LMP_BANDS_MAX / 2 : 0));
     const size_t most = lobes == 1 ? ZONAL_LIGHTS_ONE : ZONAL_LIGHTS_MORE;
     for (size_t e = 0; e < work->count; e += LMP_LANES) {
         for (size_t i = 0; i < work->light_count; i += most) {
             const size_t left = work->light_count - i, taken = left < most ? left : most;
-            if (i == 0 || more)
-                zonal_weigh(0, lobes, bands, work, e, e > 0 && !more);
+            if (i == 0 || !kept)
+                zonal_weigh(0, lobes, bands, work, e, e > 0 && kept, first);
             if (!more) {
                 shade_directions(lobes, work->surfaces, lights + i, taken, e, work->directions,
                                  work->v);
-                zonal_lobes(0, lobes, lobes, 1, bands, monic, work, i, taken, e);
+                zonal_lobes(0, lobes, lobes, 1, bands, monic, work, (rows)first, i, taken, e);
                 continue;
             }
             shade_directions(LMP_KERNEL_LOBES_MAX, work->surfaces, lights + i, taken, e,
                              work->directions, work->v);
-            zonal_lobes(0, lobes, LMP_KERNEL_LOBES_MAX, 1, bands, monic, work, i, taken, e);
-            zonal_weigh(lobes, rest, bands, work, e, 0);
-            zonal_lobes(lobes, rest, LMP_KERNEL_LOBES_MAX, 0, bands, monic, work, i, taken, e);
+            zonal_lobes(0, lobes, LMP_KERNEL_LOBES_MAX, 1, bands, monic, work, (rows)first, i,
+                        taken, e);
+            if (i == 0 || !kept)
+                zonal_weigh(lobes, rest, bands, work, e, e > 0 && kept, second);
+            zonal_lobes(lobes, rest, LMP_KERNEL_LOBES_MAX, 0, bands, monic, work, (rows)second, i,
+                        taken, e);
         }
     }
 }
