@@ -179,21 +179,20 @@ static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
-/* Surfaces with lobes, inside the grid: moves from `left` those like its first and shades them;
- * returns how many stay. A function of its own, for shade_one must not be called on top of its
- * chunk. */
-static __attribute__((noinline)) size_t shade_alike(const field_shading *shading,
-                                                    const lmp_surfaces *surfaces, size_t *left,
-                                                    size_t count, size_t stride, float *rgb) {
+/* Surfaces with lobes, inside the grid: shades those that wait and are like the first. A function
+ * of its own, for shade_one must not be called on top of its chunk. */
+static __attribute__((noinline)) void shade_alike(const field_shading *shading,
+                                                  const lmp_surfaces *surfaces,
+                                                  shade_waiting *waiting, size_t stride,
+                                                  float *rgb) {
     shade_chunk chunk;
-    count = lmp_shade_take_alike(surfaces, false, left, count, &chunk);
+    lmp_shade_take_alike(surfaces, false, waiting, &chunk);
     lmp_shade_load_chunk(surfaces, &chunk);
     for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
         shade_far(shading, first, &chunk);
     shade_near(shading, &chunk);
     lmp_shade_sum_planes(chunk.count, chunk.phong_count, chunk.ambient, &chunk.planes);
     lmp_shade_store(&chunk.planes, chunk.at, chunk.count, stride, rgb);
-    return count;
 }
 
 /* Blocks so many apart have the same key: they come mixed, which costs time alone. */
@@ -255,11 +254,11 @@ void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *fiel
         const size_t sorted = sort(field, surfaces, first, some, order);
         for (size_t i = sorted; i < some; i++)
             shade_one(&shading, surfaces, first + order[i], stride, rgb);
-        size_t left[FIELD_CHUNK], waiting = 0, next = 0;
-        while (next < sorted || waiting > 0) {
-            while (next < sorted && waiting < FIELD_CHUNK)
-                left[waiting++] = first + order[next++];
-            waiting = shade_alike(&shading, surfaces, left, waiting, stride, rgb);
+        shade_waiting waiting = { .count = 0 };
+        for (size_t next = 0; next < sorted || waiting.count > 0;) {
+            while (next < sorted && waiting.count < FIELD_CHUNK)
+                lmp_shade_wait(surfaces, first + order[next++], &waiting);
+            shade_alike(&shading, surfaces, &waiting, stride, rgb);
         }
     }
 }

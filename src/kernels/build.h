@@ -4,6 +4,7 @@
 #include "src/kernels/accumulate_few.h"
 #include "src/kernels/eval_gradient.h"
 #include "src/kernels/field.h"
+#include "src/kernels/ggx.h"
 #include "src/kernels/gradient.h"
 #include "src/kernels/image.h"
 #include "src/kernels/lobe.h"
@@ -33,6 +34,7 @@ const lmp_kernels LMP_KERNELS = {
     .lanes = LMP_LANES,
     .load_rows = kernel_load_rows,
     .store_colors = kernel_store_colors,
+    .ggx = kernel_ggx,
     .eval = kernel_eval,
     .eval_gradient = kernel_eval_gradient,
     .dot = kernel_dot,

@@ -158,6 +158,19 @@ typedef struct lmp_kernel_texel_sums {
     double sine[LMP_KERNEL_ORDERS][LMP_KERNEL_CHANNELS][LMP_BANDS_MAX];
 } lmp_kernel_texel_sums;
 
+/* The table of GGX's lobes (lmp_ggx_table): rows over roughness_min … 1 of nodes over the root of
+ * the view's cosine, each of LMP_KERNEL_LOBES_MAX lobes of four parameters; what the base loses, by
+ * view. And planes of a lobe. */
+typedef struct lmp_kernel_ggx {
+    const float *nodes, *diffuse;
+    int views, roughnesses;
+    float roughness_min;
+} lmp_kernel_ggx;
+
+typedef struct lmp_kernel_ggx_lobe {
+    float *axis[3], *exponent, *f0, *f90;
+} lmp_kernel_ggx_lobe;
+
 typedef struct lmp_kernels {
     const char *name;
     int lanes;
@@ -167,6 +180,10 @@ typedef struct lmp_kernels {
                       float *const *planes);
     void (*store_colors)(const float *const planes[3], size_t count, const lmp_kernel_rows *rows,
                          float *first);
+    /* The first `lobes` lobes of each surface, whole registers of them. */
+    void (*ggx)(const lmp_kernel_ggx *table, const lmp_kernel_vec3 *normal,
+                const lmp_kernel_vec3 *view, const float *roughness, size_t count, int lobes,
+                const lmp_kernel_ggx_lobe *to, float *diffuse_f90);
     /* bands^2 values: Y_lm. */
     void (*eval)(int bands, const lmp_kernel_vec3 *directions, size_t count,
                  const lmp_kernel_out *out);

@@ -5,50 +5,47 @@
 
 static const float pi = 3.14159265f;
 
-/* What a surface is shaded from and by how many lobes. */
-typedef struct shade_likeness {
-    shade_source source;
-    int phong_count;
-} shade_likeness;
-
-static shade_likeness likeness_of(const lmp_surfaces *surfaces, bool preintegrated, size_t at) {
-    const lmp_material *material = lmp_material_at(surfaces, at);
-    return (shade_likeness) { lmp_shade_source(material, preintegrated),
-                              lmp_shade_phong_count(material,
-                                                    lmp_vec3_element(&surfaces->normal, at),
-                                                    lmp_vec3_element(&surfaces->view, at)) };
+/* Those without lobes are alike that are shaded from the same. */
+static bool is_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t at,
+                     const shade_source *source) {
+    const shade_source own = lmp_shade_source(lmp_material_at(surfaces, at), preintegrated);
+    return own.table == source->table && own.preintegrated == source->preintegrated;
 }
 
-size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
-                            size_t count, shade_chunk *chunk) {
-    const shade_likeness first = likeness_of(surfaces, preintegrated, left[0]);
-    const size_t most = lmp_shade_capacity(first.phong_count);
-    const bool own_lobe = lmp_material_at(surfaces, left[0])->kind == LMP_MATERIAL_LOBES;
-    size_t taken = 0, others = 0;
-    bool in_a_row = true; /* surfaces come in any order where the caller sorts them */
-    for (size_t i = 0; i < count; i++) {
-        const size_t at = left[i];
-        bool alike = taken < most;
-        if (alike && (!own_lobe || lmp_material_at(surfaces, at)->kind != LMP_MATERIAL_LOBES)) {
-            const shade_likeness this = likeness_of(surfaces, preintegrated, at);
-            alike = this.source.table == first.source.table &&
-                    this.source.preintegrated == first.source.preintegrated &&
-                    this.phong_count == first.phong_count;
-        }
-        if (!alike) {
-            left[others++] = at;
-            continue;
-        }
+void lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, shade_waiting *waiting,
+                          shade_chunk *chunk) {
+    const int lobes = waiting->lobes[0];
+    const shade_source source =
+        lmp_shade_source(lmp_material_at(surfaces, waiting->at[0]), preintegrated);
+    const size_t most = lmp_shade_capacity(lobes);
+    size_t others = 0, i = 0, gaps = 0;
+    while (lobes > 0 && i < waiting->count && i < most && waiting->lobes[i] == lobes)
+        i++;
+    memcpy(chunk->at, waiting->at, i * sizeof *chunk->at);
+    size_t taken = i;
+    /* Without branches, which surfaces that take turns would mislead. */
+    for (; i < waiting->count && taken < most; i++) {
+        const size_t at = waiting->at[i];
+        bool alike = waiting->lobes[i] == lobes;
+        if (lobes == 0 && alike)
+            alike = is_alike(surfaces, preintegrated, at, &source);
         chunk->at[taken] = at;
-        in_a_row = in_a_row && at == chunk->at[0] + taken;
-        taken++;
+        waiting->at[others] = at;
+        waiting->lobes[others] = waiting->lobes[i];
+        taken += alike;
+        others += !alike;
     }
+    const size_t rest = waiting->count - i;
+    memmove(waiting->at + others, waiting->at + i, rest * sizeof *waiting->at);
+    memmove(waiting->lobes + others, waiting->lobes + i, rest * sizeof *waiting->lobes);
+    waiting->count = others + rest;
+    for (i = 0; i < taken; i++) /* surfaces come in any order where the caller sorts them */
+        gaps |= (chunk->at[i] - chunk->at[0]) ^ i;
     lmp_shade_fill(chunk->at, taken);
-    chunk->source = first.source;
-    chunk->phong_count = first.phong_count;
+    chunk->source = source;
+    chunk->phong_count = lobes;
     chunk->count = taken;
-    chunk->in_a_row = in_a_row;
-    return others;
+    chunk->in_a_row = gaps == 0;
 }
 
 static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {

@@ -24,9 +24,27 @@ typedef struct shade_chunk {
     lmp_kernel_accumulated sums;
 } shade_chunk;
 
-/* Moves from `left` what is like its first; returns how many stay. */
-size_t lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t *left,
-                            size_t count, shade_chunk *chunk);
+/* Surfaces that are not in a chunk yet, and how many Phong lobes each has. */
+typedef struct shade_waiting {
+    size_t count, at[SHADE_SURFACES_MAX];
+    unsigned char lobes[SHADE_SURFACES_MAX];
+} shade_waiting;
+
+/* Has one more wait, for which there is room. Inline, for every surface does. */
+static inline void lmp_shade_wait(const lmp_surfaces *surfaces, size_t at, shade_waiting *waiting) {
+    const size_t i = waiting->count++;
+    const lmp_material *material = lmp_material_at(surfaces, at);
+    int lobes = material->kind == LMP_MATERIAL_LOBES;
+    if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
+        lobes = lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, at),
+                                      lmp_vec3_element(&surfaces->view, at));
+    waiting->at[i] = at;
+    waiting->lobes[i] = (unsigned char)lobes;
+}
+
+/* Moves what is like the first of those that wait. */
+void lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, shade_waiting *waiting,
+                          shade_chunk *chunk);
 
 /* Of the surfaces taken all that a kernel reads; nothing is accumulated yet. */
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk);

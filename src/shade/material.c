@@ -7,10 +7,6 @@
 
 static const float pi = 3.14159265f;
 
-static float saturate(float x) {
-    return x > 0 ? x < 1 ? x : 1 : 0;
-}
-
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings) {
     lmp_shade_settings resolved = settings ? *settings : (lmp_shade_settings) { 0 };
     if (resolved.bands == 0)
@@ -43,7 +39,7 @@ shade_layers lmp_shade_layers(const lmp_material *material) {
         true, { LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0, LMP_DIELECTRIC_F0 }, 1
     };
     const lmp_dielectric *layer = material->dielectric.given ? &material->dielectric : &common;
-    const float metal = saturate(material->metallic), dielectric = 1 - metal;
+    const float metal = lmp_shade_saturate(material->metallic), dielectric = 1 - metal;
     const lmp_rgb base = material->base_color, f0 = times(layer->f0, dielectric);
     return (shade_layers) { times(base, dielectric),
                             { base.r * metal + f0.r, base.g * metal + f0.g, base.b * metal + f0.b },

@@ -136,6 +136,11 @@ static inline float lmp_shade_clamped(float sum) {
     return sum <= 0 ? 0 : sum;
 }
 
+/* NaN counts as 0. */
+static inline float lmp_shade_saturate(float x) {
+    return x > 0 ? x < 1 ? x : 1 : 0;
+}
+
 /* The settings with every default filled in. */
 lmp_shade_settings lmp_shade_resolve(const lmp_shade_settings *settings);
 

@@ -76,53 +76,95 @@ static void load_phong(const lmp_surfaces *surfaces, const size_t *at, size_t co
     mirror(normal, view, count, lobe->axis.x, lobe->axis.y, lobe->axis.z);
 }
 
-static void weigh(const float *f0, const float *f0_part, const float *f90_part, size_t count,
-                  float *weight) {
-    for (size_t i = 0; i < count; i++)
-        weight[i] = f0[i] * f0_part[i] + f90_part[i];
+/* What reflects of metallic-roughness (shade_layers), in planes. */
+typedef struct ggx_planes {
+    float base[3][SHADE_SURFACES_GGX], unread[3][SHADE_SURFACES_GGX];
+    float metallic[SHADE_SURFACES_GGX], roughness[SHADE_SURFACES_GGX];
+    float layer[3][SHADE_SURFACES_GGX], layer_f90[SHADE_SURFACES_GGX]; /* of the dielectric */
+    float f0[3][SHADE_SURFACES_GGX], f90[SHADE_SURFACES_GGX], passed[SHADE_SURFACES_GGX];
+    float f0_part[LMP_GGX_LOBES][SHADE_SURFACES_GGX], f90_part[LMP_GGX_LOBES][SHADE_SURFACES_GGX];
+} ggx_planes;
+
+static_assert(offsetof(lmp_material, metallic) == offsetof(lmp_material, base_color) + 24 &&
+                  offsetof(lmp_material, roughness) == offsetof(lmp_material, base_color) + 28,
+              "metallic-roughness is eight floats of a material");
+
+static void read_materials(const lmp_surfaces *surfaces, const size_t *at, size_t count,
+                           ggx_planes *ggx) {
+    float *const to[8] = { ggx->base[0],   ggx->base[1],   ggx->base[2],  ggx->unread[0],
+                           ggx->unread[1], ggx->unread[2], ggx->metallic, ggx->roughness };
+    const lmp_kernel_rows rows = { at, surfaces->material_stride };
+    lmp_kernels_get()->load_rows(8, &surfaces->material->base_color.r, &rows, count, to);
+    for (size_t i = 0; i < count; i++) {
+        const lmp_dielectric *layer = &lmp_material_at(surfaces, at[i])->dielectric;
+        const float common = LMP_DIELECTRIC_F0;
+        ggx->layer[0][i] = layer->given ? layer->f0.r : common;
+        ggx->layer[1][i] = layer->given ? layer->f0.g : common;
+        ggx->layer[2][i] = layer->given ? layer->f0.b : common;
+        ggx->layer_f90[i] = layer->given ? layer->f90 : 1;
+    }
 }
 
-static void scale(const float *factors, size_t count, float *values) {
+/* The operations of lmp_shade_layers. */
+static void layer(size_t count, ggx_planes *ggx, lmp_batch_vec3 diffuse) {
     for (size_t i = 0; i < count; i++)
-        values[i] *= factors[i];
+        ggx->metallic[i] = lmp_shade_saturate(ggx->metallic[i]);
+    for (size_t c = 0; c < 3; c++) {
+        float *restrict albedo = plane_of(diffuse, c);
+        for (size_t i = 0; i < count; i++) {
+            const float metal = ggx->metallic[i], dielectric = 1 - metal;
+            albedo[i] = ggx->base[c][i] * dielectric;
+            ggx->f0[c][i] = ggx->base[c][i] * metal + ggx->layer[c][i] * dielectric;
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        const float f90 = ggx->layer_f90[i];
+        ggx->f90[i] = f90 + (1 - f90) * ggx->metallic[i];
+    }
+}
+
+/* passed: in, diffuse_f90 (lobe.h); out, what passes the layer. */
+static void pass(size_t count, ggx_planes *ggx, lmp_batch_vec3 diffuse) {
+    for (size_t i = 0; i < count; i++) {
+        const float *red = ggx->layer[0], *green = ggx->layer[1], *blue = ggx->layer[2];
+        const float most = green[i] > blue[i] ? green[i] : blue[i];
+        const float f0 = red[i] > most ? red[i] : most, lost = ggx->passed[i];
+        ggx->passed[i] = 1 - f0 * (1 - lost) - ggx->layer_f90[i] * lost;
+    }
+    for (size_t c = 0; c < 3; c++) {
+        float *restrict albedo = plane_of(diffuse, c);
+        for (size_t i = 0; i < count; i++)
+            albedo[i] *= ggx->passed[i];
+    }
+}
+
+static void weigh(size_t count, int k, ggx_planes *ggx, lmp_batch_vec3 weight) {
+    for (size_t i = 0; i < count; i++)
+        ggx->f90_part[k][i] *= ggx->f90[i];
+    for (size_t c = 0; c < 3; c++) {
+        float *restrict to = plane_of(weight, c);
+        for (size_t i = 0; i < count; i++)
+            to[i] = ggx->f0[c][i] * ggx->f0_part[k][i] + ggx->f90_part[k][i];
+    }
 }
 
 static void load_ggx(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobe_count,
                      const lmp_kernel_vec3 *normal, const lmp_kernel_vec3 *view,
                      shade_planes *planes) {
-    float roughness[LMP_GGX_RUN], passed[LMP_GGX_RUN], f90[LMP_GGX_RUN];
-    float f0[3][LMP_GGX_RUN];
-    float f0_part[LMP_GGX_LOBES][LMP_GGX_RUN], f90_part[LMP_GGX_LOBES][LMP_GGX_RUN];
-    const lmp_batch_vec3 f0_planes = { f0[0], f0[1], f0[2] };
-    shade_layers layers[LMP_GGX_RUN];
-    lmp_ggx_lobe_planes lobes[LMP_GGX_LOBES];
-    for (size_t i = 0; i < count; i++) {
-        const lmp_material *material = lmp_material_at(surfaces, at[i]);
-        const shade_layers *of = &layers[i];
-        layers[i] = lmp_shade_layers(material);
-        roughness[i] = material->roughness;
-        f90[i] = of->f90;
-        lmp_batch_set(of->diffuse.r, of->diffuse.g, of->diffuse.b, planes->diffuse, i);
-        lmp_batch_set(of->f0.r, of->f0.g, of->f0.b, f0_planes, i);
-    }
+    ggx_planes ggx;
+    lmp_kernel_ggx_lobe lobes[LMP_GGX_LOBES];
+    read_materials(surfaces, at, count, &ggx);
     for (int k = 0; k < lobe_count; k++) {
         shade_lobe_planes *to = &planes->lobe[k];
-        lobes[k] = (lmp_ggx_lobe_planes) {
-            { to->axis.x, to->axis.y, to->axis.z }, to->exponent, f0_part[k], f90_part[k]
+        lobes[k] = (lmp_kernel_ggx_lobe) {
+            { to->axis.x, to->axis.y, to->axis.z }, to->exponent, ggx.f0_part[k], ggx.f90_part[k]
         };
     }
-    const float *const n[3] = { normal->x, normal->y, normal->z };
-    const float *const v[3] = { view->x, view->y, view->z };
-    lmp_lobe_ggx_n(n, v, roughness, count, lobe_count, lobes, passed);
-    for (size_t i = 0; i < count; i++)
-        passed[i] = lmp_shade_passed(&layers[i], passed[i]);
+    lmp_lobe_ggx_n(normal, view, ggx.roughness, count, lobe_count, lobes, ggx.passed);
+    layer(count, &ggx, planes->diffuse);
+    pass(count, &ggx, planes->diffuse);
     for (int k = 0; k < lobe_count; k++)
-        scale(f90, count, f90_part[k]);
-    for (size_t c = 0; c < 3; c++) {
-        scale(passed, count, plane_of(planes->diffuse, c));
-        for (int k = 0; k < lobe_count; k++)
-            weigh(f0[c], f0_part[k], f90_part[k], count, plane_of(planes->lobe[k].weight, c));
-    }
+        weigh(count, k, &ggx, planes->lobe[k].weight);
 }
 
 void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count, int lobes,
@@ -142,7 +184,7 @@ void lmp_shade_load(const lmp_surfaces *surfaces, const size_t *at, size_t count
 void lmp_shade_sum_planes(size_t count, int lobes, const float ambient[3], shade_planes *planes) {
     for (size_t c = 0; c < 3; c++) {
         const float *albedo = plane_of(planes->diffuse, c);
-        float *sum = planes->accumulated[c];
+        float *restrict sum = planes->accumulated[c];
         for (size_t i = 0; i < count; i++)
             sum[i] = albedo[i] * (sum[i] + ambient[c]);
         for (int k = 0; k < lobes; k++) {

@@ -24,7 +24,8 @@ enum { SHADE_PLANES = 15, SHADE_LOBE_PLANES = 10 };
      LMP_KERNEL_LANES_MAX)
 enum {
     SHADE_SURFACES_MIN = SHADE_FIT(LMP_KERNEL_LOBES_MAX),
-    SHADE_SURFACES_MAX = SHADE_FIT(1) /* and of none */
+    SHADE_SURFACES_GGX = SHADE_FIT(LMP_GGX_LOBES_FEW), /* at most */
+    SHADE_SURFACES_MAX = SHADE_FIT(1)                  /* and of none */
 };
 
 /* A Phong lobe of each surface, and what it has accumulated: red, green, blue. */
@@ -41,11 +42,10 @@ typedef struct shade_planes {
     float memory[SHADE_FLOATS] __attribute__((aligned(64)));
 } shade_planes;
 
-/* Surfaces with so many lobes that a chunk takes; those of GGX come from runs. */
+/* Surfaces with so many lobes that a chunk takes. */
 static inline size_t lmp_shade_capacity(int lobes) {
-    const size_t fit = (size_t)SHADE_FIT(lobes),
-                 most = lobes > 1 ? LMP_GGX_RUN : SHADE_SURFACES_MAX;
-    return fit < most ? fit : most;
+    const size_t fit = (size_t)SHADE_FIT(lobes);
+    return fit < SHADE_SURFACES_MAX ? fit : SHADE_SURFACES_MAX;
 }
 
 /* Divides the memory among planes of so many lobes. */

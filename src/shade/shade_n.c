@@ -95,13 +95,12 @@ void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *su
     shade_chunk chunk;
     if (method->prepare)
         method->prepare(&resolved, &prepared);
-    size_t left[SHADE_SURFACES_MAX], left_count = 0, next = 0;
-    while (left_count > 0 || next < count) {
+    shade_waiting waiting = { .count = 0 };
+    for (size_t next = 0; waiting.count > 0 || next < count;) {
         /* Full chunks of each kind, also where kinds alternate. */
-        while (left_count < SHADE_SURFACES_MAX && next < count)
-            left[left_count++] = next++;
-        left_count =
-            lmp_shade_take_alike(surfaces, method->preintegrated, left, left_count, &chunk);
+        while (waiting.count < SHADE_SURFACES_MAX && next < count)
+            lmp_shade_wait(surfaces, next++, &waiting);
+        lmp_shade_take_alike(surfaces, method->preintegrated, &waiting, &chunk);
         const bool lobes = chunk.phong_count > 0;
         assert(!lobes || !method->preintegrated || resolved.lobe);
         if (chunk.source.table || (lobes && !method->lobes_of_chunk))

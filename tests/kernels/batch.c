@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The batch functions of sh.h, light.h and lobe.h: the scalar functions' results whatever the
  * layout, the strides and the chunk, and the masks that choose the kernels. */
-#include "src/kernels/kernels.h"
+#include "src/kernels/batch.h"
+#include "src/lobe/ggx.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/cpu.h>
@@ -371,6 +372,46 @@ static void rows_are_planes_wherever_they_are(void **test) {
     }
 }
 
+/* Of views from behind on, and of any roughness: the bits of one surface by every build. */
+static void lobes_of_ggx_are_those_of_one_surface(void **test) {
+    (void)test;
+    enum { SURFACES = 48, TAKEN = 41, MEMBERS = 6 };
+    static const float strange[4] = { NAN, -1, 7, 0 };
+    float vectors[6][SURFACES], rough[SURFACES], lost[SURFACES];
+    float planes[LMP_GGX_LOBES][MEMBERS][SURFACES];
+    lmp_kernel_ggx_lobe to[LMP_GGX_LOBES];
+    for (size_t i = 0; i < SURFACES; i++) {
+        const lmp_vec3 n = check_random_direction(), v = i % 5 ? check_random_direction() : n;
+        const float both[6] = { n.x, n.y, n.z, v.x, v.y, v.z };
+        rough[i] = i % 7 ? (float)check_random() : strange[i / 7 % 4];
+        for (size_t c = 0; c < 6; c++)
+            vectors[c][i] = both[c];
+    }
+    for (int k = 0; k < LMP_GGX_LOBES; k++)
+        to[k] = (lmp_kernel_ggx_lobe) {
+            { planes[k][0], planes[k][1], planes[k][2] }, planes[k][3], planes[k][4], planes[k][5]
+        };
+    const lmp_kernel_vec3 normal = { vectors[0], vectors[1], vectors[2] };
+    const lmp_kernel_vec3 view = { vectors[3], vectors[4], vectors[5] };
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+        lmp_cpu_mask(flag);
+        lmp_lobe_ggx_n(&normal, &view, rough, TAKEN, LMP_GGX_LOBES, to, lost);
+        for (size_t i = 0; i < TAKEN; i++) {
+            lmp_ggx_lobes one;
+            lmp_lobe_ggx(lmp_batch_get(&normal, i), lmp_batch_get(&view, i), rough[i], &one);
+            assert_memory_equal(&lost[i], &one.diffuse_f90, sizeof(float));
+            for (int k = 0; k < LMP_GGX_LOBES; k++) {
+                const lmp_ggx_lobe *lobe = &one.lobe[k];
+                const float members[MEMBERS] = { lobe->axis.x,   lobe->axis.y, lobe->axis.z,
+                                                 lobe->exponent, lobe->f0,     lobe->f90 };
+                for (int m = 0; m < MEMBERS; m++)
+                    assert_memory_equal(&planes[k][m][i], &members[m], sizeof(float));
+            }
+        }
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(project_takes_structures_and_gives_rows),
@@ -387,6 +428,7 @@ int main(void) {
         cmocka_unit_test(slopes_of_the_basis_are_those_of_one_direction),
         cmocka_unit_test(images_have_the_same_bits_by_every_mask),
         cmocka_unit_test(rows_are_planes_wherever_they_are),
+        cmocka_unit_test(lobes_of_ggx_are_those_of_one_surface),
         cmocka_unit_test(the_mask_chooses_the_kernels),
     };
     return cmocka_run_group_tests(tests, fill, NULL);
