@@ -18,9 +18,9 @@
  *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from every point, a sun or a sky; SPHERE(i) is
  *                            then its unit axis and 1 - cos a, a its half angle; default false
  *   LMP_LIGHT_COLOR(i, p)    vec3: its radiance towards p; default LMP_LIGHT_RADIANCE(i)
+ *   LMP_LIGHT_LIT(i, p)      bool: it gives p light, or lmp_shade_zonal leaves it out; default true
  *
  * A fragment shader that is lit by it, all of it:
- *
  *     #version 450 core
  *     #define LMP_BANDS 8
  *     #define LMP_WINDOW LMP_WINDOW_HANNING
@@ -37,7 +37,6 @@
  *         lmp_material clay = lmp_material(vec3(0.8, 0.4, 0.3), vec3(0.04), 30.0);
  *         color = vec4(lmp_shade_zonal(surface, clay), 1.0);
  *     }
- *
  * (GLSL has no #include: put this text there; or take GL_GOOGLE_include_directive.) A program of
  * this kind is examples/lanterns.c.
  *
@@ -165,7 +164,6 @@ struct lmp_cap {
 #define LMP_FOR_BANDS(X)                                                                           \
     X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15) X(16) X(17) X(18)  \
     X(19) X(20) X(21) X(22) X(23) X(24) X(25) X(26) X(27) X(28) X(29) X(30) X(31)
-
 /* An index that stays legal in the blocks the constant tests remove. */
 #define LMP_BAND(l) (l < LMP_BANDS ? l : 0)
 
@@ -332,6 +330,9 @@ void lmp_cap_series(lmp_cap cap, out float R[LMP_BANDS]) {
 #ifndef LMP_LIGHT_COLOR
 #define LMP_LIGHT_COLOR(i, p) LMP_LIGHT_RADIANCE(i)
 #endif
+#ifndef LMP_LIGHT_LIT
+#define LMP_LIGHT_LIT(i, p) true
+#endif
 /* A function of a surface and the lobes that are summed together, of a surface and all its lobes, or
  * its material, clamped at 0. */
 #define LMP_SHADE_LOBES(shade, shade_some)                                                         \
@@ -364,6 +365,9 @@ lmp_cap lmp_light_cap(int lmp_i, vec3 lmp_p) {
 vec3 lmp_light_color(int lmp_i, vec3 lmp_p) {
     return LMP_LIGHT_COLOR(lmp_i, lmp_p);
 }
+bool lmp_light_lit(int lmp_i, vec3 lmp_p) {
+    return LMP_LIGHT_LIT(lmp_i, lmp_p);
+}
 
 /* Radiance to the viewer under all lights, by the addition theorem: O(LMP_BANDS) a light.
  *
@@ -394,6 +398,8 @@ vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
 
     vec3 sum = vec3(0.0);
     for (int i = 0; i < lmp_light_count(); i++) {
+        if (!lmp_light_lit(i, surface.position))
+            continue;
         lmp_cap cap = lmp_light_cap(i, surface.position);
         float u = dot(cap.axis, surface.normal), r = 1.0, difference = 0.0;
         float p0 = 1.0, p1 = u, p2, d = 0.0;

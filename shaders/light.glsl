@@ -12,7 +12,20 @@ vec3 light_color(int i, vec3 point) {
     return lights[i].radiance.rgb * (inside * inside);
 }
 
+#ifdef SHADE_FIELD
+/* Of a field (field.glsl): the lights near the point that was looked for last, and what the field
+ * lacks of them there. */
+int field_light_count();
+int field_light(int i);
+float field_lacks(int light, vec3 point);
+#define LMP_LIGHT_COUNT       field_light_count()
+#define LMP_LIGHT_SPHERE(i)   lights[field_light(i)].sphere
+#define LMP_LIGHT_FIXED(i)    (lights[field_light(i)].radiance.w == float(SHARED_LIGHT_FIXED))
+#define LMP_LIGHT_COLOR(i, p) (light_color(field_light(i), p) * field_lacks(field_light(i), p))
+#define LMP_LIGHT_LIT(i, p)   (field_lacks(field_light(i), p) > 0.0)
+#else
 #define LMP_LIGHT_COUNT       int(size_lights.z)
 #define LMP_LIGHT_SPHERE(i)   lights[i].sphere
 #define LMP_LIGHT_FIXED(i)    (lights[i].radiance.w == float(SHARED_LIGHT_FIXED))
 #define LMP_LIGHT_COLOR(i, p) light_color(i, p)
+#endif

@@ -40,6 +40,10 @@ layout(std430, binding = SHARED_PREINTEGRATED_BRDF) readonly buffer brdf_block {
 #endif
 #endif
 
+#ifdef SHADE_FIELD
+#include "field.glsl"
+#endif
+
 #include "pixel.glsl"
 #include "environment.glsl"
 #ifdef TABLE_FULL

@@ -101,6 +101,27 @@ typedef struct shared_reflector {
 #define SHARED_PREINTEGRATED_BRDF_TEXELS 8
 #define SHARED_PREINTEGRATED_BRDF        4
 
+/* Storage blocks of a field's nodes, and of what else there is of it (field.glsl), which no method
+ * reads that reads a preintegrated lobe. */
+#define SHARED_FIELD_NODES 3
+#define SHARED_FIELD       4
+
+/* How a field lies, before its lists, which are uint; as std430. */
+#ifdef LAMPION_SHADER
+struct shared_field {
+#else
+typedef struct shared_field {
+#endif
+    vec4 origin;   /* of the first node; w: 1 / reach */
+    vec4 per_cell; /* 1 / edges of a cell; w: how many lights there are */
+    vec4 cell;
+    vec4 nodes; /* along x, y, z */
+#ifdef LAMPION_SHADER
+};
+#else
+} shared_field;
+#endif
+
 /* Texture unit of the paper's tabulated Z_l, 4 bands a row, and its entries. */
 #define SHARED_ZONAL         7
 #define SHARED_ZONAL_ENTRIES 1024
@@ -212,6 +233,7 @@ static_assert(offsetof(shared_material, offset) == 336, "std140");
 static_assert(sizeof(shared_material) == 528, "std140");
 static_assert(sizeof(shared_pixel) == 144, "std430");
 static_assert(sizeof(shared_reflector) == 32, "std430");
+static_assert(sizeof(shared_field) == 64, "std430");
 #endif
 
 #endif

@@ -107,7 +107,8 @@ static bool find_lobes(bench_scene *s, int bands, cli_error *error) {
 
 /* Of the bands of the last row that read one. */
 static bool find_field(bench_scene *s, int bands, cli_error *error) {
-    static const shade_field_options options = SHADE_FIELD_DEFAULTS;
+    const shade_field_options options = { .error = SHADE_FIELD_ERROR,
+                                          .bytes_max = s->context.storage_max };
     if (s->field && shade_field_describe(s->field).info.desc.bands == bands)
         return true;
     shade_field_destroy(s->field);
@@ -166,7 +167,7 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
     if (method_table[c->by->method].reads & METHOD_READS_FIELD) {
         if (!find_field(s, c->bands, error))
             return false;
-        frame.field = s->field;
+        shade_field_attach(s->field, &frame);
     }
     double samples[FRAMES];
     int count = 0;

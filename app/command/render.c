@@ -121,12 +121,14 @@ static bool settle_tables(render_job *j, cli_error *error) {
         !bake_lobes(o->bands, (lmp_window)o->window, &j->lobes, error))
         return false;
     if (reads(j, METHOD_READS_FIELD) && o->bands <= LMP_FIELD_BANDS_MAX) {
-        j->field = shade_field_create(&j->world, &o->field, o->bands, error);
+        shade_field_options options = o->field;
+        options.bytes_max = j->shading == DEVICE_CPU ? 0 : j->context.storage_max;
+        j->field = shade_field_create(&j->world, &options, o->bands, error);
         if (!j->field)
             return false;
     }
     j->frame.lobes = j->lobes;
-    j->frame.field = j->field;
+    shade_field_attach(j->field, &j->frame);
     return true;
 }
 

@@ -97,7 +97,8 @@ static void add_field(const render_job *j, cJSON *stats) {
     cJSON_AddNumberToObject(field, "reach", (double)s.info.reach);
     cJSON_AddNumberToObject(field, "bytes", (double)s.info.bytes);
     cJSON_AddNumberToObject(field, "update_milliseconds", s.update_milliseconds);
-    cJSON_AddNumberToObject(field, "evaluate_milliseconds", s.evaluate_milliseconds);
+    if (s.evaluate_milliseconds > 0) /* the library's alone */
+        cJSON_AddNumberToObject(field, "evaluate_milliseconds", s.evaluate_milliseconds);
 }
 
 /* The median of shading frames whose lights rest, while the camera moves on: the field keeps its
@@ -150,7 +151,7 @@ bool render_print_stats(render_job *j, cli_error *error) {
     }
     if (j->field) {
         add_field(j, stats);
-        if (j->shading == DEVICE_CPU && !add_rest(j, stats, error)) {
+        if (!add_rest(j, stats, error)) {
             cJSON_Delete(stats);
             return false;
         }

@@ -56,9 +56,12 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error) {
     context->software = strstr(context->device, "llvmpipe") || strstr(context->device, "softpipe");
 
     GLint blocks = 0, side = 0;
+    GLint64 storage = 0;
     glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage);
     context->size_max = side < GPU_SIZE_MAX ? side : GPU_SIZE_MAX;
+    context->storage_max = (size_t)storage;
     if (blocks == 0)
         return cli_fail(error, NULL, "%s has no storage blocks in vertex shaders", context->device);
     listen_to_messages();

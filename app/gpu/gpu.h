@@ -13,6 +13,8 @@
 #include "app/method/method.h"
 #include "app/scene/scene.h"
 
+#include <lampion/field.h>
+
 #define GPU_SIZE_MAX 16384 /* pixels a side */
 
 /* --- the device ------------------------------------------------------------------------------- */
@@ -20,8 +22,9 @@
 typedef struct gpu_context {
     void *display, *context; /* EGL's; NULL when adopted */
     char device[128], driver[128];
-    bool software; /* no hardware behind it: timer queries mean nothing */
-    int size_max;  /* of a texture's side */
+    bool software;      /* no hardware behind it: timer queries mean nothing */
+    int size_max;       /* of a texture's side */
+    size_t storage_max; /* bytes that shaders read of one buffer */
 } gpu_context;
 
 /* A context without a window, current on return. device: NULL takes the first hardware device, else
@@ -53,6 +56,10 @@ typedef struct gpu_host_pass {
     void *user;
 } gpu_host_pass;
 
+/* A frame's field for shaders: all its nodes are those of the frame's lights. *stamp: above 0, and
+ * another one whenever it has changed. NULL on failure. */
+typedef const lmp_field *(*gpu_whole_field)(const struct gpu_frame *frame, uint64_t *stamp);
+
 /* What to draw. */
 typedef struct gpu_frame {
     int width, height;
@@ -67,6 +74,7 @@ typedef struct gpu_frame {
     int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
     const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
     shade_field *field;                  /* of these bands, if the method reads one */
+    gpu_whole_field whole_field;         /* of it, where a shader does */
     gpu_host_shader host;                /* instead of the compute pass, or NULL */
     gpu_host_pass shadow;                /* after shading; zero: none */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */

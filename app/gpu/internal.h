@@ -140,6 +140,16 @@ bool gpu_bind_preintegrated_brdf(gpu_renderer *renderer, cli_error *error);
 /* Binds the table of Z_l of so many bands, made at its first use. */
 bool gpu_bind_zonal(gpu_renderer *renderer, int bands, cli_error *error);
 
+/* --- field.c ---------------------------------------------------------------------------------- */
+
+/* Binds the frame's field, uploaded where it has changed; *milliseconds: what that took, and what
+ * computing the nodes did. */
+bool gpu_bind_field(gpu_renderer *renderer, const gpu_frame *frame, double *milliseconds,
+                    cli_error *error);
+
+/* What was uploaded is not used any more. */
+void gpu_forget_field(gpu_renderer *renderer);
+
 /* --- environment.c ---------------------------------------------------------------------------- */
 
 /* Uploads what the shaders read of the environment, once for so many bands and a window. */
@@ -211,8 +221,11 @@ struct gpu_renderer {
     const lmp_preintegrated_lobe *lobe; /* what they hold */
     int lobe_bands;
     lmp_window lobe_window;
-    int width, height;                /* of the targets below */
-    GLuint kept[GPU_ATTACHMENTS + 1]; /* attachments and depth without lights, or 0 */
+    GLuint field_nodes, field_staging, field_block; /* buffers, or 0 */
+    size_t field_bytes;                             /* of the nodes */
+    uint64_t field_stamp;                           /* of what they hold */
+    int width, height;                              /* of the targets below */
+    GLuint kept[GPU_ATTACHMENTS + 1];               /* attachments and depth without lights, or 0 */
     mat4 kept_view;
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
     GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */
@@ -262,10 +275,12 @@ void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
 /* --- variant.c -------------------------------------------------------------------------------- */
 
 /* The program that shades the frame, 0 on failure; of so many bands those of the environment that
- * tables reflect; and what the method reads, uploaded and bound. */
+ * tables reflect; and what the method reads, uploaded and bound. *milliseconds receives what a part
+ * of shading took on the host. */
 GLuint gpu_variant_find(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
 int gpu_reflected_bands(const gpu_renderer *renderer, int bands);
-bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
+bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, double *milliseconds,
+                      cli_error *error);
 
 /* --- passes.c --------------------------------------------------------------------------------- */
 

@@ -92,13 +92,17 @@ GLuint gpu_variant_find(gpu_renderer *r, const gpu_frame *frame, cli_error *erro
 }
 
 /* Uploads and binds what the frame's method reads. */
-bool gpu_variant_bind(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
+bool gpu_variant_bind(gpu_renderer *r, const gpu_frame *frame, double *milliseconds,
+                      cli_error *error) {
     const unsigned reads = method_table[frame->method].reads;
+    *milliseconds = 0;
     if (reads & METHOD_READS_PREINTEGRATED &&
         (!gpu_bind_preintegrated_lobe(r, frame->lobes, error) ||
          !gpu_bind_preintegrated_brdf(r, error)))
         return false;
     if (reads & METHOD_READS_TABULATED_Z && !gpu_bind_zonal(r, frame->bands, error))
+        return false;
+    if (reads & METHOD_READS_FIELD && !gpu_bind_field(r, frame, milliseconds, error))
         return false;
     return gpu_prepare_fibers(r, frame, error) &&
            (!gpu_tables_by_bands(r, frame->method) || gpu_bind_tables(r, frame->method, error));

@@ -12,6 +12,8 @@ struct shade_field {
     size_t *moved; /* indices of lights, SCENE_LIGHTS_MAX */
     lmp_light *to; /* what they have become */
     bool moves, forgotten;
+    bool whole;     /* every node is computed */
+    uint64_t stamp; /* of gpu_whole_field, or 0: it has changed since */
     shade_field_statistics last;
 };
 
@@ -28,18 +30,24 @@ static uint64_t count_nodes(const float extent[3], float edge, int nodes[3]) {
 }
 
 /* The smallest cubes that do not need too many nodes. */
-static float choose_edge(const float extent[3], int nodes[3]) {
+static float choose_edge(const float extent[3], uint64_t most, int nodes[3]) {
     const float longest = fmaxf(extent[0], fmaxf(extent[1], extent[2]));
     float small = longest / (LMP_FIELD_NODES_MAX - 1), large = longest;
     for (int i = 0; i < 24; i++) {
         const float middle = 0.5f * (small + large);
-        if (count_nodes(extent, middle, nodes) > SHADE_FIELD_NODES)
+        if (count_nodes(extent, middle, nodes) > most)
             small = middle;
         else
             large = middle;
     }
     count_nodes(extent, large, nodes);
     return large;
+}
+
+/* So many that a shader can read them. */
+static uint64_t most_nodes(const shade_field_options *options, int bands) {
+    const uint64_t held = options->bytes_max / (48 * LMP_SH_COUNT(bands));
+    return options->bytes_max && held < SHADE_FIELD_NODES ? held : SHADE_FIELD_NODES;
 }
 
 /* Around the scene's bounds, and a little more, so that rounding leaves no surface outside. */
@@ -56,7 +64,8 @@ static lmp_field_desc describe_grid(const scene *world, const shade_field_option
         origin[a] = world->minimum[a] - margin;
         extent[a] = world->maximum[a] - world->minimum[a] + 2 * margin;
     }
-    const float edge = options->grid_given ? 0 : choose_edge(extent, desc.nodes);
+    const float edge =
+        options->grid_given ? 0 : choose_edge(extent, most_nodes(options, bands), desc.nodes);
     for (int a = 0; a < 3; a++) {
         if (options->grid_given)
             desc.nodes[a] = options->grid[a];
@@ -133,9 +142,12 @@ static void follow_lights(shade_field *field, const lmp_host *host, const lmp_li
             field->to[moved++] = lights[i];
             anew = !field->moves || 2 * moved > count;
         }
-    if (anew)
+    if (anew || moved > 0)
+        field->stamp = 0;
+    if (anew) {
         lmp_field_reset(field->nodes, lights, count);
-    else
+        field->whole = false;
+    } else
         lmp_field_move(host, field->nodes, field->moved, field->to, moved);
 }
 
@@ -173,6 +185,56 @@ const lmp_field *shade_field_follow(shade_field *field, const lmp_light *lights,
         return NULL;
     field->last.update_milliseconds = 1e3 * (timing_now() - start);
     return field->nodes;
+}
+
+/* By a point in each cell. */
+static void want_all(lmp_field *nodes) {
+    const lmp_field_desc d = lmp_field_describe(nodes).desc;
+    const size_t count = (size_t)d.nodes[0] - 1;
+    float x[LMP_FIELD_NODES_MAX];
+    for (size_t i = 0; i < count; i++)
+        x[i] = d.origin.x + ((float)i + 0.5f) * d.cell.x;
+    for (int k = 0; k + 1 < d.nodes[2]; k++)
+        for (int j = 0; j + 1 < d.nodes[1]; j++) {
+            float y[LMP_FIELD_NODES_MAX], z[LMP_FIELD_NODES_MAX];
+            for (size_t i = 0; i < count; i++) {
+                y[i] = d.origin.y + ((float)j + 0.5f) * d.cell.y;
+                z[i] = d.origin.z + ((float)k + 0.5f) * d.cell.z;
+            }
+            lmp_field_want(nodes, (lmp_vec3_array) { x, y, z, sizeof *x }, count);
+        }
+}
+
+/* As for the CPU, but of all nodes, for what the camera sees is known to the device alone. */
+static const lmp_field *whole_field(const gpu_frame *frame, uint64_t *stamp) {
+    static uint64_t stamps;
+    shade_field *field = frame->field;
+    const double start = timing_now();
+    lmp_light *lights = calloc(frame->light_count + 1, sizeof *lights);
+    bool ok = lights != NULL;
+    const char *what = "lighting the field";
+    lmp_host host = bake_host(&what);
+    host.progress = NULL;
+    for (size_t i = 0; i < frame->light_count && ok; i++)
+        lights[i] = frame->lights[i].emitter;
+    if (ok)
+        follow_lights(field, &host, lights, frame->light_count);
+    free(lights);
+    if (ok && !field->whole) {
+        want_all(field->nodes);
+        ok = lmp_field_compute(&host, field->nodes) == LMP_OK;
+        field->whole = ok;
+    }
+    if (field->stamp == 0)
+        field->stamp = ++stamps;
+    *stamp = field->stamp;
+    field->last.update_milliseconds = 1e3 * (timing_now() - start);
+    return ok ? field->nodes : NULL;
+}
+
+void shade_field_attach(shade_field *field, gpu_frame *frame) {
+    frame->field = field;
+    frame->whole_field = whole_field;
 }
 
 void shade_field_note(shade_field *field, double milliseconds) {

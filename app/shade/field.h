@@ -13,6 +13,7 @@ typedef struct shade_field_options {
     /* A moved light changes its nodes, which are not computed anew: faster where few lights move,
      * but the last bits depend on the frames before. */
     bool moves;
+    size_t bytes_max; /* that the nodes chosen may take, or 0: those that a shader reads */
 } shade_field_options;
 
 /* More than the library's default: it does not show under many lights, and fewer are near. */
@@ -51,6 +52,9 @@ typedef struct shade_field_statistics {
     lmp_field_info info;
     double update_milliseconds, evaluate_milliseconds; /* of the last sample */
 } shade_field_statistics;
+
+/* Has a frame shaded by it, on either device. field may be NULL. */
+void shade_field_attach(shade_field *field, gpu_frame *frame);
 
 /* The next frame computes all that it needs anew, as if all lights had moved. field may be NULL. */
 void shade_field_forget(shade_field *field);

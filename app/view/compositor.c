@@ -128,7 +128,9 @@ static const lmp_preintegrated_lobe *get_lobe(view_compositor *s, const view_sha
 /* One for so many bands, or NULL where the method reads none. */
 static bool settle_field(view_compositor *s, side *own, const view_shading *shading,
                          gpu_frame *frame, cli_error *error) {
-    static const shade_field_options options = { .error = SHADE_FIELD_ERROR, .moves = true };
+    const shade_field_options options = { .error = SHADE_FIELD_ERROR,
+                                          .moves = true,
+                                          .bytes_max = s->context.storage_max };
     const bool read = method_table[shading->method].reads & METHOD_READS_FIELD;
     if (own->field &&
         !(read && shade_field_describe(own->field).info.desc.bands == shading->bands)) {
@@ -137,7 +139,7 @@ static bool settle_field(view_compositor *s, side *own, const view_shading *shad
     }
     if (read && !own->field)
         own->field = shade_field_create(s->world, &options, shading->bands, error);
-    frame->field = own->field;
+    shade_field_attach(own->field, frame);
     return own->field || !read;
 }
 

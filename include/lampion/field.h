@@ -136,6 +136,18 @@ LMP_API void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_fie
 LMP_API size_t lmp_field_near(const lmp_field *field, lmp_vec3 point, size_t capacity,
                               uint32_t *lights, float *fractions);
 
+/* --- for shaders ------------------------------------------------------------------------------ */
+
+/* Nodes first … first + count - 1, x running first, then y, z, all computed. Of each coefficient,
+ * red, green, blue, a texel of four floats: its value and its derivatives by x, y and z. */
+LMP_API void lmp_field_nodes(const lmp_field *field, size_t first, size_t count, float *texels);
+
+/* The lists of near lights of all blocks of 2 x 2 x 2 cells, x first, nodes / 2 along an axis; then
+ * those near everywhere: list i is lights[begin[i]] … lights[begin[i + 1] - 1]. Returns how many
+ * they are and writes up to `capacity`, which if not 0 has begin receive blocks + 2 values. */
+LMP_API size_t lmp_field_lists(const lmp_field *field, size_t capacity, uint32_t *begin,
+                               uint32_t *lights);
+
 /* --- as bytes ------------------------------------------------------------------------------------
  * Little-endian, versioned, checksummed; with its lights, so that what is read can be updated.
  *

@@ -6,6 +6,7 @@
 #include "tests/oracle/kinds.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,18 +23,24 @@ static void open_world(const char *name, int lights) {
            &error);
 }
 
-static shade_field *open_field(int bands, bool moves) {
+static shade_field *open_field_within(int bands, bool moves, size_t bytes_max) {
     cli_error error = { "" };
-    const shade_field_options options = { .error = SHADE_FIELD_ERROR, .moves = moves };
+    const shade_field_options options = { .error = SHADE_FIELD_ERROR,
+                                          .moves = moves,
+                                          .bytes_max = bytes_max };
     shade_field *field = shade_field_create(&world, &options, bands, &error);
     expect(field != NULL, &error);
     return field;
 }
 
+static shade_field *open_field(int bands, bool moves) {
+    return open_field_within(bands, moves, 0);
+}
+
 static image render_by(gpu_renderer *renderer, gpu_frame *frame, method_kind method,
                        shade_field *field) {
     frame->method = method;
-    frame->field = field;
+    shade_field_attach(field, frame);
     return render_image(renderer, frame);
 }
 
@@ -138,10 +145,144 @@ static void lights_that_move_leave_the_image_of_where_they_are(void **state) {
     scene_free(&world);
 }
 
+/* --- on the device ---------------------------------------------------------------------------- */
+
+/* The library's image and the shader's by one field, which has but the nodes that the camera sees
+ * before all of them are wanted. */
+static difference devices_differ(gpu_renderer *renderer, gpu_frame *frame, shade_field *field) {
+    frame->host = shade_frame;
+    image on_host = render_by(renderer, frame, METHOD_FIELD, field);
+    frame->host = NULL;
+    image on_device = render_by(renderer, frame, METHOD_FIELD, field);
+    const difference d = differ(&on_device, &on_host);
+    image_free(&on_host);
+    image_free(&on_device);
+    return d;
+}
+
+/* What rounding makes of sums of coefficients, which cancel. */
+static void expect_same(const char *what, difference d) {
+    print_message("%s: at most %.1e of the local peak, %.1e in root mean square\n", what, d.worst,
+                  d.rms);
+    assert_true(!(d.worst > 5e-5) && !(d.rms > 1e-6));
+}
+
+static void shaders_draw_what_the_library_does(void **state) {
+    (void)state;
+    static const struct {
+        int bands;
+        lmp_window window;
+    } cases[] = { { 1, LMP_WINDOW_NONE },
+                  { 3, LMP_WINDOW_HANNING },
+                  { 5, LMP_WINDOW_NONE },
+                  { 10, LMP_WINDOW_LANCZOS } };
+    open_world("builtin:atrium", 300);
+    gpu_renderer *renderer = open_renderer(&world);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char what[32];
+        gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+        shade_field *field = open_field_within(cases[i].bands, false, device.storage_max);
+        frame.bands = cases[i].bands;
+        frame.window = cases[i].window;
+        snprintf(what, sizeof what, "%d bands", frame.bands);
+        expect_same(what, devices_differ(renderer, &frame, field));
+        shade_field_destroy(field);
+    }
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+/* Of them one that is the same from everywhere, one that is ambient, too, and a spot. */
+static void shaders_draw_every_kind_of_light(void **state) {
+    (void)state;
+    open_world("builtin:balls", 20);
+    for (int i = 0; i < KINDS; i++)
+        world.lights[world.light_count++].emitter = one_of_each_kind[i];
+    gpu_renderer *renderer = open_renderer(&world);
+    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    shade_field *field = open_field_within(frame.bands, false, device.storage_max);
+    expect_same("all kinds", devices_differ(renderer, &frame, field));
+    shade_field_destroy(field);
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+/* A grid that ends within the scene: outside of it every light is summed. */
+static void shaders_sum_every_light_outside_the_grid(void **state) {
+    (void)state;
+    open_world("builtin:balls", 20);
+    gpu_renderer *renderer = open_renderer(&world);
+    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    for (int a = 0; a < 3; a++)
+        world.maximum[a] = 0.5f * (world.minimum[a] + world.maximum[a]);
+    shade_field *field = open_field_within(frame.bands, false, device.storage_max);
+    expect_same("a small grid", devices_differ(renderer, &frame, field));
+    shade_field_destroy(field);
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+/* Nodes and lists are uploaded again, by both ways in which lights come to be where they are; one
+ * light fewer is another change. */
+static void shaders_follow_lights_that_move(void **state) {
+    (void)state;
+    open_world("builtin:atrium", 100);
+    gpu_renderer *renderer = open_renderer(&world);
+    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    shade_field *moving = open_field(5, true), *fresh = open_field(5, false);
+    frame.bands = 5;
+    for (int step = 0; step < 4; step++) {
+        for (int i = 0; i < 10 && step < 3; i++)
+            world.lights[7 * i + step].emitter.position.y -= 0.7f;
+        frame.light_count = step < 3 ? 100 : 99;
+        image a = render_by(renderer, &frame, METHOD_FIELD, moving);
+        image again = render_by(renderer, &frame, METHOD_FIELD, moving);
+        frame.host = shade_frame;
+        image b = render_by(renderer, &frame, METHOD_FIELD, fresh);
+        frame.host = NULL;
+        assert_memory_equal(a.rgb, again.rgb, 3 * WIDTH * HEIGHT * sizeof(float));
+        expect_same("moved", differ(&a, &b));
+        image_free(&a);
+        image_free(&again);
+        image_free(&b);
+    }
+    shade_field_destroy(moving);
+    shade_field_destroy(fresh);
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+static void fields_larger_than_a_buffer_are_refused(void **state) {
+    (void)state;
+    cli_error error = { "" };
+    gpu_context small = device;
+    small.storage_max = 1 << 20;
+    open_world("builtin:balls", 2);
+    gpu_renderer *renderer = gpu_renderer_create(&small, &world, &error);
+    expect(renderer != NULL, &error);
+    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    shade_field *large = open_field(frame.bands, false);
+    shade_field *fits = open_field_within(frame.bands, false, small.storage_max);
+    frame.method = METHOD_FIELD;
+    shade_field_attach(large, &frame);
+    assert_false(gpu_render(renderer, &frame, NULL, &error));
+    assert_non_null(strstr(error.text, "--field-grid"));
+    shade_field_attach(fits, &frame);
+    expect(gpu_render(renderer, &frame, NULL, &error), &error);
+    shade_field_destroy(large);
+    shade_field_destroy(fits);
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
+/* --- grids ------------------------------------------------------------------------------------ */
+
 static void impossible_grids_are_refused_with_a_reason(void **state) {
     (void)state;
     cli_error error = { "" };
-    const shade_field_options options = { { 1024, 1024, 1024 }, true, 0.05f, false };
+    const shade_field_options options = { .grid = { 1024, 1024, 1024 },
+                                          .grid_given = true,
+                                          .error = 0.05f };
     open_world("builtin:balls", 2);
     assert_null(shade_field_create(&world, &options, 5, &error));
     assert_non_null(strstr(error.text, "1024x1024x1024"));
@@ -179,6 +320,11 @@ int main(void) {
         cmocka_unit_test(a_thousand_lights_look_as_their_sums_do),
         cmocka_unit_test(every_kind_of_light_is_drawn),
         cmocka_unit_test(lights_that_move_leave_the_image_of_where_they_are),
+        cmocka_unit_test(shaders_draw_what_the_library_does),
+        cmocka_unit_test(shaders_draw_every_kind_of_light),
+        cmocka_unit_test(shaders_sum_every_light_outside_the_grid),
+        cmocka_unit_test(shaders_follow_lights_that_move),
+        cmocka_unit_test(fields_larger_than_a_buffer_are_refused),
         cmocka_unit_test(impossible_grids_are_refused_with_a_reason),
         cmocka_unit_test(grids_cover_the_scene),
     };

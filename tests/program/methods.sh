@@ -34,7 +34,7 @@ for method in $methods; do
         else
             said="$method takes 1 to $bands"
             listed="(on the $device to $bands bands)"
-            [ $device = GPU ] || listed="(to $bands bands)"
+            [ $device = GPU ] && [ "$bands" != "$(limit "$method" CPU)" ] || listed="(to $bands bands)"
         fi
         grep -qF -e "$said" "$WORK/err" || fail "$method, $device, $((bands + 1)) bands: $(cat "$WORK/err")"
         own=${help#*[\;,] "$method" } own=${own%%, *}

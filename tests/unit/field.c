@@ -267,6 +267,70 @@ static void lobes_respond_as_to_the_coefficients(void **test) {
     lmp_field_destroy(field);
 }
 
+/* --- for shaders ------------------------------------------------------------------------------ */
+
+/* The bytes end with the nodes, row by row, and the checksum. */
+static void texels_are_the_nodes_of_the_bytes(void **test) {
+    (void)test;
+    lmp_light lights[LIGHTS];
+    const lmp_field_desc desc = { .bands = 2, .nodes = { 5, 3, 4 } };
+    enum { NODES = 5 * 3 * 4, FEW = 3 * 2 * 2 };
+    static float texels[NODES * 4 * FEW];
+    field_sphere_lights(0, 4, LIGHTS, lights);
+    lmp_field *field = field_of(&desc, lights, LIGHTS);
+    const size_t size = lmp_field_size(field);
+    unsigned char *bytes = malloc(size);
+    assert_non_null(bytes);
+    lmp_field_write(field, bytes);
+    for (size_t first = 0; first < NODES; first += 20)
+        lmp_field_nodes(field, first, 20, texels + 4 * FEW * first);
+    lmp_field_nodes(field, NODES, 0, NULL);
+    const unsigned char *p = bytes + size - 4 - sizeof texels;
+    for (size_t i = 0; i < NODES; i++)
+        for (size_t row = 0; row < 4; row++)
+            for (size_t v = 0; v < FEW; v++) {
+                const float stored = lmp_bytes_load_f32(&p);
+                assert_true(stored == texels[4 * (FEW * i + v) + row]);
+            }
+    free(bytes);
+    lmp_field_destroy(field);
+}
+
+static bool is_listed(const uint32_t *lights, uint32_t first, uint32_t end, uint32_t light) {
+    for (uint32_t i = first; i < end; i++)
+        if (lights[i] == light)
+            return true;
+    return false;
+}
+
+static void lists_hold_all_that_is_near(void **test) {
+    (void)test;
+    enum { BLOCKS = 4 * 4 * 4, ROOM = LIGHTS * (BLOCKS + 1) };
+    lmp_light lights[LIGHTS];
+    const lmp_field_desc desc = { .nodes = { 9, 8, 9 }, .reach = 2 };
+    static uint32_t begin[BLOCKS + 2], listed[ROOM];
+    field_sphere_lights(0, 8, LIGHTS, lights);
+    lights[7].kind = LMP_LIGHT_DIRECTIONAL;
+    lights[7].direction = (lmp_vec3) { 0, 1, 0 };
+    lmp_field *field = field_of(&desc, lights, LIGHTS);
+    const size_t count = lmp_field_lists(field, ROOM, begin, listed);
+    assert_int_equal(lmp_field_lists(field, 0, NULL, NULL), count);
+    assert_true(count > LIGHTS && count < ROOM / 2);
+    assert_int_equal(begin[BLOCKS + 1], count);
+    assert_int_equal(count - begin[BLOCKS], 1);
+    assert_int_equal(listed[begin[BLOCKS]], 7);
+    for (int i = 0; i < 300; i++) {
+        const lmp_vec3 p = field_point(0, 7);
+        const uint32_t block = ((uint32_t)p.z / 2 * 4 + (uint32_t)p.y / 2) * 4 + (uint32_t)p.x / 2;
+        uint32_t near[LIGHTS];
+        float fractions[LIGHTS];
+        const size_t found = lmp_field_near(field, p, LIGHTS, near, fractions);
+        for (size_t k = 0; k < found; k++)
+            assert_true(near[k] == 7 || is_listed(listed, begin[block], begin[block + 1], near[k]));
+    }
+    lmp_field_destroy(field);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interpolation_reproduces_cubics),
@@ -278,6 +342,8 @@ int main(void) {
         cmocka_unit_test(near_lights_are_told_with_what_the_field_lacks),
         cmocka_unit_test(outside_the_grid_every_light_is_summed),
         cmocka_unit_test(lobes_respond_as_to_the_coefficients),
+        cmocka_unit_test(texels_are_the_nodes_of_the_bytes),
+        cmocka_unit_test(lists_hold_all_that_is_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+/* field.glsl - surfaces under a field (lampion/field.h): the coefficients of all lights come from
+ * the eight nodes around a point by Adini's polynomial, and the lights near it are summed exactly,
+ * as far as the field lacks them there. Its macros are those of sums of coefficients. */
+layout(std430, binding = SHARED_FIELD_NODES) readonly restrict buffer field_nodes_block {
+    vec4 field_nodes[]; /* lmp_field_nodes: of a coefficient the value and its slopes */
+};
+layout(std430, binding = SHARED_FIELD) readonly restrict buffer field_block {
+    shared_field field;
+    uint field_lists[]; /* lmp_field_lists: where each begins, then the lights */
+};
+
+/* Where the point lies that was looked for last: of a point outside the grid every light is summed,
+ * and of surfaces that are shaded by tables, for which none is looked for. */
+bool field_inside = false;
+ivec3 field_cell;
+vec3 field_fraction;
+ivec2 field_own, field_all; /* where the lights near its cell are in field_lists, and how many; those
+                               near everywhere */
+
+ivec2 field_list(int list, int lists) {
+    int first = int(field_lists[list]);
+    return ivec2(lists + 1 + first, int(field_lists[list + 1]) - first);
+}
+
+void field_find(vec3 point) {
+    vec3 at = (point - field.origin.xyz) * field.per_cell.xyz;
+    ivec3 nodes = ivec3(field.nodes.xyz), blocks = nodes / 2;
+    field_inside = all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(nodes - 1)));
+    if (!field_inside)
+        return;
+    field_cell = min(ivec3(at), nodes - 2);
+    field_fraction = at - vec3(field_cell);
+    ivec3 block = field_cell / 2;
+    int count = blocks.x * blocks.y * blocks.z;
+    field_own = field_list((block.z * blocks.y + block.y) * blocks.x + block.x, count + 1);
+    field_all = field_list(count, count + 1);
+}
+
+int field_light_count() {
+    return field_inside ? field_own.y + field_all.y : int(size_lights.z);
+}
+
+int field_light(int i) {
+    if (!field_inside)
+        return i;
+    return int(field_lists[i < field_own.y ? field_own.x + i : field_all.x + i - field_own.y]);
+}
+
+/* What the field has of a light is f = u² (6 - 8 u + 3 u²), u = t²; only spheres fade. */
+float field_lacks(int light, vec3 point) {
+    vec4 sphere = lights[light].sphere;
+    if (!field_inside || lights[light].radiance.w > float(SHARED_LIGHT_HIDDEN))
+        return 1.0;
+    float t = clamp((length(sphere.xyz - point) - sphere.w) * field.origin.w, 0.0, 1.0);
+    float v = 1.0 - t * t;
+    return v * v * v * (1.0 + 3.0 * t * t);
+}
+
+/* --- far lights ------------------------------------------------------------------------------- */
+
+/* In each axis the linear weights of Adini's polynomial, what bends them, and those of the slopes. */
+struct field_axes {
+    vec3 linear, bend, slope;
+};
+
+/* On the near side of the cell or, where `far` is, on the other one. */
+field_axes field_side(bvec3 far) {
+    vec3 s = field_fraction, rest = 1.0 - s;
+    vec3 bend = s * s * (3.0 - 2.0 * s) - s, both = field.cell.xyz * (s * rest);
+    return field_axes(mix(rest, s, far), mix(-bend, bend, far), both * mix(rest, -s, far));
+}
+
+/* Of a corner's value, and of its slopes. */
+vec4 field_weight(field_axes a) {
+    vec3 others = a.linear.yxx * a.linear.zzy;
+    return vec4(a.linear.x * others.x + dot(a.bend, others), a.slope * others);
+}
+
+/* What a coefficient of each color adds to what the lobes reflect: Y_lm of the normal and of the
+ * lobes' axes, as lmp_sh_eval has them, by the lobes' factors. */
+void field_factors(lmp_surface surface, lmp_lobes lobes, out vec3 factor[LMP_SH_COUNT]) {
+    float diffuse[LMP_BANDS];
+    LMP_EACH glossy[LMP_BANDS];
+    lmp_lobe_diffuse(diffuse);
+    lmp_lobe_phong(lobes.exponent, glossy);
+    vec3 n = surface.normal, color = lobes.diffuse / LMP_PI;
+    LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0), lobes.axis);
+    LMP_EACH y = LMP_DOT(vec3(0.0, 1.0, 0.0), lobes.axis);
+    LMP_EACH z = LMP_DOT(vec3(0.0, 0.0, 1.0), lobes.axis);
+    float c = 1.0, s = 0.0, diagonal = sqrt(0.25 / LMP_PI), up, down, q, q1, q2, t;
+    LMP_EACH cs = LMP_EACH(1.0), ss = LMP_EACH(0.0), p, p1, p2, ts;
+#define FIELD_FACTOR(i, angle, angles)                                                             \
+    factor[i] = color * (q * angle) + LMP_SUM(lobes.weight, p * angles);
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        up = sqrt(float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m));                       \
+        down = sqrt(float(l == m ? 0 : (l - 1) * (l - 1) - m * m) /                                \
+                    float(l == 0 ? 1 : 4 * (l - 1) * (l - 1) - 1));                                \
+        q = l == m ? diagonal : up * (n.z * q1 - down * q2);                                       \
+        p = l == m ? LMP_EACH(diagonal) : up * (z * p1 - down * p2);                               \
+        q2 = q1;                                                                                   \
+        q1 = q;                                                                                    \
+        p2 = p1;                                                                                   \
+        p1 = p;                                                                                    \
+        q *= diffuse[LMP_BAND(l)];                                                                 \
+        p *= glossy[LMP_BAND(l)];                                                                  \
+        FIELD_FACTOR(LMP_INDEX(l, m), c, cs)                                                       \
+        if (m > 0)                                                                                 \
+            FIELD_FACTOR(LMP_INDEX(l, -m), s, ss)                                                  \
+    }
+#define LMP_COLUMN(m)                                                                              \
+    if (m < LMP_BANDS) {                                                                           \
+        q1 = q2 = 0.0;                                                                             \
+        p1 = p2 = LMP_EACH(0.0);                                                                   \
+        LMP_FOR_COLUMN(LMP_ROW, m)                                                                 \
+        diagonal *= m == 0 ? -sqrt(3.0) : -sqrt(float(2 * m + 3) / float(2 * m + 2));              \
+        t = n.x * c - n.y * s;                                                                     \
+        s = n.x * s + n.y * c;                                                                     \
+        c = t;                                                                                     \
+        ts = x * cs - y * ss;                                                                      \
+        ss = x * ss + y * cs;                                                                      \
+        cs = ts;                                                                                   \
+    }
+    LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+#undef FIELD_FACTOR
+}
+
+/* A corner at a time, for straight-line code of all eight takes a driver minutes to compile. */
+vec3 field_shade_far(lmp_surface surface, lmp_lobes lobes) {
+    vec3 factor[LMP_SH_COUNT], sum = vec3(0.0);
+    ivec3 nodes = ivec3(field.nodes.xyz);
+    field_factors(surface, lobes, factor);
+    for (int k = 0; k < 8; k++) {
+        bvec3 far = bvec3((k & 1) != 0, (k & 2) != 0, k >= 4);
+        ivec3 node = field_cell + ivec3(far);
+        int red = ((node.z * nodes.y + node.y) * nodes.x + node.x) * (3 * LMP_SH_COUNT);
+        int green = red + LMP_SH_COUNT, blue = green + LMP_SH_COUNT;
+        vec4 each_red = vec4(0.0), each_green = vec4(0.0), each_blue = vec4(0.0);
+#define FIELD_ADD(i)                                                                               \
+    each_red += factor[i].r * field_nodes[red + i];                                                \
+    each_green += factor[i].g * field_nodes[green + i];                                            \
+    each_blue += factor[i].b * field_nodes[blue + i];
+#define LMP_ROW(l, m)                                                                              \
+    if (LMP_INSIDE(l, m)) {                                                                        \
+        FIELD_ADD(LMP_INDEX(l, m))                                                                 \
+        if (m > 0) {                                                                               \
+            FIELD_ADD(LMP_INDEX(l, -m))                                                            \
+        }                                                                                          \
+    }
+#define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
+        LMP_FOR_COLUMNS(LMP_COLUMN)
+#undef LMP_COLUMN
+#undef LMP_ROW
+#undef FIELD_ADD
+        vec4 weight = field_weight(field_side(far));
+        sum += vec3(dot(weight, each_red), dot(weight, each_green), dot(weight, each_blue));
+    }
+    return sum;
+}
+
+/* --- all lights ------------------------------------------------------------------------------- */
+
+vec3 field_shade_some(lmp_surface surface, lmp_lobes lobes) {
+    field_find(surface.position);
+    vec3 sum = lmp_shade_some_zonal(surface, lobes);
+    return field_inside ? sum + field_shade_far(surface, lobes) : sum;
+}
+
+LMP_SHADE_MATERIALS(lmp_shade_field, field_shade_some)
