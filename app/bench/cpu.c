@@ -137,6 +137,8 @@ static void measure_rows(const bench_options *o, bench_inputs *in, const bench_k
 static bool measured_at(const bench_options *o, const bench_kernel *kernel, int bands) {
     if (kernel->paper == bench_paper_product)
         return bands <= LMP_SH_FEW_BANDS;
+    if (kernel->table == BENCH_TABLE_FIELD)
+        return bands <= LMP_FIELD_BANDS_MAX;
     return kernel->table == BENCH_TABLE_NONE || o->bands || bands == BENCH_TABLE_BANDS;
 }
 

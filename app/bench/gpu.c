@@ -177,6 +177,7 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
         return false;
     result->compile_ms = now_ms() - start - times.total;
     do {
+        shade_field_forget(frame.field); /* all lights are taken anew */
         if (!gpu_render(s->renderer, &frame, &times, error))
             return false;
         samples[count++] = times.shade + times.transfer;

@@ -101,6 +101,7 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     b.out = in->out;
     b.lights = in->lights;
     b.lobe = in->lobes;
+    b.field = in->field;
     b.surfaces = (lmp_surfaces) { .position = b.points,
                                   .normal = planes_of(in->normal),
                                   .view = b.axes,
@@ -122,7 +123,9 @@ void bench_tables_free(bench_inputs *in) {
     lmp_preintegrated_lobe_destroy(in->lobes);
     lmp_preintegrated_brdf_destroy(in->preintegrated);
     lmp_brdf_table_destroy(in->table);
+    lmp_field_destroy(in->field);
     in->lobes = NULL;
+    in->field = NULL;
     in->preintegrated = NULL;
     in->table = NULL;
 }
@@ -141,8 +144,21 @@ static bool brdf_create(int bands, bench_inputs *in) {
     return made;
 }
 
+/* Around the points and the lights, which are near some of the nodes and few of the points. */
+static bool field_create(int bands, bench_inputs *in) {
+    const float cell = 5.0f / (BENCH_FIELD_ROWS - 1);
+    const lmp_field_desc desc = { .bands = bands,
+                                  .nodes = { BENCH_FIELD, BENCH_FIELD_ROWS, BENCH_FIELD },
+                                  .cell = { cell, cell, cell },
+                                  .light_max = BENCH_LIGHTS };
+    return lmp_field_create(NULL, &desc, &in->field) == LMP_OK &&
+           lmp_field_update(NULL, in->field, in->lights, BENCH_LIGHTS) == LMP_OK;
+}
+
 bool bench_tables_create(bench_table table, int bands, bench_inputs *in) {
     const lmp_preintegrated_lobe_desc desc = { .bands = bands };
+    if (table == BENCH_TABLE_FIELD)
+        return field_create(bands, in);
     return table == BENCH_TABLE_NONE ||
            (lmp_preintegrated_lobe_create(NULL, &desc, &in->lobes) == LMP_OK &&
             (table == BENCH_TABLE_LOBES || brdf_create(bands, in)));

@@ -20,6 +20,7 @@ typedef struct bench_inputs {
     lmp_preintegrated_lobe *lobes;
     lmp_brdf_table *table;
     lmp_preintegrated_brdf *preintegrated;
+    lmp_field *field;
 } bench_inputs;
 
 /* False without memory; free *inputs in any case. */

@@ -112,6 +112,13 @@ static void run_shade_preintegrated(const bench_batch *b) {
     const lmp_shade_settings settings = { .method = LMP_SHADE_PREINTEGRATED, .lobe = b->lobe };
     lmp_shade_n(&settings, &b->surfaces, b->count, b->lights, BENCH_LIGHTS, 0, b->out);
 }
+/* All lights anew, at all nodes; surfaces, a point each. */
+static void run_field_update(const bench_batch *b) {
+    lmp_field_update(NULL, b->field, b->lights, BENCH_LIGHTS);
+}
+static void run_shade_field(const bench_batch *b) {
+    lmp_field_shade_n(NULL, b->field, &b->surfaces, b->count, 0, b->out);
+}
 
 /* --- operations: what src/kernels asks for, without fused ones -------------------------------- */
 
@@ -229,6 +236,15 @@ static double slots_shade_brdf(int n) {
      * splines' weights and the sums of 12 numbers; those times the radiance. */
     return SLOTS_CAP + 18 + 66 + 50 + 5 + 4 * (59 + 24) + 24;
 }
+/* A node's gradient and the fade of a light; of a point 32 rows of all coefficients, and a lobe of
+ * each kind. */
+static double slots_field_update(int n) {
+    return slots_gradient(n) + 20;
+}
+static double slots_shade_field(int n) {
+    const double phong = 4 * steps(n) + 6 * later(n) + (1 + 12) * entries(n) + 22.0 * n;
+    return 192.0 * n * n + slots_irradiance(n) + phong;
+}
 
 /* --- the table -------------------------------------------------------------------------------- */
 
@@ -279,4 +295,8 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       bench_paper_shade_environment, 1, true, BENCH_TABLE_NONE, true },
     { "shade-ggx-preintegrated", values_lobe, slots_shade_ggx_lobe, run_shade_preintegrated,
       bench_paper_shade, BENCH_LIGHTS, true, BENCH_TABLE_LOBES, true },
+    { "field-update", values_lobe, slots_field_update, run_field_update, bench_paper_field_update,
+      BENCH_FIELD_NODES / BENCH_ELEMENTS_MAX *BENCH_LIGHTS, true, BENCH_TABLE_FIELD, false },
+    { "shade-field", values_lobe, slots_shade_field, run_shade_field, bench_paper_shade, 1, true,
+      BENCH_TABLE_FIELD, false },
 };

@@ -14,6 +14,9 @@ enum {
     BENCH_CUBE = 20, /* a face's side */
     BENCH_PANORAMA_WIDTH = 80,
     BENCH_PANORAMA_HEIGHT = 30,
+    BENCH_FIELD = 16,      /* nodes of a field along x and z */
+    BENCH_FIELD_ROWS = 15, /* along y */
+    BENCH_FIELD_NODES = BENCH_FIELD * BENCH_FIELD_ROWS * BENCH_FIELD,
     BENCH_ELEMENTS_MAX = 480,
     BENCH_OUTPUT_FLOATS = 6144
 };
@@ -29,12 +32,18 @@ typedef struct bench_batch {
     lmp_surfaces surfaces;
     const lmp_light *lights;
     const lmp_preintegrated_lobe *lobe; /* of the kernels that read one */
+    lmp_field *field;                   /* the same */
     float *out;
 } bench_batch;
 
 /* What a kernel reads. The bands of lobes and BRDFs do not concern the cost: 10, unless others are
  * asked for. */
-typedef enum bench_table { BENCH_TABLE_NONE, BENCH_TABLE_LOBES, BENCH_TABLE_BRDF } bench_table;
+typedef enum bench_table {
+    BENCH_TABLE_NONE,
+    BENCH_TABLE_LOBES,
+    BENCH_TABLE_BRDF,
+    BENCH_TABLE_FIELD
+} bench_table;
 enum { BENCH_TABLE_BANDS = 10 };
 
 /* One light an element, or as many as `lights`; of images as many texels. */
@@ -50,13 +59,14 @@ typedef struct bench_kernel {
     bool ggx; /* it shades glTF's metallic-roughness */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 23 };
+enum { BENCH_KERNELS = 25 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- paper.c: elements of the same work by the paper's formulas, one by one ------------------- */
 
 void bench_paper_basis(const bench_batch *b, size_t element);
 void bench_paper_basis_gradient(const bench_batch *b, size_t element);
+void bench_paper_field_update(const bench_batch *b, size_t element);
 void bench_paper_irradiance(const bench_batch *b, size_t element);
 void bench_paper_cubemap(const bench_batch *b, size_t element);
 void bench_paper_panorama(const bench_batch *b, size_t element);

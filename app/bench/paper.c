@@ -137,6 +137,10 @@ void bench_paper_gradient(const bench_batch *b, size_t i) {
             slope[v] = (slope[v] - coefficient_sink[v]) / h;
     }
 }
+void bench_paper_field_update(const bench_batch *b, size_t i) {
+    for (int node = 0; node < BENCH_FIELD_NODES / BENCH_ELEMENTS_MAX; node++)
+        bench_paper_gradient(b, i);
+}
 void bench_paper_lobe(const bench_batch *b, size_t i) {
     static float lobe[LMP_SH_COUNT(LMP_BANDS_MAX)];
     const size_t n = LMP_SH_COUNT(b->bands);

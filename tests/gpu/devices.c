@@ -3,6 +3,7 @@
  */
 #include "app/bake/bake.h"
 #include "app/override/override.h"
+#include "app/shade/field.h"
 #include "app/shade/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/kinds.h"
@@ -83,9 +84,18 @@ static void check_method(fixture *s, method_kind method) {
 }
 
 static void check_every_method(fixture *s) {
+    cli_error error = { "" };
+    const shade_field_options options = { .grid = { 30, 20, 30 },
+                                          .grid_given = true,
+                                          .error = SHADE_FIELD_ERROR };
+    shade_field *field = shade_field_create(&s->world, &options, s->frame.bands, &error);
+    expect(field != NULL, &error);
+    shade_field_attach(field, &s->frame);
     for (int m = 0; m < METHODS; m++)
         if (method_table[m].bands_max[DEVICE_GPU] > 0)
             check_method(s, (method_kind)m);
+    shade_field_attach(NULL, &s->frame);
+    shade_field_destroy(field);
 }
 
 static lmp_preintegrated_lobe *lobe_of(const gpu_frame *frame) {

@@ -100,11 +100,11 @@ static const char *text_at(const cJSON *root, int row, const char *key) {
 static void a_setting_has_a_row_of_each_method(void **state) {
     (void)state;
     cJSON *root = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2");
-    assert_int_equal(count_rows(root), 8);
+    assert_int_equal(count_rows(root), 9);
     assert_string_equal(text_at(root, 0, "scene"), in_folder(OWN_SCENE));
     assert_string_equal(text_at(root, 0, "method"), "paper");
     assert_true(number_at(root, 0, "vs_paper") == 1);
-    assert_true(number_at(root, 7, "bands") == 3 && number_at(root, 7, "lights") == 2);
+    assert_true(number_at(root, 8, "bands") == 3 && number_at(root, 8, "lights") == 2);
     assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItem(root, "materials")), 0);
     cJSON_Delete(root);
 }
@@ -130,7 +130,7 @@ static void materials_are_in_the_rows(void **state) {
     cJSON_Delete(with);
     with = rows_of(TINY "--scene $F/a\\\"b.obj --bands 3 --lights 2 --device gpu --material "
                         "'wall=phong:5'");
-    assert_int_equal(count_rows(with), 3);
+    assert_int_equal(count_rows(with), 4);
     assert_string_equal(text_at(with, 0, "method"), "zonal");
     assert_true(cJSON_IsNull(cJSON_GetObjectItem(row_at(with, 0), "vs_paper")));
     cJSON_Delete(with);
@@ -176,10 +176,29 @@ static void the_most_telling_rows_come_first_while_there_is_time(void **state) {
     assert_true(count >= 1);
     assert_true(number_at(all, 0, "bands") == 8 && number_at(all, 0, "lights") == 30);
     assert_string_equal(text_at(all, 0, "method"), "paper");
-    if (count < 62) /* all of them */
+    if (count < 69) /* all of them */
         assert_non_null(strstr(said, "rows left out for want of time"));
     free(said);
     cJSON_Delete(all);
+}
+
+/* Of as many bands as fields take. */
+static void fields_have_rows_of_updates_and_of_points(void **state) {
+    (void)state;
+    static const char *const kernels[] = { "field-update", "shade-field" };
+    for (int i = 0; i < 4; i++) {
+        char arguments[128];
+        snprintf(arguments, sizeof arguments,
+                 "--json --kernel %s --bands %d --threads 1 --cpu-mask 2", kernels[i / 2],
+                 i % 2 ? 11 : 3);
+        assert_int_equal(bench_of("cpu", arguments), 0);
+        char *text = read_output("out");
+        cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+        assert_non_null(root);
+        assert_int_equal(count_rows(root), i % 2 ? 0 : 1);
+        cJSON_Delete(root);
+        free(text);
+    }
 }
 
 /* Against what was not measured there is no ratio. */
@@ -253,6 +272,7 @@ int main(void) {
         cmocka_unit_test(materials_are_in_the_rows),
         cmocka_unit_test(options_fix_what_the_rows_are_of),
         cmocka_unit_test(the_most_telling_rows_come_first_while_there_is_time),
+        cmocka_unit_test(fields_have_rows_of_updates_and_of_points),
         cmocka_unit_test(kernels_without_scalar_rows_have_no_ratio_to_them),
         cmocka_unit_test(bad_options_end_before_anything_runs),
     };
