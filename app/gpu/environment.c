@@ -77,6 +77,12 @@ bool gpu_bind_environment(gpu_renderer *r, const gpu_frame *frame, cli_error *er
     return true;
 }
 
+int gpu_reflected_bands(const gpu_renderer *r, int bands) {
+    if (!environment_shines(r->environment))
+        return 0;
+    return bands < LMP_ENVIRONMENT_TABLE_BANDS ? bands : LMP_ENVIRONMENT_TABLE_BANDS;
+}
+
 void gpu_describe_environment(const gpu_renderer *r, const gpu_frame *frame, vec4 surroundings) {
     const environment *e = r->environment;
     if (!environment_shines(e))

@@ -155,6 +155,9 @@ void gpu_forget_field(gpu_renderer *renderer);
 /* Uploads what the shaders read of the environment, once for so many bands and a window. */
 bool gpu_bind_environment(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
 
+/* Of so many bands of the environment those that tables reflect. */
+int gpu_reflected_bands(const gpu_renderer *renderer, int bands);
+
 /* Fills the frame block's member. */
 void gpu_describe_environment(const gpu_renderer *renderer, const gpu_frame *frame,
                               vec4 surroundings);
@@ -274,11 +277,9 @@ void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
 
 /* --- variant.c -------------------------------------------------------------------------------- */
 
-/* The program that shades the frame, 0 on failure; of so many bands those of the environment that
- * tables reflect; and what the method reads, uploaded and bound. *milliseconds receives what a part
- * of shading took on the host. */
+/* The program that shades the frame, 0 on failure; and what its method reads, uploaded and bound.
+ * *milliseconds receives what a part of shading took on the host. */
 GLuint gpu_variant_find(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
-int gpu_reflected_bands(const gpu_renderer *renderer, int bands);
 bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, double *milliseconds,
                       cli_error *error);
 

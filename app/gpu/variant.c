@@ -10,13 +10,6 @@ static int variant_bands_max(const gpu_variant *v) {
     return v->tables && most > METHOD_GPU_BANDS_MAX ? METHOD_GPU_BANDS_MAX : most;
 }
 
-/* Of the environment, those that tables reflect. */
-int gpu_reflected_bands(const gpu_renderer *r, int bands) {
-    if (!environment_shines(r->environment))
-        return 0;
-    return bands < LMP_ENVIRONMENT_TABLE_BANDS ? bands : LMP_ENVIRONMENT_TABLE_BANDS;
-}
-
 /* What a frame asks of the shading pass. A shader that sums nothing by bands is the same for all.
  */
 static gpu_variant variant_of(const gpu_renderer *r, const gpu_frame *frame) {

@@ -39,7 +39,7 @@ has app/image/tone.c image_tones
 
 # Files of code that have the trace of a section only because they use what it adds.
 users='app/bench/inputs.c app/paper/materials.c app/paper/scenes.c app/scoreboard/lampion.c
-src/shade/layers.c shaders/coefficients.glsl shaders/lampion.glsl shaders/paper.frag'
+src/shade/layers.c shaders/coefficients.glsl shaders/fibers.comp shaders/lampion.glsl shaders/paper.frag'
 
 # unnamed FILE: for each trace in FILE, the files of code that have it, where the section does not
 # name them; traces that are in no file.

@@ -94,6 +94,7 @@ static void check_every_method(fixture *s) {
     for (int m = 0; m < METHODS; m++)
         if (method_table[m].bands_max[DEVICE_GPU] > 0)
             check_method(s, (method_kind)m);
+    s->frame.method = METHOD_ZONAL;
     shade_field_attach(NULL, &s->frame);
     shade_field_destroy(field);
 }
