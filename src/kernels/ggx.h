@@ -53,7 +53,7 @@ LMP_INLINE void ggx_locate(const lmp_kernel_ggx *table, const vf n[3], const vf 
 LMP_INLINE void ggx_interpolate(int lobe, ptrdiff_t row, const ggx_place *place, vf p[4]) {
     /* Of surfaces i, i + 4, i + 8 …, a quarter each. */
 #define GGX_QUARTERS(i)                                                                            \
-    {                                                                                              \
+    do {                                                                                           \
         const float *at[4][LMP_LANES / 4];                                                         \
         LMP_UNROLL for (int g = 0; g < LMP_LANES / 4; g++) {                                       \
             const float *node = place->node[4 * g + (i)] + (ptrdiff_t)4 * lobe;                    \
@@ -66,11 +66,13 @@ LMP_INLINE void ggx_interpolate(int lobe, ptrdiff_t row, const ggx_place *place,
         const vf below = LMP_SHUFFLE(place->below, place->below, i, i, i, i);                      \
         p[i] = ggx_mix(ggx_mix(layout_quarters(at[0]), layout_quarters(at[1]), right),             \
                        ggx_mix(layout_quarters(at[2]), layout_quarters(at[3]), right), below);     \
-    }
-    GGX_QUARTERS(0)
-    GGX_QUARTERS(1) GGX_QUARTERS(2) GGX_QUARTERS(3)
+    } while (0)
+    GGX_QUARTERS(0);
+    GGX_QUARTERS(1);
+    GGX_QUARTERS(2);
+    GGX_QUARTERS(3);
 #undef GGX_QUARTERS
-        layout_transpose4(p);
+    layout_transpose4(p);
 }
 #else
 LMP_INLINE void ggx_interpolate(int lobe, ptrdiff_t row, const ggx_place *place, vf p[4]) {

@@ -167,6 +167,12 @@ static void expect_same(const char *what, difference d) {
     assert_true(!(d.worst > 5e-5) && !(d.rms > 1e-6));
 }
 
+static void expect_same_image(const char *what, gpu_renderer *renderer, gpu_frame *frame) {
+    shade_field *field = open_field_within(frame->bands, false, device.storage_max);
+    expect_same(what, devices_differ(renderer, frame, field));
+    shade_field_destroy(field);
+}
+
 static void shaders_draw_what_the_library_does(void **state) {
     (void)state;
     static const struct {
@@ -181,12 +187,10 @@ static void shaders_draw_what_the_library_does(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char what[32];
         gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
-        shade_field *field = open_field_within(cases[i].bands, false, device.storage_max);
         frame.bands = cases[i].bands;
         frame.window = cases[i].window;
         snprintf(what, sizeof what, "%d bands", frame.bands);
-        expect_same(what, devices_differ(renderer, &frame, field));
-        shade_field_destroy(field);
+        expect_same_image(what, renderer, &frame);
     }
     gpu_renderer_destroy(renderer);
     scene_free(&world);
@@ -200,9 +204,7 @@ static void shaders_draw_every_kind_of_light(void **state) {
         world.lights[world.light_count++].emitter = one_of_each_kind[i];
     gpu_renderer *renderer = open_renderer(&world);
     gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
-    shade_field *field = open_field_within(frame.bands, false, device.storage_max);
-    expect_same("all kinds", devices_differ(renderer, &frame, field));
-    shade_field_destroy(field);
+    expect_same_image("all kinds", renderer, &frame);
     gpu_renderer_destroy(renderer);
     scene_free(&world);
 }
@@ -215,9 +217,7 @@ static void shaders_sum_every_light_outside_the_grid(void **state) {
     gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
     for (int a = 0; a < 3; a++)
         world.maximum[a] = 0.5f * (world.minimum[a] + world.maximum[a]);
-    shade_field *field = open_field_within(frame.bands, false, device.storage_max);
-    expect_same("a small grid", devices_differ(renderer, &frame, field));
-    shade_field_destroy(field);
+    expect_same_image("a small grid", renderer, &frame);
     gpu_renderer_destroy(renderer);
     scene_free(&world);
 }
