@@ -96,9 +96,23 @@ completes 'lampion render x.gltf --material floor=sgd:two-layer-g' 'two-layer-go
 completes 'lampion render x.gltf --material flo' ''
 completes 'lampion render --window=ha' 'hanning' # as readline wants it, what follows = or : alone
 completes 'lampion render builtin:at' 'atrium'
-completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls folder scene.gltf with blank.png'
+completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls folder scene.gltf with\ blank.png'
 completes 'lampion paper -o ' 'folder'
 completes 'lampion brdf info sce' 'scene.gltf'
+# a name is no command, whatever it is and begins with: quoted here, or by readline where that does it well
+hostile='house$(touch pwned).gltf' quoted='house\$\(touch\ pwned\).gltf'
+touch "$WORK/files/builtin:$hostile" "$WORK/files/sgd:$hostile" "$WORK/files/$hostile" "$WORK/files/builtin:ball;x"
+completes 'lampion info builtin:ho' "$quoted"
+completes 'lampion info ./builtin:ho' "$quoted"
+completes 'lampion render scene.gltf --material floor=sgd:ho' "$quoted"
+completes 'lampion info builtin:ball' 'ball ball\;x balls'
+sed 's/compopt/told/' "$WORK/bash" >"$WORK/files/told"
+tells() {
+    told=$(cd "$WORK/files" && bash -c 'told() { echo "$*:"; }; source ./told; COMP_LINE=$1 COMP_POINT=${#1}; _lampion; echo "${COMPREPLY[@]}"' - "$1" | paste -s -d ' ')
+    [ "$told" = "$2" ] || fail "\"$1\" is completed by \"$told\", not \"$2\""
+}
+tells 'lampion info hou' "-o filenames: $hostile"
+tells 'lampion info builtin:hou' "$quoted"
 
 "$PROGRAM" completion zsh >"$WORK/zsh"
 absent zsh || zsh -n "$WORK/zsh" || fail "zsh: syntax"
