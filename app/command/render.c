@@ -268,12 +268,9 @@ static int repeat_shot(const render_options *o, const char *name) {
     cli_error error = { "" };
     view_settings *settings = malloc(sizeof *settings);
     bool ok = (settings || cli_fail(&error, NULL, "out of memory")) &&
-              view_read_shot(o->from, settings, &error);
+              view_read_shot(o->from, o->pixels_max, settings, &error);
     if (ok && name && strlen(name) >= sizeof settings->scene)
         ok = cli_fail(&error, name, "is too long a name");
-    if (ok && (long)settings->width * settings->height > o->pixels_max)
-        ok = cli_fail(&error, o->from, "asks for %d x %d pixels (at most %d; see --max-pixels)",
-                      settings->width, settings->height, o->pixels_max);
     if (ok && name)
         strcpy(settings->scene, name);
     ok = ok && view_render(settings, o->device, o->output, &error);
@@ -314,9 +311,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "repeat a screenshot of lampion view, with all its settings: only -o, --gl-device and "
           "--max-pixels may be given beside it; without SCENE, its scene",
           0, 0, NULL, NULL },
-        { "max-pixels", 0, CLI_INT, &o.pixels_max, "N",
-          "refuse an image of more pixels, each of which takes 85 bytes of memory", 1,
-          IMAGE_PIXELS_MAX, NULL, NULL },
+        VIEW_PIXELS_OPTION_ROW(o.pixels_max),
         { "background", 0, CLI_VEC3, o.background, "R,G,B",
           "radiance of the background, where no surface is", 0, 1e30, NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",

@@ -13,7 +13,7 @@ enum { FRAMES_MAX = 100000000 };
 
 /* What the command line says, beside what goes into the settings at once. */
 typedef struct view_arguments {
-    int size[2], bands, method_choice, window;
+    int size[2], bands, method_choice, window, pixels_max;
     method_kind method;
     float exposure, stops;
     bool exposure_given;
@@ -43,7 +43,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
                          cli_error *error) {
     view_settings *s = &o->settings;
     if (a->from) {
-        if (!view_read_shot(a->from, s, error))
+        if (!view_read_shot(a->from, a->pixels_max, s, error))
             return false;
         o->keep_lights = true;
         o->load.up = s->up;
@@ -84,10 +84,13 @@ static int view(const view_arguments *a, const char *name, view_options *o) {
     return fill_options(a, name, o, &error) && view_run(o, &error) ? CLI_OK : cli_report(&error);
 }
 
+static const view_arguments defaults = { .size = { 1280, 720 },
+                                         .bands = LMP_SHADE_BANDS_DEFAULT,
+                                         .window = LMP_WINDOW_HANNING,
+                                         .pixels_max = IMAGE_READ_PIXELS };
+
 static int run(const cli_command *command, int argc, char **argv) {
-    view_arguments a = { .size = { 1280, 720 },
-                         .bands = LMP_SHADE_BANDS_DEFAULT,
-                         .window = LMP_WINDOW_HANNING };
+    view_arguments a = defaults;
     view_options *o = calloc(1, sizeof *o);
     if (!o) {
         cli_error error;
@@ -120,6 +123,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "begin with all settings of a screenshot; of the options, --material and those after it "
           "count",
           0, 0, NULL, NULL },
+        VIEW_PIXELS_OPTION_ROW(a.pixels_max),
         { "record", 0, CLI_TEXT, &o->record, "DIR", "write every frame there, numbered", 0, 0, NULL,
           NULL },
         { "script", 0, CLI_TEXT, &o->script, "FILE",

@@ -285,7 +285,7 @@ bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const ch
     return ok;
 }
 
-bool view_read_shot(const char *path, view_settings *s, cli_error *error) {
+bool view_read_shot(const char *path, int pixels_max, view_settings *s, cli_error *error) {
     memset(s, 0, sizeof *s);
     char *text = NULL;
     if (!image_read_png_text(path, IMAGE_SETTINGS_KEY, &text, error))
@@ -294,5 +294,8 @@ bool view_read_shot(const char *path, view_settings *s, cli_error *error) {
     free(text);
     const bool ok = root && view_settings_from_json(root, path, s, error);
     cJSON_Delete(root);
-    return ok;
+    if (!ok || (long)s->width * s->height <= pixels_max)
+        return ok;
+    return cli_fail(error, path, "asks for %d x %d pixels (at most %d; see --max-pixels)", s->width,
+                    s->height, pixels_max);
 }

@@ -62,9 +62,18 @@ struct cJSON *view_settings_to_json(const view_settings *settings);
 bool view_settings_from_json(const struct cJSON *root, const char *subject, view_settings *settings,
                              cli_error *error);
 
-/* An image with its settings in a text chunk, and the settings of such an image. */
+/* An image with its settings in a text chunk, and the settings of such an image, which may ask for
+ * so many pixels. */
 bool view_write_shot(const view_settings *settings, const unsigned char *rgb8, const char *path,
                      cli_error *error);
-bool view_read_shot(const char *path, view_settings *settings, cli_error *error);
+bool view_read_shot(const char *path, int pixels_max, view_settings *settings, cli_error *error);
+
+/* The option that says how many pixels a screenshot may ask for, by default IMAGE_READ_PIXELS. */
+#define VIEW_PIXELS_OPTION_ROW(pixels_max)                                                         \
+    {                                                                                              \
+        "max-pixels", 0, CLI_INT, &(pixels_max), "N",                                              \
+            "refuse a screenshot of more pixels, each of which takes 85 bytes of memory", 1,       \
+            IMAGE_PIXELS_MAX, NULL, NULL                                                           \
+    }
 
 #endif

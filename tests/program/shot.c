@@ -45,7 +45,23 @@ static void large_ones_are_refused_unless_allowed(void **unused) {
     assert_int_equal(access(in_folder("out.png"), F_OK), 0);
 }
 
+/* Before a window is opened: without a display it is known, too. */
+static void the_viewer_refuses_the_same(void **unused) {
+    (void)unused;
+    char shot[64];
+    write_shot("large.png", 8192, 8192);
+    snprintf(shot, sizeof shot, "%s/large.png", folder);
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    assert_one_line(run_program((const char *[]) { "lampion", "view", "--from", shot, NULL }), shot,
+                    "asks for 8192 x 8192 pixels (at most 33554432; see --max-pixels)");
+    const char *const allowed[] = { "lampion",      "view",     "--from", shot,
+                                    "--max-pixels", "67108864", NULL };
+    assert_one_line(run_program(allowed), shot, "display");
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed) };
+    const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed),
+                                        TEST(the_viewer_refuses_the_same) };
     return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
 }
