@@ -2,7 +2,7 @@
 #include "app/cli/printable.h"
 
 #include <stdbool.h>
-#include <stdint.h>
+#include <stdio.h>
 
 /* Bytes of the character that begins so; 0: none does. */
 static size_t length_of(unsigned char first) {
@@ -26,7 +26,7 @@ static bool is_obeyed(uint32_t code) {
     return control || turns;
 }
 
-size_t cli_printable(const char *text) {
+size_t cli_character(const char *text, uint32_t *character) {
     const unsigned char *const c = (const unsigned char *)text;
     const size_t length = length_of(c[0]);
     uint32_t code = length > 1 ? c[0] & 0x7Fu >> length : c[0];
@@ -35,5 +35,20 @@ size_t cli_printable(const char *text) {
             return 0;
         code = code << 6 | (c[i] & 0x3Fu);
     }
-    return length > 0 && is_character(code, length) && !is_obeyed(code) ? length : 0;
+    *character = code;
+    return length > 0 && is_character(code, length) ? length : 0;
+}
+
+size_t cli_printable(const char *text) {
+    uint32_t code;
+    const size_t length = cli_character(text, &code);
+    return length > 0 && !is_obeyed(code) ? length : 0;
+}
+
+void cli_print_name(const char *name) {
+    while (*name) {
+        const size_t length = cli_printable(name), bytes = length ? length : 1;
+        fwrite(length ? name : "?", 1, bytes, stdout);
+        name += bytes;
+    }
 }

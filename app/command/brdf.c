@@ -2,6 +2,7 @@
 /* lampion brdf - what is in a material, its values, its table, its image, its other formats. */
 #include "app/command/brdf.h"
 #include "app/bake/bake.h"
+#include "app/cli/printable.h"
 #include "app/csv/csv.h"
 #include "app/method/method.h"
 
@@ -70,8 +71,9 @@ static void print_brdf_info(const material *m) {
 }
 
 static bool print_info(const brdf_options *o, const material *m, cli_error *error) {
-    printf("material   %s\n", m->name);
-    printf("format     %s\n",
+    printf("material   ");
+    cli_print_name(m->name);
+    printf("\nformat     %s\n",
            m->table ? "Lampion table (.lmpt)" : kinds[lmp_brdf_describe(m->brdf).kind].name);
     if (m->file_size)
         printf("size       %zu bytes\n", m->file_size);
@@ -231,7 +233,7 @@ static bool study_bands(const char *name, cli_error *error) {
     material_close(&m);
     if (!ok)
         return false;
-    printf("%s", name);
+    cli_print_name(name);
     for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
         printf(",%.4f", left[columns[i]]);
     const int ten = bands_below(left, 0.1), one = bands_below(left, 0.01);

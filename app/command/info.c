@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* info.c - lampion info: what is in a scene, or in a field (info_field.c). */
 #include "app/command/info.h"
+#include "app/cli/printable.h"
 #include "app/file/file.h"
 #include "app/scene/scene.h"
 
@@ -81,12 +82,7 @@ static cJSON *describe(const scene *s) {
 
 static int print_json(const scene *s) {
     cli_error error;
-    char *text = file_json_text(describe(s), true, s->origin, &error);
-    if (!text)
-        return cli_report(&error);
-    puts(text);
-    free(text);
-    return CLI_OK;
+    return file_json_print(describe(s), s->origin, &error) ? CLI_OK : cli_report(&error);
 }
 
 static void print_names(const char *what, const char *name, size_t size, size_t count) {
@@ -120,7 +116,8 @@ static void print_lights(const scene *s) {
 }
 
 static void print_text(const scene *s) {
-    printf("%s%s\n", s->origin, s->cached ? " (from the cache)" : "");
+    cli_print_name(s->origin);
+    puts(s->cached ? " (from the cache)" : "");
     printf("%-10s %zu\n", "triangles", s->index_count / 3);
     printf("%-10s %zu\n", "vertices", s->vertex_count);
     printf("%-10s %.6g %.6g %.6g … %.6g %.6g %.6g\n", "bounds", (double)s->minimum[0],

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* info_field.c - lampion info of a .lmpf. */
+#include "app/cli/printable.h"
 #include "app/command/info.h"
 #include "app/file/file.h"
 #include "app/volume/volume.h"
@@ -27,7 +28,8 @@ static void print_text(const char *path, const volume_facts *facts) {
     const char *separator = ": ";
     float last[3];
     find_last(desc, last);
-    puts(path);
+    cli_print_name(path);
+    putchar('\n');
     printf("%-10s %dx%dx%d nodes, cells of %.6g %.6g %.6g\n", "grid", desc->nodes[0],
            desc->nodes[1], desc->nodes[2], (double)desc->cell.x, (double)desc->cell.y,
            (double)desc->cell.z);
@@ -72,12 +74,7 @@ static int print_json(const char *path, const volume_facts *facts) {
     cJSON_AddStringToObject(root, "layout", layout);
     cJSON_AddStringToObject(root, "precision", precision);
     cJSON_AddNumberToObject(root, "bytes", (double)facts->bytes);
-    char *text = file_json_text(root, true, path, &error);
-    if (!text)
-        return cli_report(&error);
-    puts(text);
-    free(text);
-    return CLI_OK;
+    return file_json_print(root, path, &error) ? CLI_OK : cli_report(&error);
 }
 
 int info_print_field(const char *path, bool json) {

@@ -158,9 +158,5 @@ bool render_print_stats(render_job *j, cli_error *error) {
     }
     if (j->shadow)
         add_shadows(j, stats);
-    char *text = file_json_text(stats, true, NULL, error);
-    if (text)
-        puts(text);
-    free(text);
-    return text != NULL;
+    return file_json_print(stats, NULL, error);
 }

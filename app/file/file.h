@@ -40,6 +40,10 @@ struct cJSON *file_read_json(const char *path, size_t limit, cli_error *error);
  * out for any part of it, also while it was made: whoever makes JSON prints it by this. */
 char *file_json_text(struct cJSON *root, bool lines, const char *subject, cli_error *error);
 
+/* Prints such a text in lines to stdout. What a terminal obeys, in the name of a file, is escaped;
+ * bytes that are no UTF-8 become U+FFFD. */
+bool file_json_print(struct cJSON *root, const char *subject, cli_error *error);
+
 /* Its values, strictly: what has another type, count or range is not read. An item may be NULL. */
 const struct cJSON *file_json_member(const struct cJSON *object, const char *name);
 bool file_json_number(const struct cJSON *item, double minimum, double maximum, double *number);

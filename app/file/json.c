@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "app/cli/printable.h"
 #include "app/file/file.h"
 
 #include <cjson/cJSON.h>
@@ -34,6 +35,23 @@ char *file_json_text(struct cJSON *root, bool lines, const char *subject, cli_er
     free(text);
     cli_fail(error, subject, "out of memory");
     return NULL;
+}
+
+bool file_json_print(struct cJSON *root, const char *subject, cli_error *error) {
+    char *const text = file_json_text(root, true, subject, error);
+    for (const char *at = text; at && *at;) {
+        uint32_t code;
+        const size_t length = cli_character(at, &code);
+        if (cli_printable(at) || *at == '\n' || *at == '\t')
+            fwrite(at, 1, length, stdout);
+        else
+            printf("\\u%04x", length ? (unsigned)code : 0xFFFDu);
+        at += length ? length : 1;
+    }
+    if (text)
+        putchar('\n');
+    free(text);
+    return text != NULL;
 }
 
 struct cJSON *file_parse_json(const char *path, const char *text, size_t size, cli_error *error) {
