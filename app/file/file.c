@@ -47,16 +47,25 @@ static bool read_all(int fd, const char *path, size_t expected, size_t limit, vo
     return cli_fail(error, path, "is too large for the memory of this machine");
 }
 
+static bool is_standard_input(const struct stat *file) {
+    struct stat input;
+    return fstat(STDIN_FILENO, &input) == 0 && input.st_dev == file->st_dev &&
+           input.st_ino == file->st_ino;
+}
+
 /* Non-blocking, so that opening a FIFO by mistake does not wait for a writer. */
 int file_open_descriptor(const char *path, cli_error *error) {
     struct stat status = { 0 };
     const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode))
+    const bool regular = fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
+    if (regular && !is_standard_input(&status))
         return fd;
     if (fd < 0 && errno == ENOENT)
         cli_fail(error, path, "does not exist");
     else if (fd < 0)
         cli_fail(error, path, "cannot be opened: %s", strerror(errno));
+    else if (regular)
+        cli_fail(error, path, "is standard input, which is read by the name - alone");
     else if (S_ISDIR(status.st_mode))
         cli_fail(error, path, "is a directory, not a file");
     else

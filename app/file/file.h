@@ -16,7 +16,8 @@ bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_er
  * it comes from the command line: no file may read the user's standard input. */
 bool file_is_standard_input(const char *name);
 
-/* Opens a regular file for reading; NULL, or -1, on failure. */
+/* Opens a regular file for reading; NULL, or -1, on failure. By whatever name, such as /dev/stdin,
+ * it is not the one that is standard input: that is "-" alone. */
 FILE *file_open(const char *path, cli_error *error);
 int file_open_descriptor(const char *path, cli_error *error);
 

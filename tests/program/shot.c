@@ -60,8 +60,32 @@ static void the_viewer_refuses_the_same(void **unused) {
     assert_one_line(run_program(allowed), shot, "display");
 }
 
+/* A file that is standard input, by its other names, as the screenshot's scene or a material of it.
+ */
+static void none_reads_standard_input(void **unused) {
+    (void)unused;
+    static const char *const names[] = { "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0",
+                                         "/proc/thread-self/fd/0" };
+    const char *const expected = "is standard input, which is read by the name - alone";
+    folder_write_text("input", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const int input = open(in_folder("input"), O_RDONLY);
+    assert_int_equal(dup2(input, STDIN_FILENO), STDIN_FILENO);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        strcpy(state.now.scene, names[i]);
+        write_shot("scene.png", 8, 8);
+        assert_one_line(repeat("scene.png", NULL), names[i], expected);
+        strcpy(state.now.scene, "builtin:ball");
+        assert_true(view_set_material(&state.now, "test_material", names[i]));
+        write_shot("material.png", 8, 8);
+        assert_one_line(repeat("material.png", NULL), names[i], expected);
+        assert_true(view_set_material(&state.now, "test_material", NULL));
+    }
+    close(input);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed),
-                                        TEST(the_viewer_refuses_the_same) };
+                                        TEST(the_viewer_refuses_the_same),
+                                        TEST(none_reads_standard_input) };
     return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
 }
