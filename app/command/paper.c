@@ -11,15 +11,13 @@ static int run_line(int argc, char **argv) {
     return command ? command->run(command, argc, argv) : CLI_USAGE;
 }
 
-/* The path as seen from anywhere; paths with blanks cannot stand in a command line of the page. */
+/* The path as seen from anywhere. */
 static bool make_absolute(const char **path, cli_error *error) {
     if (!*path || strncmp(*path, "builtin:", 8) == 0)
         return true;
     const char *given = *path;
     *path = realpath(given, NULL);
-    if (!*path)
-        return cli_fail(error, given, "does not exist");
-    return !strchr(*path, ' ') || cli_fail(error, given, "must not have blanks in its path");
+    return *path || cli_fail(error, given, "does not exist");
 }
 
 static int run(const cli_command *command, int argc, char **argv) {

@@ -46,20 +46,57 @@ bool paper_has_step(const char *name, cli_error *error) {
     return cli_fail_word(error, "--step", name, names);
 }
 
-#define WORDS_MAX 64
+enum { WORDS_MAX = 64, LINE_MAX_SIZE = 16384 };
+
+bool paper_quote(const char *text, char *word, size_t size) {
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                "_-./:=,+@%";
+    const bool quoted = text[strspn(text, plain)] || !*text;
+    size_t used = 0;
+    if (4 * strlen(text) + 3 > size)
+        return false;
+    if (quoted)
+        word[used++] = '\'';
+    for (; *text; text++) {
+        const char *const written = *text == '\'' ? "'\\''" : (const char[]) { *text, 0 };
+        memcpy(word + used, written, strlen(written));
+        used += strlen(written);
+    }
+    if (quoted)
+        word[used++] = '\'';
+    word[used] = 0;
+    return true;
+}
+
+/* Splits a line in place at the blanks that are not quoted; returns how many words it has. */
+static int split_words(char *line, char *argv[WORDS_MAX]) {
+    int argc = 0;
+    while (*line && argc < WORDS_MAX - 1) {
+        char *end = line;
+        bool quoted = false;
+        for (argv[argc++] = line; *line && (quoted || *line != ' '); line++) {
+            if (*line == '\'')
+                quoted = !quoted;
+            else if (!quoted && *line == '\\' && line[1])
+                *end++ = *++line;
+            else
+                *end++ = *line;
+        }
+        line += strspn(line, " ");
+        *end = 0;
+    }
+    argv[argc] = NULL;
+    return argc;
+}
 
 bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...) {
-    char line[4096] = "lampion ", words[4096], *argv[WORDS_MAX], *rest = NULL;
-    int argc = 0;
+    char line[LINE_MAX_SIZE] = "lampion ", words[LINE_MAX_SIZE], *argv[WORDS_MAX];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(line + strlen(line), sizeof line - strlen(line), format, arguments);
     va_end(arguments);
     memcpy(words, line, sizeof words);
-    for (char *word = strtok_r(words, " ", &rest); word && argc < WORDS_MAX - 1;
-         word = strtok_r(NULL, " ", &rest))
-        argv[argc++] = word;
-    argv[argc] = NULL;
+    const int argc = split_words(words, argv);
     if (show)
         page_command(&p->page, line);
     if (p->options->run(argc - 1, argv + 1) != CLI_OK)

@@ -83,8 +83,12 @@ bool paper_step_gradients(paper *p, cli_error *error);
 bool paper_step_fields(paper *p, cli_error *error);
 bool paper_step_shadows(paper *p, cli_error *error);
 
-/* Runs a command line of the program, its words separated by single blanks; `show` puts it on the
- * page. */
+/* Writes one word of a command line, quoted if a shell would see more in it. False if it is too
+ * long. */
+bool paper_quote(const char *text, char *word, size_t size);
+
+/* Runs a command line of the program, its words as paper_quote writes them, blanks between them;
+ * `show` puts it on the page. */
 bool paper_run(paper *p, bool show, cli_error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -9,7 +9,8 @@ enum { BANDS_MAX = 8 };
 /* A figure of the paper. */
 typedef struct figure {
     const char *name; /* of files */
-    char scene[2048], lights[64];
+    const char *scene;
+    char word[8192], lights[64]; /* the scene in a command line, and its lights */
     int width, height, light_count;
     int bands[BANDS_MAX];    /* to compare, 0-terminated */
     int shown[BANDS_MAX];    /* to show and time, 0-terminated */
@@ -100,7 +101,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
     char file[64], pixels[64];
     int count = 0;
     if (!paper_run(p, false, error,
-                   "reference %s %s --size %dx%d --spp %d --noise-seed 2 -o %s-again.exr", f->scene,
+                   "reference %s %s --size %dx%d --spp %d --noise-seed 2 -o %s-again.exr", f->word,
                    f->lights, f->width, f->height, f->samples, f->name))
         return false;
     snprintf(file, sizeof file, "%s-errors", f->name);
@@ -112,7 +113,7 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
         char ours[64];
         snprintf(ours, sizeof ours, "%s-%d.exr", f->name, f->bands[count]);
         if (!paper_run(p, false, error,
-                       "render %s %s --size %dx%d --bands %d --window hanning -o %s", f->scene,
+                       "render %s %s --size %dx%d --bands %d --window hanning -o %s", f->word,
                        f->lights, f->width, f->height, f->bands[count], ours) ||
             !paper_compare(ours, pixels, &result, error))
             return false;
@@ -155,8 +156,8 @@ static bool judge(paper *p, const figure *f, cli_error *error) {
 static bool trace_truth(paper *p, const figure *f, float *exposure, cli_error *error) {
     char file[64], caption[160];
     image truth;
-    if (!paper_run(p, true, error, "reference %s %s --size %dx%d --spp %d -o %s-truth.exr",
-                   f->scene, f->lights, f->width, f->height, f->samples, f->name))
+    if (!paper_run(p, true, error, "reference %s %s --size %dx%d --spp %d -o %s-truth.exr", f->word,
+                   f->lights, f->width, f->height, f->samples, f->name))
         return false;
     snprintf(file, sizeof file, "%s-truth.exr", f->name);
     if (!image_read(file, IMAGE_READ_PIXELS, &truth, error))
@@ -184,16 +185,18 @@ static bool make_figure(paper *p, const figure *f, cli_error *error) {
         if (!paper_run(
                 p, true, error,
                 "render %s %s --size %dx%d --bands %d --window hanning --exposure %.6g -o %s",
-                f->scene, f->lights, f->width, f->height, f->shown[i], (double)exposure, file))
+                f->word, f->lights, f->width, f->height, f->shown[i], (double)exposure, file))
             return false;
         page_image(&p->page, file, caption);
     }
     return time_figure(p, f, error) && judge(p, f, error);
 }
 
-static void set_scene(figure *f, const char *name) {
-    snprintf(f->scene, sizeof f->scene, "%s", name ? name : "builtin:atrium");
+static bool set_scene(figure *f, const char *name, cli_error *error) {
+    f->scene = name ? name : "builtin:atrium";
     snprintf(f->lights, sizeof f->lights, "--random-lights %d --seed 1", f->light_count);
+    return paper_quote(f->scene, f->word, sizeof f->word) ||
+           cli_fail(error, f->scene, "is too long a name");
 }
 
 bool paper_step_san_miguel(paper *p, cli_error *error) {
@@ -209,7 +212,8 @@ bool paper_step_san_miguel(paper *p, cli_error *error) {
                  .claim = { "10 lights on 10 bands in real time" },
                  .number = { "69 ms at 3400×900: 0.225 ns" },
                  .samples = full ? 256 : 64 };
-    set_scene(&f, p->options->san_miguel);
+    if (!set_scene(&f, p->options->san_miguel, error))
+        return false;
     page_text(&p->page, "The paper renders San Miguel at 3400×900 in 69 ms. %s",
               p->options->san_miguel ? "" : "Here <code>builtin:atrium</code> stands for it.");
     return make_figure(p, &f, error);
@@ -229,7 +233,8 @@ bool paper_step_sponza(paper *p, cli_error *error) {
                             "30 lights on 8 bands in real time" },
                  .number = { "4.9 ms at 1980×995: 0.0166 ns", "8.3 ms at 1980×995: 0.0176 ns" },
                  .samples = full ? 256 : 64 };
-    set_scene(&f, p->options->sponza);
+    if (!set_scene(&f, p->options->sponza, error))
+        return false;
     page_text(&p->page,
               "The paper renders Sponza at 1980×995 in 4.9 ms with 5 bands and 8.3 ms with 8. %s",
               p->options->sponza ? "" : "Here <code>builtin:atrium</code> stands for it.");

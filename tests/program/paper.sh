@@ -64,6 +64,13 @@ status=0
 grep -q 'class="failed"' "$WORK/broken/index.html" || fail "the page hides the failure"
 grep -q 'closed forms' "$WORK/broken/index.html" || fail "the failure stopped the other step"
 
+# a name is one word, whatever is in it, and the page tells the command as a shell takes it
+mkdir "$WORK/it's a \\ folder"
+echo nonsense >"$WORK/it's a \\ folder/scene --spp 1.gltf"
+"$PROGRAM" paper -o "$WORK/blanks" --step sponza --sponza "$WORK/it's a \\ folder/scene --spp 1.gltf" >"$WORK/out" 2>"$WORK/err" || true
+grep -qF "it's a \\ folder/scene --spp 1.gltf: is no valid JSON" "$WORK/err" || fail "a name with blanks: $(cat "$WORK/err")"
+grep -qF "it'\\''s a \\ folder/scene --spp 1.gltf' --random-lights" "$WORK/blanks/index.html" || fail "the page tells no command"
+
 status=0
 "$PROGRAM" paper -o "$WORK/none" --step beauty 2>"$WORK/err" || status=$?
 [ $status = 2 ] && grep -q beauty "$WORK/err" || fail "an unknown step is accepted"
