@@ -100,7 +100,7 @@ completes 'lampion render ' 'builtin:atrium builtin:ball builtin:balls folder sc
 completes 'lampion paper -o ' 'folder'
 completes 'lampion brdf info sce' 'scene.gltf'
 # a name is no command, whatever it is and begins with: quoted here, or by readline where that does it well
-hostile='house$(touch pwned).gltf' quoted='house\$\(touch\ pwned\).gltf'
+hostile='hole$(touch pwned).gltf' quoted='hole\$\(touch\ pwned\).gltf'
 touch "$WORK/files/builtin:$hostile" "$WORK/files/sgd:$hostile" "$WORK/files/$hostile" "$WORK/files/builtin:ball;x"
 completes 'lampion info builtin:ho' "$quoted"
 completes 'lampion info ./builtin:ho' "$quoted"
@@ -111,8 +111,8 @@ tells() {
     told=$(cd "$WORK/files" && bash -c 'told() { echo "$*:"; }; source ./told; COMP_LINE=$1 COMP_POINT=${#1}; _lampion; echo "${COMPREPLY[@]}"' - "$1" | paste -s -d ' ')
     [ "$told" = "$2" ] || fail "\"$1\" is completed by \"$told\", not \"$2\""
 }
-tells 'lampion info hou' "-o filenames: $hostile"
-tells 'lampion info builtin:hou' "$quoted"
+tells 'lampion info hol' "-o filenames: $hostile"
+tells 'lampion info builtin:hol' "$quoted"
 
 "$PROGRAM" completion zsh >"$WORK/zsh"
 absent zsh || zsh -n "$WORK/zsh" || fail "zsh: syntax"
