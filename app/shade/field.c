@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/shade/field.h"
 #include "app/bake/bake.h"
+#include "app/shade/lights.h"
 #include "app/timing/timing.h"
 
 #include <math.h>
@@ -210,13 +211,11 @@ static const lmp_field *whole_field(const gpu_frame *frame, uint64_t *stamp) {
     static uint64_t stamps;
     shade_field *field = frame->field;
     const double start = timing_now();
-    lmp_light *lights = calloc(frame->light_count + 1, sizeof *lights);
+    lmp_light *lights = shade_lights(frame);
     bool ok = lights != NULL;
     const char *what = "lighting the field";
     lmp_host host = bake_host(&what);
     host.progress = NULL;
-    for (size_t i = 0; i < frame->light_count && ok; i++)
-        lights[i] = frame->lights[i].emitter;
     if (ok)
         follow_lights(field, &host, lights, frame->light_count);
     free(lights);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/shade/shade.h"
 #include "app/shade/field.h"
+#include "app/shade/lights.h"
 #include "app/timing/timing.h"
 
 #include <stdlib.h>
@@ -133,7 +134,7 @@ bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba
                  cli_error *error) {
     const size_t count = frame->light_count;
     const bool by_field = method_table[frame->method].reads & METHOD_READS_FIELD;
-    lmp_light *lights = calloc(count + 1, sizeof *lights);
+    lmp_light *lights = shade_lights(frame);
     shading s = { { .method = method_table[frame->method].method,
                     .bands = frame->bands,
                     .window = frame->window,
@@ -143,8 +144,6 @@ bool shade_frame(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba
                   .environment = gpu_gbuffer_environment(gbuffer),
                   .layered = gpu_gbuffer_is_layered(gbuffer) };
     bool ok = lights;
-    for (size_t i = 0; ok && i < count; i++)
-        lights[i] = frame->lights[i].emitter;
     if (ok && by_field) {
         s.field =
             shade_field_follow(frame->field, lights, count, gbuffer, frame->width, frame->height);
