@@ -285,9 +285,9 @@ static void end_rays(const source_lanes *lanes, const seen_lanes *seen, const sh
 static void bring_light(const source_lanes *lanes, const seen_lanes *seen,
                         shadow_samples *samples) {
     for (int i = 0; i < SHADOW_LANES; i++) {
-        const float t = seen->one_minus_cos[i], sine = sqrtf(t * (2 - t));
+        const float t = seen->one_minus_cos[i];
         const float solid_angle = lanes->far[i] == 0 ? 1 : 2 * PI * t;
-        samples->size[i] = t < 1 ? sine : 1;
+        samples->size[i] = sine_of(t);
         for (int c = 0; c < 3; c++)
             samples->arrives.of[c][i] = lanes->color.of[c][i] * solid_angle;
     }

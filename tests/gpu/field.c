@@ -76,6 +76,25 @@ static difference differ(const image *a, const image *b) {
     return d;
 }
 
+/* The library's images by the field and by all lights: within a hundredth of the local peak. */
+static difference differ_from_sums(gpu_renderer *renderer, gpu_frame *frame, shade_field *field) {
+    frame->host = shade_frame;
+    image by_field = render_by(renderer, frame, METHOD_FIELD, field);
+    image by_sums = render_by(renderer, frame, METHOD_ZONAL, NULL);
+    const difference d = differ(&by_field, &by_sums);
+    image_free(&by_field);
+    image_free(&by_sums);
+    assert_true(!(d.worst > 0.01) && !(d.rms > 0.001));
+    return d;
+}
+
+/* Balls, under lights of which one is the same from everywhere, one is ambient, too, and a spot. */
+static void open_every_kind(void) {
+    open_world("builtin:balls", 20);
+    for (int i = 0; i < KINDS; i++)
+        world.lights[world.light_count++].emitter = one_of_each_kind[i];
+}
+
 static void a_thousand_lights_look_as_their_sums_do(void **state) {
     (void)state;
     static const int bands[] = { 5, 10 };
@@ -85,15 +104,9 @@ static void a_thousand_lights_look_as_their_sums_do(void **state) {
         gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
         shade_field *field = open_field(bands[i], false);
         frame.bands = bands[i];
-        frame.host = shade_frame;
-        image by_field = render_by(renderer, &frame, METHOD_FIELD, field);
-        image by_sums = render_by(renderer, &frame, METHOD_ZONAL, NULL);
-        const difference d = differ(&by_field, &by_sums);
+        const difference d = differ_from_sums(renderer, &frame, field);
         print_message("%d bands: at most %.4f of the local peak, %.5f in root mean square\n",
                       bands[i], d.worst, d.rms);
-        assert_true(!(d.worst > 0.01) && !(d.rms > 0.001));
-        image_free(&by_field);
-        image_free(&by_sums);
         shade_field_destroy(field);
     }
     gpu_renderer_destroy(renderer);
@@ -102,19 +115,11 @@ static void a_thousand_lights_look_as_their_sums_do(void **state) {
 
 static void every_kind_of_light_is_drawn(void **state) {
     (void)state;
-    open_world("builtin:balls", 20);
-    for (int i = 0; i < KINDS; i++)
-        world.lights[world.light_count++].emitter = one_of_each_kind[i];
+    open_every_kind();
     gpu_renderer *renderer = open_renderer(&world);
     gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *field = open_field(frame.bands, false);
-    frame.host = shade_frame;
-    image by_field = render_by(renderer, &frame, METHOD_FIELD, field);
-    image by_sums = render_by(renderer, &frame, METHOD_ZONAL, NULL);
-    const difference d = differ(&by_field, &by_sums);
-    assert_true(!(d.worst > 0.01) && !(d.rms > 0.001));
-    image_free(&by_field);
-    image_free(&by_sums);
+    differ_from_sums(renderer, &frame, field);
     shade_field_destroy(field);
     gpu_renderer_destroy(renderer);
     scene_free(&world);
@@ -196,12 +201,9 @@ static void shaders_draw_what_the_library_does(void **state) {
     scene_free(&world);
 }
 
-/* Of them one that is the same from everywhere, one that is ambient, too, and a spot. */
 static void shaders_draw_every_kind_of_light(void **state) {
     (void)state;
-    open_world("builtin:balls", 20);
-    for (int i = 0; i < KINDS; i++)
-        world.lights[world.light_count++].emitter = one_of_each_kind[i];
+    open_every_kind();
     gpu_renderer *renderer = open_renderer(&world);
     gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
     expect_same_image("all kinds", renderer, &frame);
