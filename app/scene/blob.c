@@ -108,12 +108,20 @@ static bool bounds_fit(const blob_header *header, const scene_mesh *mesh) {
     return true;
 }
 
+static bool is_unit(const float v[3]) {
+    return fabsf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1.0f) <= 1e-3f;
+}
+
+static bool vertex_fits(const scene_vertex *vertex) {
+    return all_in_reach(vertex->position, 3) && all_finite(vertex->uv[0], 4) &&
+           is_unit(vertex->normal) && is_unit(vertex->tangent) && fabsf(vertex->tangent[3]) == 1.0f;
+}
+
 static bool geometry_fits(const blob_header *header) {
     const scene_vertex *vertices = blob_items(header, BLOB_VERTICES);
     const uint64_t vertex_count = header->sections[BLOB_VERTICES].count;
     for (uint64_t i = 0; i < vertex_count; i++)
-        if (!all_finite(vertices[i].position, offsetof(scene_vertex, color) / sizeof(float)) ||
-            !all_in_reach(vertices[i].position, 3))
+        if (!vertex_fits(&vertices[i]))
             return false;
     const uint32_t *indices = blob_items(header, BLOB_INDICES);
     const uint64_t index_count = header->sections[BLOB_INDICES].count;

@@ -63,8 +63,15 @@ static inline float vec_length(lmp_vec3 a) {
 
 /* `fallback` where a has no direction. */
 static inline lmp_vec3 vec_normalize(lmp_vec3 a, lmp_vec3 fallback) {
-    const float length = vec_length(a);
-    return length > 0.0f && isfinite(length) ? vec_scale(a, 1.0f / length) : fallback;
+    const float square = vec_dot(a, a);
+    if (square > 1e-30f && square < 1e30f)
+        return vec_scale(a, 1.0f / sqrtf(square));
+    /* Squares of floats under- and overflow, or lose their digits, those of doubles do not. */
+    const double x = (double)a.x, y = (double)a.y, z = (double)a.z;
+    const double length = sqrt(x * x + y * y + z * z);
+    return length > 0.0 && isfinite(length)
+               ? vec((float)(x / length), (float)(y / length), (float)(z / length))
+               : fallback;
 }
 
 /* A unit vector across the unit vector n. */

@@ -4,6 +4,7 @@
 #include "app/scene/builder.h"
 #include "tests/oracle/check.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@ static int make_triangle(void **state) {
     uint32_t *indices = builder_append(&builder, BLOB_INDICES, 3);
     for (uint32_t i = 0; i < 3; i++) {
         corners[i].position[i] = 1.0f + (float)i;
-        corners[i].normal[2] = corners[i].tangent[0] = 1.0f;
+        corners[i].normal[2] = corners[i].tangent[0] = corners[i].tangent[3] = 1.0f;
         indices[i] = i;
     }
     builder_material(&builder, "clay");
@@ -60,6 +61,24 @@ static void positions_are_in_reach(void **state) {
     assert_false(is_valid());
 }
 
+/* Shading and rays take normals and tangents as they are. */
+static void normals_and_tangents_are_unit(void **state) {
+    (void)state;
+    scene_vertex *corner = builder_items(&builder, BLOB_VERTICES);
+    float *const numbers[] = { corner->normal, corner->tangent, corner->tangent + 3 };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        for (int k = 0; k < (i < 2 ? 3 : 1); k++) {
+            static const float wrong[] = { 1.1f, 0.5f, 2e19f, 1e38f, NAN, INFINITY };
+            const float right = numbers[i][k];
+            for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+                numbers[i][k] = wrong[w];
+                assert_false(is_valid());
+            }
+            numbers[i][k] = right;
+        }
+    assert_true(is_valid());
+}
+
 static void motions_are_in_reach(void **state) {
     (void)state;
     lmp_vec3 *offsets = builder_items(&builder, BLOB_OFFSETS);
@@ -100,6 +119,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(what_the_builder_makes_is_valid, make_triangle,
                                         free_builder),
         cmocka_unit_test_setup_teardown(positions_are_in_reach, make_triangle, free_builder),
+        cmocka_unit_test_setup_teardown(normals_and_tangents_are_unit, make_triangle, free_builder),
         cmocka_unit_test_setup_teardown(motions_are_in_reach, make_triangle, free_builder),
         cmocka_unit_test_setup_teardown(bounds_are_those_of_the_vertices, make_triangle,
                                         free_builder),
