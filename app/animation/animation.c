@@ -121,6 +121,11 @@ static void follow_keys(const path *p, double seconds, scene_light *light) {
     light->emitter.position = vec_load(center);
 }
 
+/* A path that leads farther than lights may be ends there. */
+static void hold_in_reach(float *coordinate) {
+    *coordinate = fmaxf(-LMP_LENGTH_MAX, fminf(*coordinate, LMP_LENGTH_MAX));
+}
+
 void animation_move(const animation *all, size_t number, double seconds, scene_light *light) {
     const path *p = number < all->path_count ? &all->paths[number] : &all->rest;
     if (p->kind != PATH_CIRCLE && !scene_light_has(light, SCENE_LIGHT_POSITION))
@@ -144,6 +149,9 @@ void animation_move(const animation *all, size_t number, double seconds, scene_l
         follow_keys(p, seconds, light);
         break;
     }
+    hold_in_reach(&light->emitter.position.x);
+    hold_in_reach(&light->emitter.position.y);
+    hold_in_reach(&light->emitter.position.z);
 }
 
 void animation_move_all(const animation *all, const scene *world, double seconds,

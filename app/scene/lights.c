@@ -123,11 +123,18 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
         const lmp_rgb color = builtin_light_color(&random, RANDOM_WARM_FRACTION);
         /* Power that gives the bounding sphere its irradiance, divided among the lights. */
         const float power = RANDOM_IRRADIANCE * PI * size * size / (float)count;
-        s->lights[s->light_count++].emitter = (lmp_light) {
-            .position = position,
-            .radius = radius,
-            .radiance = rgb_scale(color, lmp_sphere_radiance_from_power(power, radius)),
-        };
+        scene_light *light = &s->lights[s->light_count];
+        light->emitter = (lmp_light) { .position = position, .radius = radius };
+        if (radius > 0.0f)
+            light->emitter.radiance =
+                rgb_scale(color, lmp_sphere_radiance_from_power(power, radius));
+        scene_light_error wrong;
+        if (!scene_light_check(light, &wrong)) {
+            s->light_count = first;
+            return cli_fail(error, s->origin, "is too small or too large for random lights: %s",
+                            wrong.text + (wrong.text[0] == '.'));
+        }
+        s->light_count++;
     }
     return make_room(s, first, &box, seed) ||
            cli_fail(error, s->origin, "does not fit into memory");

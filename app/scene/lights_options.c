@@ -4,18 +4,26 @@
 #include "app/scene/vector.h"
 
 /* Points become spheres and parallel rays suns, of the same intensity and irradiance. */
-static void widen_lights(scene *s, const scene_lights_options *options) {
+static bool widen_lights(scene *s, const scene_lights_options *options, cli_error *error) {
     const float angle = options->sun_angle * PI / 180.0f;
     for (size_t i = 0; i < s->light_count; i++) {
-        lmp_light *light = &s->lights[i].emitter;
-        const scene_light_kind *kind = &scene_light_kinds[light->kind];
-        if (kind->widen)
-            kind->widen(light, options->point_radius, angle);
+        scene_light *light = &s->lights[i];
+        const scene_light_kind *kind = &scene_light_kinds[light->emitter.kind];
+        scene_light_error wrong;
+        if (!kind->widen)
+            continue;
+        kind->widen(&light->emitter, options->point_radius, angle);
+        if (!scene_light_check(light, &wrong))
+            return cli_fail(error, s->origin, "lights[%zu]%s with that %s", i, wrong.text,
+                            light->emitter.kind == LMP_LIGHT_CAP ? "--sun-angle"
+                                                                 : "--point-radius");
     }
+    return true;
 }
 
 bool scene_apply_lights(scene *s, const scene_lights_options *options, cli_error *error) {
-    widen_lights(s, options);
+    if (!widen_lights(s, options, error))
+        return false;
     s->lights_chosen = options->file || options->random_count > 0;
     if (s->lights_chosen && !options->keep)
         scene_clear_lights(s);

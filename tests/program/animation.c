@@ -211,6 +211,32 @@ static void bad_paths_are_refused_in_one_line(void **state) {
     scene_free(&s);
 }
 
+/* Circles far away and splines of steep keys lead beyond what the library takes. */
+static void no_path_leads_out_of_reach(void **state) {
+    (void)state;
+    static const char *const far[] = {
+        "{\"paths\":[{\"light\":0,\"circle\":{\"center\":[9e16,-9e16,9e16],\"period\":1}}]}",
+        "{\"paths\":[{\"light\":0,\"smooth\":true,"
+        "\"keys\":[[0,0,0,0],[1,9e16,-9e16,0],[1.001,-9e16,9e16,9e16],[2,0,0,0]]}]}",
+        "{\"paths\":[{\"light\":0,\"smooth\":true,"
+        "\"keys\":[[0,0,0,0],[1e-320,9e16,-9e16,0],[2e-320,0,0,0],[1,0,0,0]]}]}",
+    };
+    scene s = load("builtin:ball");
+    for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
+        const char *file = write_file(".json", far[i]);
+        animation *path = open_path(file, &s);
+        unlink(file);
+        for (int step = 0; step < 200; step++) {
+            scene_light_error wrong;
+            const scene_light light = at(path, &s, 0, 0.01 * step);
+            if (!scene_light_check(&light, &wrong))
+                fail_msg("%s at %g s: %s", far[i], 0.01 * step, wrong.text);
+        }
+        animation_close(path);
+    }
+    scene_free(&s);
+}
+
 /* A sun goes around the axis of a circle and stays a unit vector; a spot rotates on its way; what
  * has no position does not bounce or orbit. */
 static void circles_rotate_directions(void **state) {
@@ -251,6 +277,7 @@ int main(void) {
         cmocka_unit_test(circles_rotate_directions),
         cmocka_unit_test(scenes_move_their_own_lights),
         cmocka_unit_test(bad_paths_are_refused_in_one_line),
+        cmocka_unit_test(no_path_leads_out_of_reach),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

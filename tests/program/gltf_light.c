@@ -138,6 +138,27 @@ static void the_command_line_gives_points_and_parallel_light_a_size(void **state
     assert_memory_equal(&lights[2], &before, sizeof before);
 }
 
+/* The radiance of a point as a sphere of 1e-20 m overflows. */
+static void a_size_that_no_light_can_have_is_refused(void **state) {
+    (void)state;
+    const scene_light given[] = {
+        { .emitter = { .kind = LMP_LIGHT_POINT, .intensity = { 1, 2, 3 } } },
+        { .emitter = { .kind = LMP_LIGHT_DIRECTIONAL,
+                       .direction = { 0, 1, 0 },
+                       .irradiance = { 1, 2, 3 } } },
+    };
+    static const char *const expected[] = { "--point-radius", "--sun-angle" };
+    for (size_t i = 0; i < 2; i++) {
+        scene_light light = given[i];
+        scene s = { .lights = &light, .light_count = 1, .origin = "file.gltf" };
+        cli_error error;
+        assert_false(scene_apply_lights(
+            &s, &(scene_lights_options) { .point_radius = 1e-20f, .sun_angle = 1e-20f }, &error));
+        assert_non_null(strstr(error.text, "file.gltf: lights[0].radiance"));
+        assert_non_null(strstr(error.text, expected[i]));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_spot_keeps_its_cones_and_shines_along_minus_z),
@@ -147,6 +168,7 @@ int main(void) {
         cmocka_unit_test(a_direction_that_is_animated_is_left_out),
         cmocka_unit_test(impossible_lights_are_refused),
         cmocka_unit_test(the_command_line_gives_points_and_parallel_light_a_size),
+        cmocka_unit_test(a_size_that_no_light_can_have_is_refused),
     };
     fill_bytes();
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -303,6 +303,25 @@ static void random_lights_are_the_same_everywhere(void **state) {
     scene_free(&s);
 }
 
+/* Their size is the scene's; a point has none, and the radiance of the smallest overflows. */
+static void a_point_has_no_room_for_random_lights(void **state) {
+    (void)state;
+    scene s = load("builtin:ball");
+    static const float sides[] = { 0, 1e-25f };
+    for (size_t i = 0; i < 2; i++) {
+        cli_error error;
+        const size_t before = s.light_count;
+        for (int k = 0; k < 3; k++) {
+            s.minimum[k] = 0;
+            s.maximum[k] = sides[i];
+        }
+        assert_false(scene_add_random_lights(&s, 3, 7, &error));
+        assert_non_null(strstr(error.text, "too small or too large for random lights"));
+        assert_int_equal(s.light_count, before);
+    }
+    scene_free(&s);
+}
+
 static void asked_lights_replace_the_scene_s_own_unless_kept(void **state) {
     (void)state;
     folder_write_text("lights.json",
@@ -348,6 +367,7 @@ int main(void) {
         cmocka_unit_test(many_lanterns_hang_on_strings),
         cmocka_unit_test(the_atrium_is_the_same_for_a_seed_and_another_for_another),
         cmocka_unit_test(random_lights_are_the_same_everywhere),
+        cmocka_unit_test(a_point_has_no_room_for_random_lights),
         cmocka_unit_test(asked_lights_replace_the_scene_s_own_unless_kept),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
