@@ -31,8 +31,10 @@ typedef struct gpu_draw {
     float minimum[3], maximum[3];
 } gpu_draw;
 
+#define GPU_WRAPS (SCENE_WRAP_MIRROR + 1)
+
 typedef struct gpu_material {
-    GLuint maps[SHARED_MAPS]; /* GL textures, 0 = none */
+    GLuint maps[SHARED_MAPS], samplers[SHARED_MAPS]; /* of OpenGL; map 0 = none */
     bool double_sided, masked, layered, sheen;
     float f0[3], f90; /* as in scene_material */
     int table;        /* of gpu_set_tables, instead of all that, or -1 */
@@ -45,9 +47,10 @@ typedef struct gpu_mesh {
     size_t draw_count;
     gpu_material *materials;
     size_t material_count;
-    GLuint *textures;
+    GLuint *textures; /* of the scene's, which share those of OpenGL */
     GLsizei texture_count;
-    bool layered; /* some material is */
+    GLuint samplers[GPU_WRAPS * GPU_WRAPS]; /* by wrap_u + GPU_WRAPS * wrap_v */
+    bool layered;                           /* some material is */
 } gpu_mesh;
 
 /* The variants of surface.frag. */

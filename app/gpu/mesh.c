@@ -15,10 +15,20 @@ static GLuint upload(const void *data, size_t size) {
 
 /* --- textures --------------------------------------------------------------------------------- */
 
-static GLint wrap_mode(uint32_t wrap) {
-    return wrap == SCENE_WRAP_CLAMP    ? GL_CLAMP_TO_EDGE
-           : wrap == SCENE_WRAP_MIRROR ? GL_MIRRORED_REPEAT
-                                       : GL_REPEAT;
+/* Images are shared by all textures that show them; how they repeat is up to samplers. */
+static void create_samplers(const gpu_context *context, gpu_mesh *mesh) {
+    static const GLint modes[GPU_WRAPS] = { [SCENE_WRAP_REPEAT] = GL_REPEAT,
+                                            [SCENE_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
+                                            [SCENE_WRAP_MIRROR] = GL_MIRRORED_REPEAT };
+    glCreateSamplers(GPU_WRAPS * GPU_WRAPS, mesh->samplers);
+    for (int i = 0; i < GPU_WRAPS * GPU_WRAPS; i++) {
+        const GLuint sampler = mesh->samplers[i];
+        glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, modes[i % GPU_WRAPS]);
+        glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, modes[i / GPU_WRAPS]);
+        if (!context->software && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+            glSamplerParameterf(sampler, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8);
+    }
 }
 
 static GLsizei level_count(uint32_t width, uint32_t height) {
@@ -41,22 +51,61 @@ static bool create_texture(const gpu_context *context, const scene *world,
     glTextureSubImage2D(*texture, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
                         world->texels + source->first_byte);
     glGenerateTextureMipmap(*texture);
-    glTextureParameteri(*texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    glTextureParameteri(*texture, GL_TEXTURE_WRAP_S, wrap_mode(source->wrap_u));
-    glTextureParameteri(*texture, GL_TEXTURE_WRAP_T, wrap_mode(source->wrap_v));
-    if (!context->software && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
-        glTextureParameterf(*texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8);
     return true;
+}
+
+/* The order that brings together what shows the same texels by the same curve. */
+static int compare_images(const void *a, const void *b) {
+    const scene_texture *const *const left = a, *const *const right = b;
+    const scene_texture *const x = *left, *const y = *right;
+    const int order[] = { (x->first_byte > y->first_byte) - (x->first_byte < y->first_byte),
+                          (x->width > y->width) - (x->width < y->width),
+                          (x->height > y->height) - (x->height < y->height),
+                          (x->srgb > y->srgb) - (x->srgb < y->srgb) };
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++)
+        if (order[i])
+            return order[i];
+    return 0;
+}
+
+static bool create_textures(const gpu_context *context, const scene *world, gpu_mesh *mesh,
+                            cli_error *error) {
+    const scene_texture **const sorted = calloc(world->texture_count + 1, sizeof *sorted);
+    mesh->textures = calloc(world->texture_count + 1, sizeof *mesh->textures);
+    if (!sorted || !mesh->textures) {
+        free(sorted);
+        return cli_fail(error, world->origin, "out of memory");
+    }
+    mesh->texture_count = (GLsizei)world->texture_count;
+    for (size_t i = 0; i < world->texture_count; i++)
+        sorted[i] = &world->textures[i];
+    qsort(sorted, world->texture_count, sizeof *sorted, compare_images);
+    bool ok = true;
+    for (size_t i = 0; ok && i < world->texture_count; i++) {
+        GLuint *const texture = &mesh->textures[sorted[i] - world->textures];
+        if (i > 0 && compare_images(&sorted[i - 1], &sorted[i]) == 0)
+            *texture = mesh->textures[sorted[i - 1] - world->textures];
+        else
+            ok = create_texture(context, world, sorted[i], texture, error);
+    }
+    free(sorted);
+    return ok;
 }
 
 /* --- materials -------------------------------------------------------------------------------- */
 
-static void fill_material(const scene_material *source, size_t number, const gpu_mesh *mesh,
+static void fill_material(const scene *world, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
+    const scene_material *source = &world->materials[number];
     gpu_fill_material(source, number, block);
-    for (int i = 0; i < SHARED_MAPS; i++)
-        material->maps[i] =
-            source->maps[i].texture < 0 ? 0 : mesh->textures[source->maps[i].texture];
+    for (int i = 0; i < SHARED_MAPS; i++) {
+        const int32_t map = source->maps[i].texture;
+        if (map < 0)
+            continue;
+        const scene_texture *texture = &world->textures[map];
+        material->maps[i] = mesh->textures[map];
+        material->samplers[i] = mesh->samplers[texture->wrap_u + GPU_WRAPS * texture->wrap_v];
+    }
     memcpy(material->f0, source->f0, sizeof material->f0);
     material->f90 = source->f90;
     material->layered = scene_is_layered(source);
@@ -80,7 +129,7 @@ static bool create_materials(const scene *world, gpu_mesh *mesh) {
     mesh->material_count = world->material_count;
     for (size_t i = 0; i < world->material_count; i++) {
         shared_material block;
-        fill_material(&world->materials[i], i, mesh, &mesh->materials[i], &block);
+        fill_material(world, i, mesh, &mesh->materials[i], &block);
         mesh->layered = mesh->layered || mesh->materials[i].layered;
         memcpy(blocks + i * stride, &block, sizeof block);
     }
@@ -195,12 +244,9 @@ static bool create_draws(const scene *world, gpu_mesh *mesh) {
 bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *mesh,
                      cli_error *error) {
     memset(mesh, 0, sizeof *mesh);
-    mesh->textures = calloc(world->texture_count + 1, sizeof *mesh->textures);
-    if (!mesh->textures)
-        return cli_fail(error, world->origin, "out of memory");
-    for (size_t i = 0; i < world->texture_count; i++, mesh->texture_count++)
-        if (!create_texture(context, world, &world->textures[i], &mesh->textures[i], error))
-            return false;
+    if (!create_textures(context, world, mesh, error))
+        return false;
+    create_samplers(context, mesh);
     if (world->material_count > SHARED_MATERIALS_MAX)
         return cli_fail(error, world->origin, "has %zu materials: the shaders tell %d apart",
                         world->material_count, SHARED_MATERIALS_MAX);
@@ -222,7 +268,8 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     glDeleteBuffers(1, &mesh->indices);
     glDeleteBuffers(1, &mesh->material_blocks);
     glDeleteBuffers(1, &mesh->reflectors);
-    if (mesh->textures)
+    glDeleteSamplers(GPU_WRAPS * GPU_WRAPS, mesh->samplers);
+    if (mesh->textures) /* a name that comes twice is passed over */
         glDeleteTextures(mesh->texture_count, mesh->textures);
     free(mesh->textures);
     free(mesh->materials);
@@ -286,6 +333,8 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_s
                               sizeof(shared_material));
             glBindTextures(SHARED_BASE_COLOR, 4, material->maps);
             glBindTextures(SHARED_OCCLUSION, SHARED_MAPS - 4, material->maps + 4);
+            glBindSamplers(SHARED_BASE_COLOR, 4, material->samplers);
+            glBindSamplers(SHARED_OCCLUSION, SHARED_MAPS - 4, material->samplers + 4);
             if (material->double_sided)
                 glDisable(GL_CULL_FACE);
             else
@@ -295,4 +344,6 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_s
                        (const void *)(4 * (uintptr_t)draw->first_index));
     }
     choose_attachments(false);
+    glBindSamplers(SHARED_BASE_COLOR, 4, NULL);
+    glBindSamplers(SHARED_OCCLUSION, SHARED_MAPS - 4, NULL);
 }
