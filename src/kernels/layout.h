@@ -171,10 +171,13 @@ LMP_INLINE void layout_planes4(const float *row, size_t stride, float *block) {
 
 #endif
 
-/* Writes `values` planes of a block as rows; `live` elements of it exist. */
+/* Writes `values` planes of a block as rows; `live` elements of it exist. Where the block is on the
+ * stack is hidden: written by pointers and read relative to the stack pointer, it takes a Zen 4 up
+ * to twice the time. */
 static inline void layout_rows(const float *block, size_t values, float *rows, size_t stride,
                                size_t live) {
 #if LMP_LANES > 1
+    LMP_OPAQUE(block);
     if (live == LMP_LANES && values >= 4) {
         size_t v = 0;
         for (; v + LAYOUT_GROUP <= values; v += LAYOUT_GROUP)
