@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT };
 
 static unsigned char first[3 * PIXELS], second[3 * PIXELS];
 static float exposure;
