@@ -143,13 +143,14 @@ static lmp_field plan_level(const lmp_host *host, const lmp_field_desc *desc, bo
 /* Of a coarser field, in parts of the finest one's: what both err by is within what one would. */
 #define WIDER 1.15f
 
-/* The grid of twice the cells, if it pays. */
+/* The grid of twice the cells, if it pays. It is as large as what all bricks lie in. */
 static bool is_coarser(const lmp_field_desc *fine, lmp_field_desc *coarse) {
     uint64_t nodes = 1;
     *coarse = *fine;
     for (int a = 0; a < 3; a++) {
         nodes *= (uint64_t)fine->nodes[a];
-        coarse->nodes[a] = fine->nodes[a] / 2 + 1;
+        coarse->nodes[a] =
+            a == 0 ? 2 * ((fine->nodes[a] + 3) / 4) + 1 : (fine->nodes[a] + 1) / 2 + 1;
     }
     coarse->cell = (lmp_vec3) { 2 * fine->cell.x, 2 * fine->cell.y, 2 * fine->cell.z };
     return nodes >= FIELD_COARSE;

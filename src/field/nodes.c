@@ -82,25 +82,13 @@ static void set_points(const lmp_field *field, const uint32_t first[3], brick_po
     }
 }
 
-/* Where a node lies in the coarser field: on a node of it or half way to the next. What only fills
- * a brick may lie outside. */
-static field_place place_in_coarse(const lmp_field *coarse, const uint32_t node[3]) {
-    field_place place;
-    for (int a = 0; a < 3; a++) {
-        const uint32_t last = (uint32_t)coarse->info.desc.nodes[a] - 2, cell = node[a] / 2;
-        place.cell[a] = cell < last ? cell : last;
-        place.fraction[a] = 0.5f * (float)(node[a] - 2 * place.cell[a]);
-    }
-    return place;
-}
-
 /* Of the nodes that a brick's are interpolated from: they lie in two cells. */
 static void want_coarse(const lmp_field *field, size_t brick) {
     uint32_t node[3];
     find_brick(field, brick, node);
-    for (int i = 0; i < 2; i++, node[0] += 2) {
-        const field_place place = place_in_coarse(field->coarse, node);
-        want_corners(field->coarse, place.cell);
+    for (uint32_t i = 0; i < 2; i++) {
+        const uint32_t cell[3] = { node[0] / 2 + i, node[1] / 2, node[2] / 2 };
+        want_corners(field->coarse, cell);
     }
 }
 
@@ -201,17 +189,13 @@ static void take_list(brick_lights *lights, uint32_t list) {
 /* Interpolates a brick's nodes from the coarser field's, or from what those change by. */
 static void interpolate(const lmp_field *field, const uint32_t first[3], const float *from,
                         float *nodes) {
-    field_cells found;
-    for (uint32_t i = 0; i < FIELD_BRICK; i++) {
-        uint32_t node[3];
-        find_node(first, i, node);
-        const field_place place = place_in_coarse(field->coarse, node);
-        lmp_field_set_place(field->coarse, &place, i, &found);
-    }
-    const lmp_kernel_cells cells = lmp_field_cells(field->coarse, from, &found);
-    const lmp_kernel_out out = { nodes, 4 * field->stride, 0 };
-    const lmp_kernel_out slopes = { nodes + field->stride, 4 * field->stride, 0 };
-    lmp_kernels_get()->interpolate(field->stride, &cells, FIELD_BRICK, &out, &slopes);
+    const lmp_field *coarse = field->coarse;
+    lmp_kernel_brick brick = { .stride = field->stride, .cell = coarse->info.desc.cell };
+    for (uint32_t i = 0; i < 12; i++)
+        brick.from[i] = from + 4 * field->stride *
+                                   lmp_field_node(coarse, first[0] / 2 + i % 3,
+                                                  first[1] / 2 + i / 3 % 2, first[2] / 2 + i / 6);
+    lmp_kernels_get()->refine(&brick, nodes);
 }
 
 /* What all lights give a brick's nodes. */
@@ -223,9 +207,9 @@ static void compute(const lmp_field *field, size_t brick, float *scratch) {
         take_all(&lights, field->spheres, field->info.light_count);
         return;
     }
-    const field_place place = place_in_coarse(field->coarse, lights.first);
+    const uint32_t cell[3] = { lights.first[0] / 2, lights.first[1] / 2, lights.first[2] / 2 };
     interpolate(field, lights.first, field->coarse->nodes, nodes);
-    take_list(&lights, lmp_field_block(field->coarse, place.cell));
+    take_list(&lights, lmp_field_block(field->coarse, cell));
     take_list(&lights, (uint32_t)field->coarse->block_count);
     flush(&lights);
 }
@@ -271,20 +255,23 @@ typedef struct field_change {
     size_t count;
 } field_change;
 
-/* What a brick's nodes change by. */
+/* Changes a brick's nodes; `changes` becomes what they change by, but where it is only scratch. */
 static void compute_change(const field_change *change, size_t brick, float *scratch,
                            float *changes) {
     const lmp_field *field = change->field;
+    float *nodes = field->nodes + brick * brick_floats(field);
     brick_lights lights;
     begin(field, brick, scratch, changes, &lights);
     if (!field->coarse) {
         take_all(&lights, change->spheres, change->count);
-        return;
+    } else {
+        interpolate(field, lights.first, field->coarse->changes, changes);
+        for (size_t i = 0; i < change->count; i++)
+            take(&lights, &change->spheres[i]);
+        flush(&lights);
     }
-    interpolate(field, lights.first, field->coarse->changes, changes);
-    for (size_t i = 0; i < change->count; i++)
-        take(&lights, &change->spheres[i]);
-    flush(&lights);
+    for (size_t i = 0; i < brick_floats(field); i++)
+        nodes[i] += changes[i];
 }
 
 static void change_task(size_t index, void *data) {
@@ -292,15 +279,11 @@ static void change_task(size_t index, void *data) {
     const lmp_field *field = change->field;
     const size_t size = brick_floats(field);
     float *scratch = field->scratch + 2 * index * size;
-    for (size_t brick = index; brick < field->brick_count; brick += field->task_count) {
-        float *nodes = field->nodes + brick * size;
-        float *changes = field->changes ? field->changes + brick * size : scratch + size;
-        if (state_of(field, brick) != FIELD_READY)
-            continue;
-        compute_change(change, brick, scratch, changes);
-        for (size_t i = 0; i < size; i++)
-            nodes[i] += changes[i];
-    }
+    const size_t end = (index + 1) * field->brick_count / field->task_count;
+    for (size_t brick = index * field->brick_count / field->task_count; brick < end; brick++)
+        if (state_of(field, brick) == FIELD_READY)
+            compute_change(change, brick, scratch,
+                           field->changes ? field->changes + brick * size : scratch + size);
 }
 
 void lmp_field_add_spheres(const lmp_host *host, lmp_field *field, const field_sphere *spheres,

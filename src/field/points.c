@@ -38,7 +38,7 @@ void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_
         lmp_field_set_place(field, &place, i, &found);
     }
     const lmp_kernel_cells cells = lmp_field_cells(field, field->nodes, &found);
-    lmp_kernels_get()->interpolate(field->values, &cells, count, out, NULL);
+    lmp_kernels_get()->interpolate(field->values, &cells, count, out);
 }
 
 /* --- near lights ------------------------------------------------------------------------------ */

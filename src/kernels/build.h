@@ -11,6 +11,7 @@
 #include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
 #include "src/kernels/reconstruct.h"
+#include "src/kernels/refine.h"
 #include "src/kernels/rows.h"
 #include "src/kernels/shade_zonal.h"
 #include "src/kernels/vectors.h"
@@ -47,6 +48,7 @@ const lmp_kernels LMP_KERNELS = {
     .gradient = kernel_gradient,
     .fading_gradient = kernel_fading_gradient,
     .interpolate = kernel_interpolate,
+    .refine = kernel_refine,
     .lobe = kernel_lobe,
     .shade_zonal = kernel_shade_zonal,
     .shade_field = kernel_shade_field,

@@ -6,11 +6,9 @@
  *
  *     linear   1 - s, s        bend   -+ (s² (3 - 2s) - s)       slope   h s (1-s)², -h s² (1-s)
  *
- * and its weights are  l l l + b l l + l b l + l l b  of the value,  t l l  of d/dx and so on; the
- * derivative of the sum has those with that axis' three differentiated.
+ * and its weights are  l l l + b l l + l b l + l l b  of the value,  t l l  of d/dx and so on.
  * Points are lanes of the weights; then lanes are coefficients, for 32 rows are added up and no
- * lane needs another. What is read of a cell serves four sums: of four points in it, or of a
- * point's value and derivatives. */
+ * lane needs another. What is read of a cell serves four points in it. */
 #ifndef LAMPION_KERNELS_FIELD_H
 #define LAMPION_KERNELS_FIELD_H
 
@@ -32,15 +30,6 @@ LMP_INLINE field_axis field_along(vf s, float edge) {
     return (field_axis) { { rest, s }, { vf_set(0) - bend, bend }, { both * rest, -(both * s) } };
 }
 
-/* By the position, not by s. */
-LMP_INLINE field_axis field_derivative(vf s, float edge) {
-    const vf one = vf_set(1), rest = one - s;
-    const vf per_edge = vf_set(1 / edge), bend = (6.0f * (s * rest) - one) * per_edge;
-    return (field_axis) { { vf_set(0) - per_edge, per_edge },
-                          { vf_set(0) - bend, bend },
-                          { rest * (one - 3.0f * s), s * (3.0f * s - 2.0f) } };
-}
-
 /* Of corner k those of the value and of its slopes, at weights + 4 k LMP_LANES. */
 LMP_INLINE void field_weights(const field_axis axis[3], float *weights) {
     const field_axis *x = &axis[0], *y = &axis[1], *z = &axis[2];
@@ -56,28 +45,15 @@ LMP_INLINE void field_weights(const field_axis axis[3], float *weights) {
     }
 }
 
-/* Of the value, then of its derivatives by x, y and z if they are wanted. */
-LMP_INLINE void field_all_weights(const lmp_kernel_cells *cells, size_t e, int derivatives,
-                                  float (*weights)[FIELD_WEIGHTS * LMP_LANES]) {
-    const float *const fractions[3] = { cells->fraction.x + e, cells->fraction.y + e,
-                                        cells->fraction.z + e };
-    const float edges[3] = { cells->cell.x, cells->cell.y, cells->cell.z };
-    field_axis axis[3];
-    for (int a = 0; a < 3; a++)
-        axis[a] = field_along(vf_load(fractions[a]), edges[a]);
-    field_weights(axis, weights[0]);
-    for (int a = 0; a < 3 && derivatives; a++) {
-        const field_axis kept = axis[a];
-        axis[a] = field_derivative(vf_load(fractions[a]), edges[a]);
-        field_weights(axis, weights[1 + a]);
-        axis[a] = kept;
-    }
+LMP_INLINE void field_all_weights(const lmp_kernel_cells *cells, size_t e, float *weights) {
+    const field_axis axis[3] = { field_along(vf_load(cells->fraction.x + e), cells->cell.x),
+                                 field_along(vf_load(cells->fraction.y + e), cells->cell.y),
+                                 field_along(vf_load(cells->fraction.z + e), cells->cell.z) };
+    field_weights(axis, weights);
 }
 
-/* The rows of a cell that count, and where the weights of each are. */
+/* The rows of a cell. */
 typedef struct field_terms {
-    int count;
-    int weight[FIELD_WEIGHTS];
     const float *row[FIELD_WEIGHTS];
 } field_terms;
 
@@ -87,12 +63,12 @@ LMP_INLINE void field_add(int sums, int width, const field_terms *terms,
     vf sum[FIELD_SUMS][5];
     LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++) sum[i][j] =
         vf_set(0);
-    LMP_ROLLED for (int k = 0; k < terms->count; k++) {
+    LMP_ROLLED for (int k = 0; k < FIELD_WEIGHTS; k++) {
         const float *row = terms->row[k] + at;
         vf value[5];
         LMP_UNROLL for (int j = 0; j < width; j++) value[j] = vf_load(row + j * LMP_LANES);
         LMP_UNROLL for (int i = 0; i < sums; i++) {
-            const float weight = weights[i][terms->weight[k]];
+            const float weight = weights[i][k * LMP_LANES];
             LMP_UNROLL for (int j = 0; j < width; j++) {
                 sum[i][j] = sum[i][j] + weight * value[j];
                 LMP_OPAQUE_LANES(sum[i][j]);
@@ -141,59 +117,19 @@ LMP_INLINE void field_values(const lmp_kernel_cells *cells, size_t e, size_t liv
         const uint32_t *corners = cells->corners + 8 * (e + lane);
         const float *by[FIELD_SUMS];
         float *to[FIELD_SUMS];
-        field_terms terms = { .count = FIELD_WEIGHTS };
+        field_terms terms;
         for (some = 1; some < FIELD_SUMS && lane + some < live &&
                        memcmp(corners, corners + 8 * some, 8 * sizeof *corners) == 0;)
             some++;
         if (some < FIELD_SUMS)
             some = 1;
-        for (int k = 0; k < FIELD_WEIGHTS; k++) {
+        for (int k = 0; k < FIELD_WEIGHTS; k++)
             terms.row[k] = field_row(cells, corners, k) + at;
-            terms.weight[k] = k * LMP_LANES;
-        }
         for (size_t i = 0; i < some; i++) {
             by[i] = weights + lane + i;
             to[i] = rows + (lane + i) * FIELD_TOGETHER;
         }
         (some == 1 ? field_one : field_four)(&terms, count, by, to);
-    }
-}
-
-/* Of each row and point the largest of its weights, in size. */
-LMP_INLINE void field_largest(float (*weights)[FIELD_WEIGHTS * LMP_LANES], float *largest) {
-    for (int at = 0; at < FIELD_WEIGHTS * LMP_LANES; at += LMP_LANES) {
-        vf most = vf_set(0);
-        LMP_UNROLL for (int i = 0; i < FIELD_SUMS; i++) {
-            const vf weight = vf_load(weights[i] + at);
-            most = vf_max(most, vf_max(weight, vf_set(0) - weight));
-        }
-        vf_store(largest + at, most);
-    }
-}
-
-/* The same, of each point the value and the derivatives. Nodes of a finer grid lie on edges and
- * sides of the cells, where nearly half of the rows weigh nothing: a sum without them has the same
- * bits. */
-LMP_INLINE void field_gradients(const lmp_kernel_cells *cells, size_t e, size_t live, size_t at,
-                                size_t count, float (*weights)[FIELD_WEIGHTS * LMP_LANES],
-                                const float *largest, float *const rows[FIELD_SUMS],
-                                const size_t stride[FIELD_SUMS]) {
-    for (size_t lane = 0; lane < live; lane++) {
-        const uint32_t *corners = cells->corners + 8 * (e + lane);
-        const float *by[FIELD_SUMS];
-        float *to[FIELD_SUMS];
-        field_terms terms;
-        terms.count = 0;
-        for (int i = 0; i < FIELD_SUMS; i++) {
-            by[i] = weights[i] + lane;
-            to[i] = rows[i] + lane * stride[i];
-        }
-        for (int k = 0; k < FIELD_WEIGHTS; k++) {
-            terms.row[terms.count] = field_row(cells, corners, k) + at;
-            terms.weight[terms.count] = k * LMP_LANES;
-            terms.count += largest[(size_t)(k * LMP_LANES) + lane] != 0;
-        }
-        field_four(&terms, count, by, to);
     }
 }
 
@@ -217,56 +153,19 @@ LMP_INLINE void field_put(const float *rows, size_t at, size_t count, const lmp_
     }
 }
 
-/* Functions of their own, for the second takes more stack than there is under surfaces. */
-static LMP_NOINLINE void field_interpolate(size_t values, const lmp_kernel_cells *cells, size_t e,
-                                           size_t live, const lmp_kernel_out *out) {
-    float LMP_ALIGNED weights[1][FIELD_WEIGHTS * LMP_LANES];
-    field_rows LMP_ALIGNED rows;
-    field_all_weights(cells, e, 0, weights);
-    for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
-        const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
-        field_values(cells, e, live, at, some, weights[0], rows);
-        field_put(rows, at, some, out, e, live);
-    }
-}
-
-static LMP_NOINLINE void field_interpolate_gradient(size_t values, const lmp_kernel_cells *cells,
-                                                    size_t e, size_t live,
-                                                    const lmp_kernel_out *out,
-                                                    const lmp_kernel_out *gradient) {
-    float LMP_ALIGNED weights[FIELD_SUMS][FIELD_WEIGHTS * LMP_LANES];
-    float LMP_ALIGNED largest[FIELD_WEIGHTS * LMP_LANES];
-    field_rows LMP_ALIGNED rows[FIELD_SUMS];
-    /* Rows of whole vectors go where they belong at once. */
-    const int direct = !out->planar && !gradient->planar && values % LMP_LANES == 0;
-    size_t stride[FIELD_SUMS];
-    for (int i = 0; i < FIELD_SUMS; i++)
-        stride[i] = !direct ? FIELD_TOGETHER : i == 0 ? out->stride : gradient->stride;
-    field_all_weights(cells, e, 1, weights);
-    field_largest(weights, largest);
-    for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
-        const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
-        float *to[FIELD_SUMS] = { out->at + e * out->stride + at };
-        for (size_t a = 0; a < 3; a++)
-            to[1 + a] = gradient->at + e * gradient->stride + a * values + at;
-        for (int i = 0; i < FIELD_SUMS && !direct; i++)
-            to[i] = rows[i];
-        field_gradients(cells, e, live, at, some, weights, largest, to, stride);
-        if (direct)
-            continue;
-        field_put(rows[0], at, some, out, e, live);
-        for (size_t a = 0; a < 3; a++)
-            field_put(rows[1 + a], a * values + at, some, gradient, e, live);
-    }
-}
-
 static void kernel_interpolate(size_t values, const lmp_kernel_cells *cells, size_t count,
-                               const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    for (size_t e = 0; e < count; e += LMP_LANES)
-        if (gradient)
-            field_interpolate_gradient(values, cells, e, layout_live(count, e), out, gradient);
-        else
-            field_interpolate(values, cells, e, layout_live(count, e), out);
+                               const lmp_kernel_out *out) {
+    for (size_t e = 0; e < count; e += LMP_LANES) {
+        const size_t live = layout_live(count, e);
+        float LMP_ALIGNED weights[FIELD_WEIGHTS * LMP_LANES];
+        field_rows LMP_ALIGNED rows;
+        field_all_weights(cells, e, weights);
+        for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
+            const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
+            field_values(cells, e, live, at, some, weights, rows);
+            field_put(rows, at, some, out, e, live);
+        }
+    }
 }
 
 /* Adds what a lobe receives, diffuse by factors[l] or Phong's by factor[l]. */

@@ -130,6 +130,14 @@ typedef struct lmp_kernel_cells {
     lmp_kernel_vec3 fraction; /* of each point, 0 … 1 along the edges */
 } lmp_kernel_cells;
 
+/* Nodes of half the cells, as those: 4 along x by 2 by 2, x first, and the nodes of the two cells
+ * that they lie in, 3 along x by 2 by 2. */
+typedef struct lmp_kernel_brick {
+    const float *from[12];
+    size_t stride;
+    lmp_vec3 cell; /* the edges of the large cells */
+} lmp_kernel_brick;
+
 /* Bands of a field at most. */
 #define LMP_KERNEL_FIELD_BANDS_MAX 10
 
@@ -223,10 +231,11 @@ typedef struct lmp_kernels {
                             const lmp_kernel_vec3 *points, float cos_min, lmp_kernel_fade fade,
                             size_t count, const lmp_kernel_out *out,
                             const lmp_kernel_out *gradient);
-    /* `values` values: Adini's interpolation; and 3 times as many where `gradient` is not NULL, its
-     * derivatives by x, then y, then z. */
+    /* `values` values: Adini's interpolation. */
     void (*interpolate)(size_t values, const lmp_kernel_cells *cells, size_t count,
-                        const lmp_kernel_out *out, const lmp_kernel_out *gradient);
+                        const lmp_kernel_out *out);
+    /* Adini's interpolation of a brick's 16 nodes, with their derivatives. */
+    void (*refine)(const lmp_kernel_brick *brick, float *nodes);
     /* 3 values: the response of a lobe around each point's axis to the lights. */
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,

@@ -200,9 +200,13 @@ static void wrong_fading_gradient(const lmp_scratch *scratch, int bands,
     spoil(out);
 }
 static void wrong_interpolate(size_t values, const lmp_kernel_cells *cells, size_t count,
-                              const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    honest.interpolate(values, cells, count, out, gradient);
+                              const lmp_kernel_out *out) {
+    honest.interpolate(values, cells, count, out);
     spoil(out);
+}
+static void wrong_refine(const lmp_kernel_brick *brick, float *nodes) {
+    honest.refine(brick, nodes);
+    nodes[flaw.element % 16 * 4 * brick->stride] += 1;
 }
 static void wrong_shade_field(int bands, const float *window, const float *diffuse,
                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_in *sh,
@@ -283,6 +287,7 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .gradient = wrong_gradient,
                                    .fading_gradient = wrong_fading_gradient,
                                    .interpolate = wrong_interpolate,
+                                   .refine = wrong_refine,
                                    .lobe = wrong_lobe,
                                    .eval_gradient = wrong_eval_gradient,
                                    .reconstruct = wrong_reconstruct,

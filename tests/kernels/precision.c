@@ -343,68 +343,6 @@ static void shading_matches_double_precision(void **test) {
     free(in);
 }
 
-/* x^i y^j z^k, i + j + k <= 3, and its derivatives. */
-static void monomials(const double at[3], double value[20], double slopes[3][20]) {
-    double power[3][5] = { { 0 } }; /* of -1 … 3 */
-    int count = 0;
-    for (int a = 0; a < 3; a++)
-        for (int i = 0; i <= 3; i++)
-            power[a][1 + i] = i == 0 ? 1 : power[a][i] * at[a];
-    for (int i = 0; i <= 3; i++)
-        for (int j = 0; i + j <= 3; j++)
-            for (int k = 0; i + j + k <= 3; k++, count++) {
-                value[count] = power[0][1 + i] * power[1][1 + j] * power[2][1 + k];
-                slopes[0][count] = i * power[0][i] * power[1][1 + j] * power[2][1 + k];
-                slopes[1][count] = j * power[0][1 + i] * power[1][j] * power[2][1 + k];
-                slopes[2][count] = k * power[0][1 + i] * power[1][1 + j] * power[2][k];
-            }
-}
-
-/* One cell, whose nodes hold the 20 monomials; at so many points as end in a part of a register. */
-static void interpolation_keeps_cubics(void **test) {
-    (void)test;
-    enum { POINTS = 37, PADDED = 48, MONOMIALS = 20, STRIDE = 32 };
-    static float nodes[8 * 4 * STRIDE] __attribute__((aligned(64)));
-    static float s[3][PADDED] __attribute__((aligned(64)));
-    static uint32_t corners[PADDED * 8];
-    static float out[POINTS * MONOMIALS], gradients[POINTS * 3 * MONOMIALS];
-    static const double edge[3] = { 0.5, 2, 1.25 };
-    double value[MONOMIALS], slopes[3][MONOMIALS];
-    for (int k = 0; k < 8; k++) {
-        monomials((double[3]) { edge[0] * (k & 1), edge[1] * (k >> 1 & 1), edge[2] * (k >> 2) },
-                  value, slopes);
-        for (int v = 0; v < MONOMIALS; v++)
-            for (int q = 0; q < 4; q++)
-                nodes[(4 * k + q) * STRIDE + v] = (float)(q == 0 ? value[v] : slopes[q - 1][v]);
-    }
-    for (uint32_t i = 0; i < PADDED; i++) {
-        for (uint32_t k = 0; k < 8; k++)
-            corners[8 * i + k] = k;
-        for (int a = 0; a < 3; a++)
-            s[a][i] = (float)check_random();
-    }
-    const lmp_kernel_cells cells = {
-        nodes, STRIDE, { 0.5f, 2, 1.25f }, corners, { s[0], s[1], s[2] }
-    };
-    const lmp_kernel_out to = { out, MONOMIALS, 0 }, slope = { gradients, 3 * MONOMIALS, 0 };
-    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
-        lmp_kernels kernels;
-        (void)lmp_kernels_init(&kernels, flag);
-        for (int gradient = 0; gradient < 2; gradient++) {
-            kernels.interpolate(MONOMIALS, &cells, POINTS, &to, gradient ? &slope : NULL);
-            for (int i = 0; i < POINTS; i++) {
-                const double at[3] = { edge[0] * (double)s[0][i], edge[1] * (double)s[1][i],
-                                       edge[2] * (double)s[2][i] };
-                monomials(at, value, slopes);
-                CHECK_WITHIN(check_error(MONOMIALS, value, out + i * MONOMIALS), 3e-6);
-                if (gradient)
-                    CHECK_WITHIN(
-                        check_error(3 * MONOMIALS, slopes[0], gradients + i * 3 * MONOMIALS), 6e-6);
-            }
-        }
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(basis_zonal_and_project_match_double_precision),
@@ -413,7 +351,6 @@ int main(void) {
         cmocka_unit_test(gradients_of_the_basis_match_double_precision),
         cmocka_unit_test(functions_of_coefficients_match_double_precision),
         cmocka_unit_test(images_match_double_precision),
-        cmocka_unit_test(interpolation_keeps_cubics),
         cmocka_unit_test(shading_matches_double_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 #ifndef LAMPION_RUN_H
 #define LAMPION_RUN_H
 
+#include "tests/kernels/nodes.h"
 #include "tests/kernels/shading.h"
 
 #include <math.h>
@@ -33,6 +34,7 @@ typedef enum kind {
     SHADE_PREINTEGRATED_LOBE_ALL,
     FADING_GRADIENT,
     INTERPOLATE,
+    REFINE,
     SHADE_FIELD,
     KINDS
 } kind;
@@ -57,6 +59,7 @@ static const char *const kind_names[] = { "eval",
                                           "shade_preintegrated_lobe of all lobes",
                                           "fading_gradient",
                                           "interpolate",
+                                          "refine",
                                           "shade_field" };
 
 /* Of Phong's, that a kernel of shading takes. */
@@ -88,10 +91,11 @@ static size_t values_of(kind which, int bands) {
         return (size_t)bands;
     case ACCUMULATE:
     case IMAGE:
+    case INTERPOLATE:
         return 3 * n;
     case GRADIENT:
     case FADING_GRADIENT:
-    case INTERPOLATE:
+    case REFINE:
         return 12 * n;
     case EVAL_GRADIENT:
         return 4 * n;
@@ -126,22 +130,6 @@ static float *make_matrices(int bands) {
     for (size_t i = 0; i < LMP_SH_ROTATION_COUNT(bands); i++)
         matrices[i] = grid(1.0f / 1024);
     return matrices;
-}
-
-/* Coefficients are the same for both layouts: of element e, value v. */
-static float coefficient(size_t e, size_t v) {
-    set_seed(e * 7919 + v);
-    grid(1);
-    return grid(1.0f / 1024);
-}
-
-static float *make_vectors(size_t values, size_t count, int planar, size_t stride, size_t shift) {
-    float *at = malloc((planar ? values : count) * stride * sizeof *at + 64);
-    assert_non_null(at);
-    for (size_t e = 0; e < count; e++)
-        for (size_t v = 0; v < values; v++)
-            at[planar ? v * stride + e : e * stride + v] = coefficient(e + shift, v);
-    return at;
 }
 
 static void run_vectors(const lmp_kernels *k, kind which, int bands, size_t count, int planar,
@@ -208,30 +196,6 @@ static void run_image(const lmp_kernels *k, int bands, const inputs *in, size_t 
                 }
         }
     }
-}
-
-/* Nodes whose coefficients are those of vectors; groups of five points have their corners anywhere,
- * so that four share what is read and one does not. */
-static void run_interpolate(const lmp_kernels *k, int bands, const inputs *in, size_t count,
-                            const lmp_kernel_out *out) {
-    enum { NODES = 9 };
-    const size_t values = 3 * LMP_SH_COUNT(bands);
-    const size_t stride = (values + 15) / 16 * 16;
-    float *nodes = make_vectors(4 * stride, NODES, 0, 4 * stride, 0);
-    lmp_kernel_out gradient = *out;
-    gradient.at += values * (out->planar ? out->stride : 1);
-    _Alignas(64) float fraction[3][COUNT + 16];
-    uint32_t corners[8 * COUNT];
-    for (size_t i = 0; i < 8 * COUNT; i++)
-        corners[i] = (uint32_t)((i % 8 * 5 + i / 40) % NODES);
-    for (int a = 0; a < 3; a++)
-        for (size_t i = 0; i < COUNT + 16; i++)
-            fraction[a][i] = fminf(fabsf(in->axis[a][i]), 1);
-    const lmp_kernel_cells cells = {
-        nodes, stride, { 0.5f, 0.25f, 2 }, corners, { fraction[0], fraction[1], fraction[2] }
-    };
-    k->interpolate(values, &cells, count, out, &gradient);
-    free(nodes);
 }
 
 /* The kernels of shading add to planes, up to a whole number of lanes: what is beside them is
@@ -359,9 +323,6 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case FADING_GRADIENT:
         run_sums(k, which, bands, in, count, out);
         break;
-    case INTERPOLATE:
-        run_interpolate(k, bands, in, count, out);
-        break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
         break;
@@ -385,7 +346,8 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case SHADE_FIELD:
         run_shading(k, which, bands, in, count, out);
         break;
-    case KINDS:
+    default:
+        run_nodes(k, which == REFINE, bands, in, count, out);
         break;
     }
 }
