@@ -12,15 +12,23 @@ static bool is_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t at
     return own.table == source->table && own.preintegrated == source->preintegrated;
 }
 
+/* How many of those that wait have as many lobes as the first, if all have that a chunk takes; else
+ * 0. Without a branch for each. */
+static size_t same_lobes(const shade_waiting *waiting, size_t most) {
+    const size_t count = waiting->count < most ? waiting->count : most;
+    unsigned mixed = 0;
+    for (size_t i = 0; i < count; i++)
+        mixed |= waiting->lobes[i] ^ waiting->lobes[0];
+    return mixed ? 0 : count;
+}
+
 void lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, shade_waiting *waiting,
                           shade_chunk *chunk) {
     const int lobes = waiting->lobes[0];
     const shade_source source =
         lmp_shade_source(lmp_material_at(surfaces, waiting->at[0]), preintegrated);
     const size_t most = lmp_shade_capacity(lobes);
-    size_t others = 0, i = 0, gaps = 0;
-    while (lobes > 0 && i < waiting->count && i < most && waiting->lobes[i] == lobes)
-        i++;
+    size_t others = 0, i = lobes > 0 ? same_lobes(waiting, most) : 0, gaps = 0;
     memcpy(chunk->at, waiting->at, i * sizeof *chunk->at);
     size_t taken = i;
     /* Without branches, which surfaces that take turns would mislead. */

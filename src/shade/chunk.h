@@ -24,8 +24,10 @@ typedef struct shade_chunk {
     lmp_kernel_accumulated sums;
 } shade_chunk;
 
-/* Surfaces that are not in a chunk yet, and how many Phong lobes each has. */
+/* Surfaces that are not in a chunk yet, and how many Phong lobes each has; and what lies over any
+ * that waited. */
 typedef struct shade_waiting {
+    unsigned overs;
     size_t count, at[SHADE_SURFACES_MAX];
     unsigned char lobes[SHADE_SURFACES_MAX];
 } shade_waiting;
@@ -38,6 +40,7 @@ static inline void lmp_shade_wait(const lmp_surfaces *surfaces, size_t at, shade
     if (material->kind == LMP_MATERIAL_METALLIC_ROUGHNESS)
         lobes = lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, at),
                                       lmp_vec3_element(&surfaces->view, at));
+    waiting->overs |= lmp_shade_overs(material);
     waiting->at[i] = at;
     waiting->lobes[i] = (unsigned char)lobes;
 }

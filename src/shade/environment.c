@@ -96,30 +96,46 @@ static void shade_one(const lmp_surfaces *surfaces, size_t i, const lmp_environm
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
-void lmp_shade_environment_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                                  size_t count, const lmp_environment *environment,
-                                  size_t rgb_stride, float *rgb) {
+/* Surfaces first … end-1, how many Phong lobes each has; returns what lies over any of them. */
+static unsigned count_lobes(const lmp_surfaces *surfaces, size_t first, size_t end,
+                            unsigned char lobes[SHADE_SURFACES_MIN]) {
+    unsigned overs = 0;
+    for (size_t i = first; i < end; i++) {
+        const lmp_material *material = lmp_material_at(surfaces, i);
+        lobes[i - first] = (unsigned char)lmp_shade_phong_count(
+            material, lmp_vec3_element(&surfaces->normal, i), lmp_vec3_element(&surfaces->view, i));
+        overs |= lmp_shade_overs(material);
+    }
+    return overs;
+}
+
+unsigned lmp_shade_environment_bare_n(const lmp_shade_settings *settings,
+                                      const lmp_surfaces *surfaces, size_t count,
+                                      const lmp_environment *environment, size_t rgb_stride,
+                                      float *rgb) {
     const lmp_shade_settings resolved = settings_of(settings);
     const environment_method method = method_of(&resolved, environment);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
     environment_chunk chunk;
+    unsigned overs = 0;
     assert(lmp_are_unit(surfaces->normal, count) && lmp_are_unit(surfaces->view, count));
     assert(lmp_is_bands(environment->bands));
     for (size_t first = 0; first < count; first += SHADE_SURFACES_MIN) {
         const size_t rest = count - first;
         const size_t end = first + (rest < SHADE_SURFACES_MIN ? rest : SHADE_SURFACES_MIN);
+        unsigned char counts[SHADE_SURFACES_MIN];
+        overs |= count_lobes(surfaces, first, end, counts);
         for (int lobes = 0; lobes <= LMP_GGX_LOBES; lobes++) {
             chunk.count = 0;
             for (size_t i = first; i < end; i++) {
-                const lmp_material *material = lmp_material_at(surfaces, i);
-                if (lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, i),
-                                          lmp_vec3_element(&surfaces->view, i)) != lobes)
+                if (counts[i - first] != lobes)
                     continue;
                 if (lobes > 0)
                     chunk.at[chunk.count++] = i;
                 else
-                    shade_one(surfaces, i, environment, lmp_shade_source(material, false).table,
-                              stride, rgb);
+                    shade_one(surfaces, i, environment,
+                              lmp_shade_source(lmp_material_at(surfaces, i), false).table, stride,
+                              rgb);
             }
             if (chunk.count == 0)
                 continue;
@@ -127,4 +143,5 @@ void lmp_shade_environment_bare_n(const lmp_shade_settings *settings, const lmp_
             shade_lobes_of_chunk(&method, surfaces, lobes, &chunk, stride, rgb);
         }
     }
+    return overs;
 }

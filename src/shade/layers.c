@@ -70,14 +70,13 @@ typedef struct layers_light {
     const lmp_environment *environment;
 } layers_light;
 
-static void shade_bare(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
-                       size_t stride, float *rgb) {
+static unsigned shade_bare(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
+                           size_t stride, float *rgb) {
     if (light->environment)
-        lmp_shade_environment_bare_n(light->settings, surfaces, count, light->environment, stride,
-                                     rgb);
-    else
-        lmp_shade_bare_n(light->settings, surfaces, count, light->lights, light->light_count,
-                         stride, rgb);
+        return lmp_shade_environment_bare_n(light->settings, surfaces, count, light->environment,
+                                            stride, rgb);
+    return lmp_shade_bare_n(light->settings, surfaces, count, light->lights, light->light_count,
+                            stride, rgb);
 }
 
 /* Layers over some surfaces: as many as the stack has room for. */
@@ -145,26 +144,12 @@ static void add_layers(const layers_light *light, const taken_layers *taken, siz
     }
 }
 
-/* Whether any of the surfaces have them. */
-static void find_layers(const lmp_surfaces *surfaces, size_t count, bool any[SHADE_OVERS]) {
-    bool fibers = false, coat = false;
-    for (size_t i = 0; i < count; i++) {
-        const lmp_material *material = lmp_material_at(surfaces, i);
-        fibers |= lmp_is_over(material, SHADE_OVER_FIBERS);
-        coat |= lmp_is_over(material, SHADE_OVER_COAT);
-    }
-    any[SHADE_OVER_FIBERS] = fibers;
-    any[SHADE_OVER_COAT] = coat;
-}
-
 static void shade_layered(const layers_light *light, const lmp_surfaces *surfaces, size_t count,
                           size_t rgb_stride, float *rgb) {
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
-    shade_bare(light, surfaces, count, stride, rgb);
-    bool any[SHADE_OVERS];
-    find_layers(surfaces, count, any);
+    const unsigned overs = shade_bare(light, surfaces, count, stride, rgb);
     for (shade_over over = 0; over < SHADE_OVERS; over++)
-        for (size_t next = any[over] ? 0 : count; next < count;) {
+        for (size_t next = overs >> over & 1 ? 0 : count; next < count;) {
             taken_layers taken;
             next = take_layers(surfaces, !light->environment, over, next, count, &taken);
             if (taken.count > 0)

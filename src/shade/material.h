@@ -198,6 +198,12 @@ static inline bool lmp_is_over(const lmp_material *material, shade_over over) {
     return over == SHADE_OVER_COAT ? material->coat.weight > 0 : material->fibers.white != NULL;
 }
 
+/* Bit `over` of each that a material has. */
+static inline unsigned lmp_shade_overs(const lmp_material *material) {
+    return (unsigned)lmp_is_over(material, SHADE_OVER_FIBERS) << SHADE_OVER_FIBERS |
+           (unsigned)lmp_is_over(material, SHADE_OVER_COAT) << SHADE_OVER_COAT;
+}
+
 /* Returns how many. The normal is the coat's, of a coat. */
 enum { SHADE_LAYERS_MAX = 2 };
 int lmp_shade_layers_over(const lmp_material *material, shade_over over, lmp_vec3 normal,
@@ -210,13 +216,15 @@ static inline lmp_rgb lmp_shade_add_layer(const shade_layer *layer, lmp_rgb unde
                        under.b * layer->left + reflected.b * layer->weight.b };
 }
 
-/* lmp_shade_n and lmp_shade_environment_n of what is under all layers, as if there were none. */
-void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                      size_t count, const lmp_light *lights, size_t light_count, size_t rgb_stride,
-                      float *rgb);
-void lmp_shade_environment_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                                  size_t count, const lmp_environment *environment,
-                                  size_t rgb_stride, float *rgb);
+/* lmp_shade_n and lmp_shade_environment_n of what is under all layers, as if there were none. They
+ * read every material, and return what lies over any of them: bit `over` of each. */
+unsigned lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                          size_t count, const lmp_light *lights, size_t light_count,
+                          size_t rgb_stride, float *rgb);
+unsigned lmp_shade_environment_bare_n(const lmp_shade_settings *settings,
+                                      const lmp_surfaces *surfaces, size_t count,
+                                      const lmp_environment *environment, size_t rgb_stride,
+                                      float *rgb);
 
 /* Not clamped. */
 lmp_rgb lmp_shade_lobes_zonal(const shade_lobes *lobes, lmp_vec3 point, const lmp_light *lights,

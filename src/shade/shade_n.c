@@ -83,9 +83,9 @@ static void shade_by_kernels(const shade_prepared *prepared, const lmp_surfaces 
     lmp_shade_store(&chunk->planes, chunk->at, chunk->count, stride, rgb);
 }
 
-void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
-                      size_t count, const lmp_light *lights, size_t light_count, size_t rgb_stride,
-                      float *rgb) {
+unsigned lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *surfaces,
+                          size_t count, const lmp_light *lights, size_t light_count,
+                          size_t rgb_stride, float *rgb) {
     const lmp_shade_settings resolved = lmp_shade_resolve(settings);
     const size_t stride = rgb_stride ? rgb_stride : sizeof(lmp_rgb);
     assert(lmp_are_surfaces(surfaces, count) && lmp_are_lights(lights, light_count));
@@ -95,7 +95,9 @@ void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *su
     shade_chunk chunk;
     if (method->prepare)
         method->prepare(&resolved, &prepared);
-    shade_waiting waiting = { .count = 0 };
+    shade_waiting waiting;
+    waiting.overs = 0;
+    waiting.count = 0;
     for (size_t next = 0; waiting.count > 0 || next < count;) {
         /* Full chunks of each kind, also where kinds alternate. */
         while (waiting.count < SHADE_SURFACES_MAX && next < count)
@@ -109,4 +111,5 @@ void lmp_shade_bare_n(const lmp_shade_settings *settings, const lmp_surfaces *su
         else
             shade_by_kernels(&prepared, surfaces, &chunk, lights, light_count, stride, rgb);
     }
+    return waiting.overs;
 }
