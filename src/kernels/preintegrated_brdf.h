@@ -18,6 +18,7 @@ typedef struct brdf_block {
     vi slice;
     vf fraction; /* of the view after it */
     vf ambient[3];
+    int plain; /* the lights */
 } brdf_block;
 
 /* A light's cap (u and v are not set), the angle from the mirror direction to its axis, and the
@@ -110,7 +111,7 @@ LMP_INLINE void brdf_block_load(const lmp_kernel_preintegrated_brdf *material,
 LMP_INLINE void brdf_direction_of(const lmp_kernel_preintegrated_brdf *material,
                                   const lmp_kernel_light *light, size_t e, const brdf_block *block,
                                   brdf_direction *direction) {
-    const cap_lanes cap = shade_cap(light, e, block->point, &direction->cap);
+    const cap_lanes cap = shade_cap(light, block->plain, e, block->point, &direction->cap);
     const vf x = shade_dot(block->x, &cap) * cap.per_d, y = shade_dot(block->y, &cap) * cap.per_d;
     const vf z = shade_dot(block->z, &cap) * cap.per_d;
     const vf across2 = x * x + y * y;
@@ -335,11 +336,13 @@ static void kernel_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf 
                                             lmp_rgb ambient, size_t count, float *const rgb[3]) {
     texel_lanes radiance[LMP_KERNEL_LIGHTS_MAX][TEXEL_PARTS];
     const lmp_rgb none = { 0, 0, 0 };
+    const int plain = shade_are_plain(lights, light_count);
     for (size_t i = 0; i < light_count; i++)
         brdf_radiance(lights[i].radiance, radiance[i]);
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const int live = count - e < LMP_LANES ? (int)(count - e) : LMP_LANES;
         brdf_block block;
+        block.plain = plain;
         brdf_block_load(material, surfaces, e, &block);
         size_t first = 0;
         do {

@@ -143,12 +143,14 @@ static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe 
                                             const lmp_kernel_light *lights, size_t light_count,
                                             size_t count,
                                             const lmp_kernel_accumulated *accumulated) {
+    const int plain = shade_are_plain(lights, light_count);
     shade_direction directions[LMP_KERNEL_LIGHTS_MAX];
     vf v[LMP_KERNEL_LIGHTS_MAX * LMP_KERNEL_LOBES_MAX];
     lobe_lanes lobes[2];
     vf sums[2][3], responses[2];
     for (size_t e = 0; e < count; e += LMP_LANES) {
-        shade_directions(surfaces->lobe_count, surfaces, lights, light_count, e, directions, v);
+        shade_directions(surfaces->lobe_count, surfaces, lights, light_count, plain, e, directions,
+                         v);
         for (int first = -1; first < surfaces->lobe_count; first += 2) {
             float *const *const planes[2] = { first < 0 ? accumulated->diffuse
                                                         : accumulated->specular[first],

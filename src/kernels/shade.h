@@ -26,9 +26,31 @@ typedef struct shade_direction {
     int is_ambient;
 } shade_direction;
 
+/* Whether no light has factors of its radiance: a branch a light less. */
+LMP_INLINE int shade_are_plain(const lmp_kernel_light *lights, size_t count) {
+    int plain = 1;
+    for (size_t i = 0; i < count; i++)
+        plain &= !lights[i].scale && !(lights[i].per_reach > 0);
+    return plain;
+}
+
+/* The weight of a light's responses times its factors. d: its distance. */
+LMP_INLINE vf shade_scaled(const lmp_kernel_light *light, size_t e, const cap_lanes *cap, vf d,
+                           vf weight, shade_direction *direction) {
+    if (light->scale) {
+        const vf scale = vf_load(light->scale + e);
+        weight = weight * scale;
+        if (cap->inside)
+            direction->ambient = direction->ambient * scale;
+    }
+    if (light->per_reach > 0)
+        weight = weight * (vf_set(1) - fade_at(d, light->radius, light->per_reach).value);
+    return weight;
+}
+
 /* Sets all but u. Of the cap, x, y, z times per_d are its axis. */
-LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf point[3],
-                               shade_direction *direction) {
+LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, int plain, size_t e,
+                               const vf point[3], shade_direction *direction) {
     vf x = vf_set(light->x), y = vf_set(light->y), z = vf_set(light->z);
     if (light->w > 0) {
         x = x - point[0];
@@ -43,16 +65,8 @@ LMP_INLINE cap_lanes shade_cap(const lmp_kernel_light *light, size_t e, const vf
         weight = weight * cap.even;
         direction->ambient = (vf_set(1) - cap.even) * 0.5f;
     }
-    if (__builtin_expect(light->scale != NULL, 0)) {
-        const vf scale = vf_load(light->scale + e);
-        weight = weight * scale;
-        if (cap.inside)
-            direction->ambient = direction->ambient * scale;
-    }
-    if (__builtin_expect(light->per_reach > 0, 0)) {
-        const vf d = vf_sqrt(x * x + y * y + z * z);
-        weight = weight * (vf_set(1) - fade_at(d, light->radius, light->per_reach).value);
-    }
+    if (__builtin_expect(!plain, 0))
+        weight = shade_scaled(light, e, &cap, vf_sqrt(x * x + y * y + z * z), weight, direction);
     direction->is_ambient = cap.inside;
     direction->t = cap.t;
     direction->weight = weight;
@@ -63,9 +77,9 @@ LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
     return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
 }
 
-LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, size_t e,
+LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, int plain, size_t e,
                                    const shade_block *block, shade_direction *direction, vf *v) {
-    const cap_lanes cap = shade_cap(light, e, block->point, direction);
+    const cap_lanes cap = shade_cap(light, plain, e, block->point, direction);
     direction->u = shade_dot(block->normal, &cap) * cap.per_d;
     LMP_UNROLL for (int k = 0; k < lobes; k++) v[k] = shade_dot(block->axis[k], &cap) * cap.per_d;
 }
@@ -96,15 +110,16 @@ LMP_INLINE void shade_sums_store(const vf sums[3], size_t e, float *const planes
 /* Some lights first, then their lobes: in one loop, the roots and quotients of a light would wait
  * for each other at its beginning. The v of a light follow those of the one before. */
 LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
-                                 const lmp_kernel_light *lights, size_t light_count, size_t e,
-                                 shade_direction *directions, vf *v) {
+                                 const lmp_kernel_light *lights, size_t light_count, int plain,
+                                 size_t e, shade_direction *directions, vf *v) {
     shade_block block;
     shade_planes(&surfaces->point, e, block.point);
     shade_planes(&surfaces->normal, e, block.normal);
     LMP_UNROLL for (int k = 0; k < lobes; k++)
         shade_planes(&surfaces->lobe[k].axis, e, block.axis[k]);
     for (size_t i = 0; i < light_count; i++)
-        shade_direction_of(lobes, &lights[i], e, &block, &directions[i], v + i * (size_t)lobes);
+        shade_direction_of(lobes, &lights[i], plain, e, &block, &directions[i],
+                           v + i * (size_t)lobes);
 }
 
 #endif

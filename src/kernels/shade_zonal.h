@@ -207,6 +207,7 @@ typedef struct zonal_work {
     const lmp_kernel_surfaces *surfaces;
     const lmp_kernel_light *lights;
     size_t light_count, count;
+    int plain; /* the lights */
     const lmp_kernel_accumulated *accumulated;
     shade_direction *directions;
     vf *v, (*weights)[LMP_BANDS_MAX];
@@ -263,13 +264,13 @@ LMP_INLINE void zonal_all(int lobes, int bands, int monic, const zonal_work *wor
             if (i == 0 || !kept)
                 zonal_weigh(0, lobes, bands, work, e, e > 0 && kept, first);
             if (!more) {
-                shade_directions(lobes, work->surfaces, lights + i, taken, e, work->directions,
-                                 work->v);
+                shade_directions(lobes, work->surfaces, lights + i, taken, work->plain, e,
+                                 work->directions, work->v);
                 zonal_lobes(0, lobes, lobes, 1, bands, monic, work, (rows)first, i, taken, e);
                 continue;
             }
-            shade_directions(LMP_KERNEL_LOBES_MAX, work->surfaces, lights + i, taken, e,
-                             work->directions, work->v);
+            shade_directions(LMP_KERNEL_LOBES_MAX, work->surfaces, lights + i, taken, work->plain,
+                             e, work->directions, work->v);
             zonal_lobes(0, lobes, LMP_KERNEL_LOBES_MAX, 1, bands, monic, work, (rows)first, i,
                         taken, e);
             if (i == 0 || !kept)
@@ -326,6 +327,7 @@ static void kernel_shade_zonal(int bands, const float *window, const float *diff
                               .lights = lights,
                               .light_count = light_count,
                               .count = count,
+                              .plain = shade_are_plain(lights, light_count),
                               .accumulated = accumulated };
     zonal_prepare(bands, bands <= ZONAL_MONIC_BANDS, window, diffuse, &tables);
     if (surfaces->lobe_count == 1)
