@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The method of fields draws the image of zonal sums, under many lights and under every kind. */
 #include "app/shade/field.h"
+#include "app/override/override.h"
 #include "app/shade/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/kinds.h"
@@ -211,6 +212,81 @@ static void shaders_draw_every_kind_of_light(void **state) {
     scene_free(&world);
 }
 
+/* Every material is cloth, and every third lies under a coat: coats and fibers reflect what the
+ * field gives there. Both devices differ by at most a level of 255, as under lights one by one. */
+static void shaders_draw_coats_and_sheen(void **state) {
+    (void)state;
+    override_set tables = { .count = 0 };
+    cli_error error = { "" };
+    open_world("builtin:balls", 40);
+    scene_material cloths[64];
+    assert_true(world.material_count <= 64);
+    for (size_t i = 0; i < world.material_count; i++) {
+        scene_material *cloth = &cloths[i];
+        *cloth = world.materials[i];
+        cloth->sheen_color[0] = 1;
+        cloth->sheen_color[1] = 0.5f;
+        cloth->sheen_roughness = (float)(i + 1) / (float)world.material_count;
+        cloth->coat = i % 3 == 0 ? 0.5f : 0;
+    }
+    world.materials = cloths;
+    gpu_renderer *renderer = open_renderer(&world);
+    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    frame.bands = 5;
+    expect(override_bake_fibers(&tables, &world, frame.bands, frame.window, &error) &&
+               override_apply(&tables, &world, renderer, &error),
+           &error);
+    shade_field *field = open_field_within(frame.bands, false, device.storage_max);
+    const difference d = devices_differ(renderer, &frame, field);
+    print_message("coats and sheen: at most %.1e of the local peak, %.1e in root mean square\n",
+                  d.worst, d.rms);
+    assert_true(!(d.worst > 4e-3) && !(d.rms > 2e-4));
+    shade_field_destroy(field);
+    gpu_renderer_destroy(renderer);
+    override_free(&tables);
+    scene_free(&world);
+}
+
+/* So many in one place are together one of their sum. */
+static void expect_all_count(gpu_renderer *renderer, gpu_frame *frame, const image *one,
+                             size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        lmp_rgb *radiance = &world.lights[i].emitter.radiance;
+        world.lights[i] = world.lights[SCENE_LIGHTS_MAX - 1];
+        radiance->r /= (float)count;
+        radiance->g /= (float)count;
+        radiance->b /= (float)count;
+    }
+    frame->light_count = count;
+    image all = render_by(renderer, frame, METHOD_ZONAL, NULL);
+    double worst = 0, brightest = 0;
+    for (size_t i = 0; i < 3 * (size_t)(frame->width * frame->height); i++) {
+        worst = fmax(worst, fabs((double)all.rgb[i] - (double)one->rgb[i]));
+        brightest = fmax(brightest, (double)one->rgb[i]);
+    }
+    print_message("%zu lights: off by %.1e of the brightest\n", count, worst / brightest);
+    assert_true(brightest > 0 && !(worst > 4e-3 * brightest));
+    image_free(&all);
+}
+
+/* By the library as many as a scene may have, but one. By the shader half of them, for llvmpipe
+ * ends loops after 65535 turns, and of 65536 lights some pixels lacked a sixteenth. */
+static void tens_of_thousands_of_lights_all_count(void **state) {
+    (void)state;
+    open_world("builtin:ball", 1);
+    gpu_renderer *renderer = open_renderer(&world);
+    gpu_frame frame = frame_of(&world, 16, 16);
+    frame.bands = 3;
+    image one = render_by(renderer, &frame, METHOD_ZONAL, NULL);
+    world.lights[SCENE_LIGHTS_MAX - 1] = world.lights[0];
+    expect_all_count(renderer, &frame, &one, SCENE_LIGHTS_MAX / 2);
+    frame.host = shade_frame;
+    expect_all_count(renderer, &frame, &one, SCENE_LIGHTS_MAX - 1);
+    image_free(&one);
+    gpu_renderer_destroy(renderer);
+    scene_free(&world);
+}
+
 /* A grid that ends within the scene: outside of it every light is summed. */
 static void shaders_sum_every_light_outside_the_grid(void **state) {
     (void)state;
@@ -324,6 +400,8 @@ int main(void) {
         cmocka_unit_test(lights_that_move_leave_the_image_of_where_they_are),
         cmocka_unit_test(shaders_draw_what_the_library_does),
         cmocka_unit_test(shaders_draw_every_kind_of_light),
+        cmocka_unit_test(shaders_draw_coats_and_sheen),
+        cmocka_unit_test(tens_of_thousands_of_lights_all_count),
         cmocka_unit_test(shaders_sum_every_light_outside_the_grid),
         cmocka_unit_test(shaders_follow_lights_that_move),
         cmocka_unit_test(fields_larger_than_a_buffer_are_refused),
