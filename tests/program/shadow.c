@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Rays to lights: where they end, how they are spread, and what they bring. */
+#include "app/scene/vector.h"
 #include "app/shadow/source.h"
 #include "tests/oracle/check.h"
 
@@ -229,12 +230,91 @@ static void small_lights_weigh_what_is_reflected_of_them(void **state) {
     }
 }
 
+/* The octant of a ball as one triangle, whose normals are the ball's or point into it. */
+static void bend_triangle(float side, scene *world) {
+    static const uint32_t indices[3] = { 0, 1, 2 };
+    static const scene_mesh mesh = { .index_count = 3 };
+    static const scene_material material = { .roughness = 1 };
+    static scene_vertex corners[3];
+    memset(corners, 0, sizeof corners);
+    for (int i = 0; i < 3; i++) {
+        corners[i].position[i] = 1;
+        corners[i].normal[i] = side;
+    }
+    *world = (scene) { .vertices = corners,
+                       .indices = indices,
+                       .meshes = &mesh,
+                       .materials = &material,
+                       .vertex_count = 3,
+                       .index_count = 3,
+                       .mesh_count = 1,
+                       .material_count = 1,
+                       .maximum = { 1, 1, 1 } };
+}
+
+/* Points of the bent triangle by their weights, seen from outside. */
+static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], shadow_points *points) {
+    static const scene_camera camera = { .eye = { 4, 4, 4 } };
+    trace_bvh *bvh = trace_create(world);
+    const shadow_view view = { .scene = world,
+                               .bvh = bvh,
+                               .lift = (float)trace_lift(world),
+                               .camera = &camera,
+                               .settings = { .bands = 20, .window = LMP_WINDOW_NONE } };
+    gpu_row row;
+    int pixels[SHADOW_LANES];
+    assert_true(bvh && gpu_row_create(SHADOW_LANES, &row));
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 eye = vec_load(camera.eye), v = vec_normalize(vec_sub(eye, at[i]), eye);
+        pixels[i] = i;
+        row.ambient[i] = 1;
+        for (int c = 0; c < 3; c++) {
+            row.position[c][i] = (&at[i].x)[c];
+            row.normal[c][i] = 1 / sqrtf(3);
+            row.view[c][i] = (&v.x)[c];
+            row.coat_normal[c][i] = 0;
+        }
+        row.material[i] = (lmp_material) { .roughness = 1, .base_color = { 1, 1, 1 } };
+    }
+    shadow_points_set(&view, &row, pixels, SHADOW_LANES, points);
+    gpu_row_free(&row);
+    trace_destroy(bvh);
+}
+
+/* From triangles whose corners and normals are those of a ball, rays start on the ball, but for
+ * what a surface of second degree cannot follow; from those that are hollow, on the triangle. */
+static void rays_leave_the_surface_that_normals_bend(void **state) {
+    (void)state;
+    for (float side = 1; side >= -1; side -= 2) {
+        scene world;
+        shadow_points points;
+        lmp_vec3 at[SHADOW_LANES];
+        for (int i = 0; i < SHADOW_LANES; i++) {
+            const float a = 0.02f + 0.96f * (float)check_random(),
+                        b = (1 - a) * (0.02f + 0.96f * (float)check_random());
+            at[i] = vec(a, b, 1 - a - b);
+        }
+        bend_triangle(side, &world);
+        set_points(&world, at, &points);
+        for (int i = 0; i < SHADOW_LANES; i++) {
+            const lmp_vec3 origin = shadow_lane(&points.origin, i);
+            const double flat = sqrt(dot(at[i], at[i])), lift = 2 * trace_lift(&world);
+            if (side > 0)
+                CHECK_WITHIN(fabs(sqrt(dot(origin, origin)) - 1),
+                             (1 - flat) * (1 - flat) / 2 + lift);
+            else
+                CHECK_WITHIN((double)vec_length(vec_sub(origin, at[i])), lift);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_to_a_sphere_end_on_it),
         cmocka_unit_test(rays_bring_the_irradiance),
         cmocka_unit_test(neighbors_do_not_mix),
         cmocka_unit_test(small_lights_weigh_what_is_reflected_of_them),
+        cmocka_unit_test(rays_leave_the_surface_that_normals_bend),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
