@@ -118,6 +118,31 @@ static void nothing_is_reflected_below_the_surface(void **state) {
     lmp_brdf_destroy(brdf);
 }
 
+/* In double as in float; directions that are none reflect nothing, and NaN stays NaN. */
+static void only_finite_directions_above_the_surface_reflect(void **state) {
+    (void)state;
+    const double up[3] = { 0, 0.6, 0.8 }, bad[][3] = {
+        { 0, 0.6, -0.8 }, { 1, 0, 0 }, { 0, 0, (double)INFINITY }, { (double)-INFINITY, 0, 1 }
+    };
+    const double none[3] = { 0, (double)NAN, 1 };
+    lmp_brdf *brdfs[] = { lambert(0.8f, 0.5f, 0.2f), phong(12), ggx(0.3f, 0.5f),
+                          sgd_brdf("gold-paint") };
+    for (size_t i = 0; i < sizeof brdfs / sizeof *brdfs; i++) {
+        double rgb[3];
+        lmp_brdf_eval_double(brdfs[i], up, up, rgb);
+        assert_true(rgb[0] > 0 && rgb[1] > 0 && rgb[2] > 0);
+        for (size_t k = 0; k < 2 * (sizeof bad / sizeof *bad); k++) {
+            lmp_brdf_eval_double(brdfs[i], k % 2 ? up : bad[k / 2], k % 2 ? bad[k / 2] : up, rgb);
+            assert_true(rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0);
+        }
+        for (int k = 0; k < 2; k++) {
+            lmp_brdf_eval_double(brdfs[i], k ? up : none, k ? none : up, rgb);
+            assert_true(isnan(rgb[0]) && isnan(rgb[1]) && isnan(rgb[2]));
+        }
+        lmp_brdf_destroy(brdfs[i]);
+    }
+}
+
 static void parameters_out_of_range_are_refused(void **state) {
     (void)state;
     lmp_brdf *brdf = NULL;
@@ -204,6 +229,7 @@ int main(void) {
         cmocka_unit_test(ggx_is_that_of_gltf),
         cmocka_unit_test(parametric_brdfs_are_reciprocal),
         cmocka_unit_test(nothing_is_reflected_below_the_surface),
+        cmocka_unit_test(only_finite_directions_above_the_surface_reflect),
         cmocka_unit_test(parameters_out_of_range_are_refused),
         cmocka_unit_test(sgd_materials_have_their_published_albedo),
         cmocka_unit_test(every_sgd_material_is_finite_everywhere),

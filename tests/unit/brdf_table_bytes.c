@@ -146,6 +146,8 @@ static void damaged_tables_are_refused_with_their_reason(void **state) {
         { 13, size, 1, LMP_ERROR_FORMAT, "bands is 259" },
         { 16, size, 4, LMP_ERROR_FORMAT, "need" },
         { 20, size, 3, LMP_ERROR_FORMAT, "azimuths is 3" },
+        { 35, size, 0xbf, LMP_ERROR_FORMAT, "window size is not positive" },
+        { 43, size, 0xbf, LMP_ERROR_FORMAT, "change is not a finite number" },
         { 60, size, 1, LMP_ERROR_CHECKSUM, "checksum" },
         { size - 1, size, 0x55, LMP_ERROR_CHECKSUM, "checksum" },
         { 0, size - 4, 'L', LMP_ERROR_FORMAT, "the file has" },

@@ -149,8 +149,32 @@ static void no_member_is_left_to_its_default(void **test) {
     free(bytes);
 }
 
+/* In whatever unit positions are given, by powers of two so that rounding is the same. */
+static void units_of_length_change_no_size(void **test) {
+    (void)test;
+    for (int nodes = 8; nodes <= 24; nodes += 8) {
+        size_t sizes[3] = { 0 };
+        for (int k = 0; k < 3; k++) {
+            const float unit = (const float[]) { 1, 0.0625f, 16 }[k];
+            const lmp_field_desc desc = { .origin = { unit, 2 * unit, 0 },
+                                          .cell = { unit, unit, unit },
+                                          .nodes = { nodes, nodes, nodes },
+                                          .reach = 2,
+                                          .light_max = 4096 };
+            lmp_field *field;
+            assert_int_equal(lmp_field_create(NULL, &desc, &field), LMP_OK);
+            sizes[k] = lmp_field_describe(field).bytes;
+            lmp_field_destroy(field);
+        }
+        assert_true(sizes[0] > 0);
+        assert_int_equal(sizes[1], sizes[0]);
+        assert_int_equal(sizes[2], sizes[0]);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(units_of_length_change_no_size),
         cmocka_unit_test(a_field_comes_back_and_goes_on),
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(numbers_outside_their_ranges_are_refused),

@@ -62,6 +62,7 @@ static lmp_result write_by(lmp_result (*write)(const lmp_host *, const lmp_brdf 
     size_t size;
     const lmp_result result = write(host, brdf, &data, &size);
     assert_int_equal(!data, result != LMP_OK);
+    assert_int_equal(!size, result != LMP_OK);
     host->release(data, host->user);
     lmp_brdf_destroy(brdf);
     return result;
