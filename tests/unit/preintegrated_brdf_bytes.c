@@ -195,6 +195,36 @@ static void counts_out_of_range_are_refused_though_the_size_agrees(void **state)
     free(bytes);
 }
 
+/* What a file's numbers are held to: positive, finite, and of what a slice may be no more than 1e9.
+ * The window's size is at 20, six numbers follow it, and the first slice's are behind the ambient
+ * light. */
+static void numbers_out_of_range_are_refused(void **state) {
+    (void)state;
+    lmp_brdf_table *table = small_table();
+    lmp_preintegrated_brdf *preintegrated = created(table, 0.1f);
+    const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(preintegrated);
+    const size_t slice =
+        68 + 4 * ((size_t)info.view_steps + 1 + info.cap_steps + 1) + 12 * (size_t)info.view_count;
+    const size_t places[] = { 20, 24, 28, 32, 36, 40, 44, slice + 8, slice + 16, slice + 20 };
+    const float wrong[] = { 0, -1, NAN, INFINITY, 1.5e9f };
+    size_t size;
+    unsigned char *bytes = written(preintegrated, &size);
+    lmp_preintegrated_brdf *read;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        for (int k = 0; k < (i ? 5 : 4); k++) {
+            const float was = lmp_bytes_at_f32(bytes + places[i]);
+            assert_true(was > 0);
+            lmp_bytes_store_f32(bytes + places[i], wrong[k]);
+            damage_sign(bytes, size);
+            assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &read),
+                             LMP_ERROR_FORMAT);
+            lmp_bytes_store_f32(bytes + places[i], was);
+        }
+    free(bytes);
+    lmp_preintegrated_brdf_destroy(preintegrated);
+    lmp_brdf_table_destroy(table);
+}
+
 static lmp_rgb at_an_end(const lmp_preintegrated_brdf *brdf, int remap, int end, int i) {
     const float part = (float)i / 19;
     const lmp_vec3 axis = { sinf(part) * cosf(0.3f), sinf(part) * sinf(0.3f), cosf(part) };
@@ -268,6 +298,7 @@ int main(void) {
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
         cmocka_unit_test(bytes_read_back_are_the_same_brdf),
         cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(numbers_out_of_range_are_refused),
         cmocka_unit_test(counts_out_of_range_are_refused_though_the_size_agrees),
         cmocka_unit_test(ends_of_a_remap_are_its_end_nodes),
         cmocka_unit_test(smooth_rows_are_thinned_and_rough_ones_are_not),
