@@ -205,20 +205,20 @@ static void numbers_out_of_range_are_refused(void **state) {
     const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(preintegrated);
     const size_t slice =
         68 + 4 * ((size_t)info.view_steps + 1 + info.cap_steps + 1) + 12 * (size_t)info.view_count;
-    const size_t places[] = { 20, 24, 28, 32, 36, 40, 44, slice + 8, slice + 16, slice + 20 };
+    const size_t offsets[] = { 20, 24, 28, 32, 36, 40, 44, slice + 8, slice + 16, slice + 20 };
     const float wrong[] = { 0, -1, NAN, INFINITY, 1.5e9f };
     size_t size;
     unsigned char *bytes = written(preintegrated, &size);
     lmp_preintegrated_brdf *read;
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+    for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++)
         for (int k = 0; k < (i ? 5 : 4); k++) {
-            const float was = lmp_bytes_at_f32(bytes + places[i]);
+            const float was = lmp_bytes_at_f32(bytes + offsets[i]);
             assert_true(was > 0);
-            lmp_bytes_store_f32(bytes + places[i], wrong[k]);
+            lmp_bytes_store_f32(bytes + offsets[i], wrong[k]);
             damage_sign(bytes, size);
             assert_int_equal(lmp_preintegrated_brdf_read(NULL, bytes, size, &read),
                              LMP_ERROR_FORMAT);
-            lmp_bytes_store_f32(bytes + places[i], was);
+            lmp_bytes_store_f32(bytes + offsets[i], was);
         }
     free(bytes);
     lmp_preintegrated_brdf_destroy(preintegrated);
