@@ -52,15 +52,20 @@ app/reference/ggx.c reference.ggx reference.layers
 app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
 app/compare/*.c reference.compare
 app/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
-app/shade/*.c gpu.shade gpu.draw gpu.field
+app/shade/*.c gpu.table gpu.field gpu.shade gpu.draw
 app/gpu/table.c gpu.table gpu.draw
 app/gpu/environment.c gpu.devices
 app/gpu/zonal.c gpu.devices
-app/gpu/*.c gpu.draw gpu.plate gpu.shade gpu.devices
+app/gpu/screen.c gpu.screen
+app/gpu/*.c gpu.table gpu.edges gpu.draw gpu.plate gpu.shadow gpu.shade gpu.devices
 shaders/table.glsl gpu.table
 shaders/environment.glsl gpu.devices gpu.table
-shaders/*.glsl gpu.glsl gpu.draw gpu.plate gpu.shade gpu.devices
+shaders/field.glsl gpu.field
+shaders/*.glsl gpu.glsl gpu.table gpu.draw gpu.plate gpu.shade gpu.devices
 shaders/*.comp gpu.draw gpu.shade
+shaders/compose.frag gpu.screen
+shaders/drawing.frag gpu.screen
+shaders/screen.vert gpu.screen gpu.draw
 shaders/*.frag gpu.draw gpu.plate reference.layers
 shaders/*.vert gpu.draw gpu.plate
 END
