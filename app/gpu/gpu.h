@@ -17,6 +17,10 @@
 
 #define GPU_SIZE_MAX 16384 /* pixels a side */
 
+/* Lights of a frame that shaders sum on llvmpipe, which ends the loops of a shader after 65535
+ * turns in all: one for each light and again for each of a coat, and some for the surroundings. */
+#define GPU_SOFTWARE_LIGHTS_MAX 32000
+
 /* --- the device ------------------------------------------------------------------------------- */
 
 typedef struct gpu_context {
@@ -68,7 +72,7 @@ typedef struct gpu_frame {
     int bands; /* 1 … those of the method on its device */
     lmp_window window;
     const scene_light *lights;
-    size_t light_count;                  /* <= SCENE_LIGHTS_MAX */
+    size_t light_count;                  /* <= gpu_lights_max */
     float background[3];                 /* its radiance, where there is no backdrop */
     bool hide_backdrop;                  /* of the environment, which shines all the same */
     int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
@@ -83,6 +87,9 @@ typedef struct gpu_frame {
 
 /* Bytes of the table of METHOD_READS_TABULATED_Z. */
 size_t gpu_zonal_bytes(int bands);
+
+/* How many lights a frame may have: where shaders sum them on software, fewer. */
+size_t gpu_lights_max(const gpu_context *context, const gpu_frame *frame);
 
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
 typedef struct gpu_times {

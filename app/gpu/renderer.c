@@ -192,12 +192,18 @@ static void note_sheen(gpu_renderer *r, const gpu_frame *frame) {
     r->sheen_noted = true;
 }
 
+size_t gpu_lights_max(const gpu_context *context, const gpu_frame *frame) {
+    return context->software && !frame->host ? GPU_SOFTWARE_LIGHTS_MAX : SCENE_LIGHTS_MAX;
+}
+
 /* Samples `first` to `last` of a frame. */
 static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, int last, bool show,
                            gpu_times *times, cli_error *error) {
-    if (frame->light_count > SCENE_LIGHTS_MAX)
-        return cli_fail(error, NULL, "%zu lights: the shaders take %d", frame->light_count,
-                        SCENE_LIGHTS_MAX);
+    const size_t lights_max = gpu_lights_max(&r->context, frame);
+    if (frame->light_count > lights_max)
+        return cli_fail(error, NULL, "%zu lights: %s takes %zu%s", frame->light_count,
+                        r->context.device, lights_max,
+                        lights_max < SCENE_LIGHTS_MAX ? " (--device cpu takes more)" : "");
     if (method_table[frame->method].reads & METHOD_READS_PREINTEGRATED && !frame->lobes)
         return cli_fail(error, NULL, "preintegrated shading without its lobes");
     if (method_table[frame->method].reads & METHOD_READS_FIELD && !frame->field)
