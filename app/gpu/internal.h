@@ -31,8 +31,6 @@ typedef struct gpu_draw {
     float minimum[3], maximum[3];
 } gpu_draw;
 
-#define GPU_WRAPS (SCENE_WRAP_MIRROR + 1)
-
 typedef struct gpu_material {
     GLuint maps[SHARED_MAPS], samplers[SHARED_MAPS]; /* of OpenGL; map 0 = none */
     bool double_sided, masked, layered, sheen;
@@ -49,8 +47,8 @@ typedef struct gpu_mesh {
     size_t material_count;
     GLuint *textures; /* of the scene's, which share those of OpenGL */
     GLsizei texture_count;
-    GLuint samplers[GPU_WRAPS * GPU_WRAPS]; /* by wrap_u + GPU_WRAPS * wrap_v */
-    bool layered;                           /* some material is */
+    GLuint samplers[SCENE_WRAPS * SCENE_WRAPS]; /* by wrap_u + SCENE_WRAPS * wrap_v */
+    bool layered;                               /* some material is */
 } gpu_mesh;
 
 /* The variants of surface.frag. */

@@ -17,15 +17,15 @@ static GLuint upload(const void *data, size_t size) {
 
 /* Images are shared by all textures that show them; how they repeat is up to samplers. */
 static void create_samplers(const gpu_context *context, gpu_mesh *mesh) {
-    static const GLint modes[GPU_WRAPS] = { [SCENE_WRAP_REPEAT] = GL_REPEAT,
-                                            [SCENE_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
-                                            [SCENE_WRAP_MIRROR] = GL_MIRRORED_REPEAT };
-    glCreateSamplers(GPU_WRAPS * GPU_WRAPS, mesh->samplers);
-    for (int i = 0; i < GPU_WRAPS * GPU_WRAPS; i++) {
+    static const GLint modes[SCENE_WRAPS] = { [SCENE_WRAP_REPEAT] = GL_REPEAT,
+                                              [SCENE_WRAP_CLAMP] = GL_CLAMP_TO_EDGE,
+                                              [SCENE_WRAP_MIRROR] = GL_MIRRORED_REPEAT };
+    glCreateSamplers(SCENE_WRAPS * SCENE_WRAPS, mesh->samplers);
+    for (int i = 0; i < SCENE_WRAPS * SCENE_WRAPS; i++) {
         const GLuint sampler = mesh->samplers[i];
         glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, modes[i % GPU_WRAPS]);
-        glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, modes[i / GPU_WRAPS]);
+        glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, modes[i % SCENE_WRAPS]);
+        glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, modes[i / SCENE_WRAPS]);
         if (!context->software && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
             glSamplerParameterf(sampler, GL_TEXTURE_MAX_ANISOTROPY_EXT, 8);
     }
@@ -104,7 +104,7 @@ static void fill_material(const scene *world, size_t number, const gpu_mesh *mes
             continue;
         const scene_texture *texture = &world->textures[map];
         material->maps[i] = mesh->textures[map];
-        material->samplers[i] = mesh->samplers[texture->wrap_u + GPU_WRAPS * texture->wrap_v];
+        material->samplers[i] = mesh->samplers[texture->wrap_u + SCENE_WRAPS * texture->wrap_v];
     }
     memcpy(material->f0, source->f0, sizeof material->f0);
     material->f90 = source->f90;
@@ -268,7 +268,7 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     glDeleteBuffers(1, &mesh->indices);
     glDeleteBuffers(1, &mesh->material_blocks);
     glDeleteBuffers(1, &mesh->reflectors);
-    glDeleteSamplers(GPU_WRAPS * GPU_WRAPS, mesh->samplers);
+    glDeleteSamplers(SCENE_WRAPS * SCENE_WRAPS, mesh->samplers);
     if (mesh->textures) /* a name that comes twice is passed over */
         glDeleteTextures(mesh->texture_count, mesh->textures);
     free(mesh->textures);

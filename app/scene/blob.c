@@ -183,7 +183,7 @@ static bool materials_fit(const blob_header *header) {
         const uint64_t bytes = 4 * (uint64_t)textures[i].width * textures[i].height;
         if (!name_fits(textures[i].name) || textures[i].width == 0 || textures[i].height == 0 ||
             textures[i].width > 65536 || textures[i].height > 65536 || textures[i].srgb > 1 ||
-            textures[i].wrap_u > SCENE_WRAP_MIRROR || textures[i].wrap_v > SCENE_WRAP_MIRROR ||
+            textures[i].wrap_u >= SCENE_WRAPS || textures[i].wrap_v >= SCENE_WRAPS ||
             textures[i].first_byte > texel_bytes || bytes > texel_bytes - textures[i].first_byte)
             return false;
     }

@@ -71,7 +71,12 @@ typedef struct scene_material {
     };
 } scene_material;
 
-typedef enum scene_wrap { SCENE_WRAP_REPEAT, SCENE_WRAP_CLAMP, SCENE_WRAP_MIRROR } scene_wrap;
+typedef enum scene_wrap {
+    SCENE_WRAP_REPEAT,
+    SCENE_WRAP_CLAMP,
+    SCENE_WRAP_MIRROR,
+    SCENE_WRAPS
+} scene_wrap;
 
 /* RGBA, 8 bits a channel, rows from the top. */
 typedef struct scene_texture {
