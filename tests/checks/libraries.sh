@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
-# Static and shared library from one compilation, in build/package as ./dev package makes them, and
-# installed in usr without the program, for the tests that look at them from outside.
+# Static and shared library of one compilation, that of $BUILD, made and installed in usr as ./dev package does, without
+# the program, for the tests that look at them from outside. checks.package compares them with those that it compiles.
 set -eu
 . tests/checks/common.sh
 
+objects=$(ninja -C "$BUILD" -t inputs liblampion.a | sed -n "s,^\(CMakeFiles/lampion_objects[.]dir/.*[.]o\)\$,$BUILD/\1,p")
+[ "$(echo "$objects" | wc -l)" -gt 50 ] || fail "the objects of $BUILD:" $objects
 export SOURCE_DATE_EPOCH=0
 {
-    cmake --preset package && cmake --build --preset package --target lampion lampion_other lampion_hlsl lampion_metal &&
+    cmake --preset package -B "$WORK/build" -DLAMPION_PROGRAM=OFF "-DLAMPION_OBJECTS=$(echo $objects | tr ' ' ';')" &&
+        cmake --build "$WORK/build" --target lampion lampion_other lampion_hlsl lampion_metal &&
         for component in library development; do
-            cmake --install build/package --prefix "$WORK/usr" --component $component || exit 1
+            cmake --install "$WORK/build" --prefix "$WORK/usr" --component $component || exit 1
         done
 } >"$WORK/log" 2>&1 || fail "$(tail -n 40 "$WORK/log")"

@@ -37,6 +37,8 @@ commit_of() {
 }
 [ -f "$BUILD/liblampion.a" ] && cmp "$BUILD/liblampion.a" build/package/liblampion.a ||
     fail "the library differs from that of $BUILD"
+cmp "$WORK/../libraries/build/liblampion.so.$version" build/package/liblampion.so ||
+    fail "the shared library differs from that of checks.libraries"
 if [ "$(commit_of "$BUILD")" = "$(commit_of build/package)" ]; then
     strip -o "$WORK/program" "$PROGRAM"
     cmp "$WORK/program" "$root/usr/bin/lampion" || fail "the program differs from that of $BUILD"

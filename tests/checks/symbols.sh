@@ -6,8 +6,8 @@ set -eu
 
 kernel_table=lmp_kernel_table # the one global
 
-archive=build/package/liblampion.a
-shared=build/package/liblampion.so
+archive=$WORK/../libraries/build/liblampion.a
+shared=$WORK/../libraries/build/liblampion.so
 
 # names LETTERS: of nm's output on stdin, the symbols of those kinds.
 names() {
