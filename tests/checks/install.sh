@@ -52,7 +52,9 @@ export PKG_CONFIG_PATH="$lib/pkgconfig" LD_LIBRARY_PATH="$lib"
 consume shared
 consume static
 unset PKG_CONFIG_PATH LD_LIBRARY_PATH
-quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=Debug
+simd=OFF # compiling every instruction set within another project is of the long form
+[ -z "${LAMPION_LONG:-}" ] || simd=ON
+quietly cmake -G Ninja -S "$WORK/inside" -B "$WORK/inside/build" -DCMAKE_BUILD_TYPE=Debug -DLAMPION_SIMD=$simd
 quietly cmake --build "$WORK/inside/build"
 "$WORK/inside/build/first_light" >"$WORK/inside.txt"
 
