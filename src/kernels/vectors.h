@@ -96,14 +96,21 @@ LMP_INLINE vf dot_row(size_t values, const float *a, const float *b) {
 /* A full block of rows: lanes are values, then elements for what is left of the tree. */
 static inline vf dot_rows(size_t values, const lmp_kernel_in *a, const lmp_kernel_in *b,
                           size_t element) {
+    vf part[LMP_LANES];
+#if LMP_LANES == 4
+    /* Short rows are transposed in registers: through memory, a load would wait for its stores. */
+    LMP_UNROLL for (size_t e = 0; e < LMP_LANES; e++) part[e] =
+        dot_row(values, a->at + (element + e) * a->stride, b->at + (element + e) * b->stride);
+    layout_transpose4(part);
+#else
     float LMP_ALIGNED rows[LMP_LANES * LMP_LANES], planes[LMP_LANES * LMP_LANES];
     const lmp_kernel_in parts = { rows, LMP_LANES, 0 };
     for (size_t e = 0; e < LMP_LANES; e++)
         vf_store(rows + e * LMP_LANES, dot_row(values, a->at + (element + e) * a->stride,
                                                b->at + (element + e) * b->stride));
     layout_get(planes, 0, LMP_LANES, &parts, 0, LMP_LANES);
-    vf part[LMP_LANES];
     LMP_UNROLL for (int i = 0; i < LMP_LANES; i++) part[i] = vf_load(planes + i * LMP_LANES);
+#endif
     LMP_UNROLL for (int half = LMP_LANES / 2; half; half /= 2)
         LMP_UNROLL for (int i = 0; i < half; i++) part[i] = part[i] + part[i + half];
     return part[0];
