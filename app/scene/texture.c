@@ -21,6 +21,15 @@ static texture_format format_of(const unsigned char *bytes, size_t size) {
                                                                                : (texture_format)0;
 }
 
+/* The most pixels that a byte of a file holds: one bit each under deflate, a bit for each block of
+ * 64, runs of 128, one bit each. The decoder makes up what a file of fewer bytes lacks. */
+static size_t pixels_a_byte(texture_format format) {
+    return format == TEXTURE_PNG    ? 8 * 1032
+           : format == TEXTURE_JPEG ? 512
+           : format == TEXTURE_TGA  ? 128
+                                    : 8;
+}
+
 bool texture_decode(scene_builder *builder, const void *data, size_t size, texture_format formats,
                     const char *subject, const char *name, scene_texture *texture,
                     cli_error *error) {
@@ -33,6 +42,11 @@ bool texture_decode(scene_builder *builder, const void *data, size_t size, textu
         return cli_fail(error, subject,
                         "has a texture \"%.200s\" of %d x %d pixels (at most %d x %d)", name, width,
                         height, TEXTURE_SIDE_MAX, TEXTURE_SIDE_MAX);
+    if ((size_t)width * (size_t)height > size * pixels_a_byte(format_of(data, size)))
+        return cli_fail(
+            error, subject,
+            "has a texture \"%.200s\" of %d x %d pixels in %zu bytes (is it truncated?)", name,
+            width, height, size);
     unsigned char *pixels = stbi_load_from_memory(data, (int)size, &width, &height, &channels, 4);
     if (!pixels)
         return cli_fail(error, subject, "has a texture \"%.200s\" that cannot be decoded: %s", name,

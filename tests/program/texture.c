@@ -99,11 +99,52 @@ static void formats_that_no_page_names_are_refused(void **state) {
     }
 }
 
+/* A file of some bytes that claims 10000 x 10000 pixels: the decoder would make them up, and the
+ * cache would keep 400 MB. The same file of as many pixels as it has is read. */
+static void few_bytes_are_not_many_pixels(void **state) {
+    (void)state;
+    unsigned char bmp[64] = "BM\x40\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18";
+    unsigned char tga[32] = "\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18";
+    /* gray, its tables of one code each */
+    unsigned char jpeg[144] = "\xff\xd8\xff\xdb\0\x43";
+    memset(jpeg + 7, 1, 64);
+    memcpy(jpeg + 71, "\xff\xc0\0\13\10\0\1\0\1\1\1\x11\0", 13);
+    memcpy(jpeg + 84, "\xff\xc4\0\24\0\1", 6);
+    memcpy(jpeg + 106, "\xff\xc4\0\24\x10\1", 6);
+    memcpy(jpeg + 128, "\xff\xda\0\10\1\1\0\0\x3f", 9);
+    memcpy(jpeg + sizeof jpeg - 2, "\xff\xd9", 2);
+    const struct {
+        unsigned char *bytes;
+        size_t size, width, height; /* where these stand */
+        bool big_endian;
+    } images[] = { { bmp, sizeof bmp, 18, 22, false },
+                   { tga, sizeof tga, 12, 14, false },
+                   { jpeg, sizeof jpeg, 78, 76, true } };
+    for (size_t i = 0; i < sizeof images / sizeof *images; i++)
+        for (int large = 0; large < 2; large++) {
+            scene_builder builder = { .out_of_memory = false };
+            scene_texture texture;
+            cli_error error = { "" };
+            if (large)
+                for (int k = 0; k < 2; k++) /* 10000 is 0x2710 */
+                    memcpy(images[i].bytes + (k ? images[i].width : images[i].height),
+                           images[i].big_endian ? "\x27\x10" : "\x10\x27", 2);
+            const bool read = texture_decode(&builder, images[i].bytes, images[i].size, TEXTURE_ANY,
+                                             "scene", "image", &texture, &error);
+            if (read == (large == 1))
+                fail_msg("image %zu: \"%s\"", i, error.text);
+            assert_true(!large || strstr(error.text, "of 10000 x 10000 pixels in "));
+            assert_int_equal(builder_count(&builder, BLOB_TEXELS), large ? 0 : 4);
+            builder_free(&builder);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_gltf_stores_an_image_once),
         cmocka_unit_test(an_obj_stores_an_image_once),
         cmocka_unit_test(formats_that_no_page_names_are_refused),
+        cmocka_unit_test(few_bytes_are_not_many_pixels),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }
