@@ -36,15 +36,21 @@ static void screenshots_keep_every_setting(void **unused) {
     assert_memory_equal(&read, &state.now, sizeof read);
 }
 
-static void damaged_settings_are_refused(void **unused) {
-    (void)unused;
-    static view_settings read;
-    cli_error error;
+/* The settings as a screenshot has them, read as JSON alone. */
+static cJSON *written_settings(void) {
     cJSON *written = view_settings_to_json(&state.now);
     char *text = cJSON_PrintUnformatted(written);
     cJSON *root = cJSON_Parse(text);
     cJSON_free(text);
     cJSON_Delete(written);
+    return root;
+}
+
+static void damaged_settings_are_refused(void **unused) {
+    (void)unused;
+    static view_settings read;
+    cli_error error;
+    cJSON *root = written_settings();
     assert_true(view_settings_from_json(root, "shot", &read, &error));
     static const char *const numbers[] = { "width", "height", "samples", "exposure", "divider" };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
@@ -85,6 +91,33 @@ static void damaged_settings_are_refused(void **unused) {
         assert_non_null(strstr(error.text, "materials"));
     }
     cJSON_Delete(root);
+}
+
+/* Settings with one number of the camera or of a light beyond what every other source takes. */
+static void settings_out_of_reach_are_refused(void **unused) {
+    (void)unused;
+    static view_settings read;
+    static const struct {
+        const char *part, *member;
+    } cases[] = { { "camera", "eye" },
+                  { "camera", "target" },
+                  { "lights", "position" },
+                  { "lights", "radius" } };
+    at(320, 240);
+    key("n"); /* a light */
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        cli_error error;
+        cJSON *root = written_settings(), *part = cJSON_GetObjectItem(root, cases[i].part);
+        assert_true(view_settings_from_json(root, "shot", &read, &error));
+        const cJSON *from = cJSON_IsArray(part) ? cJSON_GetArrayItem(part, 0) : part;
+        cJSON *item = cJSON_GetObjectItem(from, cases[i].member);
+        assert_non_null(item);
+        cJSON *number = cJSON_IsArray(item) ? cJSON_GetArrayItem(item, 1) : item;
+        cJSON_SetNumberValue(number, 1e30);
+        assert_false(view_settings_from_json(root, "shot", &read, &error));
+        assert_non_null(strstr(error.text, cases[i].part));
+        cJSON_Delete(root);
+    }
 }
 
 static bool read_script(const char *text, view_script *script) {
@@ -175,6 +208,39 @@ static void drafts_have_fewer_triangles_in_the_same_bounds(void **unused) {
     scene_free(&large);
 }
 
+/* Groups of one triangle each, beside many vertices that none of them uses: work that grew with
+ * both would outlast the limit of any test. */
+static void drafts_of_many_meshes_cost_no_more_than_their_triangles(void **unused) {
+    (void)unused;
+    enum { MESHES = 200000, VERTICES = 16 << 20 };
+    scene_vertex *vertices = calloc(VERTICES, sizeof *vertices);
+    scene_mesh *meshes = calloc(MESHES, sizeof *meshes);
+    uint32_t *indices = malloc(3 * MESHES * sizeof *indices);
+    assert_true(vertices && meshes && indices);
+    for (uint32_t i = 0; i < MESHES; i++) {
+        meshes[i] = (scene_mesh) { .first_index = 3 * i, .index_count = 3, .maximum = { 1, 1, 0 } };
+        for (uint32_t k = 0; k < 3; k++)
+            indices[3 * i + k] = k;
+    }
+    vertices[1].position[0] = vertices[2].position[1] = 1;
+    const scene large = { .vertices = vertices,
+                          .indices = indices,
+                          .meshes = meshes,
+                          .vertex_count = VERTICES,
+                          .index_count = 3 * MESHES,
+                          .mesh_count = MESHES,
+                          .maximum = { 1, 1, 0 } };
+    scene draft;
+    cli_error error;
+    assert_true(view_draft_make(&large, 500, &draft, &error));
+    assert_int_equal(draft.mesh_count, MESHES);
+    assert_int_equal(draft.index_count, 3 * MESHES);
+    view_draft_free(&draft);
+    free(vertices);
+    free(meshes);
+    free(indices);
+}
+
 static void drawings_fit_and_grow_with_the_scale(void **unused) {
     (void)unused;
     const view_row rows[] = { { .name = "Lampion" },
@@ -199,9 +265,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(screenshots_keep_every_setting),
         TEST(damaged_settings_are_refused),
+        TEST(settings_out_of_reach_are_refused),
         TEST(scripts_are_read_strictly),
         TEST(every_key_of_the_help_does_something),
         TEST(drafts_have_fewer_triangles_in_the_same_bounds),
+        TEST(drafts_of_many_meshes_cost_no_more_than_their_triangles),
         TEST(drawings_fit_and_grow_with_the_scale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
