@@ -207,6 +207,37 @@ static void limits_end_the_work(void **state) {
     assert_error(&job, "SCENE: takes too long");
 }
 
+/* --- a kernel that refuses -------------------------------------------------------------------- */
+
+static bool no_filter, no_promise;
+
+/* In place of the libraries' own, which the linker leaves under the other names. */
+int __real_seccomp_load(const void *filter);
+int __wrap_seccomp_load(const void *filter);
+int __wrap_seccomp_load(const void *filter) {
+    return no_filter ? -EFAULT : __real_seccomp_load(filter);
+}
+
+int __real_prctl(int option, unsigned long a, unsigned long b, unsigned long c, unsigned long d);
+int __wrap_prctl(int option, unsigned long a, unsigned long b, unsigned long c, unsigned long d);
+int __wrap_prctl(int option, unsigned long a, unsigned long b, unsigned long c, unsigned long d) {
+    errno = EINVAL;
+    return no_promise && option == PR_SET_NO_NEW_PRIVS ? -1 : __real_prctl(option, a, b, c, d);
+}
+
+/* Where a wall cannot be raised, not one byte is read. */
+static void without_walls_no_work_is_done(void **state) {
+    (void)state;
+    const sandbox_job job = { .subject = subject, .context = subject, .work = write_greeting };
+    no_filter = true;
+    assert_error(&job, "no sandbox: ");
+    no_filter = false;
+    no_promise = true;
+    assert_error(&job, "no sandbox: ");
+    no_promise = false;
+    assert_string_equal(run(&job), subject);
+}
+
 /* --- escapes ---------------------------------------------------------------------------------- */
 
 typedef struct attempt {
@@ -385,6 +416,7 @@ int main(void) {
         cmocka_unit_test(files_are_opened_so_many_times),
         cmocka_unit_test(failures_and_crashes_are_errors),
         cmocka_unit_test(limits_end_the_work),
+        cmocka_unit_test(without_walls_no_work_is_done),
         cmocka_unit_test(every_escape_fails),
         cmocka_unit_test(nothing_is_inherited_but_memory),
     };
