@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* An allocator to load before the C library's (LD_PRELOAD): request number LAMPION_REFUSE of those
- * that the program itself makes, or the library whose name has LAMPION_REFUSE_TO in it, is refused;
- * with LAMPION_REQUESTS their number is written to that file at the end. All others have what they
+ * that the program itself makes, or the library whose name has LAMPION_REFUSE_TO in it, is refused,
+ * or the first that is made at LAMPION_REFUSE_AT; with LAMPION_REQUESTS their number is written to
+ * that file at the end, and after it the calls where they were made. All others have what they
  * want. */
 #define _GNU_SOURCE /* dl_iterate_phdr */
 #include <errno.h>
@@ -19,7 +20,14 @@ void *__libc_memalign(size_t alignment, size_t size);
 
 static uintptr_t code_start, code_end;
 static long refused;
-static atomic_long *requests; /* of the program and of its children */
+static uintptr_t refused_at; /* from the start of the code */
+
+/* Of the program and of its children. */
+enum { CALLS = 4096 };
+static struct {
+    atomic_long requests;
+    atomic_uintptr_t calls[CALLS]; /* by hash; 0: none */
+} * shared;
 
 /* The first that is listed is the program. */
 static int find_code(struct dl_phdr_info *info, size_t size, void *library) {
@@ -37,10 +45,12 @@ static int find_code(struct dl_phdr_info *info, size_t size, void *library) {
 __attribute__((constructor)) static void begin(void) {
     const char *const number = getenv("LAMPION_REFUSE");
     refused = number ? atol(number) : 0;
-    void *const shared =
-        mmap(NULL, sizeof *requests, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared != MAP_FAILED)
-        requests = shared;
+    const char *const call = getenv("LAMPION_REFUSE_AT");
+    refused_at = call ? strtoul(call, NULL, 16) : 0;
+    void *const memory =
+        mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory != MAP_FAILED)
+        shared = memory;
     dl_iterate_phdr(find_code, getenv("LAMPION_REFUSE_TO"));
 }
 
@@ -48,15 +58,32 @@ __attribute__((destructor)) static void end(void) {
     const char *const path = getenv("LAMPION_REQUESTS");
     FILE *const file = path ? fopen(path, "w") : NULL;
     if (file) {
-        fprintf(file, "%ld\n", requests ? atomic_load(requests) : 0);
+        fprintf(file, "%ld\n", shared ? atomic_load(&shared->requests) : 0);
+        for (int i = 0; shared && i < CALLS; i++)
+            if (atomic_load(&shared->calls[i]))
+                fprintf(file, "%lx\n", (unsigned long)atomic_load(&shared->calls[i]));
         fclose(file);
     }
 }
 
+static int is_new_call(uintptr_t call) {
+    for (uintptr_t i = 0; i < CALLS; i++) {
+        uintptr_t there = 0;
+        if (atomic_compare_exchange_strong(&shared->calls[(call + i) % CALLS], &there, call))
+            return 1;
+        if (there == call)
+            return 0;
+    }
+    return 0;
+}
+
 static int refuses(const void *caller) {
     const uintptr_t address = (uintptr_t)caller;
-    if (!requests || address < code_start || address >= code_end ||
-        atomic_fetch_add(requests, 1) + 1 != refused)
+    if (!shared || address < code_start || address >= code_end)
+        return 0;
+    const int number_is_it = atomic_fetch_add(&shared->requests, 1) + 1 == refused;
+    const int call_is_it = is_new_call(address - code_start) && address - code_start == refused_at;
+    if (!number_is_it && !call_is_it)
         return 0;
     errno = ENOMEM;
     return 1;
