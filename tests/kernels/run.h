@@ -352,6 +352,15 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     }
 }
 
+/* A NaN that no kernel makes. */
+static const uint32_t mark = 0x7fc0beef;
+
+static int is_mark(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits == mark;
+}
+
 /* Runs a kernel into guarded memory and returns its values as tight rows, or NULL if it wrote
  * outside the output or left a value unwritten. */
 static float *results(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
@@ -360,7 +369,6 @@ static float *results(const lmp_kernels *k, kind which, int bands, const inputs 
     const size_t pad = which == DOT ? 0 : 5;
     const size_t stride = (planar ? count : values) + pad, rows = planar ? values : count;
     const size_t size = rows * stride + 2 * GUARD;
-    const uint32_t mark = 0x7fc0beef; /* a NaN that no kernel makes */
     float *memory = aligned_alloc(64, (size * sizeof(float) + 63) / 64 * 64);
     float *tight = malloc((count * values + 1) * sizeof(float));
     assert_non_null(memory);
@@ -370,16 +378,16 @@ static float *results(const lmp_kernels *k, kind which, int bands, const inputs 
     const lmp_kernel_out out = { memory + GUARD, stride, planar };
     run(k, which, bands, in, count, planar, &out);
     int clean = 1;
-    for (size_t i = 0; i < size; i++) {
-        const size_t at = i < GUARD || stride == 0 ? size : i - GUARD;
-        const size_t row = stride ? at / stride : rows, column = stride ? at % stride : 0;
-        const int inside = row < rows && column < stride - pad;
-        uint32_t bits;
-        memcpy(&bits, memory + i, sizeof bits);
-        clean = clean && inside == (bits != mark);
-        if (inside)
-            tight[planar ? column * values + row : row * values + column] = memory[i];
-    }
+    for (size_t i = 0; i < GUARD; i++)
+        clean = clean && is_mark(memory[i]) && is_mark(memory[size - 1 - i]);
+    for (size_t row = 0; row < rows; row++)
+        for (size_t column = 0; column < stride; column++) {
+            const float value = out.at[row * stride + column];
+            const int inside = column < stride - pad;
+            clean = clean && inside != is_mark(value);
+            if (inside)
+                tight[planar ? column * values + row : row * values + column] = value;
+        }
     free(memory);
     if (!clean) {
         free(tight);
