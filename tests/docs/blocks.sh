@@ -10,7 +10,7 @@
 #   <!-- not run: REASON -->   the block is left out; the reason is printed
 #   <!-- file: NAME -->        the block is this file of the folder (c, glsl: and is compiled too)
 #   <!-- prints -->            a text block: what the block before it printed, to the letter
-# Images are small here, samples few, and materials truncated to few bands and views: the last value of
+# Images are small here, samples and frames few, and materials truncated to few bands and views: the last value of
 # an option counts, and the program's stand-in below adds its own; of the materials of `brdf bands`
 # it keeps the first. Nothing else is changed.
 set -eu
@@ -26,7 +26,7 @@ case \$1:" \$* " in
 *' --help '*) ;;
 reference:*' --point '*) ;;
 *' --from '*) ;;
-view:*' --script '*) exec xvfb-run -a "$PROGRAM" "\$@" --samples 1 ;;
+view:*' --script '*) exec xvfb-run -a "$PROGRAM" "\$@" --samples 1 --fps 8 ;;
 view:*) set -- "\$@" --size 160x90 --samples 1 ;;
 render:*' --material '*) set -- "\$@" --size 96x54 --samples 1 --bands 4 ;;
 render:*) set -- "\$@" --size 96x54 --samples 1 --repeat 1 ;;
