@@ -84,16 +84,13 @@ make_page() {
 
 # copy_linked: what pages link to and is no page: images, sources, examples.
 copy_linked() {
-    find "$out" -name '*.html' | while read -r page; do
-        folder=$(dirname "${page#"$out"/}")
-        grep -o '\(href\|src\)="[^"#]*' "$page" | sed 's/^[a-z]*="//' |
-            grep -v '^[a-z]*:' | sort -u | while read -r target; do
-            file=$(realpath -m --relative-to . "$folder/$target")
-            [ ! -f "$file" ] || [ -e "$out/$file" ] || {
-                mkdir -p "$out/$(dirname "$file")"
-                cp "$file" "$out/$file"
-            }
-        done
+    (cd "$out" && find . -name '*.html' -exec grep -o '\(href\|src\)="[^"#]*' {} +) |
+        sed -n 's,^\(.*/\)[^/:]*:[a-z]*="\([^:]*\)$,\1\2,p' | sort -u | xargs -d '\n' realpath -m --relative-to . |
+        sort -u | while read -r file; do
+        [ ! -f "$file" ] || [ -e "$out/$file" ] || {
+            mkdir -p "$out/$(dirname "$file")"
+            cp "$file" "$out/$file"
+        }
     done
 }
 
