@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# lampion view in a window, by real input: a session checked step by step, by its state and images.
+# view.sh PART: lampion view in a window. session: by real input, checked step by step, by its state and images;
+# script, shadows, edit: what scripts do; refusals.
 set -eu
 . tests/checks/common.sh
 . tests/program/window.sh
@@ -8,6 +9,7 @@ tries=600
 export ASAN_OPTIONS=detect_leaks=0
 export LAMPION_GL_DEBUG=fatal XDG_CACHE_HOME="$WORK/cache"
 mkdir -p "$XDG_CACHE_HOME"
+part=$1
 
 # without a display: one line that says what to do instead
 status=0
@@ -18,7 +20,7 @@ grep -q "lampion render" "$WORK/err" || fail "the way out is not named: $(cat "$
 
 if [ -z "${LAMPION_VIEW_DISPLAY:-}" ]; then
     export LAMPION_VIEW_DISPLAY=1
-    exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view.sh
+    exec xvfb-run -a -s "-screen 0 640x480x24" sh tests/program/view.sh "$part"
 fi
 
 cd "$WORK"
@@ -52,120 +54,123 @@ is() { [ "$("$1" "$2")" = "$3" ]; }
 isnt() { [ "$("$1" "$2")" != "$3" ]; }
 says() { value message | grep -q "$1"; }
 
-shots=0
-# shot: takes a screenshot of the image as it is and waits for it; $image is its name.
-shot() {
-    shots=$((shots + 1))
-    image=$(printf 'lampion-%04d.png' $shots)
-    xdotool key p
-    until_true "screenshot $shots" test -s "$image"
+test_session() {
+    shots=0
+    # shot: takes a screenshot of the image as it is and waits for it; $image is its name.
+    shot() {
+        shots=$((shots + 1))
+        image=$(printf 'lampion-%04d.png' $shots)
+        xdotool key p
+        until_true "screenshot $shots" test -s "$image"
+    }
+
+    "$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 320x180 --samples 2 \
+        --state state.json 2>view.err &
+    viewer=$!
+    trap 'kill $viewer 2>/dev/null || true' EXIT
+    until_true "opening by the method of render" is value method '"zonal"'
+    until_true "opening" is value height 180
+    xdotool mousemove 20 20
+    shot
+    first=$image
+
+    # the light in the middle of the image is dragged; the camera stays
+    eye=$(value eye)
+    position=$(value position)
+    xdotool mousemove 160 90 mousedown 1 mousemove 180 80 mousemove 200 70 mouseup 1
+    until_true "dragging a light" isnt value position "$position"
+    until_true "selecting a light" is value selected 0
+    is value eye "$eye" || fail "dragging a light moved the camera"
+    shot
+    cmp -s "$first" "$image" && fail "the dragged light is not to be seen"
+
+    # the camera: orbit, fly, frame all
+    xdotool mousemove 40 60 mousedown 1 mousemove 60 70 mousemove 90 80 mouseup 1
+    until_true "orbiting" isnt value eye "$eye"
+    eye=$(value eye)
+    xdotool keydown w sleep 0.5 keyup w
+    until_true "flying" isnt value eye "$eye"
+    eye=$(value eye)
+    xdotool key f
+    until_true "framing" isnt value eye "$eye"
+    eye=$(value eye)
+    xdotool click 4
+    until_true "zooming" isnt value eye "$eye"
+
+    # lights: another one, larger, of another color, gone
+    xdotool mousemove 160 120 key n
+    until_true "adding a light" is value selected 2
+    xdotool key bracketright h Delete
+    until_true "removing a light" is value selected -1
+
+    # shading
+    xdotool key Up
+    until_true "more bands" is value bands 11
+    xdotool key g
+    until_true "another window" is value window '"lanczos"'
+    xdotool key m
+    until_true "another method" is value method '"coefficients"'
+    xdotool key period
+    until_true "brighter" isnt value exposure 1
+
+    # two sides: the pointer chooses
+    xdotool key v
+    until_true "splitting" is value split '"divided"'
+    xdotool mousemove 300 60 key Down Down
+    until_true "the right side" is second bands 9
+    is value bands 11 || fail "the left side changed as well"
+    xdotool mousemove 160 60 mousedown 1 mousemove 130 60 mousemove 100 60 mouseup 1
+    until_true "the divider" isnt value divider 0.5
+    shot
+    split=$image
+    xdotool key x
+    until_true "the difference" is value split '"difference"'
+    shot
+    for name in "$split" "$image"; do
+        "$PROGRAM" render --from "$name" -o again.png || fail "$name is not repeated"
+        cmp "$name" again.png || fail "$name is repeated otherwise"
+    done
+    xdotool key x
+
+    # time
+    xdotool key space
+    until_true "playing" isnt value seconds 0
+    xdotool key space
+    until_true "pausing" is value playing false
+
+    # the window: another size, hidden and shown, the graphics anew, the help
+    window=$(xdotool search --name 'room.obj - Lampion' | tail -n 1)
+    xdotool windowsize "$window" 400 240
+    until_true "resizing" is value width 400
+    xdotool windowunmap "$window" sleep 0.5 windowmap "$window" sleep 0.5 mousemove 200 120 key F1
+    until_true "help" is value help true
+    xdotool key Escape
+    until_true "no help" is value help false
+    xdotool key shift+F5
+    until_true "starting again" says "graphics were started again"
+    is value width 400 || fail "starting anew lost the size"
+
+    # the scene file: broken, it stays; mended, it is read again
+    shot
+    before=$image
+    sleep 1
+    echo 'f 1 2 99' >room.obj
+    until_true "a broken scene" says "room.obj"
+    says "read again" && fail "a broken scene was taken"
+    printf '%s\n' "$room" | sed 's/^v -4 4 -4/v -4 2 -4/' >room.obj
+    until_true "a mended scene" says "read again"
+    shot
+    cmp -s "$before" "$image" && fail "the new scene is not to be seen"
+
+    xdotool key ctrl+q
+    status=0
+    wait $viewer || status=$?
+    [ $status = 0 ] || fail "quitting: status $status: $(cat view.err)"
 }
 
-"$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 320x180 --samples 2 \
-    --state state.json 2>view.err &
-viewer=$!
-trap 'kill $viewer 2>/dev/null || true' EXIT
-until_true "opening by the method of render" is value method '"zonal"'
-until_true "opening" is value height 180
-xdotool mousemove 20 20
-shot
-first=$image
-
-# the light in the middle of the image is dragged; the camera stays
-eye=$(value eye)
-position=$(value position)
-xdotool mousemove 160 90 mousedown 1 mousemove 180 80 mousemove 200 70 mouseup 1
-until_true "dragging a light" isnt value position "$position"
-until_true "selecting a light" is value selected 0
-is value eye "$eye" || fail "dragging a light moved the camera"
-shot
-cmp -s "$first" "$image" && fail "the dragged light is not to be seen"
-
-# the camera: orbit, fly, frame all
-xdotool mousemove 40 60 mousedown 1 mousemove 60 70 mousemove 90 80 mouseup 1
-until_true "orbiting" isnt value eye "$eye"
-eye=$(value eye)
-xdotool keydown w sleep 0.5 keyup w
-until_true "flying" isnt value eye "$eye"
-eye=$(value eye)
-xdotool key f
-until_true "framing" isnt value eye "$eye"
-eye=$(value eye)
-xdotool click 4
-until_true "zooming" isnt value eye "$eye"
-
-# lights: another one, larger, of another color, gone
-xdotool mousemove 160 120 key n
-until_true "adding a light" is value selected 2
-xdotool key bracketright h Delete
-until_true "removing a light" is value selected -1
-
-# shading
-xdotool key Up
-until_true "more bands" is value bands 11
-xdotool key g
-until_true "another window" is value window '"lanczos"'
-xdotool key m
-until_true "another method" is value method '"coefficients"'
-xdotool key period
-until_true "brighter" isnt value exposure 1
-
-# two sides: the pointer chooses
-xdotool key v
-until_true "splitting" is value split '"divided"'
-xdotool mousemove 300 60 key Down Down
-until_true "the right side" is second bands 9
-is value bands 11 || fail "the left side changed as well"
-xdotool mousemove 160 60 mousedown 1 mousemove 130 60 mousemove 100 60 mouseup 1
-until_true "the divider" isnt value divider 0.5
-shot
-split=$image
-xdotool key x
-until_true "the difference" is value split '"difference"'
-shot
-for name in "$split" "$image"; do
-    "$PROGRAM" render --from "$name" -o again.png || fail "$name is not repeated"
-    cmp "$name" again.png || fail "$name is repeated otherwise"
-done
-xdotool key x
-
-# time
-xdotool key space
-until_true "playing" isnt value seconds 0
-xdotool key space
-until_true "pausing" is value playing false
-
-# the window: another size, hidden and shown, the graphics anew, the help
-window=$(xdotool search --name 'room.obj - Lampion' | tail -n 1)
-xdotool windowsize "$window" 400 240
-until_true "resizing" is value width 400
-xdotool windowunmap "$window" sleep 0.5 windowmap "$window" sleep 0.5 mousemove 200 120 key F1
-until_true "help" is value help true
-xdotool key Escape
-until_true "no help" is value help false
-xdotool key shift+F5
-until_true "starting again" says "graphics were started again"
-is value width 400 || fail "starting anew lost the size"
-
-# the scene file: broken, it stays; mended, it is read again
-shot
-before=$image
-sleep 1
-echo 'f 1 2 99' >room.obj
-until_true "a broken scene" says "room.obj"
-says "read again" && fail "a broken scene was taken"
-printf '%s\n' "$room" | sed 's/^v -4 4 -4/v -4 2 -4/' >room.obj
-until_true "a mended scene" says "read again"
-shot
-cmp -s "$before" "$image" && fail "the new scene is not to be seen"
-
-xdotool key ctrl+q
-status=0
-wait $viewer || status=$?
-[ $status = 0 ] || fail "quitting: status $status: $(cat view.err)"
-
-# a script: dropped files, a recording; the same again gives the same
-cat >demo.txt <<'DEMO'
+test_script() {
+    # a script: dropped files, a recording; the same again gives the same
+    cat >demo.txt <<'DEMO'
 # the wall becomes a mirror, the camera orbits
 0    move 80 30
 0.1  drop ggx:0.2:0.9
@@ -178,38 +183,42 @@ cat >demo.txt <<'DEMO'
 1.0  shot after.png
 1.1  key Ctrl+Q
 DEMO
-for run in one two; do
-    mkdir $run
-    "$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 160x90 \
-        --samples 2 --script demo.txt --record $run --state state.json || fail "the script ends in $?"
-    mv dropped.png after.png $run
-done
-grep -q '"wall=ggx:0.2:0.9"' state.json || fail "the dropped material is not in the state"
-cmp -s one/dropped.png one/after.png && fail "the script changes nothing"
-count=$(find one -name 'frame_*.png' | wc -l)
-[ "$count" -gt 20 ] || fail "only $count frames are recorded"
-diff -r one two || fail "two runs of a script differ"
-"$PROGRAM" render --from one/dropped.png -o again.png
-cmp one/dropped.png again.png || fail "an image with a dropped material is repeated otherwise"
+    for run in one two; do
+        mkdir $run
+        "$PROGRAM" view room.obj --lights lights.json --eye 0,1,6 --target 0,1,0 --size 160x90 \
+            --samples 2 --script demo.txt --record $run --state state.json || fail "the script ends in $?"
+        mv dropped.png after.png $run
+    done
+    grep -q '"wall=ggx:0.2:0.9"' state.json || fail "the dropped material is not in the state"
+    cmp -s one/dropped.png one/after.png && fail "the script changes nothing"
+    count=$(find one -name 'frame_*.png' | wc -l)
+    [ "$count" -gt 20 ] || fail "only $count frames are recorded"
+    diff -r one two || fail "two runs of a script differ"
+    "$PROGRAM" render --from one/dropped.png -o again.png
+    cmp one/dropped.png again.png || fail "an image with a dropped material is repeated otherwise"
+}
 
-# shadows of a roof over the floor: a key, the option, and the image once more without a window
-printf '%s\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nf 7 8 9 10\n' "$room" >roof.obj
-echo '{ "lights": [ { "position": [0.5, 3, 0], "radius": 0.3, "radiance": 40 } ] }' >over.json
-printf '0 shot lit.png\n0.1 key z\n0.4 shot shaded.png\n0.5 key z\n0.8 shot unshaded.png\n1 key Ctrl+Q\n' >shade.txt
-printf '0.3 shot option.png\n0.5 key Ctrl+Q\n' >option.txt
-roof="roof.obj --lights over.json --exposure 1 --eye 0,2.5,5 --target 0,0,0 --size 160x90 --samples 3"
-"$PROGRAM" view $roof --script shade.txt || fail "the script with shadows ends in $?"
-"$PROGRAM" view $roof --shadows --script option.txt || fail "a view with shadows ends in $?"
-"$PROGRAM" render --from shaded.png -o repeated.png
-cmp -s lit.png shaded.png && fail "the roof has no shadow"
-cmp shaded.png option.png || fail "the key and --shadows differ"
-cmp shaded.png repeated.png || fail "an image with shadows is repeated otherwise"
-"$PROGRAM" render --from unshaded.png -o repeated.png
-"$PROGRAM" view $roof --shadows --no-shadows --script shade.txt || fail "--no-shadows ends in $?"
-cmp unshaded.png repeated.png || fail "shadows do not go"
+test_shadows() {
+    # shadows of a roof over the floor: a key, the option, and the image once more without a window
+    printf '%s\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nf 7 8 9 10\n' "$room" >roof.obj
+    echo '{ "lights": [ { "position": [0.5, 3, 0], "radius": 0.3, "radiance": 40 } ] }' >over.json
+    printf '0 shot lit.png\n0.1 key z\n0.4 shot shaded.png\n0.5 key z\n0.8 shot unshaded.png\n1 key Ctrl+Q\n' >shade.txt
+    printf '0.3 shot option.png\n0.5 key Ctrl+Q\n' >option.txt
+    roof="roof.obj --lights over.json --exposure 1 --eye 0,2.5,5 --target 0,0,0 --size 160x90 --samples 3"
+    "$PROGRAM" view $roof --script shade.txt || fail "the script with shadows ends in $?"
+    "$PROGRAM" view $roof --shadows --script option.txt || fail "a view with shadows ends in $?"
+    "$PROGRAM" render --from shaded.png -o repeated.png
+    cmp -s lit.png shaded.png && fail "the roof has no shadow"
+    cmp shaded.png option.png || fail "the key and --shadows differ"
+    cmp shaded.png repeated.png || fail "an image with shadows is repeated otherwise"
+    "$PROGRAM" render --from unshaded.png -o repeated.png
+    "$PROGRAM" view $roof --shadows --no-shadows --script shade.txt || fail "--no-shadows ends in $?"
+    cmp unshaded.png repeated.png || fail "shadows do not go"
+}
 
-# values that are typed, undo, lights saved and read again, another scene
-cat >edit.txt <<'EDIT'
+test_edit() {
+    # values that are typed, undo, lights saved and read again, another scene
+    cat >edit.txt <<'EDIT'
 0    key Tab
 0.1  key Enter
 0.2  key Down
@@ -227,43 +236,48 @@ cat >edit.txt <<'EDIT'
 1.5  key Enter
 1.6  key Ctrl+Q
 EDIT
-edit="--eye 0,1,6 --target 0,1,0 --size 160x90 --samples 1"
-"$PROGRAM" view room.obj --lights lights.json $edit --script edit.txt --state state.json || fail "editing ends in $?"
-is value scene '"builtin:ball"' || fail "the dropped scene is not opened: $(value scene)"
-[ "$(grep -c '"radius": 0.5$\|"radius":[[:space:]]*0.5,' lampion-lights-0001.json)" = 1 ] ||
-    fail "the typed radius is not saved: $(cat lampion-lights-0001.json)"
-[ "$(grep -c '"kind"' lampion-lights-0001.json)" = 2 ] || fail "not two lights are saved"
-[ "$(grep -c '"kind"' state.json)" = 2 ] || fail "the saved lights are not read by Ctrl+O"
-"$PROGRAM" render --from other.png -o again.png
-cmp other.png again.png || fail "an image of the dropped scene is repeated otherwise"
-for lights in edited.png lampion-lights-0001.json; do
-    "$PROGRAM" render room.obj --lights "$lights" --size 32x18 -o "${lights%.*}-lit.png" || fail "--lights $lights: $?"
-done
-cmp edited-lit.png lampion-lights-0001-lit.png || fail "a screenshot and a file give other lights"
-
-# refusals
-refused() {
-    status=0
-    "$PROGRAM" "$@" >out 2>err || status=$?
-    [ $status != 0 ] && [ $status -lt 126 ] || fail "$*: status $status"
-    [ "$(wc -l <err)" = 1 ] || fail "$*: not one line: $(cat err)"
+    edit="--eye 0,1,6 --target 0,1,0 --size 160x90 --samples 1"
+    "$PROGRAM" view room.obj --lights lights.json $edit --script edit.txt --state state.json || fail "editing ends in $?"
+    is value scene '"builtin:ball"' || fail "the dropped scene is not opened: $(value scene)"
+    [ "$(grep -c '"radius": 0.5$\|"radius":[[:space:]]*0.5,' lampion-lights-0001.json)" = 1 ] ||
+        fail "the typed radius is not saved: $(cat lampion-lights-0001.json)"
+    [ "$(grep -c '"kind"' lampion-lights-0001.json)" = 2 ] || fail "not two lights are saved"
+    [ "$(grep -c '"kind"' state.json)" = 2 ] || fail "the saved lights are not read by Ctrl+O"
+    "$PROGRAM" render --from other.png -o again.png
+    cmp other.png again.png || fail "an image of the dropped scene is repeated otherwise"
+    for lights in edited.png lampion-lights-0001.json; do
+        "$PROGRAM" render room.obj --lights "$lights" --size 32x18 -o "${lights%.*}-lit.png" || fail "--lights $lights: $?"
+    done
+    cmp edited-lit.png lampion-lights-0001-lit.png || fail "a screenshot and a file give other lights"
 }
-refused view
-refused view none.obj
-refused view room.obj --script none.txt
-refused view builtin:ball --animate none.json
-refused view --from room.obj
-small="room.obj --lights lights.json --size 80x60 --frames 9"
-printf '0 shot none/x.png\n' >bad.txt
-refused view $small --script bad.txt
-grep -q 'none/x.png' err || fail "not the image's fault: $(cat err)"
-refused view $small --record room.obj
-refused view $small --state none/state.json
-printf '0 shot first.png\n1 key Ctrl+Q\n' >first.txt
-"$PROGRAM" view $small --script first.txt || fail "an image of the first frame: $?"
-[ -s first.png ] || fail "no image of the first frame"
-"$PROGRAM" render room.obj --size 8x8 -o plain.png 2>/dev/null
-refused render --from plain.png -o x.png
-refused render room.obj --lights plain.png -o x.png
-refused render --from one/dropped.png -o x.exr
-[ ! -e x.png ] || fail "a refusal left an image"
+
+test_refusals() {
+    # refusals
+    refused() {
+        status=0
+        "$PROGRAM" "$@" >out 2>err || status=$?
+        [ $status != 0 ] && [ $status -lt 126 ] || fail "$*: status $status"
+        [ "$(wc -l <err)" = 1 ] || fail "$*: not one line: $(cat err)"
+    }
+    refused view
+    refused view none.obj
+    refused view room.obj --script none.txt
+    refused view builtin:ball --animate none.json
+    refused view --from room.obj
+    small="room.obj --lights lights.json --size 80x60 --frames 9"
+    printf '0 shot none/x.png\n' >bad.txt
+    refused view $small --script bad.txt
+    grep -q 'none/x.png' err || fail "not the image's fault: $(cat err)"
+    refused view $small --record room.obj
+    refused view $small --state none/state.json
+    printf '0 shot first.png\n1 key Ctrl+Q\n' >first.txt
+    "$PROGRAM" view $small --script first.txt || fail "an image of the first frame: $?"
+    [ -s first.png ] || fail "no image of the first frame"
+    "$PROGRAM" render room.obj --size 8x8 -o plain.png 2>/dev/null
+    refused render --from plain.png -o x.png
+    refused render room.obj --lights plain.png -o x.png
+    refused render --from first.png -o x.exr
+    [ ! -e x.png ] || fail "a refusal left an image"
+}
+
+test_$part
