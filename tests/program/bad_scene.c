@@ -41,6 +41,7 @@ static void what_is_no_scene_is_refused(void **state) {
     folder_write_text("letter.ase", "hello world, this is a letter\n");
     assert_refused("letter.ase", "has no triangles");
     folder_write_text("text.gltf", "nothing to see here\n");
+    folder_write_text("mark.gltf", "\xef\xbb\xbf{\"asset\":{\"version\":\"2.0\"}}");
     folder_write_text("wrong.txt", "v 0 0 0\n");
     folder_write_text("image.png", "\x89PNG\r\n\x1a\n");
     mkdir(in_folder("directory.gltf"), 0700);
@@ -50,6 +51,7 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_refused("blank.gltf", "is no valid JSON");
     assert_refused("text.obj", "text.obj: ");
     assert_refused("text.gltf", "is no valid JSON");
+    assert_refused("mark.gltf", "byte-order mark");
     assert_refused("wrong.txt", "is no scene");
     assert_refused("image.png", "is no scene");
     assert_refused("directory.gltf", "is a directory");
@@ -93,10 +95,14 @@ static void truncated_files_are_refused(void **state) {
     memcpy(glb + 20 + json_size, tail, sizeof tail);
     memcpy(glb + 28 + json_size, triangle, sizeof triangle);
     char path[512];
-    folder_write("whole.glb", glb, all);
-    snprintf(path, sizeof path, "%s", in_folder("whole.glb"));
-    const char *const arguments[] = { "lampion", "info", path, NULL };
-    assert_int_equal(run_program(arguments), 0);
+    static const char *const names[] = { "whole.glb",
+                                         "named.gltf" }; /* its bytes tell what it is */
+    for (int i = 0; i < 2; i++) {
+        folder_write(names[i], glb, all);
+        snprintf(path, sizeof path, "%s", in_folder(names[i]));
+        const char *const arguments[] = { "lampion", "info", path, NULL };
+        assert_int_equal(run_program(arguments), 0);
+    }
     for (size_t length = 4; length < all; length += 17) {
         folder_write("truncated.glb", glb, length);
         assert_refused("truncated.glb", length < 20 ? "is no GLB" : "is truncated");
