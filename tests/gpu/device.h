@@ -8,6 +8,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 /* after the headers it needs */
 #include <cmocka.h>
 
@@ -35,6 +36,17 @@ static int close_device(void **state) {
     gpu_context_destroy(&device);
     return 0;
 }
+
+/* For main(count, arguments), which ctest asks for one group of tests: runs an array of them by its
+ * name if it is the one, or if none is named, and counts those that ran and their failures. Groups
+ * are apart because a driver that has nothing compiled yet takes long for the shaders of each. */
+#define RUN_GROUP(name)                                                                            \
+    do {                                                                                           \
+        if (count < 2 || strcmp(arguments[1], #name) == 0) {                                       \
+            failed += cmocka_run_group_tests_name(#name, name, open_device, close_device);         \
+            ran++;                                                                                 \
+        }                                                                                          \
+    } while (0)
 
 /* Fails the test with the error's text. */
 static inline void expect(bool ok, const cli_error *error) {

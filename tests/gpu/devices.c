@@ -381,15 +381,10 @@ int main(int count, char **arguments) {
         cmocka_unit_test(sheen_is_drawn_alike),
     };
     int ran = 0, failed = 0;
-#define GROUP(name)                                                                                \
-    if (count < 2 || strcmp(arguments[1], #name) == 0) {                                           \
-        failed += cmocka_run_group_tests_name(#name, name, open_device, close_device);             \
-        ran++;                                                                                     \
-    }
-    GROUP(images)
-    GROUP(environments)
-    GROUP(bands)
-    GROUP(tables)
-    GROUP(sheen)
+    RUN_GROUP(images);
+    RUN_GROUP(environments);
+    RUN_GROUP(bands);
+    RUN_GROUP(tables);
+    RUN_GROUP(sheen);
     return ran > 0 ? failed : 1;
 }
