@@ -226,17 +226,23 @@ static lmp_result compute_task(size_t index, void *data) {
     return LMP_OK;
 }
 
-lmp_result lmp_field_compute(const lmp_host *host, lmp_field *field) {
-    const lmp_host resolved = lmp_host_resolve(host);
+/* The coarser fields first: they have an eighth of the nodes, and rise to that part of `done`. */
+static lmp_result compute_wanted(const lmp_host *host, lmp_field *field, double done) {
+    const double before = field->coarse ? done / 8 : 0;
     if (field->coarse) {
         for (size_t brick = 0; brick < field->brick_count; brick++)
             if (state_of(field, brick) == FIELD_WANTED)
                 want_coarse(field, brick);
-        const lmp_result result = lmp_field_compute(host, field->coarse);
+        const lmp_result result = compute_wanted(host, field->coarse, before);
         if (result != LMP_OK)
             return result;
     }
-    return lmp_host_run(&resolved, 0, 1, field->task_count, compute_task, field);
+    return lmp_host_run(host, before, done, field->task_count, compute_task, field);
+}
+
+lmp_result lmp_field_compute(const lmp_host *host, lmp_field *field) {
+    const lmp_host resolved = lmp_host_resolve(host);
+    return compute_wanted(&resolved, field, 1);
 }
 
 void lmp_field_refresh(lmp_field *field, uint64_t turn) {
