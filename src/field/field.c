@@ -179,7 +179,7 @@ static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
     size_t used = (size_t)count * sizeof *levels;
     lmp_field *const at = (lmp_field *)(void *)memory;
     used += LINE - ((uintptr_t)memory + used) % LINE;
-    levels->scratch = take(memory, &used, 2 * levels->task_count * brick);
+    levels->scratch = take(memory, &used, levels->task_count * brick);
     levels->lights = take(memory, &used, lights * sizeof *levels->lights);
     levels->spheres = take(memory, &used, lights * sizeof *levels->spheres);
     for (int i = 0; i < count; i++) {

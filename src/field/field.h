@@ -25,7 +25,7 @@ enum { FIELD_STALE, FIELD_WANTED, FIELD_READY };
 enum {
     FIELD_BRICK = 16,
     FIELD_BLOCK = 2,     /* cells along the edge of a block */
-    FIELD_TASKS = 32,    /* that compute bricks, at most: each has room for two */
+    FIELD_TASKS = 32,    /* that compute bricks, at most: each has room for one */
     FIELD_COARSE = 2048, /* nodes from which on a coarser field pays */
     FIELD_NODES = 1 << 24
 };
@@ -79,8 +79,7 @@ bool lmp_field_resolve(lmp_field_desc *desc);
 /* A dark field. desc is resolved. */
 lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, lmp_field **field);
 
-/* Lists a light as what the kernels read of it, in place of what was there; as one more. */
-void lmp_field_set_light(lmp_field *field, uint32_t at, const lmp_light *light);
+/* Lists a light as one more. */
 void lmp_field_push_light(lmp_field *field, const lmp_light *light);
 
 /* --- nodes (nodes.c) -------------------------------------------------------------------------- */
@@ -141,9 +140,11 @@ static inline float lmp_field_distance2(const field_box *box, lmp_vec3 at) {
 /* Whether lights of its kind are interpolated, but near them. */
 bool lmp_field_fades(const lmp_light *light);
 
-/* Puts a light into the lists of the blocks that it is near to, takes it from them; empties all. */
+/* Puts a light into the lists of the blocks that it is near to, takes it from them, or does both
+ * for one that was that sphere when it was listed; empties all. */
 void lmp_field_list(lmp_field *field, uint32_t light);
 void lmp_field_unlist(lmp_field *field, uint32_t light);
+void lmp_field_relist(lmp_field *field, uint32_t light, const field_sphere *was);
 void lmp_field_unlist_all(lmp_field *field);
 
 /* A bit for each light: those listed for some of the points given. */

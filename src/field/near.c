@@ -30,23 +30,23 @@ static float block_edge(const lmp_field *field, int axis) {
     return FIELD_BLOCK * coordinate(field->info.desc.cell, axis);
 }
 
-/* False where a light has none. */
-static bool find_ball(const lmp_field *field, uint32_t light, near_ball *ball) {
-    const field_sphere *sphere = &field->spheres[light];
-    ball->radius = sphere->radius + field->info.reach;
+static near_ball ball_of(const lmp_field *field, const field_sphere *sphere) {
+    near_ball ball = { .radius = sphere->radius + field->info.reach };
     for (int a = 0; a < 3; a++) {
         const float edge = block_edge(field, a);
-        ball->center[a] = coordinate(sphere->center, a) - coordinate(field->info.desc.origin, a);
-        ball->first[a] = held(floorf((ball->center[a] - ball->radius) / edge), field->blocks[a]);
-        ball->end[a] = held(floorf((ball->center[a] + ball->radius) / edge) + 1, field->blocks[a]);
+        ball.center[a] = coordinate(sphere->center, a) - coordinate(field->info.desc.origin, a);
+        ball.first[a] = held(floorf((ball.center[a] - ball.radius) / edge), field->blocks[a]);
+        ball.end[a] = held(floorf((ball.center[a] + ball.radius) / edge) + 1, field->blocks[a]);
     }
-    return lmp_field_fades(&field->lights[light]);
+    return ball;
 }
 
 /* Whether the ball reaches a block. */
 static bool reaches(const lmp_field *field, const near_ball *ball, const uint32_t block[3]) {
     float distance2 = 0;
     for (int a = 0; a < 3; a++) {
+        if (block[a] < ball->first[a] || block[a] >= ball->end[a])
+            return false;
         const float edge = block_edge(field, a), low = edge * (float)block[a];
         const float gap = lmp_field_gap(low, ball->center[a], low + edge);
         distance2 += gap * gap;
@@ -56,15 +56,16 @@ static bool reaches(const lmp_field *field, const near_ball *ball, const uint32_
 
 typedef void list_action(lmp_field *field, uint32_t light, size_t list);
 
-/* Does it to every list that a light belongs to; returns how many those are. */
+/* Does it to every list of a block that a light's ball reaches and another, if there is one, does
+ * not; returns how many those are. */
 static size_t each_list(lmp_field *field, uint32_t light, const near_ball *ball,
-                        list_action *action) {
+                        const near_ball *other, list_action *action) {
     uint32_t at[3];
     size_t count = 0;
     for (at[2] = ball->first[2]; at[2] < ball->end[2]; at[2]++)
         for (at[1] = ball->first[1]; at[1] < ball->end[1]; at[1]++)
             for (at[0] = ball->first[0]; at[0] < ball->end[0]; at[0]++)
-                if (reaches(field, ball, at)) {
+                if (reaches(field, ball, at) && !(other && reaches(field, other, at))) {
                     action(field, light,
                            (at[2] * field->blocks[1] + at[1]) * field->blocks[0] + at[0]);
                     count++;
@@ -125,26 +126,39 @@ static bool is_room(lmp_field *field, uint32_t light, const near_ball *ball) {
     for (int a = 0; a < 3; a++)
         box *= ball->end[a] - ball->first[a];
     return box + kept <= field->free_count ||
-           each_list(field, light, ball, none) + kept <= field->free_count;
+           each_list(field, light, ball, NULL, none) + kept <= field->free_count;
 }
 
 static void list_light(lmp_field *field, uint32_t light) {
-    near_ball ball;
-    const bool bounded = find_ball(field, light, &ball);
-    field->everywhere[light] = !(bounded && is_room(field, light, &ball));
+    const near_ball ball = ball_of(field, &field->spheres[light]);
+    field->everywhere[light] =
+        !(lmp_field_fades(&field->lights[light]) && is_room(field, light, &ball));
     if (field->everywhere[light])
         put(field, light, field->block_count);
     else
-        each_list(field, light, &ball, put);
+        each_list(field, light, &ball, NULL, put);
 }
 
-static void unlist_light(lmp_field *field, uint32_t light) {
-    near_ball ball;
-    find_ball(field, light, &ball);
+/* From the lists where it is as this sphere. */
+static void unlist_light(lmp_field *field, uint32_t light, const field_sphere *sphere) {
+    const near_ball ball = ball_of(field, sphere);
     if (field->everywhere[light])
         take(field, light, field->block_count);
     else
-        each_list(field, light, &ball, take);
+        each_list(field, light, &ball, NULL, take);
+}
+
+/* A light that moves stays in most lists, which are long: those are not touched. */
+static void relist_light(lmp_field *field, uint32_t light, const field_sphere *was) {
+    const near_ball before = ball_of(field, was), after = ball_of(field, &field->spheres[light]);
+    if (field->everywhere[light] || !lmp_field_fades(&field->lights[light]) ||
+        !is_room(field, light, &after)) {
+        unlist_light(field, light, was);
+        list_light(field, light);
+        return;
+    }
+    each_list(field, light, &before, &after, take);
+    each_list(field, light, &after, &before, put);
 }
 
 static void unlist_all(lmp_field *field) {
@@ -162,7 +176,12 @@ void lmp_field_list(lmp_field *field, uint32_t light) {
 
 void lmp_field_unlist(lmp_field *field, uint32_t light) {
     for (lmp_field *level = field; level; level = level->coarse)
-        unlist_light(level, light);
+        unlist_light(level, light, &field->spheres[light]);
+}
+
+void lmp_field_relist(lmp_field *field, uint32_t light, const field_sphere *was) {
+    for (lmp_field *level = field; level; level = level->coarse)
+        relist_light(level, light, was);
 }
 
 void lmp_field_unlist_all(lmp_field *field) {

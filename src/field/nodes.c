@@ -164,7 +164,6 @@ static void begin(const lmp_field *field, size_t brick, float *scratch, float *n
 
 /* Near or far, where there is no coarser field. */
 static void take_all(const brick_lights *lights, const field_sphere *spheres, size_t count) {
-    memset(lights->nodes, 0, brick_floats(lights->field) * sizeof *lights->nodes);
     add_lights(lights->field, &lights->points, spheres, count, lights->scratch, lights->nodes);
 }
 
@@ -186,16 +185,19 @@ static void take_list(brick_lights *lights, uint32_t list) {
     }
 }
 
-/* Interpolates a brick's nodes from the coarser field's, or from what those change by. */
-static void interpolate(const lmp_field *field, const uint32_t first[3], const float *from,
-                        float *nodes) {
+/* What a brick's nodes are interpolated from, the coarser field's or what those change by; and the
+ * nodes that will be written after them. */
+static lmp_kernel_brick brick_of(const lmp_field *field, const uint32_t first[3], const float *from,
+                                 const float *next) {
     const lmp_field *coarse = field->coarse;
-    lmp_kernel_brick brick = { .stride = field->stride, .cell = coarse->info.desc.cell };
+    lmp_kernel_brick brick = { .stride = field->stride,
+                               .cell = coarse->info.desc.cell,
+                               .next = next };
     for (uint32_t i = 0; i < 12; i++)
         brick.from[i] = from + 4 * field->stride *
                                    lmp_field_node(coarse, first[0] / 2 + i % 3,
                                                   first[1] / 2 + i / 3 % 2, first[2] / 2 + i / 6);
-    lmp_kernels_get()->refine(&brick, nodes);
+    return brick;
 }
 
 /* What all lights give a brick's nodes. */
@@ -204,11 +206,13 @@ static void compute(const lmp_field *field, size_t brick, float *scratch) {
     brick_lights lights;
     begin(field, brick, scratch, nodes, &lights);
     if (!field->coarse) {
+        memset(nodes, 0, brick_floats(field) * sizeof *nodes);
         take_all(&lights, field->spheres, field->info.light_count);
         return;
     }
     const uint32_t cell[3] = { lights.first[0] / 2, lights.first[1] / 2, lights.first[2] / 2 };
-    interpolate(field, lights.first, field->coarse->nodes, nodes);
+    const lmp_kernel_brick from = brick_of(field, lights.first, field->coarse->nodes, nodes);
+    lmp_kernels_get()->refine(&from, nodes);
     take_list(&lights, lmp_field_block(field->coarse, cell));
     take_list(&lights, (uint32_t)field->coarse->block_count);
     flush(&lights);
@@ -217,7 +221,7 @@ static void compute(const lmp_field *field, size_t brick, float *scratch) {
 /* Every task_count-th brick, each by way of the task's own scratch. */
 static lmp_result compute_task(size_t index, void *data) {
     lmp_field *field = data;
-    float *scratch = field->scratch + 2 * index * brick_floats(field);
+    float *scratch = field->scratch + index * brick_floats(field);
     for (size_t brick = index; brick < field->brick_count; brick += field->task_count)
         if (state_of(field, brick) == FIELD_WANTED) {
             compute(field, brick, scratch);
@@ -261,35 +265,50 @@ typedef struct field_change {
     size_t count;
 } field_change;
 
-/* Changes a brick's nodes; `changes` becomes what they change by, but where it is only scratch. */
-static void compute_change(const field_change *change, size_t brick, float *scratch,
-                           float *changes) {
+/* What the change gives a brick, added to its nodes; or in place of what they changed by last. */
+static void take_change(const field_change *change, size_t brick, bool adds, float *scratch,
+                        float *nodes) {
     const lmp_field *field = change->field;
-    float *nodes = field->nodes + brick * brick_floats(field);
+    const lmp_kernels *kernels = lmp_kernels_get();
     brick_lights lights;
-    begin(field, brick, scratch, changes, &lights);
+    begin(field, brick, scratch, nodes, &lights);
     if (!field->coarse) {
+        if (!adds)
+            memset(nodes, 0, brick_floats(field) * sizeof *nodes);
         take_all(&lights, change->spheres, change->count);
-    } else {
-        interpolate(field, lights.first, field->coarse->changes, changes);
-        for (size_t i = 0; i < change->count; i++)
-            take(&lights, &change->spheres[i]);
-        flush(&lights);
+        return;
     }
-    for (size_t i = 0; i < brick_floats(field); i++)
+    const float *next = brick + 1 < field->brick_count ? nodes + brick_floats(field) : nodes;
+    const lmp_kernel_brick from = brick_of(field, lights.first, field->coarse->changes, next);
+    (adds ? kernels->refine_add : kernels->refine)(&from, nodes);
+    for (size_t i = 0; i < change->count; i++)
+        take(&lights, &change->spheres[i]);
+    flush(&lights);
+}
+
+/* A coarser field also keeps what its nodes change by. */
+static void compute_change(const field_change *change, size_t brick, float *scratch) {
+    const lmp_field *field = change->field;
+    const size_t size = brick_floats(field);
+    float *nodes = field->nodes + brick * size;
+    if (!field->changes) {
+        take_change(change, brick, true, scratch, nodes);
+        return;
+    }
+    float *changes = field->changes + brick * size;
+    take_change(change, brick, false, scratch, changes);
+    for (size_t i = 0; i < size; i++)
         nodes[i] += changes[i];
 }
 
 static void change_task(size_t index, void *data) {
     const field_change *change = data;
     const lmp_field *field = change->field;
-    const size_t size = brick_floats(field);
-    float *scratch = field->scratch + 2 * index * size;
+    float *scratch = field->scratch + index * brick_floats(field);
     const size_t end = (index + 1) * field->brick_count / field->task_count;
     for (size_t brick = index * field->brick_count / field->task_count; brick < end; brick++)
         if (state_of(field, brick) == FIELD_READY)
-            compute_change(change, brick, scratch,
-                           field->changes ? field->changes + brick * size : scratch + size);
+            compute_change(change, brick, scratch);
 }
 
 void lmp_field_add_spheres(const lmp_host *host, lmp_field *field, const field_sphere *spheres,

@@ -29,10 +29,20 @@ static field_sphere sphere_of(const lmp_light *light) {
     }
 }
 
-void lmp_field_set_light(lmp_field *field, uint32_t at, const lmp_light *light) {
+static void set_light(lmp_field *field, uint32_t at, const lmp_light *light) {
     field->lights[at] = *light;
     field->spheres[at] = sphere_of(light);
+}
+
+static void list_light(lmp_field *field, uint32_t at, const lmp_light *light) {
+    set_light(field, at, light);
     lmp_field_list(field, at);
+}
+
+static void relist_light(lmp_field *field, uint32_t at, const lmp_light *light) {
+    const field_sphere was = field->spheres[at];
+    set_light(field, at, light);
+    lmp_field_relist(field, at, &was);
 }
 
 static void set_count(lmp_field *field, size_t count) {
@@ -41,7 +51,7 @@ static void set_count(lmp_field *field, size_t count) {
 }
 
 void lmp_field_push_light(lmp_field *field, const lmp_light *light) {
-    lmp_field_set_light(field, (uint32_t)field->info.light_count, light);
+    list_light(field, (uint32_t)field->info.light_count, light);
     set_count(field, field->info.light_count + 1);
 }
 
@@ -93,8 +103,7 @@ void lmp_field_move(const lmp_host *host, lmp_field *field, const size_t *at,
             const uint32_t light = (uint32_t)at[first + i];
             assert(light < field->info.light_count);
             spheres[2 * i] = negative(&field->spheres[light]);
-            lmp_field_unlist(field, light);
-            lmp_field_set_light(field, light, &lights[first + i]);
+            relist_light(field, light, &lights[first + i]);
             spheres[2 * i + 1] = field->spheres[light];
         }
         lmp_field_add_spheres(host, field, spheres, 2 * some);
@@ -120,7 +129,7 @@ void lmp_field_remove(const lmp_host *host, lmp_field *field, size_t at) {
     lmp_field_unlist(field, light);
     if (light != last) {
         lmp_field_unlist(field, last);
-        lmp_field_set_light(field, light, &field->lights[last]);
+        list_light(field, light, &field->lights[last]);
     }
     set_count(field, last);
     lmp_field_add_spheres(host, field, &gone, 1);

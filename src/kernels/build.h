@@ -49,6 +49,7 @@ const lmp_kernels LMP_KERNELS = {
     .fading_gradient = kernel_fading_gradient,
     .interpolate = kernel_interpolate,
     .refine = kernel_refine,
+    .refine_add = kernel_refine_add,
     .lobe = kernel_lobe,
     .shade_zonal = kernel_shade_zonal,
     .shade_field = kernel_shade_field,

@@ -136,6 +136,9 @@ typedef struct lmp_kernel_brick {
     const float *from[12];
     size_t stride;
     lmp_vec3 cell; /* the edges of the large cells */
+    /* Nodes that the next call writes, or these: they are fetched while these are computed, for
+     * they are far more than caches hold, and are not written in the order of memory. */
+    const float *next;
 } lmp_kernel_brick;
 
 /* Bands of a field at most. */
@@ -236,6 +239,8 @@ typedef struct lmp_kernels {
                         const lmp_kernel_out *out);
     /* Adini's interpolation of a brick's 16 nodes, with their derivatives. */
     void (*refine)(const lmp_kernel_brick *brick, float *nodes);
+    /* The same, added to what the nodes hold. */
+    void (*refine_add)(const lmp_kernel_brick *brick, float *nodes);
     /* 3 values: the response of a lobe around each point's axis to the lights. */
     void (*lobe)(int bands, const float *lambda, const lmp_kernel_vec3 *axes,
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,

@@ -47,9 +47,17 @@ LMP_INLINE refine_line refine_along(int middle, const refine_edges *edges, const
     return line;
 }
 
+/* Where one vector of a brick's coefficients goes, or what it is added to. */
+typedef struct refine_nodes {
+    float *at;
+    size_t stride;
+    int adds;
+} refine_nodes;
+
 /* Of a node the value, then the derivatives. */
-LMP_INLINE void refine_put(float *nodes, size_t stride, int node, int row, vf value) {
-    vf_store(nodes + (size_t)(4 * node + row) * stride, value);
+LMP_INLINE void refine_put(refine_nodes nodes, int node, int row, vf value) {
+    float *const to = nodes.at + (size_t)(4 * node + row) * nodes.stride;
+    vf_store(to, nodes.adds ? vf_load(to) + value : value);
 }
 
 /* By y of the bend along x and of what is between two lines, in the middle. */
@@ -63,7 +71,7 @@ LMP_INLINE vf refine_steep(int middle, float per, const refine_line *a, const re
 
 /* The four nodes of a brick that have one x, between lines j + 2 k. */
 LMP_INLINE void refine_across(int middle, const refine_edges *edges, const refine_line line[4],
-                              int node, float *nodes, size_t stride) {
+                              int node, refine_nodes nodes) {
     const float by = edges->bend[1], bz = edges->bend[2];
     const vf y0 = line[0].y - line[1].y, y1 = line[2].y - line[3].y;
     const vf z0 = line[0].z - line[2].z, z1 = line[1].z - line[3].z;
@@ -78,27 +86,27 @@ LMP_INLINE void refine_across(int middle, const refine_edges *edges, const refin
         dy = dy + 0.5f * edges->per[1] * (j0 + j1);
         dz = dz + 0.5f * edges->per[2] * (k0 + k1);
     }
-    refine_put(nodes, stride, node, 0, line[0].value);
-    refine_put(nodes, stride, node, 1, line[0].slope);
-    refine_put(nodes, stride, node, 2, dy0);
-    refine_put(nodes, stride, node, 3, dz0);
+    refine_put(nodes, node, 0, line[0].value);
+    refine_put(nodes, node, 1, line[0].slope);
+    refine_put(nodes, node, 2, dy0);
+    refine_put(nodes, node, 3, dz0);
 
     const vf steep_y0 =
         refine_steep(middle, edges->per[1], &line[0], &line[1], line[0].y, line[1].y);
     const vf value_y = line[0].value + line[1].value, slope_y = line[0].slope + line[1].slope;
     const vf ys0 = line[0].y_slope - line[1].y_slope, ys1 = line[2].y_slope - line[3].y_slope;
-    refine_put(nodes, stride, node + 4, 0, 0.5f * value_y + by * y0);
-    refine_put(nodes, stride, node + 4, 1, 0.5f * slope_y + by * ys0);
-    refine_put(nodes, stride, node + 4, 2, steep_y0);
-    refine_put(nodes, stride, node + 4, 3, dz);
+    refine_put(nodes, node + 4, 0, 0.5f * value_y + by * y0);
+    refine_put(nodes, node + 4, 1, 0.5f * slope_y + by * ys0);
+    refine_put(nodes, node + 4, 2, steep_y0);
+    refine_put(nodes, node + 4, 3, dz);
 
     const vf steep_z0 =
         refine_steep(middle, edges->per[2], &line[0], &line[2], line[0].z, line[2].z);
     const vf zs0 = line[0].z_slope - line[2].z_slope, zs1 = line[1].z_slope - line[3].z_slope;
-    refine_put(nodes, stride, node + 8, 0, 0.5f * (line[0].value + line[2].value) + bz * z0);
-    refine_put(nodes, stride, node + 8, 1, 0.5f * (line[0].slope + line[2].slope) + bz * zs0);
-    refine_put(nodes, stride, node + 8, 2, dy);
-    refine_put(nodes, stride, node + 8, 3, steep_z0);
+    refine_put(nodes, node + 8, 0, 0.5f * (line[0].value + line[2].value) + bz * z0);
+    refine_put(nodes, node + 8, 1, 0.5f * (line[0].slope + line[2].slope) + bz * zs0);
+    refine_put(nodes, node + 8, 2, dy);
+    refine_put(nodes, node + 8, 3, steep_z0);
 
     const vf steep_y1 =
         refine_steep(middle, edges->per[1], &line[2], &line[3], line[2].y, line[3].y);
@@ -106,33 +114,49 @@ LMP_INLINE void refine_across(int middle, const refine_edges *edges, const refin
         refine_steep(middle, edges->per[2], &line[1], &line[3], line[1].z, line[3].z);
     const vf value = value_y + (line[2].value + line[3].value);
     const vf slope = slope_y + (line[2].slope + line[3].slope);
-    refine_put(nodes, stride, node + 12, 0,
+    refine_put(nodes, node + 12, 0,
                0.25f * value + (0.5f * by * (y0 + y1) + 0.5f * bz * (z0 + z1)));
-    refine_put(nodes, stride, node + 12, 1,
+    refine_put(nodes, node + 12, 1,
                0.25f * slope + (0.5f * by * (ys0 + ys1) + 0.5f * bz * (zs0 + zs1)));
-    refine_put(nodes, stride, node + 12, 2, 0.5f * (steep_y0 + steep_y1) + z_by_y);
-    refine_put(nodes, stride, node + 12, 3, 0.5f * (steep_z0 + steep_z1) + y_by_z);
+    refine_put(nodes, node + 12, 2, 0.5f * (steep_y0 + steep_y1) + z_by_y);
+    refine_put(nodes, node + 12, 3, 0.5f * (steep_z0 + steep_z1) + y_by_z);
+}
+
+/* A part of the nodes that come next, in the order of memory. A brick has 4 stride lines of 64
+ * bytes: LMP_LANES for each vector of coefficients and each of the four x. */
+LMP_INLINE void refine_fetch(const float *next, size_t part) {
+    const char *line = (const char *)next + part * LMP_LANES * 64;
+    LMP_UNROLL for (int i = 0; i < LMP_LANES; i++) __builtin_prefetch(line + 64 * i, 1);
 }
 
 LMP_INLINE void refine_brick(const lmp_kernel_brick *brick, const refine_edges *edges, size_t at,
-                             float *nodes) {
+                             refine_nodes nodes) {
     LMP_UNROLL for (int p = 0; p < 4; p++) {
         refine_line line[4];
         LMP_UNROLL for (int i = 0; i < 4; i++) line[i] =
             refine_along(p % 2, edges, brick->from[3 * i + p / 2] + at,
                          brick->from[3 * i + p / 2 + 1] + at, brick->stride);
-        refine_across(p % 2, edges, line, p, nodes, brick->stride);
+        refine_fetch(brick->next, 4 * at / LMP_LANES + (size_t)p);
+        refine_across(p % 2, edges, line, p, nodes);
     }
 }
 
-static void kernel_refine(const lmp_kernel_brick *brick, float *nodes) {
+LMP_INLINE void refine_all(int adds, const lmp_kernel_brick *brick, float *nodes) {
     const lmp_vec3 h = brick->cell;
     const refine_edges edges = { { 0.125f * h.x, 0.125f * h.y, 0.125f * h.z },
                                  { 1 / h.x, 1 / h.y, 1 / h.z },
                                  0.125f * h.y / h.z,
                                  0.125f * h.z / h.y };
     for (size_t at = 0; at < brick->stride; at += LMP_LANES)
-        refine_brick(brick, &edges, at, nodes + at);
+        refine_brick(brick, &edges, at, (refine_nodes) { nodes + at, brick->stride, adds });
+}
+
+static void kernel_refine(const lmp_kernel_brick *brick, float *nodes) {
+    refine_all(0, brick, nodes);
+}
+
+static void kernel_refine_add(const lmp_kernel_brick *brick, float *nodes) {
+    refine_all(1, brick, nodes);
 }
 
 #endif

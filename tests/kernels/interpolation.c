@@ -71,7 +71,7 @@ static void refined_nodes_keep_cubics(void **test) {
     static float from[12 * 4 * STRIDE] __attribute__((aligned(64)));
     static float nodes[16 * 4 * STRIDE] __attribute__((aligned(64)));
     static const double edge[3] = { 0.5, 2, 1.25 };
-    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f } };
+    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
     double value[MONOMIALS], slopes[3][MONOMIALS];
     for (int k = 0; k < 12; k++) {
         brick.from[k] = from + 4 * k * STRIDE;
@@ -107,7 +107,7 @@ static void refined_nodes_are_interpolated(void **test) {
     uint32_t corners[16 * 8];
     float out[16 * STRIDE];
     lmp_kernels kernels;
-    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f } };
+    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
     for (size_t i = 0; i < sizeof from / sizeof *from; i++)
         from[i] = (float)check_random();
     for (uint32_t i = 0; i < 12; i++)
@@ -129,11 +129,37 @@ static void refined_nodes_are_interpolated(void **test) {
             CHECK_WITHIN((double)fabsf(nodes[4 * i * STRIDE + v] - out[i * STRIDE + v]), 1e-6);
 }
 
+/* To the bits, by every instruction set. */
+static void refined_nodes_are_added(void **test) {
+    (void)test;
+    enum { STRIDE = 48, ALL = 16 * 4 * STRIDE };
+    static float from[12 * 4 * STRIDE] __attribute__((aligned(64)));
+    static float nodes[ALL] __attribute__((aligned(64))), sums[ALL] __attribute__((aligned(64)));
+    lmp_kernel_brick brick = { .stride = STRIDE, .cell = { 0.5f, 2, 1.25f }, .next = nodes };
+    for (size_t i = 0; i < sizeof from / sizeof *from; i++)
+        from[i] = (float)check_random();
+    for (int i = 0; i < 12; i++)
+        brick.from[i] = from + 4 * i * STRIDE;
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
+        lmp_kernels kernels;
+        (void)lmp_kernels_init(&kernels, flag);
+        kernels.refine(&brick, nodes);
+        for (int i = 0; i < ALL; i++)
+            sums[i] = from[i % STRIDE];
+        kernels.refine_add(&brick, sums);
+        for (int i = 0; i < ALL; i++) {
+            const float sum = from[i % STRIDE] + nodes[i];
+            assert_memory_equal(&sums[i], &sum, sizeof sum);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interpolation_keeps_cubics),
         cmocka_unit_test(refined_nodes_keep_cubics),
         cmocka_unit_test(refined_nodes_are_interpolated),
+        cmocka_unit_test(refined_nodes_are_added),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,7 +53,7 @@ static void run_refine(const lmp_kernels *k, int bands, size_t count, const lmp_
     float *from = make_vectors(node, 12, 0, node, 0), *nodes = malloc(16 * node * sizeof *nodes);
     assert_non_null(nodes);
     for (size_t e = 0; e < count; e++) {
-        lmp_kernel_brick brick = { .stride = stride, .cell = { 0.5f, 0.25f, 2 } };
+        lmp_kernel_brick brick = { .stride = stride, .cell = { 0.5f, 0.25f, 2 }, .next = nodes };
         for (size_t i = 0; i < 12; i++)
             brick.from[i] = from + (e / 16 + 5 * i) % 12 * node;
         if (e % 16 == 0)

@@ -12,6 +12,12 @@ enum { LIGHTS = 40, POINTS = 60 };
 static const lmp_field_desc grid = {
     .bands = 4, .nodes = { 9, 7, 10 }, .light_max = LIGHTS, .reach = 2
 };
+/* Of so many nodes that it has a coarser one, which has one of its own. */
+static const lmp_field_desc deep = { .bands = 4,
+                                     .nodes = { 30, 16, 30 },
+                                     .cell = { 0.3f, 0.4f, 0.3f },
+                                     .light_max = LIGHTS,
+                                     .reach = 2 };
 enum { VALUES = 3 * 4 * 4 };
 
 /* The most that one's coefficients differ from the other's, in parts of the largest. */
@@ -32,11 +38,10 @@ static lmp_field *same_lights(const lmp_field *field) {
     return field_of(&info.desc, lmp_field_lights(field), info.light_count);
 }
 
-static void lights_that_move_come_and_go_leave_what_is_left(void **test) {
-    (void)test;
+static void change_lights(const lmp_field_desc *desc) {
     lmp_light lights[LIGHTS];
     field_sphere_lights(-2, 9, LIGHTS, lights);
-    lmp_field *field = field_of(&grid, lights, LIGHTS / 2);
+    lmp_field *field = field_of(desc, lights, LIGHTS / 2);
     for (size_t i = LIGHTS / 2; i < LIGHTS; i++)
         assert_int_equal(lmp_field_add(NULL, field, &lights[i]), LMP_OK);
     assert_int_equal(lmp_field_add(NULL, field, &lights[0]), LMP_ERROR_ARGUMENT);
@@ -66,6 +71,12 @@ static void lights_that_move_come_and_go_leave_what_is_left(void **test) {
     lmp_field_eval_n(field, lmp_vec3_array_same(&point), 1, LMP_SH_INTERLEAVED, 0, dark);
     CHECK_WITHIN(field_size(dark, VALUES), 1e-4);
     lmp_field_destroy(field);
+}
+
+static void lights_that_move_come_and_go_leave_what_is_left(void **test) {
+    (void)test;
+    change_lights(&grid);
+    change_lights(&deep);
 }
 
 /* Of 10^6 changes in the long form. The bound is that of field.h, for as many changes as pass
@@ -100,8 +111,8 @@ static void fill_bytes(const lmp_field *field, unsigned char **bytes, size_t *si
 }
 
 /* A field after an update and moves: its bytes, and responses of lobes. */
-static void field_after_changes(const lmp_host *host, unsigned char **bytes, size_t *size,
-                                lmp_rgb *rgb) {
+static void field_after_changes(const lmp_host *host, const lmp_field_desc *desc,
+                                unsigned char **bytes, size_t *size, lmp_rgb *rgb) {
     lmp_light lights[LIGHTS];
     lmp_vec3 points[POINTS], axes[POINTS];
     float lambda[4];
@@ -117,7 +128,7 @@ static void field_after_changes(const lmp_host *host, unsigned char **bytes, siz
         axes[i] = (lmp_vec3) { 0.6f, 0, 0.8f };
     }
     lmp_field *field;
-    assert_int_equal(lmp_field_create(NULL, &grid, &field), LMP_OK);
+    assert_int_equal(lmp_field_create(NULL, desc, &field), LMP_OK);
     assert_int_equal(lmp_field_update(host, field, lights, LIGHTS), LMP_OK);
     const size_t at[2] = { 3, 17 };
     lmp_field_move(host, field, at, lights, 2);
@@ -129,19 +140,18 @@ static void field_after_changes(const lmp_host *host, unsigned char **bytes, siz
     lmp_field_destroy(field);
 }
 
-static void tasks_in_any_order_and_every_instruction_set_give_the_same_bits(void **test) {
-    (void)test;
+static void check_same_bits(const lmp_field_desc *desc) {
     unsigned char *plain, *other;
     size_t size, other_size;
     lmp_rgb rgb[POINTS], other_rgb[POINTS];
     lmp_cpu_mask(LMP_CPU_ALL);
-    field_after_changes(NULL, &plain, &size, rgb);
+    field_after_changes(NULL, desc, &plain, &size, rgb);
     for (unsigned flag = 0; flag <= LMP_CPU_AVX512; flag = flag ? 2 * flag : LMP_CPU_SCALAR) {
         check_hooks hooks = { .refuse = -1 };
         const lmp_host host = check_host(&hooks);
         if (flag)
             lmp_cpu_mask(flag);
-        field_after_changes(&host, &other, &other_size, other_rgb);
+        field_after_changes(&host, desc, &other, &other_size, other_rgb);
         assert_int_equal(size, other_size);
         assert_memory_equal(plain, other, size);
         assert_memory_equal(rgb, other_rgb, sizeof rgb);
@@ -150,6 +160,12 @@ static void tasks_in_any_order_and_every_instruction_set_give_the_same_bits(void
     }
     lmp_cpu_mask(LMP_CPU_ALL);
     free(plain);
+}
+
+static void tasks_in_any_order_and_every_instruction_set_give_the_same_bits(void **test) {
+    (void)test;
+    check_same_bits(&grid);
+    check_same_bits(&deep);
 }
 
 static void nothing_is_allocated_once_it_is_made(void **test) {
