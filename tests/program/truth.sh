@@ -35,6 +35,20 @@ grep -q stderr.R "$WORK/one.exr" || fail "no standard error in the image"
 [ "$(od -An -tx1 -j16 -N8 "$WORK/heat.png" | tr -d ' \n')" = 000000300000003c ] || fail "no heat map with its scale"
 "$PROGRAM" compare "$WORK/one.png" "$WORK/brighter.png" | grep -q display || fail "PNG is not display"
 
+# a camera beyond 1e17 in a scene, as on the command line: the ray tracer would abort
+cat >"$WORK/far.gltf" <<'GLTF'
+{ "asset": { "version": "2.0" }, "scenes": [ { "nodes": [ 0, 1 ] } ],
+  "nodes": [ { "mesh": 0 }, { "translation": [ 0, 1e30, 0 ], "camera": 0 } ],
+  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "cameras": [ { "type": "perspective", "perspective": { "yfov": 0.6, "znear": 0.1 } } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "buffers": [ { "byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ] }
+GLTF
+for command in reference render; do
+    refuses 1 'has a camera beyond 1e17' $command "$WORK/far.gltf" --size 8x8 -o "$WORK/none.png"
+    refuses 2 'eye: 1e30,0,0 is out of range' $command builtin:ball --eye 1e30,0,0 --size 8x8 -o "$WORK/none.png"
+done
 refuses 1 'rmse is .*, limit 0' compare "$WORK/one.exr" "$WORK/other.exr" --fail-above rmse=0
 refuses 1 'ssim is .*, limit 1' compare "$WORK/one.png" "$WORK/brighter.png" --fail-above ssim=1
 # what is no light at all has no peak to be alike by
