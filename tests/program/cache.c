@@ -90,6 +90,26 @@ static void a_damaged_entry_is_none(void **state) {
     printf("tried: %zu damaged entries of the cache\n", tried);
 }
 
+/* Its checksum is that of what it says: the version alone is another. */
+static void an_entry_of_another_version_is_none(void **state) {
+    (void)state;
+    enum { VERSION = 8, ABOVE = 88 }; /* the version's offset, and bytes before the checksum */
+    for (int added = 0; added < 2; added++) {
+        size_t size;
+        file_hash checksum = { 0 };
+        file_cache_store("a", first, SIZE);
+        unsigned char *bytes = read_entry("a", &size), *const end = bytes + SIZE;
+        assert_int_equal(size, SIZE + ABOVE + sizeof checksum);
+        end[VERSION] = (unsigned char)(end[VERSION] + added);
+        file_hash_add(&checksum, bytes, SIZE);
+        file_hash_add(&checksum, end, ABOVE);
+        memcpy(end + ABOVE, &checksum, sizeof checksum);
+        write_entry("a", bytes, size);
+        assert_int_equal(holds("a", first), added == 0);
+        free(bytes);
+    }
+}
+
 static void what_is_no_file_of_ones_own_is_none(void **state) {
     (void)state;
     char target[600];
@@ -250,6 +270,7 @@ int main(void) {
         cmocka_unit_test_setup(what_is_stored_comes_back, empty),
         cmocka_unit_test_setup(an_entry_under_another_name_is_none, empty),
         cmocka_unit_test_setup(a_damaged_entry_is_none, empty),
+        cmocka_unit_test_setup(an_entry_of_another_version_is_none, empty),
         cmocka_unit_test_setup(what_is_no_file_of_ones_own_is_none, empty),
         cmocka_unit_test_setup(only_entries_are_counted_and_removed, empty),
         cmocka_unit_test_setup(a_linked_folder_is_no_cache, empty),
