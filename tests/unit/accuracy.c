@@ -32,9 +32,10 @@ static int read_row(const char *table, const char *row, double numbers[16]) {
     at = at ? strstr(at, row) : NULL;
     if (!at)
         fail_msg("the page has no %s under %s", row, table);
-    const char *const end = strchr(at + 1, '\n');
+    at += strlen(row);
+    const char *const end = at + strcspn(at, "\n");
     int count = 0;
-    for (at += strlen(row); count < 16 && (at = strpbrk(at, "0123456789")) && at < end; count++) {
+    for (; count < 16 && (at = strpbrk(at, "0123456789")) && at < end; count++) {
         char *rest;
         numbers[count] = strtod(at, &rest);
         at = rest;
