@@ -47,6 +47,7 @@ src/brdf/*.c unit.brdf_table_bytes unit.brdf unit.brdf_table unit.brdf_files uni
 src/kernels/*.h kernels.kernels kernels.batch
 app/trace/trace.c reference.estimator reference.render reference.texture
 app/trace/*.c reference.texture reference.estimate
+app/reference/part.c reference.part
 app/reference/sheen.c reference.sheen
 app/reference/ggx.c reference.ggx reference.layers
 app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
