@@ -267,8 +267,10 @@ static int render(const render_options *o, const char *name) {
 static int repeat_shot(const render_options *o, const char *name) {
     cli_error error = { "" };
     view_settings *settings = malloc(sizeof *settings);
+    view_shot_options allowed = o->shot;
+    allowed.scene = name;
     bool ok = (settings || cli_fail(&error, NULL, "out of memory")) &&
-              view_read_shot(o->from, o->pixels_max, settings, &error);
+              view_read_shot(o->from, &allowed, settings, &error);
     if (ok && name && strlen(name) >= sizeof settings->scene)
         ok = cli_fail(&error, name, "is too long a name");
     if (ok && name)
@@ -284,7 +286,7 @@ static const render_options defaults = { .size = { 1280, 720 },
                                          .environment = ENVIRONMENT_DEFAULTS,
                                          .shadow = SHADOW_DEFAULTS,
                                          .field = SHADE_FIELD_DEFAULTS,
-                                         .pixels_max = IMAGE_READ_PIXELS,
+                                         .shot.pixels_max = IMAGE_READ_PIXELS,
                                          .shard = { 1, 1 },
                                          .repeat = 5,
                                          .fps = 24 };
@@ -308,10 +310,10 @@ static int run(const cli_command *command, int argc, char **argv) {
         OVERRIDE_OPTION_ROW(o.materials),
         IMAGE_DISPLAY_OPTION_ROWS(o.exposure, o.exposure_given, o.stops, o.tone),
         { "from", 0, CLI_TEXT, &o.from, "FILE",
-          "repeat a screenshot of lampion view, with all its settings: only -o, --gl-device and "
-          "--max-pixels may be given beside it; without SCENE, its scene",
+          "repeat a screenshot of lampion view, with all its settings: only -o, --gl-device, "
+          "--max-pixels and --allow-paths may be given beside it; without SCENE, its scene",
           0, 0, NULL, NULL },
-        VIEW_PIXELS_OPTION_ROW(o.pixels_max),
+        VIEW_SHOT_OPTION_ROWS(o.shot),
         { "background", 0, CLI_VEC3, o.background, "R,G,B",
           "radiance of the background, where no surface is", 0, 1e30, NULL, &o.background_given },
         { "frames", 0, CLI_RANGE, o.frames, "N|A-B",

@@ -9,13 +9,15 @@
 #include "app/override/override.h"
 #include "app/shade/field.h"
 #include "app/shadow/shadow.h"
+#include "app/view/settings.h"
 
 #define RENDER_REPEAT_MAX 1000
 
 /* Everything the command line says. */
 typedef struct render_options {
     const char *output, *device, *animate, *from;
-    int size[2], bands, method_choice, window, tone, device_kind, repeat, samples, pixels_max;
+    int size[2], bands, method_choice, window, tone, device_kind, repeat, samples;
+    view_shot_options shot;  /* of `from` */
     method_kind method;      /* what the choice and the bands come to, whatever the lights */
     int frames[2], shard[2]; /* first and last; part and number of parts */
     float exposure, stops, fps, background[3];

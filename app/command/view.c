@@ -13,14 +13,15 @@ enum { FRAMES_MAX = 100000000 };
 
 /* What the command line says, beside what goes into the settings at once. */
 typedef struct view_arguments {
-    int size[2], bands, method_choice, window, pixels_max;
+    int size[2], bands, method_choice, window;
     method_kind method;
     float exposure, stops;
     bool exposure_given;
     int tone;
     const char *from;
     cli_list materials;
-    shadow_options shadow; /* on, or not */
+    shadow_options shadow;  /* on, or not */
+    view_shot_options shot; /* of `from` */
 } view_arguments;
 
 /* NAME=MATERIAL into the settings; whether the scene has it is found out when it is drawn. */
@@ -43,7 +44,10 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
                          cli_error *error) {
     view_settings *s = &o->settings;
     if (a->from) {
-        if (!view_read_shot(a->from, a->pixels_max, s, error))
+        view_shot_options allowed = a->shot;
+        allowed.scene = name;
+        allowed.materials = &a->materials;
+        if (!view_read_shot(a->from, &allowed, s, error))
             return false;
         o->keep_lights = true;
         o->load.up = s->up;
@@ -87,7 +91,7 @@ static int view(const view_arguments *a, const char *name, view_options *o) {
 static const view_arguments defaults = { .size = { 1280, 720 },
                                          .bands = LMP_SHADE_BANDS_DEFAULT,
                                          .window = LMP_WINDOW_HANNING,
-                                         .pixels_max = IMAGE_READ_PIXELS };
+                                         .shot.pixels_max = IMAGE_READ_PIXELS };
 
 static int run(const cli_command *command, int argc, char **argv) {
     view_arguments a = defaults;
@@ -123,7 +127,7 @@ static int run(const cli_command *command, int argc, char **argv) {
           "begin with all settings of a screenshot; of the options, --material and those after it "
           "count",
           0, 0, NULL, NULL },
-        VIEW_PIXELS_OPTION_ROW(a.pixels_max),
+        VIEW_SHOT_OPTION_ROWS(a.shot),
         { "record", 0, CLI_TEXT, &o->record, "DIR", "write every frame there, numbered", 0, 0, NULL,
           NULL },
         { "script", 0, CLI_TEXT, &o->script, "FILE",

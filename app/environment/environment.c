@@ -71,6 +71,10 @@ const char *environment_choose(const environment_options *options, const scene *
     return "studio";
 }
 
+bool environment_is_file(const char *name) {
+    return strcmp(name, "none") != 0 && strcmp(name, "studio") != 0;
+}
+
 bool environment_open(const environment_options *options, const scene *world, environment *e,
                       cli_error *error) {
     const char *name = environment_choose(options, world);
@@ -78,7 +82,7 @@ bool environment_open(const environment_options *options, const scene *world, en
     e->azimuth = -options->rotation * pi / 180;
     if (strcmp(name, "none") == 0)
         return true;
-    if (strcmp(name, "studio") == 0) {
+    if (!environment_is_file(name)) {
         if (open_studio(options, world, e, error))
             return true;
     } else if (open_file(name, options->strength, &e->light, error)) {

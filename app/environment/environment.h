@@ -48,6 +48,9 @@ typedef struct environment {
     int bands;
 } environment;
 
+/* Whether a name is that of a file, not of what is built in. */
+bool environment_is_file(const char *name);
+
 /* What the options name for a scene: without a name the studio, with a note on stderr, or none. */
 const char *environment_choose(const environment_options *options, const scene *world);
 

@@ -16,6 +16,10 @@ bool file_read(const char *path, size_t limit, void **data, size_t *size, cli_er
  * it comes from the command line: no file may read the user's standard input. */
 bool file_is_standard_input(const char *name);
 
+/* Whether a name leads to where another file lies, or to a folder in there, links followed, also if
+ * nothing has that name. Beside standard input lies nothing. It looks into no folder elsewhere. */
+bool file_is_beside(const char *path, const char *file);
+
 /* Opens a regular file for reading; NULL, or -1, on failure. By whatever name, such as /dev/stdin,
  * it is not the one that is standard input: that is "-" alone. */
 FILE *file_open(const char *path, cli_error *error);

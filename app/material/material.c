@@ -142,14 +142,15 @@ static const char *nearest_sgd(const char *text) {
 }
 
 static bool find_sgd(const char *name, const char *text, lmp_sgd *sgd, cli_error *error) {
-    const char *colon = strrchr(text, ':');
-    if (colon) {
+    size_t length;
+    const char *const file = material_file_named(name, &length);
+    if (file) {
         char path[4096];
-        if ((size_t)(colon - text) >= sizeof path)
+        if (length >= sizeof path)
             return cli_fail(error, name, "the name is too long");
-        memcpy(path, text, (size_t)(colon - text));
-        path[colon - text] = '\0';
-        return material_read_sgd(path, colon + 1, sgd, error);
+        memcpy(path, file, length);
+        path[length] = '\0';
+        return material_read_sgd(path, file + length + 1, sgd, error);
     }
     if (lmp_sgd_find(text, sgd) == LMP_OK)
         return true;
@@ -205,17 +206,35 @@ static bool hint_kind(const char *name, cli_error *error) {
     return cli_fail_word(error, name, word, names);
 }
 
-bool material_open(const char *name, material *m, cli_error *error) {
+/* The kind that a name begins with; KINDS: none, it is a file's. */
+static int kind_of(const char *name) {
     const size_t length = strcspn(name, ":");
-    memset(m, 0, sizeof *m);
-    m->name = name;
     int kind = 0;
     while (kind < KINDS && (name[length] != ':' || strlen(kinds[kind].name) != length ||
                             strncmp(name, kinds[kind].name, length) != 0))
         kind++;
+    return kind;
+}
+
+const char *material_file_named(const char *name, size_t *length) {
+    const int kind = kind_of(name);
+    *length = strlen(name);
+    if (kind == KINDS)
+        return name;
+    const char *const text = strchr(name, ':') + 1, *const colon = strrchr(text, ':');
+    if (kinds[kind].open != open_sgd || !colon)
+        return NULL;
+    *length = (size_t)(colon - text);
+    return text;
+}
+
+bool material_open(const char *name, material *m, cli_error *error) {
+    const int kind = kind_of(name);
+    memset(m, 0, sizeof *m);
+    m->name = name;
     if (kind < KINDS)
         file_hash_add(&m->hash, name, strlen(name));
-    const bool ok = kind < KINDS ? kinds[kind].open(name, name + length + 1, m, error)
+    const bool ok = kind < KINDS ? kinds[kind].open(name, strchr(name, ':') + 1, m, error)
                                  : open_file(name, m, error) || hint_kind(name, error);
     if (!ok)
         material_close(m);

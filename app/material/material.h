@@ -31,6 +31,9 @@ typedef struct material {
 } material;
 
 bool material_open(const char *name, material *material, cli_error *error);
+
+/* The file that a material's name makes it open: so many bytes of the name; NULL if it is none. */
+const char *material_file_named(const char *name, size_t *length);
 void material_close(material *material);
 
 /* A table of the material on all cores, with a progress bar, from the cache where it was made

@@ -60,10 +60,14 @@ static bool tell_left_out(const scene *s, bool strict, cli_error *error) {
     return true;
 }
 
+bool scene_is_file(const char *name) {
+    return strncmp(name, BUILTIN_PREFIX, strlen(BUILTIN_PREFIX)) != 0;
+}
+
 bool scene_load(const char *name, const scene_options *options, scene *s, cli_error *error) {
     const scene_options chosen = options ? *options : (scene_options) { 0 };
     memset(s, 0, sizeof *s);
-    if (strncmp(name, BUILTIN_PREFIX, strlen(BUILTIN_PREFIX)) == 0)
+    if (!scene_is_file(name))
         return load_builtin(name, chosen.up, s, error);
     if (!import_scene(name, &chosen, s, error))
         return hint_builtin(name, error);

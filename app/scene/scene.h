@@ -154,6 +154,9 @@ const char *scene_builtin_name(size_t i);
 /* Loads "builtin:NAME[:PARAMETER]" or a scene file. Files are parsed in a sandboxed child process
  * and cached by content. False with one line in *error; *scene is then zero. */
 bool scene_load(const char *name, const scene_options *options, scene *scene, cli_error *error);
+
+/* Whether a scene's name is that of a file, not of a built-in scene. */
+bool scene_is_file(const char *name);
 void scene_free(scene *scene);
 
 /* The rows of a command's option table that fill a scene_options variable. */

@@ -90,6 +90,6 @@ bool view_take_file(view_state *s, const char *file, cli_error *error) {
     for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
         if (strcmp(dot, kinds[i].ending) == 0)
             return kinds[i].take(s, file, error);
-    const bool named = strchr(base, ':') && strncmp(file, "builtin:", 8) != 0;
+    const bool named = strchr(base, ':') && scene_is_file(file);
     return named ? take_material(s, file, error) : take_scene(s, file, error);
 }

@@ -9,13 +9,9 @@
 
 #define WATCH_SECONDS 0.5 /* between looks at the scene file */
 
-static bool is_file(const char *name) {
-    return strncmp(name, "builtin:", 8) != 0;
-}
-
 version view_version_of(const char *path) {
     struct stat status;
-    if (!is_file(path) || stat(path, &status) != 0)
+    if (!scene_is_file(path) || stat(path, &status) != 0)
         return (version) { 0, 0, -1 };
     return (version) { status.st_mtim.tv_sec, status.st_mtim.tv_nsec, status.st_size };
 }
@@ -120,7 +116,7 @@ void view_reload(viewer *v) {
 }
 
 void view_watch(viewer *v) {
-    if (!is_file(v->state.now.scene) || v->clock < v->watched_at + WATCH_SECONDS)
+    if (!scene_is_file(v->state.now.scene) || v->clock < v->watched_at + WATCH_SECONDS)
         return;
     v->watched_at = v->clock;
     const version now = view_version_of(v->state.now.scene);

@@ -2,6 +2,7 @@
 #include "app/view/settings.h"
 #include "app/file/file.h"
 #include "app/image/image.h"
+#include "app/material/material.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -285,7 +286,50 @@ bool view_write_shot(const view_settings *s, const unsigned char *rgb8, const ch
     return ok;
 }
 
-bool view_read_shot(const char *path, int pixels_max, view_settings *s, cli_error *error) {
+/* A name of so many bytes that a screenshot has for a part of what it shows. */
+static bool check_name(const char *shot, const char *part, const char *name, size_t length,
+                       cli_error *error) {
+    char path[VIEW_MATERIAL_SIZE];
+    snprintf(path, sizeof path, "%.*s", (int)length, name);
+    return file_is_beside(path, shot) ||
+           cli_fail(error, shot,
+                    "names the %s \"%.300s\", which is outside its folder (see --allow-paths)",
+                    part, path);
+}
+
+/* Whether the material of a text NAME=MATERIAL is replaced by one of the list. */
+static bool is_replaced(const cli_list *list, const char *text) {
+    const size_t length = strcspn(text, "=") + 1;
+    for (int i = 0; list && i < list->count; i++)
+        if (strncmp(list->items[i], text, length) == 0)
+            return true;
+    return false;
+}
+
+/* Whoever made a screenshot is a stranger, and may name what is no business of theirs: a private
+ * file, or one whose mere opening does something. Each setting that is a name of a file is here. */
+static bool check_names(const view_settings *s, const char *shot, const view_shot_options *options,
+                        cli_error *error) {
+    if (options->allow_paths)
+        return true;
+    if (!options->scene && scene_is_file(s->scene) &&
+        !check_name(shot, "scene", s->scene, strlen(s->scene), error))
+        return false;
+    if (s->environment[0] && environment_is_file(s->environment) &&
+        !check_name(shot, "environment", s->environment, strlen(s->environment), error))
+        return false;
+    for (int i = 0; i < s->material_count; i++) {
+        size_t length;
+        const char *const file = material_file_named(strchr(s->materials[i], '=') + 1, &length);
+        if (file && !is_replaced(options->materials, s->materials[i]) &&
+            !check_name(shot, "material", file, length, error))
+            return false;
+    }
+    return true;
+}
+
+bool view_read_shot(const char *path, const view_shot_options *options, view_settings *s,
+                    cli_error *error) {
     memset(s, 0, sizeof *s);
     char *text = NULL;
     if (!image_read_png_text(path, IMAGE_SETTINGS_KEY, &text, error))
@@ -294,8 +338,8 @@ bool view_read_shot(const char *path, int pixels_max, view_settings *s, cli_erro
     free(text);
     const bool ok = root && view_settings_from_json(root, path, s, error);
     cJSON_Delete(root);
-    if (!ok || (long)s->width * s->height <= pixels_max)
-        return ok;
-    return cli_fail(error, path, "asks for %d x %d pixels (at most %d; see --max-pixels)", s->width,
-                    s->height, pixels_max);
+    if (ok && (long)s->width * s->height > options->pixels_max)
+        return cli_fail(error, path, "asks for %d x %d pixels (at most %d; see --max-pixels)",
+                        s->width, s->height, options->pixels_max);
+    return ok && check_names(s, path, options, error);
 }

@@ -62,18 +62,35 @@ struct cJSON *view_settings_to_json(const view_settings *settings);
 bool view_settings_from_json(const struct cJSON *root, const char *subject, view_settings *settings,
                              cli_error *error);
 
-/* An image with its settings in a text chunk, and the settings of such an image, which may ask for
- * so many pixels. */
+/* An image with its settings in a text chunk. */
 bool view_write_shot(const view_settings *settings, const unsigned char *rgb8, const char *path,
                      cli_error *error);
-bool view_read_shot(const char *path, int pixels_max, view_settings *settings, cli_error *error);
 
-/* The option that says how many pixels a screenshot may ask for, by default IMAGE_READ_PIXELS. */
-#define VIEW_PIXELS_OPTION_ROW(pixels_max)                                                         \
+/* What the reader of a screenshot allows it, and names in place of what it names. */
+typedef struct view_shot_options {
+    int pixels_max;
+    bool allow_paths;          /* of files that do not lie beside it */
+    const char *scene;         /* or NULL; this one and those of the materials */
+    const cli_list *materials; /* may lie anywhere; or NULL */
+} view_shot_options;
+
+/* The settings of such an image. They name no files but those that the options allow. */
+bool view_read_shot(const char *path, const view_shot_options *options, view_settings *settings,
+                    cli_error *error);
+
+/* The rows of a command that say so: how many pixels a screenshot may ask for, by default
+ * IMAGE_READ_PIXELS, and whether it may name any file. */
+#define VIEW_SHOT_OPTION_ROWS(shot)                                                                \
+    { .name = "max-pixels",                                                                        \
+      .kind = CLI_INT,                                                                             \
+      .target = &(shot).pixels_max,                                                                \
+      .argument = "N",                                                                             \
+      .help = "refuse a screenshot of more pixels, each of which takes 85 bytes of memory",        \
+      .minimum = 1,                                                                                \
+      .maximum = IMAGE_PIXELS_MAX },                                                               \
     {                                                                                              \
-        "max-pixels", 0, CLI_INT, &(pixels_max), "N",                                              \
-            "refuse a screenshot of more pixels, each of which takes 85 bytes of memory", 1,       \
-            IMAGE_PIXELS_MAX, NULL, NULL                                                           \
+        .name = "allow-paths", .kind = CLI_FLAG, .target = &(shot).allow_paths,                    \
+        .help = "let a screenshot name files outside the folder it lies in"                        \
     }
 
 #endif

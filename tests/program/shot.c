@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* A screenshot repeated by the program asks for no more than its user allows, however small it is
- * itself. */
+ * itself, and opens no file but those that came with it. */
 #include "app/image/png.h"
 #include "tests/program/refused.h"
 #include "tests/program/view.h"
 
 #include "app/file/file.h"
+
+#include <errno.h>
 
 /* An image of one pixel whose settings ask for so many. */
 static void write_shot(const char *name, int width, int height) {
@@ -22,16 +24,27 @@ static void write_shot(const char *name, int width, int height) {
     free(text);
 }
 
-/* Runs `lampion render --from NAME -o out.png --max-pixels N`, or without the last. */
-static int repeat(const char *name, const char *pixels_max) {
+/* Runs `lampion render --from NAME -o out.png`, then up to two more words. */
+static int repeat_with(const char *name, const char *word, const char *other) {
     char shot[64], output[64];
     snprintf(shot, sizeof shot, "%s/%s", folder, name);
     snprintf(output, sizeof output, "%s/out.png", folder);
     unlink(output);
-    const char *const arguments[] = { "lampion", "render",       "--from",   shot, "-o",
-                                      output,    "--max-pixels", pixels_max, NULL };
-    const char *const usual[] = { "lampion", "render", "--from", shot, "-o", output, NULL };
-    return run_program(pixels_max ? arguments : usual);
+    return run_program(
+        (const char *[]) { "lampion", "render", "--from", shot, "-o", output, word, other, NULL });
+}
+
+static int repeat(const char *name, const char *pixels_max) {
+    return repeat_with(name, pixels_max ? "--max-pixels" : NULL, pixels_max);
+}
+
+/* The same in the viewer, which without a display goes as far as its window. */
+static int look_with(const char *name, const char *word, const char *other) {
+    char shot[64];
+    snprintf(shot, sizeof shot, "%s/%s", folder, name);
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    return run_program((const char *[]) { "lampion", "view", "--from", shot, word, other, NULL });
 }
 
 static void large_ones_are_refused_unless_allowed(void **unused) {
@@ -48,16 +61,10 @@ static void large_ones_are_refused_unless_allowed(void **unused) {
 /* Before a window is opened: without a display it is known, too. */
 static void the_viewer_refuses_the_same(void **unused) {
     (void)unused;
-    char shot[64];
     write_shot("large.png", 8192, 8192);
-    snprintf(shot, sizeof shot, "%s/large.png", folder);
-    unsetenv("DISPLAY");
-    unsetenv("WAYLAND_DISPLAY");
-    assert_one_line(run_program((const char *[]) { "lampion", "view", "--from", shot, NULL }), shot,
+    assert_one_line(look_with("large.png", NULL, NULL), "large.png",
                     "asks for 8192 x 8192 pixels (at most 33554432; see --max-pixels)");
-    const char *const allowed[] = { "lampion",      "view",     "--from", shot,
-                                    "--max-pixels", "67108864", NULL };
-    assert_one_line(run_program(allowed), shot, "display");
+    assert_one_line(look_with("large.png", "--max-pixels", "67108864"), "large.png", "display");
 }
 
 /* A file that is standard input, by its other names, as the screenshot's scene or a material of it.
@@ -73,19 +80,178 @@ static void none_reads_standard_input(void **unused) {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         strcpy(state.now.scene, names[i]);
         write_shot("scene.png", 8, 8);
-        assert_one_line(repeat("scene.png", NULL), names[i], expected);
+        assert_one_line(repeat_with("scene.png", "--allow-paths", NULL), names[i], expected);
         strcpy(state.now.scene, "builtin:ball");
         assert_true(view_set_material(&state.now, "test_material", names[i]));
         write_shot("material.png", 8, 8);
-        assert_one_line(repeat("material.png", NULL), names[i], expected);
+        assert_one_line(repeat_with("material.png", "--allow-paths", NULL), names[i], expected);
         assert_true(view_set_material(&state.now, "test_material", NULL));
     }
     close(input);
 }
 
+/* --- names of files --------------------------------------------------------------------------- */
+
+#define MATERIAL_TEXT(name) "test_material=" name
+
+/* The parts of a screenshot that are names of files, with what stands before and behind one. */
+typedef struct part {
+    const char *name; /* in messages */
+    const char *beginning, *end;
+} part;
+static const part parts[] = { { "scene", "", "" },
+                              { "environment", "", "" },
+                              { "material", "", "" },
+                              { "material", "sgd:", ":nickel" } };
+
+/* A screenshot in the folder `shots` with a name in one of its parts. */
+static void write_part(const part *p, const char *file) {
+    char text[512];
+    snprintf(text, sizeof text, "%s%s%s", p->beginning, file, p->end);
+    strcpy(state.now.scene, strcmp(p->name, "scene") == 0 ? text : "builtin:ball");
+    strcpy(state.now.environment, strcmp(p->name, "environment") == 0 ? text : "none");
+    const char *const material = strcmp(p->name, "material") == 0 ? text : NULL;
+    assert_true(view_set_material(&state.now, "test_material", material));
+    write_shot("shots/shot.png", 8, 8);
+}
+
+/* The same file in the folder, below it and in another, and links that stay and that lead out. */
+static void write_files(void) {
+    static const char *const folders[] = { "shots", "shots/below", "shots2" };
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        char name[64];
+        mkdir(in_folder(folders[i]), 0700);
+        snprintf(name, sizeof name, "%s/room.obj", folders[i]);
+        folder_write_text(name, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    }
+    static const char *const links[][2] = { { "../shots2", "shots/out" },
+                                            { "../shots2/room.obj", "shots/file.obj" },
+                                            { "../shots2/none.obj", "shots/dangling.obj" },
+                                            { "chain2", "shots/chain" },
+                                            { "/etc", "shots/chain2" },
+                                            { "below", "shots/in" },
+                                            { "shots", "alias" },
+                                            { "ring", "shots/ring" } };
+    for (size_t i = 0; i < sizeof links / sizeof *links; i++)
+        assert_true(symlink(links[i][0], in_folder(links[i][1])) == 0 || errno == EEXIST);
+    assert_int_equal(chdir(in_folder("shots")), 0);
+}
+
+/* Whether or not there is such a file, and before any of it is read. */
+static void names_that_lead_out_are_refused(void **unused) {
+    (void)unused;
+    char absolute[64];
+    snprintf(absolute, sizeof absolute, "%s/shots2/room.obj", folder);
+    const char *const names[] = { absolute,
+                                  "../shots2/room.obj",
+                                  "../none.obj",
+                                  "below/../../shots2/room.obj",
+                                  "file.obj",
+                                  "out/room.obj",
+                                  "dangling.obj",
+                                  "chain/passwd",
+                                  "in/../../x",
+                                  "/etc/passwd",
+                                  "/dev/null",
+                                  "/net/host/share/room.obj",
+                                  "/proc/self/mem",
+                                  "none/../../shots2/room.obj",
+                                  "ring",
+                                  "..",
+                                  "out/../shots/room.obj" };
+    write_files();
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        for (size_t k = 0; k < (i == 0 ? sizeof names / sizeof *names : 8); k++) {
+            char expected[256];
+            snprintf(expected, sizeof expected,
+                     "shots/shot.png: names the %s \"%s\", which is outside its folder (see "
+                     "--allow-paths)",
+                     parts[i].name, names[k]);
+            write_part(&parts[i], names[k]);
+            assert_one_line(repeat("shots/shot.png", NULL), names[k], expected);
+            assert_one_line(look_with("shots/shot.png", NULL, NULL), names[k], expected);
+        }
+}
+
+/* Then it is the reader of such files that has something to say, if there is anything to say. */
+static void names_that_stay_are_opened(void **unused) {
+    (void)unused;
+    char absolute[64], alias[64];
+    snprintf(absolute, sizeof absolute, "%s/shots/room.obj", folder);
+    snprintf(alias, sizeof alias, "%s/alias/below/room.obj", folder);
+    const char *const names[] = { absolute,          alias,         "room.obj",
+                                  "below//room.obj", "in/room.obj", "./below/../room.obj",
+                                  "none.obj" };
+    write_files();
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        for (size_t k = i % 2; k < sizeof names / sizeof *names; k += i == 0 ? 1 : 3) {
+            char text[4096];
+            write_part(&parts[i], names[k]);
+            const bool drawn = i == 0 && strcmp(names[k], "none.obj") != 0;
+            assert_int_equal(repeat("shots/shot.png", NULL), drawn ? 0 : 1);
+            read_text("stderr", text, sizeof text);
+            if (strstr(text, "--allow-paths") || (!drawn && !strstr(text, names[k])))
+                fail_msg("%s, %s: %s", parts[i].name, names[k], text);
+        }
+}
+
+/* As a file named through a link to the folder, from another folder. */
+static void the_folder_is_where_the_file_lies(void **unused) {
+    (void)unused;
+    write_files();
+    write_part(&parts[0], "../shots/room.obj");
+    assert_int_equal(repeat("alias/shot.png", NULL), 0);
+    assert_int_equal(chdir(in_folder("shots2")), 0);
+    assert_int_equal(repeat("shots/shot.png", NULL), 0);
+    write_part(&parts[0], "room.obj"); /* of the current folder, which is not that of the file */
+    assert_one_line(repeat("shots/shot.png", NULL), "room.obj", "outside its folder");
+    unlink(in_folder("link.png"));
+    assert_int_equal(symlink("shots/shot.png", in_folder("link.png")), 0);
+    write_part(&parts[0], "../shots2/room.obj");
+    assert_one_line(repeat("link.png", NULL), "link.png", "outside its folder");
+}
+
+static void a_user_may_name_and_allow_any(void **unused) {
+    (void)unused;
+    const char *const name = "../shots2/room.obj";
+    write_files();
+    write_part(&parts[0], name);
+    assert_int_equal(repeat_with("shots/shot.png", "--allow-paths", NULL), 0);
+    assert_int_equal(repeat_with("shots/shot.png", name, NULL), 0);
+    assert_one_line(look_with("shots/shot.png", "--allow-paths", NULL), name, "display");
+    assert_one_line(look_with("shots/shot.png", name, NULL), name, "display");
+    write_part(&parts[2], name);
+    assert_one_line(look_with("shots/shot.png", "--allow-paths", NULL), name, "display");
+    assert_one_line(look_with("shots/shot.png", "--material", MATERIAL_TEXT("../shots2/room.obj")),
+                    name, "display");
+    assert_one_line(look_with("shots/shot.png", "--material", "test_materials=ggx:0.3"), name,
+                    "outside its folder");
+    assert_one_line(look_with("shots/shot.png", "builtin:ball", NULL), name, "outside its folder");
+}
+
+/* What is built in or a formula is no file. */
+static void what_is_no_file_is_not_looked_for(void **unused) {
+    (void)unused;
+    static const char *const materials[] = { "sgd:nickel", "lambert:0.5", "phong:3", "ggx:0.3:0.9",
+                                             "sheen:0.5" };
+    write_files();
+    assert_int_equal(chdir("/"), 0);
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++) {
+        write_part(&parts[2], materials[i]);
+        strcpy(state.now.environment, "studio");
+        write_shot("shots/shot.png", 8, 8);
+        assert_one_line(look_with("shots/shot.png", NULL, NULL), materials[i], "display");
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed),
                                         TEST(the_viewer_refuses_the_same),
-                                        TEST(none_reads_standard_input) };
+                                        TEST(none_reads_standard_input),
+                                        TEST(names_that_lead_out_are_refused),
+                                        TEST(names_that_stay_are_opened),
+                                        TEST(the_folder_is_where_the_file_lies),
+                                        TEST(a_user_may_name_and_allow_any),
+                                        TEST(what_is_no_file_is_not_looked_for) };
     return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
 }

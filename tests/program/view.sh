@@ -194,7 +194,7 @@ DEMO
     count=$(find one -name 'frame_*.png' | wc -l)
     [ "$count" -gt 20 ] || fail "only $count frames are recorded"
     diff -r one two || fail "two runs of a script differ"
-    "$PROGRAM" render --from one/dropped.png -o again.png
+    "$PROGRAM" render room.obj --from one/dropped.png -o again.png
     cmp one/dropped.png again.png || fail "an image with a dropped material is repeated otherwise"
 }
 

@@ -28,7 +28,7 @@ static void screenshots_keep_every_setting(void **unused) {
     state.now.up = SCENE_UP_Z;
     state.now.camera.height = 0.1f;
     if (!view_write_shot(&state.now, rgb8, path, &error) ||
-        !view_read_shot(path, 64 * 48, &read, &error))
+        !view_read_shot(path, &(view_shot_options) { .pixels_max = 64 * 48 }, &read, &error))
         fail_msg("%s", error.text);
     unlink(path);
     read.camera.aspect = state.now.camera.aspect; /* of no effect */
