@@ -28,9 +28,15 @@ typedef struct lobe_lanes {
 } lobe_lanes;
 
 /* What a light reads of them: weights of the pairs of four columns and of four rows. Element 4q + k
- * has its pairs' weights in quarter q of columns[k]; a lone one has pair k's there. */
+ * has its pairs' weights in quarter q of columns[k]; a lone one has pair k's there, which it reads
+ * one by one and does not pack. */
 typedef struct lobe_reading {
-    vf columns[4], rows[4];
+#if LMP_LANES > 1
+    vf columns[4];
+#else
+    vi columns[4][2];
+#endif
+    vf rows[4];
     const int16_t *from[LMP_LANES];
 } lobe_reading;
 
@@ -44,8 +50,13 @@ LMP_INLINE void lobe_locate(const lobe_lanes *lobe, vf g, vf a, lobe_reading *re
              first = (1 - lobe->fraction) * (SPLINE_ONE / 6);
     for (int i = 0; i < 4; i++) {
         const vi low = vi_from(across[i] * first + 0.5f), high = vi_from(across[i] * second + 0.5f);
+#if LMP_LANES > 1
         const vi both = low | high << 16;
         memcpy(&reading->columns[i], &both, sizeof both);
+#else
+        reading->columns[i][0] = low;
+        reading->columns[i][1] = high;
+#endif
     }
     int32_t pairs[LMP_LANES];
     memcpy(pairs, &pair, sizeof pairs);
@@ -68,11 +79,9 @@ LMP_INLINE vi lobe_row_sum(const lobe_reading *reading, const int16_t *const *fr
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 #else
     vi sum = 0;
-    for (int j = 0; j < 4; j++) {
-        int16_t weights[2];
-        memcpy(weights, &reading->columns[j], sizeof weights);
-        sum += from[0][2 * j] * weights[0] + from[0][2 * j + 1] * weights[1];
-    }
+    for (int j = 0; j < 4; j++)
+        sum +=
+            from[0][2 * j] * reading->columns[j][0] + from[0][2 * j + 1] * reading->columns[j][1];
     return sum;
 #endif
 }
