@@ -4,6 +4,7 @@
 #define LAMPION_TESTS_GPU_DEVICE_H
 
 #include "app/gpu/gpu.h"
+#include "tests/oracle/check.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,13 +38,15 @@ static int close_device(void **state) {
     return 0;
 }
 
-/* For main(count, arguments), which ctest asks for one group of tests: runs an array of them by its
- * name if it is the one, or if none is named, and counts those that ran and their failures. Groups
- * are apart because a driver that has nothing compiled yet takes long for the shaders of each. */
-#define RUN_GROUP(name)                                                                            \
+/* For main(count, arguments), which ctest asks for one group of tests: runs an array of them if it
+ * is the one, by its name or by a word, or if none is named, and counts those that ran and their
+ * failures. Groups are apart because a driver that has nothing compiled yet takes long for the
+ * shaders of each. */
+#define RUN_GROUP(name) RUN_GROUP_AS(name, #name)
+#define RUN_GROUP_AS(group, word)                                                                  \
     do {                                                                                           \
-        if (count < 2 || strcmp(arguments[1], #name) == 0) {                                       \
-            failed += cmocka_run_group_tests_name(#name, name, open_device, close_device);         \
+        if (count < 2 || strcmp(arguments[1], word) == 0) {                                        \
+            failed += cmocka_run_group_tests_name(word, group, open_device, close_device);         \
             ran++;                                                                                 \
         }                                                                                          \
     } while (0)
@@ -59,6 +62,12 @@ static inline gpu_renderer *open_renderer(const scene *world) {
     gpu_renderer *renderer = gpu_renderer_create(&device, world, &error);
     expect(renderer != NULL, &error);
     return renderer;
+}
+
+/* A frame of the usual bands, or in a test's short form of a few less: llvmpipe takes 9 s to
+ * compile the field's shader for 10 bands. */
+static inline int usual_bands(void) {
+    return check_count(8, LMP_SHADE_BANDS_DEFAULT);
 }
 
 static inline gpu_frame frame_of(const scene *world, int width, int height) {

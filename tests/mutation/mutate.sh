@@ -95,7 +95,7 @@ prepare() {
     : >"$build.programs"
     for test; do
         began=$(date +%s)
-        ctest --test-dir "$build" -R "^$test(\.[a-z]*)?\$" >"$log" 2>&1 || { tail -n 20 "$log"; exit 1; }
+        ctest --test-dir "$build" -R "^$test(\.[a-z.]*)?\$" >"$log" 2>&1 || { tail -n 20 "$log"; exit 1; }
         program=$(find "$build/tests" -name "$(target "$test")" -type f)
         echo "$test $program $(cksum <"$program" | tr ' ' _) $((20 + 5 * ($(date +%s) - began)))" >>"$build.programs"
     done
@@ -112,7 +112,7 @@ $(grep "^$test " "$build.programs")
 END
         [ "$(cksum <"$program" | tr ' ' _)" != "$sum" ] || continue
         result=survived
-        ctest --test-dir "$build" -R "^$name(\.[a-z]*)?\$" --timeout "$limit" >"$log" 2>&1 || { echo "killed by $name"; return; }
+        ctest --test-dir "$build" -R "^$name(\.[a-z.]*)?\$" --timeout "$limit" >"$log" 2>&1 || { echo "killed by $name"; return; }
     done
     echo "$result"
 }
