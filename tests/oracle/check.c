@@ -58,17 +58,22 @@ int check_count(int some, int all) {
 
 /* --- random numbers --------------------------------------------------------------------------- */
 
+static uint64_t random_state;
+static bool seeded;
+
+void check_seed(unsigned long long seed) {
+    random_state = seed;
+    seeded = true;
+    print_message("seed: %llu (LAMPION_SEED sets the first)\n", seed);
+}
+
 /* splitmix64 */
 static uint64_t random_bits(void) {
-    static uint64_t state;
-    static bool seeded;
     if (!seeded) {
         const char *given = getenv("LAMPION_SEED");
-        state = given ? strtoull(given, NULL, 0) : 2020;
-        seeded = true;
-        print_message("seed: %llu (LAMPION_SEED sets it)\n", (unsigned long long)state);
+        check_seed(given ? strtoull(given, NULL, 0) : 2020);
     }
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
+    uint64_t z = random_state += 0x9e3779b97f4a7c15u;
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
     z = (z ^ z >> 27) * 0x94d049bb133111ebu;
     return z ^ z >> 31;

@@ -46,6 +46,7 @@ int check_count(int some, int all);
 
 /* --- random numbers ---------------------------------------------------------------------------
  * One fixed seed, printed at the first use, settable by the environment variable LAMPION_SEED. */
+void check_seed(unsigned long long seed);        /* begins with another, and prints it */
 double check_random(void);                       /* uniform in [0, 1) */
 double check_random_between(double a, double b); /* uniform in [a, b) */
 lmp_vec3 check_random_direction(void);
