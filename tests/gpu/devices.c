@@ -348,6 +348,18 @@ static void what_is_timed_for_comparison_draws_the_same_image(void **state) {
     s.frame.method = METHOD_TABULATED_Z;
     draw(s.renderer, &s.frame, second);
     assert_true(beyond(1) <= PIXELS / 500);
+    /* whose surface part of the scene lies in, where its cap is more than half of all directions */
+    const scene_light around = {
+        .emitter = { .position = { 0, 1, 0 }, .radius = 4, .radiance = { 0.3f, 0.2f, 0.1f } },
+        .hidden = 1
+    };
+    s.frame.lights = &around;
+    s.frame.light_count = 1;
+    s.frame.method = METHOD_ZONAL;
+    draw_first(s.renderer, &s.frame);
+    s.frame.method = METHOD_TABULATED_Z;
+    draw(s.renderer, &s.frame, second);
+    assert_true(beyond(1) <= PIXELS / 500);
     close_fixture(&s);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the filter of shadows gains, and what it must not blur. */
+#include "app/timing/timing.h"
 #include "tests/gpu/shadow.h"
 
 static double relative_error(const image *drawn, const image *true_image) {
@@ -248,6 +249,37 @@ static void the_foot_of_a_column_leaks_no_light(void **state) {
     close_stage(&s);
 }
 
+/* Of a sun over a floor that fills the image: as many a pixel as are asked for. And of a frame's
+ * time the parts are no more than all of it. */
+static void statistics_are_of_what_was_done(void **state) {
+    (void)state;
+    stage s;
+    cli_error error = { "" };
+    const shadow_settings settings = { .rays = 3 };
+    open_stage(&s);
+    set_lights(&s,
+               &(lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
+                              .direction = { 0, 0.8f, 0.6f },
+                              .irradiance = { 1, 1, 1 } },
+               1);
+    s.frame.camera = (scene_camera) {
+        .eye = { 2.3f, 1, 2.3f }, .target = { 2.3f, 0, 2.2f }, .up = { 0, 1, 0 }, .fov = 0.3f
+    };
+    shadow *all = shadow_create(&s.world, NULL, &settings, &error);
+    expect(all != NULL, &error);
+    s.frame.shadow = (gpu_host_pass) { shadow_frame, all };
+    const double start = timing_now();
+    image pixels = render_image(s.renderer, &s.frame);
+    const double passed = 1e3 * (timing_now() - start);
+    const shadow_statistics found = shadow_describe(all);
+    assert_int_equal(found.rays, 3 * PIXELS);
+    assert_true(found.rays_milliseconds >= 0 && found.filter_milliseconds >= 0);
+    CHECK_WITHIN(found.rays_milliseconds + found.filter_milliseconds, passed);
+    image_free(&pixels);
+    shadow_destroy(all);
+    close_stage(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_filter_takes_nine_tenths_of_the_error),
@@ -256,6 +288,7 @@ int main(void) {
         cmocka_unit_test(wide_penumbras_are_mixed_widely),
         cmocka_unit_test(edges_of_a_small_far_light_stay_within_a_pixel),
         cmocka_unit_test(the_foot_of_a_column_leaks_no_light),
+        cmocka_unit_test(statistics_are_of_what_was_done),
     };
     return cmocka_run_group_tests(tests, open_device, close_device);
 }

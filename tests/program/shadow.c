@@ -58,6 +58,33 @@ static void rays_to_a_sphere_end_on_it(void **state) {
     }
 }
 
+/* From the edge of half the sphere of directions they are sine and cosine of the part of a turn,
+ * within the 4e-7 of their series and a rounding. */
+static void rays_go_around_the_axis_by_parts_of_a_turn(void **state) {
+    (void)state;
+    const scene_light half = { .emitter = { .kind = LMP_LIGHT_CAP,
+                                            .direction = { 0, 0, 1 },
+                                            .angle = (float)acos(0),
+                                            .radiance = { 1, 1, 1 } } };
+    const shadow_source source = source_of(&half);
+    shadow_lanes u, v;
+    shadow_samples samples;
+    for (int i = 0; i < 4096; i += SHADOW_LANES - 1) {
+        for (int k = 0; k < SHADOW_LANES; k++) {
+            u[k] = 1;
+            v[k] = k > 0 ? (float)(i + k - 1) / 4096 : 0; /* the first one is where turns begin */
+        }
+        draw(&source, u, v, &samples);
+        const lmp_vec3 x = shadow_lane(&samples.direction, 0), y = { -x.y, x.x, 0 };
+        for (int k = 1; k < SHADOW_LANES; k++) {
+            const lmp_vec3 d = shadow_lane(&samples.direction, k);
+            const double turn = 2 * acos(-1) * (double)v[k];
+            CHECK_WITHIN(fabs(dot(d, x) - cos(turn)), 4.6e-7);
+            CHECK_WITHIN(fabs(fabs(dot(d, y)) - fabs(sin(turn))), 4.6e-7);
+        }
+    }
+}
+
 /* The mean of what rays bring, by the cosine with the light's middle, is the irradiance there: pi L
  * sin²a of a sphere and of a cap, I/d² of a point, E of a direction, pi L of a sky. */
 static void rays_bring_the_irradiance(void **state) {
@@ -252,50 +279,58 @@ static void bend_triangle(float side, scene *world) {
                        .maximum = { 1, 1, 1 } };
 }
 
-/* Points of the bent triangle by their weights, seen from outside. */
-static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], shadow_points *points) {
-    static const scene_camera camera = { .eye = { 4, 4, 4 } };
+static const scene_camera camera = { .eye = { 4, 4, 4 } };
+static const lmp_shade_settings shading = { .bands = 20, .window = LMP_WINDOW_NONE };
+
+/* Points of the bent triangle by their weights, seen from outside, all of that material. */
+static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], gpu_row *row,
+                       const lmp_material *material, shadow_points *points) {
     trace_bvh *bvh = trace_create(world);
     const shadow_view view = { .scene = world,
                                .bvh = bvh,
                                .lift = (float)trace_lift(world),
                                .camera = &camera,
-                               .settings = { .bands = 20, .window = LMP_WINDOW_NONE } };
-    gpu_row row;
+                               .settings = shading };
     int pixels[SHADOW_LANES];
-    assert_true(bvh && gpu_row_create(SHADOW_LANES, &row));
+    assert_non_null(bvh);
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 eye = vec_load(camera.eye), v = vec_normalize(vec_sub(eye, at[i]), eye);
         pixels[i] = i;
-        row.ambient[i] = 1;
+        row->ambient[i] = 1;
         for (int c = 0; c < 3; c++) {
-            row.position[c][i] = (&at[i].x)[c];
-            row.normal[c][i] = 1 / sqrtf(3);
-            row.view[c][i] = (&v.x)[c];
-            row.coat_normal[c][i] = 0;
+            row->position[c][i] = (&at[i].x)[c];
+            row->normal[c][i] = 1 / sqrtf(3);
+            row->view[c][i] = (&v.x)[c];
+            row->coat_normal[c][i] = 1 / sqrtf(3);
         }
-        row.material[i] = (lmp_material) { .roughness = 1, .base_color = { 1, 1, 1 } };
+        row->material[i] = *material;
     }
-    shadow_points_set(&view, &row, pixels, SHADOW_LANES, points);
-    gpu_row_free(&row);
+    shadow_points_set(&view, row, pixels, SHADOW_LANES, points);
+    points->settings = &shading; /* the view ends here */
     trace_destroy(bvh);
 }
+
+static void pick(lmp_vec3 at[SHADOW_LANES]) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float a = 0.02f + 0.96f * (float)check_random(),
+                    b = (1 - a) * (0.02f + 0.96f * (float)check_random());
+        at[i] = vec(a, b, 1 - a - b);
+    }
+}
+
+static const lmp_material matte = { .roughness = 1, .base_color = { 1, 1, 1 } };
 
 /* From triangles whose corners and normals are those of a ball, rays start on the ball, but for
  * what a surface of second degree cannot follow; from those that are hollow, on the triangle. */
 static void rays_leave_the_surface_that_normals_bend(void **state) {
-    (void)state;
+    gpu_row *row = *state;
     for (float side = 1; side >= -1; side -= 2) {
         scene world;
         shadow_points points;
         lmp_vec3 at[SHADOW_LANES];
-        for (int i = 0; i < SHADOW_LANES; i++) {
-            const float a = 0.02f + 0.96f * (float)check_random(),
-                        b = (1 - a) * (0.02f + 0.96f * (float)check_random());
-            at[i] = vec(a, b, 1 - a - b);
-        }
+        pick(at);
         bend_triangle(side, &world);
-        set_points(&world, at, &points);
+        set_points(&world, at, row, &matte, &points);
         for (int i = 0; i < SHADOW_LANES; i++) {
             const lmp_vec3 origin = shadow_lane(&points.origin, i);
             const double flat = sqrt(dot(at[i], at[i])), lift = 2 * trace_lift(&world);
@@ -308,13 +343,74 @@ static void rays_leave_the_surface_that_normals_bend(void **state) {
     }
 }
 
+/* What the coat's lobe costs is spent where some point has one. Straight toward the eye it reflects
+ * 4 % of the light, of its weight. */
+static void points_are_coated_where_their_material_is(void **state) {
+    gpu_row *row = *state;
+    scene world;
+    shadow_points points;
+    lmp_vec3 at[SHADOW_LANES];
+    for (int i = 0; i < SHADOW_LANES; i++)
+        at[i] = vec(1 / 3.0f, 1 / 3.0f, 1 / 3.0f);
+    bend_triangle(1, &world);
+    set_points(&world, at, row, &matte, &points);
+    assert_false(points.coated);
+    lmp_material coated = matte;
+    coated.coat = (lmp_coat) { .weight = 0.5f, .roughness = 0.3f };
+    set_points(&world, at, row, &coated, &points);
+    assert_true(points.coated);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        CHECK_WITHIN(fabsf(points.coat[i] - 0.02f), 1e-5f);
+}
+
+/* Lobes of 20 bands, of white light: each channel as much as it reflects by its diffuse
+ * lobe, pi times less than the cosine but for what the bands leave out, and nothing from below. */
+static void channels_of_series_reflect_what_is_theirs(void **state) {
+    gpu_row *row = *state;
+    scene world;
+    shadow_points points;
+    shadow_vectors w, k;
+    lmp_vec3 at[SHADOW_LANES];
+    const float diffuse[3] = { 0.25f, 0.5f, 1 };
+    const lmp_material lobes = { .kind = LMP_MATERIAL_LOBES,
+                                 .diffuse = { diffuse[0], diffuse[1], diffuse[2] },
+                                 .exponent = 1 };
+    pick(at);
+    bend_triangle(1, &world);
+    set_points(&world, at, row, &lobes, &points);
+    for (int i = 0; i < SHADOW_LANES; i++)
+        shadow_set_lane(&w, i, check_random_direction());
+    shadow_reflect(&points, &w, &k);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 d = shadow_lane(&w, i);
+        const double cosine = (double)(d.x + d.y + d.z) / sqrt(3);
+        for (int c = 0; c < 3; c++)
+            CHECK_WITHIN(fabs((double)k.of[c][i] / (double)diffuse[c] - fmax(cosine, 0) / acos(-1)),
+                         3e-3);
+    }
+}
+
+static int make_row(void **state) {
+    static gpu_row row;
+    *state = &row;
+    return gpu_row_create(SHADOW_LANES, &row) ? 0 : 1;
+}
+
+static int free_row(void **state) {
+    gpu_row_free(*state);
+    return 0;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_to_a_sphere_end_on_it),
+        cmocka_unit_test(rays_go_around_the_axis_by_parts_of_a_turn),
         cmocka_unit_test(rays_bring_the_irradiance),
         cmocka_unit_test(neighbors_do_not_mix),
         cmocka_unit_test(small_lights_weigh_what_is_reflected_of_them),
         cmocka_unit_test(rays_leave_the_surface_that_normals_bend),
+        cmocka_unit_test(points_are_coated_where_their_material_is),
+        cmocka_unit_test(channels_of_series_reflect_what_is_theirs),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_row, free_row);
 }
