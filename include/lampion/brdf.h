@@ -138,7 +138,7 @@ LMP_API lmp_result lmp_brdf_read_rgl(const lmp_host *host, const void *data, siz
  * 180 (an anisotropic BRDF loses its anisotropy). RGL: RGB, resolution in docs/formats.md.
  *
  * *data receives *size bytes allocated by the host; release them through it (free() if NULL).
- * *data is NULL on failure */
+ * *data is NULL and *size 0 on failure. */
 #define LMP_MERL_SIZE 34992012u
 LMP_API lmp_result lmp_brdf_write_merl(const lmp_host *host, const lmp_brdf *brdf, void **data,
                                        size_t *size);

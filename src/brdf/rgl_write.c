@@ -269,12 +269,13 @@ static lmp_result write_file(const writer *w, const lmp_host *host, void **data,
         { "rgb", RGL_F32, 5, { phis, thetas, 3, side, side }, r->rgb },
     };
     const size_t count = sizeof fields / sizeof *fields;
-    *size = directory_size(fields, count);
+    size_t total = directory_size(fields, count);
     for (size_t i = 0; i < count; i++)
-        *size += out_bytes(&fields[i]);
-    *data = lmp_allocate(host, *size);
+        total += out_bytes(&fields[i]);
+    *data = lmp_allocate(host, total);
     if (!*data)
         return LMP_ERROR_MEMORY;
+    *size = total;
     write_fields(fields, count, *data);
     return LMP_OK;
 }

@@ -52,6 +52,7 @@ app/reference/sheen.c reference.sheen
 app/reference/ggx.c reference.ggx reference.layers
 app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
 app/compare/*.c reference.compare
+app/shadow/around.c program.around gpu.shadow
 app/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
 app/shade/*.c gpu.table gpu.field gpu.shade gpu.draw
 app/gpu/table.c gpu.table gpu.draw

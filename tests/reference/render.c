@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Images of the ground truth: a floor whose every pixel has a known value. */
 #include "app/reference/reference.h"
+#include "app/trace/trace.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
 
@@ -144,6 +145,44 @@ static void every_pixel_is_what_the_specification_says(void **state) {
     image_free(&standard_error);
 }
 
+/* A light that is looked at is its radiance, of which nothing is drawn by chance; what lights of
+ * other kinds have does not count. */
+static void a_glowing_sphere_is_its_radiance_exactly(void **state) {
+    (void)state;
+    fixture s;
+    image radiance, standard_error;
+    build(&s);
+    s.lights[0].emitter = (lmp_light) {
+        .position = { 0, 3, 0 }, .radius = 1.9f, .radiance = { 10, 20, 30 }, .ground = { 7, 8, 9 }
+    };
+    s.world.light_count = 1;
+    draw(&s, &radiance, &standard_error);
+    const size_t middle = 3 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    for (size_t c = 0; c < 3; c++) {
+        assert_true(radiance.rgb[middle + c] == 10 * (float)(c + 1));
+        assert_true(standard_error.rgb[middle + c] == 0);
+    }
+    image_free(&radiance);
+    image_free(&standard_error);
+}
+
+/* Rounding grows with the coordinates, and so does how far rays start off their surface: the same
+ * scene in units 4096 times larger is the same. */
+static void rays_are_lifted_in_the_scenes_own_unit(void **state) {
+    (void)state;
+    fixture s;
+    build(&s);
+    const double lift = trace_lift(&s.world);
+    CHECK_WITHIN(fabs(lift / 10 - 1e-5), 1e-12);
+    for (int i = 0; i < 3; i++) {
+        s.world.minimum[i] /= 4096;
+        s.world.maximum[i] /= 4096;
+    }
+    CHECK_WITHIN(fabs(trace_lift(&s.world) * 4096 / lift - 1), 1e-12);
+    s.world.minimum[1] = -1; /* the farthest of all, below */
+    CHECK_WITHIN(fabs(trace_lift(&s.world) - 1e-5), 1e-12);
+}
+
 static void the_number_of_threads_changes_no_bit(void **state) {
     (void)state;
     scene world;
@@ -279,6 +318,8 @@ static void glowing_spheres_are_seen(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_is_what_the_specification_says),
+        cmocka_unit_test(a_glowing_sphere_is_its_radiance_exactly),
+        cmocka_unit_test(rays_are_lifted_in_the_scenes_own_unit),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
         cmocka_unit_test(backs_of_single_sided_triangles_are_not_seen),
         cmocka_unit_test(an_alpha_mask_cuts_holes),

@@ -234,10 +234,11 @@ static lmp_result make_every_kind(const lmp_host *host) {
 
 static lmp_result write_with(const lmp_host *host, writer write) {
     lmp_brdf *brdf = lambert(0.8f, 0.5f, 0.2f);
-    void *data = NULL;
-    size_t size = 0;
+    void *data = brdf;
+    size_t size = 7;
     const lmp_result result = write(host, brdf, &data, &size);
     assert_true((data == NULL) == (result != LMP_OK));
+    assert_true((size == 0) == (result != LMP_OK));
     if (data)
         host->release(data, host->user);
     lmp_brdf_destroy(brdf);

@@ -193,7 +193,7 @@ static double area_integral(const float *values, int width, int height, double e
     return sum;
 }
 
-enum { THETAS = 4, PHIS = 5, DENSITY_X = 5, DENSITY_Y = 6, VALUE_SIZE = 4 };
+enum { THETAS = 4, PHIS = 5, DENSITY_X = 5, DENSITY_Y = 6, VALUE_X = 4, VALUE_Y = 6 };
 
 /* A file of random values: anisotropic over a whole turn, or isotropic. Rows of density at the
  * bottom of a slice may be 0. */
@@ -208,7 +208,7 @@ static tensor random_tensor(int phis, int zero_rows) {
     add(&t, "ndf", F32, SHAPE(7, 5), 0);
     add(&t, "sigma", F32, SHAPE(3, 4), 0);
     add(&t, "vndf", F32, SHAPE((uint64_t)phis, THETAS, DENSITY_Y, DENSITY_X), 0);
-    add(&t, "rgb", F32, SHAPE((uint64_t)phis, THETAS, 3, VALUE_SIZE, VALUE_SIZE), 0);
+    add(&t, "rgb", F32, SHAPE((uint64_t)phis, THETAS, 3, VALUE_Y, VALUE_X), 0);
     for (int f = 2; f < 6; f++)
         for (size_t i = 0; i < field_count(&t.fields[f]); i++)
             t.fields[f].values[i] = (float)check_random_between(0.2, 2);
@@ -259,9 +259,8 @@ static void value_by_integrals(tensor *t, const double a[3], const double b[3], 
             }
             for (int c = 0; c < 3; c++)
                 value[c] +=
-                    weight *
-                    bilinear(find(t, "rgb")->values + (3 * slice + c) * VALUE_SIZE * VALUE_SIZE,
-                             VALUE_SIZE, VALUE_SIZE, row > 0 ? part / row : x, below);
+                    weight * bilinear(find(t, "rgb")->values + (3 * slice + c) * VALUE_X * VALUE_Y,
+                                      VALUE_X, VALUE_Y, row > 0 ? part / row : x, below);
         }
     const double ndf = bilinear(find(t, "ndf")->values, 5, 7, x, y);
     const double sigma = bilinear(find(t, "sigma")->values, 4, 3, sqrt(theta * 2 / ORACLE_PI),

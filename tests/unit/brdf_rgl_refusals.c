@@ -76,6 +76,28 @@ static void directories_are_checked(void **state) {
     }
 }
 
+/* A field that nobody knows, at the end of a file: of each type as many elements as fit into 24
+ * bytes, and one more. The types as the format counts them, from 1: integers of 8, 16, 32 and 64
+ * bits, without and with a sign, then floating-point numbers of 16, 32 and 64. */
+static void elements_have_the_size_of_their_type(void **state) {
+    (void)state;
+    static const uint64_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8 };
+    for (unsigned type = 1; type <= sizeof sizes / sizeof *sizes; type++) {
+        tensor t = flat_rgb();
+        add(&t, "made_by", U8, SHAPE(24), 0);
+        const size_t end = directory_size(&t); /* type, offset and shape are its last 17 bytes */
+        size_t size = 0;
+        unsigned char *bytes = bytes_of(&t, &size);
+        drop(&t);
+        bytes[end - 17] = (unsigned char)type;
+        lmp_bytes_store_u64(bytes + end - 8, 24 / sizes[type - 1]);
+        lmp_brdf_destroy(read_bytes(bytes, size));
+        lmp_bytes_store_u64(bytes + end - 8, 24 / sizes[type - 1] + 1);
+        expect_parse_error(bytes, size, LMP_ERROR_FORMAT, "end past the file's");
+        free(bytes);
+    }
+}
+
 /* Each dimension small enough, their product too large for the file, or for 64 bits. */
 static void products_of_dimensions_are_checked(void **state) {
     (void)state;
@@ -283,6 +305,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(headers_are_checked),
         cmocka_unit_test(directories_are_checked),
+        cmocka_unit_test(elements_have_the_size_of_their_type),
         cmocka_unit_test(products_of_dimensions_are_checked),
         cmocka_unit_test(missing_and_duplicate_fields_are_refused),
         cmocka_unit_test(shapes_must_agree),

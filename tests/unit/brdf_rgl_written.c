@@ -2,6 +2,7 @@
 /* The model in a tensor file that the library writes: what readers other than ours sample by. From
  * its definition, the distribution of normals seen in retro-reflection, D ~ f_r(m, m) cos² of their
  * mean color. */
+#include "src/base/bytes.h"
 #include "src/brdf/brdf.h"
 #include "tests/oracle/check.h"
 
@@ -106,10 +107,62 @@ static void their_projected_area_is_the_integral_over_the_hemisphere(void **stat
     lmp_brdf_destroy(brdf);
 }
 
+/* A field of a tensor file, found by the format: 18 bytes, then of each field its name, shape and
+ * place. Sets how many dimensions there are and how long they are. */
+static const unsigned char *field_of(const unsigned char *bytes, const char *wanted, size_t *count,
+                                     size_t shape[5]) {
+    const unsigned char *p = bytes + 18;
+    for (;;) {
+        const size_t length = lmp_bytes_load_u16(&p);
+        const bool found = length == strlen(wanted) && memcmp(p, wanted, length) == 0;
+        p += length;
+        const int dimensions = lmp_bytes_load_u16(&p);
+        p++;                                          /* the type */
+        const size_t offset = lmp_bytes_load_u32(&p); /* of 8 bytes, the upper ones 0 */
+        p += 4;
+        *count = 1;
+        for (int d = 0; d < dimensions; d++) {
+            shape[d] = lmp_bytes_load_u32(&p);
+            p += 4;
+            *count *= shape[d];
+        }
+        if (found)
+            return bytes + offset;
+    }
+}
+
+/* As the format has it: the mean of the three channels, of each sample of each slice. */
+static void luminance_is_the_mean_of_the_channels(void **state) {
+    (void)state;
+    const lmp_ggx ggx = { 0.6f, 0.3f, { 0.9f, 0.5f, 0.1f }, { 0, 0.1f, 0.3f } };
+    lmp_brdf *brdf;
+    void *data;
+    size_t size, count, values;
+    size_t shape[5];
+    assert_int_equal(lmp_brdf_create_ggx(NULL, &ggx, &brdf), LMP_OK);
+    assert_int_equal(lmp_brdf_write_rgl(NULL, brdf, &data, &size), LMP_OK);
+    const unsigned char *luminance = field_of(data, "luminance", &count, shape);
+    const unsigned char *rgb = field_of(data, "rgb", &values, shape);
+    const size_t plane = shape[3] * shape[4], slices = shape[0] * shape[1];
+    assert_true(slices > 1 && shape[2] == 3 && values == 3 * slices * plane);
+    assert_int_equal(count, slices * plane);
+    for (size_t i = 0; i < count; i++) {
+        double sum = 0;
+        for (size_t c = 0; c < 3; c++)
+            sum += (double)lmp_bytes_at_f32(rgb + 4 * ((3 * (i / plane) + c) * plane + i % plane));
+        const double expected = fmax(sum / 3, 0);
+        CHECK_WITHIN(fabs((double)lmp_bytes_at_f32(luminance + 4 * i) - expected),
+                     1e-6 * (1e-30 + expected));
+    }
+    free(data);
+    lmp_brdf_destroy(brdf);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(normals_are_those_seen_in_retro_reflection),
         cmocka_unit_test(their_projected_area_is_the_integral_over_the_hemisphere),
+        cmocka_unit_test(luminance_is_the_mean_of_the_channels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -225,6 +225,45 @@ static void numbers_out_of_range_are_refused(void **state) {
     lmp_brdf_table_destroy(table);
 }
 
+/* The least that a file may have: two views and two caps, one step of either remap between them,
+ * and slices of 4 x 4 texels. `origin` is that of their rows. */
+static unsigned char *least_bytes(const unsigned char *header, float origin, size_t *size) {
+    const uint32_t counts[] = { 2, 2, 1, 1, 4 * 16 };
+    *size = 68 + 4 * 4 + 12 * 2 + 24 * 4 + 6 * 4 * 16 + 4;
+    unsigned char *bytes = calloc(*size, 1), *p = bytes + 48;
+    assert_non_null(bytes);
+    memcpy(bytes, header, 48);
+    for (int i = 0; i < 5; i++)
+        p = lmp_bytes_store_u32(p, counts[i]);
+    for (int i = 0; i < 4; i++)
+        p = lmp_bytes_store_f32(p, (float)(i % 2));
+    p += 12 * 2;
+    for (int i = 0; i < 4; i++) {
+        p = lmp_bytes_store_u32(lmp_bytes_store_u32(p, 4), 4);
+        p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 1), origin);
+        p = lmp_bytes_store_f32(lmp_bytes_store_f32(p, 1), 1);
+    }
+    damage_sign(bytes, *size);
+    return bytes;
+}
+
+static void the_least_and_the_farthest_are_read(void **state) {
+    (void)state;
+    static const float origins[] = { 0, 1e9f, -1e9f, 1.0001e9f, -1.0001e9f, NAN };
+    lmp_brdf_table *table = small_table();
+    lmp_preintegrated_brdf *preintegrated = created(table, 0.1f);
+    size_t size;
+    unsigned char *header = written(preintegrated, &size);
+    for (int i = 0; i < 6; i++) {
+        unsigned char *bytes = least_bytes(header, origins[i], &size);
+        assert_int_equal(read_and_use(bytes, size), i < 3 ? LMP_OK : LMP_ERROR_FORMAT);
+        free(bytes);
+    }
+    free(header);
+    lmp_preintegrated_brdf_destroy(preintegrated);
+    lmp_brdf_table_destroy(table);
+}
+
 static lmp_rgb at_an_end(const lmp_preintegrated_brdf *brdf, int remap, int end, int i) {
     const float part = (float)i / 19;
     const lmp_vec3 axis = { sinf(part) * cosf(0.3f), sinf(part) * sinf(0.3f), cosf(part) };
@@ -299,6 +338,7 @@ int main(void) {
         cmocka_unit_test(bytes_read_back_are_the_same_brdf),
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(numbers_out_of_range_are_refused),
+        cmocka_unit_test(the_least_and_the_farthest_are_read),
         cmocka_unit_test(counts_out_of_range_are_refused_though_the_size_agrees),
         cmocka_unit_test(ends_of_a_remap_are_its_end_nodes),
         cmocka_unit_test(smooth_rows_are_thinned_and_rough_ones_are_not),

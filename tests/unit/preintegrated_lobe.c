@@ -258,6 +258,21 @@ static void its_bytes_are_those_of_its_parts(void **state) {
     }
 }
 
+/* A step follows the width of the lobes, or is the same for all of a cell: the other number is 0.
+ */
+static void steps_follow_the_width_or_nothing(void **state) {
+    (void)state;
+    int kinds[2] = { 0, 0 };
+    lmp_preintegrated_lobe *lobe = created(60, LMP_WINDOW_NONE, 0);
+    const lmp_preintegrated_lobe_info info = lmp_preintegrated_lobe_describe(lobe);
+    for (uint32_t i = 0; i < info.cell_count; i++) {
+        assert_true((info.cells[i].scale == 0) != (info.cells[i].offset == 0));
+        kinds[info.cells[i].scale == 0]++;
+    }
+    assert_true(kinds[0] > 0 && kinds[1] > 0);
+    lmp_preintegrated_lobe_destroy(lobe);
+}
+
 static void a_refused_allocation_leaks_nothing(void **state) {
     (void)state;
     const lmp_preintegrated_lobe_desc desc = { .bands = 2, .error = 0.1f };
@@ -383,6 +398,7 @@ int main(void) {
         cmocka_unit_test(tasks_in_any_order_give_the_same_bytes),
         cmocka_unit_test(arguments_outside_their_range_are_refused),
         cmocka_unit_test(its_bytes_are_those_of_its_parts),
+        cmocka_unit_test(steps_follow_the_width_or_nothing),
         cmocka_unit_test(a_refused_allocation_leaks_nothing),
         cmocka_unit_test(bytes_read_back_are_the_same_lobe),
         cmocka_unit_test(damaged_bytes_are_refused),

@@ -94,6 +94,22 @@ static void formats_can_be_changed(void **state) {
                  1e-5);
 }
 
+/* What is written may lie right before or behind what is read. */
+static void values_may_lie_beside_coefficients(void **state) {
+    (void)state;
+    const seen_sphere seen = random_sphere(3);
+    float values[27], row[3 * 27];
+    memcpy(row + 27, seen.sh, sizeof values);
+    for (int e = 0; e < LMP_PROBE_ENGINES; e++) {
+        const lmp_probe_format *format = lmp_probe_format_of((lmp_probe_engine)e);
+        lmp_probe_export(3, format, seen.sh, values);
+        lmp_probe_export(3, format, row + 27, row);
+        lmp_probe_export(3, format, row + 27, row + 2 * 27);
+        assert_memory_equal(row, values, sizeof values);
+        assert_memory_equal(row + 2 * 27, values, sizeof values);
+    }
+}
+
 static void formats_have_names_and_units(void **state) {
     (void)state;
     static const char *const names[LMP_PROBE_ENGINES] = { "unity", "unreal", "godot", "filament" };
@@ -109,6 +125,7 @@ int main(void) {
         cmocka_unit_test(shaders_of_engines_find_the_irradiance_of_three_bands),
         cmocka_unit_test(three_bands_are_near_the_exact_irradiance),
         cmocka_unit_test(formats_can_be_changed),
+        cmocka_unit_test(values_may_lie_beside_coefficients),
         cmocka_unit_test(formats_have_names_and_units),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
