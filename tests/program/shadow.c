@@ -58,9 +58,9 @@ static void rays_to_a_sphere_end_on_it(void **state) {
     }
 }
 
-/* From the edge of half the sphere of directions they are sine and cosine of the part of a turn,
+/* From the edge of half the sphere of directions they are sine and cosine of the part of a circle,
  * within the 4e-7 of their series and a rounding. */
-static void rays_go_around_the_axis_by_parts_of_a_turn(void **state) {
+static void rays_go_around_the_axis_by_parts_of_a_circle(void **state) {
     (void)state;
     const scene_light half = { .emitter = { .kind = LMP_LIGHT_CAP,
                                             .direction = { 0, 0, 1 },
@@ -72,15 +72,16 @@ static void rays_go_around_the_axis_by_parts_of_a_turn(void **state) {
     for (int i = 0; i < 4096; i += SHADOW_LANES - 1) {
         for (int k = 0; k < SHADOW_LANES; k++) {
             u[k] = 1;
-            v[k] = k > 0 ? (float)(i + k - 1) / 4096 : 0; /* the first one is where turns begin */
+            v[k] = k > 0 ? (float)(i + k - 1) / 4096
+                         : 0; /* the first one is where the circle begins */
         }
         draw(&source, u, v, &samples);
         const lmp_vec3 x = shadow_lane(&samples.direction, 0), y = { -x.y, x.x, 0 };
         for (int k = 1; k < SHADOW_LANES; k++) {
             const lmp_vec3 d = shadow_lane(&samples.direction, k);
-            const double turn = 2 * acos(-1) * (double)v[k];
-            CHECK_WITHIN(fabs(dot(d, x) - cos(turn)), 4.6e-7);
-            CHECK_WITHIN(fabs(fabs(dot(d, y)) - fabs(sin(turn))), 4.6e-7);
+            const double angle = 2 * acos(-1) * (double)v[k];
+            CHECK_WITHIN(fabs(dot(d, x) - cos(angle)), 4.6e-7);
+            CHECK_WITHIN(fabs(fabs(dot(d, y)) - fabs(sin(angle))), 4.6e-7);
         }
     }
 }
@@ -404,7 +405,7 @@ static int free_row(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rays_to_a_sphere_end_on_it),
-        cmocka_unit_test(rays_go_around_the_axis_by_parts_of_a_turn),
+        cmocka_unit_test(rays_go_around_the_axis_by_parts_of_a_circle),
         cmocka_unit_test(rays_bring_the_irradiance),
         cmocka_unit_test(neighbors_do_not_mix),
         cmocka_unit_test(small_lights_weigh_what_is_reflected_of_them),
