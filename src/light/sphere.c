@@ -5,6 +5,7 @@
 
 #include <lampion/light.h>
 
+#include <float.h>
 #include <math.h>
 
 static const float pi = 3.14159265f;
@@ -12,12 +13,13 @@ static const float pi = 3.14159265f;
 void lmp_sight_distance(float radius, float distance, lmp_sight *sight) {
     const bool inside = distance < radius;
     const float near = inside ? distance : radius, far = inside ? radius : distance;
-    const float ratio = far == 0 ? 0 : near / far;
+    const bool nothing = far < FLT_MIN;
+    const float per_far = nothing ? 0 : 1 / far, ratio = near * per_far;
     sight->distance = distance;
     sight->inside = inside;
     sight->sin2 = ratio * ratio;
     /* not sqrt(1 - sin²a), which cancels for touching lights */
-    sight->cosine = far == 0 ? 1 : sqrtf((far - near) / far * ((far + near) / far));
+    sight->cosine = nothing ? 1 : sqrtf((far - near) * (far + near)) * per_far;
     sight->one_minus_cos = sight->sin2 / (1 + sight->cosine);
 }
 
