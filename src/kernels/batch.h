@@ -80,8 +80,10 @@ static inline void lmp_batch_load(const lmp_vec3_array *array, size_t i, lmp_bat
 
 /* 0 in the lanes past the last of `count`. */
 static inline void lmp_batch_fill(lmp_batch_vec3 planes, size_t count) {
-    for (size_t i = count; i % LMP_KERNEL_LANES_MAX; i++)
-        lmp_batch_set(0, 0, 0, planes, i);
+    const size_t missing = -count % LMP_KERNEL_LANES_MAX;
+    memset(planes.x + count, 0, missing * sizeof(float));
+    memset(planes.y + count, 0, missing * sizeof(float));
+    memset(planes.z + count, 0, missing * sizeof(float));
 }
 
 /* The same of vectors; where their members are not planes, in one pass over them. */

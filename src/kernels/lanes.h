@@ -165,18 +165,16 @@ LMP_INLINE vf vf_load(const float *from) {
     memcpy(&v, from, sizeof v);
     return v;
 }
+#if LMP_LANES == 4 || LMP_LANES == 8
 /* Half as many, twice. */
 LMP_INLINE vf vf_load_twice(const float *from) {
-#if LMP_LANES == 16
-    return (vf)_mm512_broadcast_f32x8(_mm256_loadu_ps(from));
-#elif LMP_LANES == 8
+#if LMP_LANES == 8
     return (vf)_mm256_broadcast_ps((const __m128 *)(const void *)from);
-#elif LMP_LANES == 4
-    return (vf) { from[0], from[1], from[0], from[1] };
 #else
-    return *from;
+    return (vf) { from[0], from[1], from[0], from[1] };
 #endif
 }
+#endif
 /* The first `count` of them, 1 … LMP_LANES - 1; the others are 0 and not read. */
 LMP_INLINE vf vf_load_first(const float *from, int count) {
 #if LMP_LANES == 16

@@ -92,40 +92,41 @@ static lmp_kernel_lights lights_of(const lmp_spheres *spheres, size_t count) {
                                  .count = count };
 }
 
-/* Gradients too, where there is one. */
-static void accumulate_all(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *all,
-                           lmp_vec3_array points, size_t point_count, lmp_sh_layout layout,
+/* Gradients too, where there is one. Neither lights nor points are copied: a register of
+ * members that were stored one by one would wait for them. */
+static void accumulate_all(const lmp_scratch *scratch, int bands, lmp_kernel_lights *lights,
+                           const lmp_vec3_array *points, size_t point_count, lmp_sh_layout layout,
                            size_t stride, float *sh, size_t gradient_stride, float *gradient) {
     const size_t values = LMP_SH_COUNT(bands);
     const int planar = layout == LMP_SH_PLANAR;
     assert(lmp_is_bands(bands) && lmp_is_scratch(scratch));
     assert(lmp_is_layout(layout, stride, 3 * values, point_count));
-    assert(lmp_are_finite(points, point_count));
+    assert(lmp_are_finite(*points, point_count));
     const lmp_kernels *kernels = lmp_kernels_get();
-    lmp_kernel_lights lights = *all;
+    const float *visibility = lights->visibility;
     lmp_batch_room room;
     for (size_t first = 0; first < point_count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(point_count, first);
-        const lmp_kernel_vec3 vectors = lmp_batch_vectors(&points, first, n, lmp_batch_in(&room));
+        const lmp_kernel_vec3 vectors = lmp_batch_vectors(points, first, n, lmp_batch_in(&room));
         const lmp_kernel_out out =
             lmp_batch_out(sh, 3 * values, point_count, planar, stride, first);
-        if (all->visibility)
-            lights.visibility = all->visibility + first;
+        if (visibility)
+            lights->visibility = visibility + first;
         if (!gradient) {
-            kernels->accumulate(scratch, bands, &lights, &vectors, n, &out);
+            kernels->accumulate(scratch, bands, lights, &vectors, n, &out);
             continue;
         }
         const lmp_kernel_out slopes =
             lmp_batch_out(gradient, 9 * values, point_count, planar, gradient_stride, first);
-        kernels->gradient(scratch, bands, &lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
+        kernels->gradient(scratch, bands, lights, &vectors, LMP_COS_MIN, n, &out, &slopes);
     }
 }
 
 void lmp_sphere_accumulate_n(const lmp_scratch *scratch, int bands, const lmp_spheres *spheres,
                              size_t sphere_count, lmp_vec3_array points, size_t point_count,
                              lmp_sh_layout layout, size_t stride, float *sh) {
-    lmp_sphere_accumulate_visible_n(scratch, bands, spheres, sphere_count, NULL, points,
-                                    point_count, layout, stride, sh);
+    lmp_kernel_lights lights = lights_of(spheres, sphere_count);
+    accumulate_all(scratch, bands, &lights, &points, point_count, layout, stride, sh, 0, NULL);
 }
 
 void lmp_sphere_accumulate_visible_n(const lmp_scratch *scratch, int bands,
@@ -136,7 +137,7 @@ void lmp_sphere_accumulate_visible_n(const lmp_scratch *scratch, int bands,
     lmp_kernel_lights lights = lights_of(spheres, sphere_count);
     lights.visibility = visibility;
     lights.visibility_stride = point_count;
-    accumulate_all(scratch, bands, &lights, points, point_count, layout, stride, sh, 0, NULL);
+    accumulate_all(scratch, bands, &lights, &points, point_count, layout, stride, sh, 0, NULL);
 }
 
 void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
@@ -145,7 +146,7 @@ void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int bands,
                                       lmp_sh_layout layout, size_t stride, float *sh,
                                       size_t gradient_stride, float *gradient) {
     assert(lmp_is_layout(layout, gradient_stride, 9 * LMP_SH_COUNT(bands), point_count));
-    const lmp_kernel_lights lights = lights_of(spheres, sphere_count);
-    accumulate_all(scratch, bands, &lights, points, point_count, layout, stride, sh,
+    lmp_kernel_lights lights = lights_of(spheres, sphere_count);
+    accumulate_all(scratch, bands, &lights, &points, point_count, layout, stride, sh,
                    gradient_stride, gradient);
 }
