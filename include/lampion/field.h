@@ -57,7 +57,7 @@ typedef struct lmp_field_info {
     float reach; /* in the unit of positions */
     size_t light_count;
     size_t node_bytes; /* of a node's coefficients and derivatives */
-    size_t bytes;      /* of all */
+    size_t bytes;      /* of all; of a coarser field 0, for they are the finest one's */
 } lmp_field_info;
 
 /* host and desc may be NULL; *field is NULL on failure (LMP_ERROR_ARGUMENT: a member outside its
@@ -147,6 +147,15 @@ LMP_API void lmp_field_nodes(const lmp_field *field, size_t first, size_t count,
  * they are and writes up to `capacity`, which if not 0 has begin receive blocks + 2 values. */
 LMP_API size_t lmp_field_lists(const lmp_field *field, size_t capacity, uint32_t *begin,
                                uint32_t *lights);
+
+/* What nodes are made from, for shaders that compute them: of a field of 2048 nodes and more a
+ * coarser one of the same lights and origin, with twice the cells and its own reach; else NULL.
+ * Node x, y, z lies at half of that among its nodes, and is what they are there by interpolation
+ * plus f - F of each sphere or point near its block x / 4, y / 4, z / 4, by its lists, F being its
+ * fade. A field without a coarser one sums f of all spheres and points.
+ *
+ * It belongs to the field: to be described and read, not changed or destroyed */
+LMP_API const lmp_field *lmp_field_coarser(const lmp_field *field);
 
 /* --- as bytes ------------------------------------------------------------------------------------
  * Little-endian, versioned, checksummed; with its lights, so that what is read can be updated.

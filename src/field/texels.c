@@ -38,3 +38,7 @@ size_t lmp_field_lists(const lmp_field *field, size_t capacity, uint32_t *begin,
         begin[field->block_count + 1] = (uint32_t)count;
     return count;
 }
+
+const lmp_field *lmp_field_coarser(const lmp_field *field) {
+    return field->coarse;
+}

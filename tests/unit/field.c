@@ -331,6 +331,61 @@ static void lists_hold_all_that_is_near(void **test) {
     lmp_field_destroy(field);
 }
 
+/* What a light's surface at a distance leaves of it in a field of that reach. */
+static double fade(double away, double reach) {
+    const double t = fmin(fmax(away / reach, 0), 1), u = t * t;
+    return u * u * (6 - 8 * u + 3 * u * u);
+}
+
+/* Coefficient 0 of what a list adds, red, at node i of each axis. */
+static double listed_at(const lmp_field *field, const uint32_t *begin, const uint32_t *listed,
+                        uint32_t list, int i) {
+    const lmp_field_info fine = lmp_field_describe(field);
+    const double outer = (double)lmp_field_describe(lmp_field_coarser(field)).reach;
+    const lmp_vec3 at = { (float)i, (float)i, (float)i };
+    double sum = 0;
+    for (uint32_t k = begin[list]; k < begin[list + 1]; k++) {
+        const lmp_light *light = &lmp_field_lights(field)[listed[k]];
+        const double x = (double)(light->position.x - at.x), y = (double)(light->position.y - at.y);
+        const double z = (double)(light->position.z - at.z);
+        const double away = sqrt(x * x + y * y + z * z) - (double)light->radius;
+        float sh[25];
+        lmp_sphere_project(5, light->position, light->radius, at, sh);
+        sum += (fade(away, (double)fine.reach) - fade(away, outer)) * (double)light->radiance.r *
+               (double)sh[0];
+    }
+    return sum;
+}
+
+static void nodes_are_those_of_a_coarser_field_and_near_lights(void **test) {
+    (void)test;
+    enum { SIDE = 14, BLOCKS = 4 * 4 * 4, ROOM = LIGHTS * (BLOCKS + 1) };
+    static uint32_t begin[BLOCKS + 2], listed[ROOM];
+    static float texel[4 * 75], coarse_texel[4 * 75];
+    lmp_light lights[LIGHTS];
+    const lmp_field_desc desc = { .nodes = { SIDE, SIDE, SIDE }, .reach = 2 };
+    field_sphere_lights(0, SIDE, LIGHTS, lights);
+    lmp_field *field = field_of(&desc, lights, LIGHTS);
+    const lmp_field *coarse = lmp_field_coarser(field);
+    const lmp_field_info info = lmp_field_describe(coarse);
+    assert_null(lmp_field_coarser(coarse));
+    assert_true(info.desc.cell.x == 2 && info.desc.cell.y == 2 && info.desc.cell.z == 2);
+    assert_true(info.light_count == LIGHTS && info.reach > 4);
+    const int *n = info.desc.nodes;
+    assert_true(n[0] / 2 == 4 && n[1] / 2 == 4 && n[2] / 2 == 4);
+    assert_true(lmp_field_lists(coarse, ROOM, begin, listed) < ROOM);
+    for (int i = 0; i < SIDE; i += 2) {
+        const uint32_t b = (uint32_t)i / 4;
+        lmp_field_nodes(field, (size_t)((i * SIDE + i) * SIDE + i), 1, texel);
+        lmp_field_nodes(coarse, (size_t)((i / 2 * n[1] + i / 2) * n[0] + i / 2), 1, coarse_texel);
+        const double added = listed_at(field, begin, listed, (b * 4 + b) * 4 + b, i) +
+                             listed_at(field, begin, listed, BLOCKS, i);
+        CHECK_WITHIN(fabs((double)texel[0] - (double)coarse_texel[0] - added),
+                     1e-5 * (double)texel[0]);
+    }
+    lmp_field_destroy(field);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interpolation_reproduces_cubics),
@@ -344,6 +399,7 @@ int main(void) {
         cmocka_unit_test(lobes_respond_as_to_the_coefficients),
         cmocka_unit_test(texels_are_the_nodes_of_the_bytes),
         cmocka_unit_test(lists_hold_all_that_is_near),
+        cmocka_unit_test(nodes_are_those_of_a_coarser_field_and_near_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -252,6 +252,7 @@ static void shade_under_a_field(void) {
     X(lmp_field_near, (void)lmp_field_near(field, at, 0, NULL, NULL)) \
     X(lmp_field_nodes, lmp_field_nodes(field, 0, 2, out)) \
     X(lmp_field_lists, (void)lmp_field_lists(field, 0, NULL, NULL)) \
+    X(lmp_field_coarser, (void)lmp_field_coarser(field)) \
     X(lmp_field_size, (void)lmp_field_size(field)) \
     X(lmp_field_write, lmp_field_write(field, bytes)) \
     X(lmp_field_read, MAKE(lmp_field_destroy, read_field, lmp_field_read(NULL, bytes, lmp_field_size(field), &read_field))) \
