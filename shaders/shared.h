@@ -106,6 +106,11 @@ typedef struct shared_reflector {
 #define SHARED_FIELD_NODES 3
 #define SHARED_FIELD       4
 
+/* Of the coarser field in the pass that computes nodes (field_nodes.comp), which reads neither an
+ * environment nor materials. */
+#define SHARED_FIELD_COARSER_NODES 5
+#define SHARED_FIELD_COARSER       6
+
 /* How a field lies, before its lists, which are uint; as std430. */
 #ifdef LAMPION_SHADER
 struct shared_field {

@@ -54,6 +54,7 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error) {
         return cli_fail(error, NULL, "%s offers OpenGL %s; 4.5 is needed (%s)", context->device,
                         context->driver, packages);
     context->software = strstr(context->device, "llvmpipe") || strstr(context->device, "softpipe");
+    context->computes_fields = !context->software;
 
     GLint blocks = 0, side = 0;
     GLint64 storage = 0;

@@ -26,9 +26,10 @@
 typedef struct gpu_context {
     void *display, *context; /* EGL's; NULL when adopted */
     char device[128], driver[128];
-    bool software;      /* no hardware behind it: timer queries mean nothing */
-    int size_max;       /* of a texture's side */
-    size_t storage_max; /* bytes that shaders read of one buffer */
+    bool software;        /* no hardware behind it: timer queries mean nothing */
+    int size_max;         /* of a texture's side */
+    size_t storage_max;   /* bytes that shaders read of one buffer */
+    bool computes_fields; /* where it is faster than the library: not on software */
 } gpu_context;
 
 /* A context without a window, current on return. device: NULL takes the first hardware device, else
@@ -60,9 +61,10 @@ typedef struct gpu_host_pass {
     void *user;
 } gpu_host_pass;
 
-/* A frame's field for shaders: all its nodes are those of the frame's lights. *stamp: above 0, and
- * another one whenever it has changed. NULL on failure. */
-typedef const lmp_field *(*gpu_whole_field)(const struct gpu_frame *frame, uint64_t *stamp);
+/* A frame's field for shaders: its lists and, if `nodes`, all its nodes are those of the frame's
+ * lights. *stamp: above 0, and another one whenever it has changed. NULL on failure. */
+typedef const lmp_field *(*gpu_whole_field)(const struct gpu_frame *frame, bool nodes,
+                                            uint64_t *stamp);
 
 /* What to draw. */
 typedef struct gpu_frame {

@@ -141,10 +141,34 @@ bool gpu_bind_preintegrated_brdf(gpu_renderer *renderer, cli_error *error);
 /* Binds the table of Z_l of so many bands, made at its first use. */
 bool gpu_bind_zonal(gpu_renderer *renderer, int bands, cli_error *error);
 
+/* --- field_level.c ---------------------------------------------------------------------------- */
+
+/* A field or, where shaders compute its nodes, a coarser one: buffers of its nodes and of its lists
+ * of near lights. */
+typedef struct gpu_field_level {
+    GLuint nodes, block;
+    size_t bytes;   /* of the nodes */
+    size_t longest; /* lights near a cell, at most */
+} gpu_field_level;
+enum { GPU_FIELD_LEVELS = 8 };
+
+/* Bytes of a field's nodes as shaders read them, and room for so many. */
+size_t gpu_node_bytes(const lmp_field_desc *desc);
+void gpu_reserve_nodes(gpu_field_level *level, size_t bytes);
+
+/* Uploads what there is of a field but its nodes. */
+bool gpu_upload_field(const gpu_renderer *renderer, const lmp_field *field, gpu_field_level *level);
+
+/* --- field_nodes.c ---------------------------------------------------------------------------- */
+
+/* Computes a field's nodes from the renderer's lights, those of the coarsest field first, and
+ * uploads the lists of all; compiles the pass that does on its first use. */
+bool gpu_compute_nodes(gpu_renderer *renderer, const lmp_field *field, cli_error *error);
+
 /* --- field.c ---------------------------------------------------------------------------------- */
 
-/* Binds the frame's field, uploaded where it has changed; *milliseconds: what that took, and what
- * computing the nodes did. */
+/* Binds the frame's field, computed or uploaded where it has changed; *milliseconds, if not NULL,
+ * receives what that took, with computing the nodes. */
 bool gpu_bind_field(gpu_renderer *renderer, const gpu_frame *frame, double *milliseconds,
                     cli_error *error);
 
@@ -225,11 +249,11 @@ struct gpu_renderer {
     const lmp_preintegrated_lobe *lobe; /* what they hold */
     int lobe_bands;
     lmp_window lobe_window;
-    GLuint field_nodes, field_staging, field_block; /* buffers, or 0 */
-    size_t field_bytes;                             /* of the nodes */
-    uint64_t field_stamp;                           /* of what they hold */
-    int width, height;                              /* of the targets below */
-    GLuint kept[GPU_ATTACHMENTS + 1];               /* attachments and depth without lights, or 0 */
+    gpu_field_level field[GPU_FIELD_LEVELS]; /* the field, then coarser ones */
+    GLuint field_staging, field_program;     /* buffer, or 0; field_nodes.comp, or 0 */
+    uint64_t field_stamp;                    /* of what the buffers hold */
+    int width, height;                       /* of the targets below */
+    GLuint kept[GPU_ATTACHMENTS + 1];        /* attachments and depth without lights, or 0 */
     mat4 kept_view;
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
     GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */
@@ -279,7 +303,7 @@ void gpu_upload_lights(gpu_renderer *renderer, const gpu_frame *frame);
 /* --- variant.c -------------------------------------------------------------------------------- */
 
 /* The program that shades the frame, 0 on failure; and what its method reads, uploaded and bound.
- * *milliseconds receives what a part of shading took on the host. */
+ * *milliseconds, if not NULL, receives what a part of shading took before the passes. */
 GLuint gpu_variant_find(gpu_renderer *renderer, const gpu_frame *frame, cli_error *error);
 bool gpu_variant_bind(gpu_renderer *renderer, const gpu_frame *frame, double *milliseconds,
                       cli_error *error);

@@ -119,6 +119,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     glDeleteTextures(1, &r->lobe_pairs);
     glDeleteTextures(1, &r->zonal);
     gpu_forget_field(r);
+    glDeleteProgram(r->field_program);
     glDeleteVertexArrays(1, &r->empty_array);
     glDeleteQueries(GPU_TIMESTAMPS, r->timestamps);
     free(r->lights);
@@ -211,15 +212,15 @@ static bool render_samples(gpu_renderer *r, const gpu_frame *frame, int first, i
     const GLuint program = frame->host ? 0 : gpu_variant_find(r, frame, error);
     if ((!frame->host && !program) || !gpu_targets_create(r, frame->width, frame->height, error))
         return false;
-    double on_host = 0;
+    double before = 0;
     gpu_upload_lights(r, frame);
-    if (!frame->host && !gpu_variant_bind(r, frame, &on_host, error))
+    if (!frame->host && !gpu_variant_bind(r, frame, times ? &before : NULL, error))
         return false;
     if (!gpu_bind_environment(r, frame, error))
         return false;
     note_sheen(r, frame);
     if (times)
-        *times = (gpu_times) { .shade = on_host };
+        *times = (gpu_times) { .shade = before };
     for (int i = first; i <= last; i++) {
         if (!render_sample(r, frame, i, program, times, error))
             return false;

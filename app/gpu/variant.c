@@ -88,7 +88,6 @@ GLuint gpu_variant_find(gpu_renderer *r, const gpu_frame *frame, cli_error *erro
 bool gpu_variant_bind(gpu_renderer *r, const gpu_frame *frame, double *milliseconds,
                       cli_error *error) {
     const unsigned reads = method_table[frame->method].reads;
-    *milliseconds = 0;
     if (reads & METHOD_READS_PREINTEGRATED &&
         (!gpu_bind_preintegrated_lobe(r, frame->lobes, error) ||
          !gpu_bind_preintegrated_brdf(r, error)))

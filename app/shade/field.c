@@ -206,8 +206,9 @@ static void want_all(lmp_field *nodes) {
         }
 }
 
-/* As for the CPU, but of all nodes, for what the camera sees is known to the device alone. */
-static const lmp_field *whole_field(const gpu_frame *frame, uint64_t *stamp) {
+/* As for the CPU, but of all nodes, for what the camera sees is known to the device alone; or of
+ * none. */
+static const lmp_field *whole_field(const gpu_frame *frame, bool nodes, uint64_t *stamp) {
     static uint64_t stamps;
     shade_field *field = frame->field;
     const double start = timing_now();
@@ -219,7 +220,7 @@ static const lmp_field *whole_field(const gpu_frame *frame, uint64_t *stamp) {
     if (ok)
         follow_lights(field, &host, lights, frame->light_count);
     free(lights);
-    if (ok && !field->whole) {
+    if (ok && nodes && !field->whole) {
         want_all(field->nodes);
         ok = lmp_field_compute(&host, field->nodes) == LMP_OK;
         field->whole = ok;

@@ -50,7 +50,7 @@ void shade_field_destroy(shade_field *field);
 
 typedef struct shade_field_statistics {
     lmp_field_info info;
-    double update_milliseconds, evaluate_milliseconds; /* of the last sample */
+    double update_milliseconds, evaluate_milliseconds; /* of the last sample, on the host */
 } shade_field_statistics;
 
 /* Has a frame shaded by it, on either device. field may be NULL. */

@@ -44,20 +44,18 @@ typedef struct lmp_field_desc {
      * root of the sum of squares, wherever the light is. That of a sum of many lights is far
      * smaller, for they err in all directions. 1e-5 … 1; LMP_FIELD_ERROR_DEFAULT */
     float error;
-    /* How far a light's fade reaches from its surface, in longest edges of a cell, 1 … 64. Given,
-     * it counts in place of `error`. */
+    /* From a light's surface, in longest edges of a cell, 1 … 64. Given, `error` does not count. */
     float reach;
 } lmp_field_desc;
 #define LMP_FIELD_ERROR_DEFAULT 0.05f
 
-/* What a field is: its desc with every default filled in, and either of error and reach found from
- * the other. */
+/* A field's desc with every default filled in, either of error and reach found from the other. */
 typedef struct lmp_field_info {
     lmp_field_desc desc;
     float reach; /* in the unit of positions */
     size_t light_count;
     size_t node_bytes; /* of a node's coefficients and derivatives */
-    size_t bytes;      /* of all; of a coarser field 0, for they are the finest one's */
+    size_t bytes;      /* of all */
 } lmp_field_info;
 
 /* host and desc may be NULL; *field is NULL on failure (LMP_ERROR_ARGUMENT: a member outside its
@@ -110,8 +108,7 @@ LMP_API lmp_result lmp_field_add(const lmp_host *host, lmp_field *field, const l
 LMP_API void lmp_field_remove(const lmp_host *host, lmp_field *field, size_t at);
 
 /* --- at points -----------------------------------------------------------------------------------
- * All of them are the sums of all lights, near ones included. Many are many times faster than one
- * by one, the more so in one place. */
+ * Sums of all lights, near ones included. Many at once, in one place, are many times faster. */
 
 /* Coefficients: 3 * LMP_SH_COUNT(bands) values a point, red, green, blue, laid out as sh.h says. */
 LMP_API void lmp_field_eval_n(const lmp_field *field, lmp_vec3_array points, size_t count,
@@ -148,13 +145,9 @@ LMP_API void lmp_field_nodes(const lmp_field *field, size_t first, size_t count,
 LMP_API size_t lmp_field_lists(const lmp_field *field, size_t capacity, uint32_t *begin,
                                uint32_t *lights);
 
-/* What nodes are made from, for shaders that compute them: of a field of 2048 nodes and more a
- * coarser one of the same lights and origin, with twice the cells and its own reach; else NULL.
- * Node x, y, z lies at half of that among its nodes, and is what they are there by interpolation
- * plus f - F of each sphere or point near its block x / 4, y / 4, z / 4, by its lists, F being its
- * fade. A field without a coarser one sums f of all spheres and points.
- *
- * It belongs to the field: to be described and read, not changed or destroyed */
+/* The coarser field that 2048 nodes and more are made from, or NULL: of the same lights and origin,
+ * twice the cells. Node x, y, z is what it has at half of that, interpolated, plus f - F, F being
+ * its fade, of its lists of block x/4, y/4, z/4 and of everywhere. Only to be described and read */
 LMP_API const lmp_field *lmp_field_coarser(const lmp_field *field);
 
 /* --- as bytes ------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 #include "app/shade/field.h"
 #include "app/override/override.h"
 #include "app/shade/shade.h"
-#include "tests/gpu/device.h"
+#include "tests/gpu/difference.h"
 #include "tests/oracle/kinds.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 240, HEIGHT = 136, NEIGHBORS = 8 };
+enum { WIDTH = 240, HEIGHT = 136 };
 
 static scene world;
 
@@ -43,38 +43,6 @@ static image render_by(gpu_renderer *renderer, gpu_frame *frame, method_kind met
     frame->method = method;
     shade_field_attach(field, frame);
     return render_image(renderer, frame);
-}
-
-/* The brightest value around a pixel. */
-static float local_peak(const image *pixels, int x, int y) {
-    float peak = 0;
-    for (int j = y - NEIGHBORS; j <= y + NEIGHBORS; j++)
-        for (int i = x - NEIGHBORS; i <= x + NEIGHBORS; i++)
-            if (i >= 0 && j >= 0 && i < WIDTH && j < HEIGHT)
-                for (int c = 0; c < 3; c++)
-                    peak = fmaxf(peak, pixels->rgb[3 * (WIDTH * j + i) + c]);
-    return peak;
-}
-
-typedef struct difference {
-    double worst, rms; /* in parts of the local peak */
-} difference;
-
-static difference differ(const image *a, const image *b) {
-    difference d = { 0, 0 };
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            const float peak = local_peak(b, x, y);
-            for (int c = 0; c < 3; c++) {
-                const int i = 3 * (WIDTH * y + x) + c;
-                const double off =
-                    fabs((double)a->rgb[i] - (double)b->rgb[i]) / ((double)peak + 1e-9);
-                d.worst = off > d.worst ? off : d.worst;
-                d.rms += off * off;
-            }
-        }
-    d.rms = sqrt(d.rms / (3.0 * WIDTH * HEIGHT));
-    return d;
 }
 
 /* The library's images by the field and by all lights: within a hundredth of the local peak. */
@@ -164,13 +132,6 @@ static difference devices_differ(gpu_renderer *renderer, gpu_frame *frame, shade
     image_free(&on_host);
     image_free(&on_device);
     return d;
-}
-
-/* What rounding makes of sums of coefficients, which cancel. */
-static void expect_same(const char *what, difference d) {
-    print_message("%s: at most %.1e of the local peak, %.1e in root mean square\n", what, d.worst,
-                  d.rms);
-    assert_true(!(d.worst > 5e-5) && !(d.rms > 1e-6));
 }
 
 static void expect_same_image(const char *what, gpu_renderer *renderer, gpu_frame *frame) {
