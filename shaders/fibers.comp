@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* fibers.comp - the sheen of cloth, lmp_fibers of the library, before what is under it is shaded:
  * one thread a pixel, into the HDR target what the fibers reflect and, in alpha, the part of its
- * light that the rest keeps. LMP_BANDS are those of the tables of white fibers. */
+ * light that the rest keeps. LMP_BANDS are those of the tables of white fibers. SHADE_FIELD: of a
+ * field, too, and it is read. */
 #define PIXEL_LAYERED
 #define TABLE_FULL 0
 #define TABLE_PAIR
@@ -12,6 +13,9 @@
 #include "material.glsl"
 #include "lampion.glsl"
 #include "coefficients.glsl"
+#ifdef SHADE_FIELD
+#include "field.glsl"
+#endif
 #include "pixel.glsl"
 #include "environment.glsl"
 #include "table.glsl"
@@ -31,6 +35,9 @@ void fibers_rows(float roughness, float cosine, out ivec4 first, out vec4 weight
 }
 
 vec4 shade_fibers(pixel p) {
+#ifdef SHADE_FIELD
+    field_find(p.surface.position);
+#endif
     table_frame f = table_frame_of(p.surface);
     ivec4 first;
     vec4 weight;

@@ -10,8 +10,8 @@ layout(std430, binding = SHARED_FIELD) readonly restrict buffer field_block {
     uint field_lists[]; /* lmp_field_lists: where each begins, then the lights */
 };
 
-/* Where the point lies that was looked for last: of a point outside the grid every light is summed,
- * and of surfaces that are shaded by tables, for which none is looked for. */
+/* Where the point lies that was looked for last: of a point outside the grid every light is summed.
+ */
 bool field_inside = false;
 ivec3 field_cell;
 vec3 field_fraction;
@@ -75,6 +75,36 @@ field_axes field_side(bvec3 far) {
 vec4 field_weight(field_axes a) {
     vec3 others = a.linear.yxx * a.linear.zzy;
     return vec4(a.linear.x * others.x + dot(a.bend, others), a.slope * others);
+}
+
+/* The corners of the cell around the point, each by its first texel, and what they count. */
+struct field_corners {
+    int at[8];
+    vec4 weight[8];
+};
+
+field_corners field_corners_around() {
+    field_corners corners;
+    ivec3 nodes = ivec3(field.nodes.xyz);
+    for (int k = 0; k < 8; k++) {
+        bvec3 far = bvec3((k & 1) != 0, (k & 2) != 0, k >= 4);
+        ivec3 node = field_cell + ivec3(far);
+        corners.at[k] = ((node.z * nodes.y + node.y) * nodes.x + node.x) * (3 * LMP_SH_COUNT);
+        corners.weight[k] = field_weight(field_side(far));
+    }
+    return corners;
+}
+
+/* Interpolated, for whom an index computed at run time will do. */
+vec3 field_coefficient(field_corners corners, int i) {
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < 8; k++) {
+        int at = corners.at[k] + i;
+        sum += vec3(dot(corners.weight[k], field_nodes[at]),
+                    dot(corners.weight[k], field_nodes[at + LMP_SH_COUNT]),
+                    dot(corners.weight[k], field_nodes[at + 2 * LMP_SH_COUNT]));
+    }
+    return sum;
 }
 
 /* What a coefficient of each color adds to what the lobes reflect: Y_lm of the normal and of the

@@ -6,7 +6,9 @@
  * table_values begins with a vec4 a table: its first value, rows over theta_o from 0 to pi/2, and
  * columns over phi_o. Then the tables, [column][row][coefficient], all of LMP_BANDS bands; rows and
  * columns are so many that linear interpolation between them follows the library's cubic.
- * TABLE_ENVIRONMENT: by how many bands at most they reflect that of environment.glsl; 0: not. */
+ * TABLE_ENVIRONMENT: by how many bands at most they reflect that of environment.glsl; 0: not.
+ * SHADE_FIELD: they reflect what field.glsl has at the point that was looked for last, and the
+ * lights near it. */
 layout(std430, binding = SHARED_TABLES) readonly restrict buffer tables_block {
     vec4 table_values[];
 };
@@ -68,6 +70,75 @@ table_frame table_frame_of(lmp_surface surface) {
     return f;
 }
 
+/* --- light in the frame of the world -----------------------------------------------------------
+ * Its coefficients, brought into the table's frame band by band: three rotations about z, with a quarter
+ * turn about x, whose matrices the environment's block holds, between them and back. */
+#if defined(SHADE_FIELD)
+#define TABLE_ROTATED (LMP_BANDS > TABLE_ENVIRONMENT ? LMP_BANDS : TABLE_ENVIRONMENT)
+#else
+#define TABLE_ROTATED TABLE_ENVIRONMENT
+#endif
+#if defined(SHADE_FIELD) || TABLE_ENVIRONMENT
+
+/* The angles of Rz(a) Ry(b) Rz(c), the rotation into the frame. */
+vec3 table_angles(table_frame f) {
+    if (dot(f.n.xy, f.n.xy) < 1e-12)
+        return vec3(f.n.z > 0.0 ? atan(f.y.x, f.x.x) : atan(-f.y.x, -f.x.x),
+                    f.n.z > 0.0 ? 0.0 : LMP_PI, 0.0);
+    return vec3(atan(f.y.z, f.x.z), atan(length(f.n.xy), f.n.z), atan(f.n.y, -f.n.x));
+}
+
+void table_rotate(int l, float angle, inout vec3 band[2 * TABLE_ROTATED - 1]) {
+    for (int m = 1; m <= l; m++) {
+        float c = cos(float(m) * angle), s = sin(float(m) * angle);
+        vec3 even = band[l + m], odd = band[l - m];
+        band[l + m] = even * c - odd * s;
+        band[l - m] = even * s + odd * c;
+    }
+}
+
+/* A quarter turn about x, or back: by the transposed matrix. */
+void table_tilt(int l, bool back, inout vec3 band[2 * TABLE_ROTATED - 1]) {
+    vec3 from[2 * TABLE_ROTATED - 1] = band;
+    int size = 2 * l + 1, first = environment_tilts() + l * (4 * l * l - 1) / 3;
+    for (int i = 0; i < size; i++) {
+        band[i] = vec3(0.0);
+        for (int k = 0; k < size; k++)
+            band[i] += environment_sh[first + (back ? k * size + i : i * size + k)].x * from[k];
+    }
+}
+
+/* What the table reflects of a band. */
+vec3 table_reflect(int l, vec3 angles, ivec4 first, vec4 weight,
+                   vec3 band[2 * TABLE_ROTATED - 1]) {
+    vec3 reflected = vec3(0.0);
+    table_rotate(l, angles.z, band);
+    table_tilt(l, false, band);
+    table_rotate(l, angles.y, band);
+    table_tilt(l, true, band);
+    table_rotate(l, angles.x, band);
+    for (int m = TABLE_FULL == 1 ? -l : 0; m <= l; m++)
+        reflected += band[l + m] * TABLE_AT(first, weight, TABLE_INDEX(l, m));
+    return reflected;
+}
+#endif
+
+/* Of the field's interpolated coefficients. */
+#ifdef SHADE_FIELD
+vec3 table_reflect_field(table_frame f, ivec4 first, vec4 weight) {
+    vec3 angles = table_angles(f), reflected = vec3(0.0), band[2 * TABLE_ROTATED - 1];
+    field_corners corners = field_corners_around();
+    for (int l = 0; l < LMP_BANDS; l++) {
+        for (int i = 0; i <= 2 * l; i++)
+            band[i] = field_coefficient(corners, l * l + i);
+        reflected += table_reflect(l, angles, first, weight, band);
+    }
+    return reflected;
+}
+#endif
+
+/* --- lights ----------------------------------------------------------------------------------- */
+
 /* By the rows of a view. */
 vec3 shade_rows(lmp_surface surface, table_frame f, ivec4 first, vec4 weight) {
     vec3 sum[LMP_SH_COUNT];
@@ -82,6 +153,8 @@ vec3 shade_rows(lmp_surface surface, table_frame f, ivec4 first, vec4 weight) {
 #undef LMP_ROW
 
     for (int i = 0; i < LMP_LIGHT_COUNT; i++) {
+        if (!LMP_LIGHT_LIT(i, surface.position))
+            continue;
         vec4 sphere = LMP_LIGHT_SPHERE(i);
         bool fixed_cap = LMP_LIGHT_FIXED(i);
         vec3 to = fixed_cap ? sphere.xyz : sphere.xyz - surface.position;
@@ -102,6 +175,10 @@ vec3 shade_rows(lmp_surface surface, table_frame f, ivec4 first, vec4 weight) {
     }
 
     vec3 reflected = vec3(0.0);
+#ifdef SHADE_FIELD
+    if (field_inside)
+        reflected = table_reflect_field(f, first, weight);
+#endif
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         reflected += sum[LMP_INDEX(l, m)] * TABLE_AT(first, weight, TABLE_INDEX(l, m));            \
@@ -116,6 +193,9 @@ vec3 shade_rows(lmp_surface surface, table_frame f, ivec4 first, vec4 weight) {
 }
 
 vec3 shade_table(lmp_surface surface, int table) {
+#ifdef SHADE_FIELD
+    field_find(surface.position);
+#endif
     table_frame f = table_frame_of(surface);
     ivec4 first;
     vec4 weight;
@@ -123,52 +203,16 @@ vec3 shade_table(lmp_surface surface, int table) {
     return shade_rows(surface, f, first, weight);
 }
 
-/* --- an environment ----------------------------------------------------------------------------
- * Its coefficients, brought into the table's frame band by band: three rotations about z, with a quarter
- * turn about x, whose matrices the block holds, between them and back. */
+/* --- an environment --------------------------------------------------------------------------- */
 #if TABLE_ENVIRONMENT
 
-/* The angles of Rz(a) Ry(b) Rz(c), the rotation into the frame. */
-vec3 table_angles(table_frame f) {
-    if (dot(f.n.xy, f.n.xy) < 1e-12)
-        return vec3(f.n.z > 0.0 ? atan(f.y.x, f.x.x) : atan(-f.y.x, -f.x.x),
-                    f.n.z > 0.0 ? 0.0 : LMP_PI, 0.0);
-    return vec3(atan(f.y.z, f.x.z), atan(length(f.n.xy), f.n.z), atan(f.n.y, -f.n.x));
-}
-
-void table_rotate(int l, float angle, inout vec3 band[2 * TABLE_ENVIRONMENT - 1]) {
-    for (int m = 1; m <= l; m++) {
-        float c = cos(float(m) * angle), s = sin(float(m) * angle);
-        vec3 even = band[l + m], odd = band[l - m];
-        band[l + m] = even * c - odd * s;
-        band[l - m] = even * s + odd * c;
-    }
-}
-
-/* A quarter turn about x, or back: by the transposed matrix. */
-void table_tilt(int l, bool back, inout vec3 band[2 * TABLE_ENVIRONMENT - 1]) {
-    vec3 from[2 * TABLE_ENVIRONMENT - 1] = band;
-    int size = 2 * l + 1, first = environment_tilts() + l * (4 * l * l - 1) / 3;
-    for (int i = 0; i < size; i++) {
-        band[i] = vec3(0.0);
-        for (int k = 0; k < size; k++)
-            band[i] += environment_sh[first + (back ? k * size + i : i * size + k)].x * from[k];
-    }
-}
-
 vec3 shade_rows_environment(table_frame f, ivec4 first, vec4 weight) {
-    vec3 angles = table_angles(f), reflected = vec3(0.0), band[2 * TABLE_ENVIRONMENT - 1];
+    vec3 angles = table_angles(f), reflected = vec3(0.0), band[2 * TABLE_ROTATED - 1];
     int bands = min(min(int(surroundings.x), LMP_BANDS), TABLE_ENVIRONMENT);
     for (int l = 0; l < bands; l++) {
         for (int i = 0; i <= 2 * l; i++)
             band[i] = environment_sh[environment_whole() + l * l + i].rgb;
-        table_rotate(l, angles.z, band);
-        table_tilt(l, false, band);
-        table_rotate(l, angles.y, band);
-        table_tilt(l, true, band);
-        table_rotate(l, angles.x, band);
-        for (int m = TABLE_FULL == 1 ? -l : 0; m <= l; m++)
-            reflected += band[l + m] * TABLE_AT(first, weight, TABLE_INDEX(l, m));
+        reflected += table_reflect(l, angles, first, weight, band);
     }
     return max(reflected, vec3(0.0));
 }

@@ -38,16 +38,18 @@ static void fill_tilts(vec4 *block) {
         block[i][0] = matrices[i];
 }
 
-/* Windowed, as the lobes are, and as they are, for tables that are windowed themselves. */
+/* Windowed, as the lobes are, and as they are, for tables that are windowed themselves. Of no
+ * environment there are the matrices alone. */
 static bool upload_coefficients(gpu_renderer *r, int bands, lmp_window window, cli_error *error) {
     const environment *e = r->environment;
-    const size_t count = LMP_SH_COUNT(e->bands), size = 2 * count + TILTS;
+    const int most = environment_shines(e) ? e->bands : 0;
+    const size_t count = LMP_SH_COUNT(most), size = 2 * count + TILTS;
     float weights[LMP_BANDS_MAX];
     vec4 *block = calloc(size, sizeof *block);
     if (!block)
         return cli_fail(error, NULL, "out of memory");
     lmp_sh_window(bands, window, 0, weights);
-    for (int l = 0; l < bands && l < e->bands; l++)
+    for (int l = 0; l < bands && l < most; l++)
         for (int m = -l; m <= l; m++)
             for (size_t c = 0; c < 3; c++) {
                 const size_t i = LMP_SH_INDEX(l, m);
@@ -62,10 +64,17 @@ static bool upload_coefficients(gpu_renderer *r, int bands, lmp_window window, c
     return true;
 }
 
+/* Whether tables reflect coefficients of a field, and need the matrices. */
+static bool rotates_fields(const gpu_renderer *r, const gpu_frame *frame) {
+    return method_table[frame->method].reads & METHOD_READS_FIELD &&
+           (r->table_count > 0 || r->fibers);
+}
+
 bool gpu_bind_environment(gpu_renderer *r, const gpu_frame *frame, cli_error *error) {
-    if (!environment_shines(r->environment))
+    const bool shines = environment_shines(r->environment);
+    if (!shines && !rotates_fields(r, frame))
         return true;
-    if (!r->backdrop && r->environment->backdrop.rgb)
+    if (shines && !r->backdrop && r->environment->backdrop.rgb)
         upload_backdrop(r);
     if ((r->environment_bands != frame->bands || r->environment_window != frame->window) &&
         !upload_coefficients(r, frame->bands, frame->window, error))

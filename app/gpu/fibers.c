@@ -49,17 +49,20 @@ bool gpu_prepare_fibers(gpu_renderer *r, const gpu_frame *frame, cli_error *erro
     const gpu_stage compute = { GL_COMPUTE_SHADER, "fibers.comp" };
     const int bands = lmp_brdf_table_describe(r->fibers[0]).bands;
     const int environment_bands = gpu_reflected_bands(r, bands);
+    const bool by_field =
+        method_table[frame->method].reads & METHOD_READS_FIELD && bands == frame->bands;
     if (!r->fibers_buffer && !upload(r, bands, error))
         return false;
-    if (r->fibers_program && r->fibers_bands == bands &&
+    if (r->fibers_program && r->fibers_bands == bands && r->fibers_by_field == by_field &&
         r->fibers_environment_bands == environment_bands)
         return true;
-    char defines[64];
-    snprintf(defines, sizeof defines, "#define LMP_BANDS %d\n#define TABLE_ENVIRONMENT %d\n", bands,
-             environment_bands);
+    char defines[96];
+    snprintf(defines, sizeof defines, "#define LMP_BANDS %d\n#define TABLE_ENVIRONMENT %d\n%s",
+             bands, environment_bands, by_field ? "#define SHADE_FIELD\n" : "");
     glDeleteProgram(r->fibers_program);
     r->fibers_program = gpu_program(&compute, 1, defines, error);
     r->fibers_bands = bands;
     r->fibers_environment_bands = environment_bands;
+    r->fibers_by_field = by_field;
     return r->fibers_program;
 }

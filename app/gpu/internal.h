@@ -266,11 +266,12 @@ struct gpu_renderer {
     const lmp_brdf_table *const *fibers;                 /* or NULL; not owned */
     GLuint fibers_buffer, fibers_program;                /* of those; or 0 */
     int fibers_bands, fibers_environment_bands;          /* that the program was made for */
-    bool sheen_noted;                                    /* that it is left out */
-    GLuint brdf_texels, brdf_block;                      /* texture, buffer; or 0 */
-    const environment *environment;                      /* or NULL; not owned */
-    GLuint backdrop, environment_block;                  /* texture, buffer; or 0 */
-    int environment_bands;                               /* that the block was made for */
+    bool fibers_by_field;
+    bool sheen_noted;                   /* that it is left out */
+    GLuint brdf_texels, brdf_block;     /* texture, buffer; or 0 */
+    const environment *environment;     /* or NULL; not owned */
+    GLuint backdrop, environment_block; /* texture, buffer; or 0 */
+    int environment_bands;              /* that the block was made for */
     lmp_window environment_window;
     float near;                   /* distance of the near plane */
     float minimum[3], maximum[3]; /* of the scene */

@@ -1,49 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The method of fields draws the image of zonal sums, under many lights and under every kind. */
-#include "app/shade/field.h"
-#include "app/override/override.h"
-#include "app/shade/shade.h"
-#include "tests/gpu/difference.h"
-#include "tests/oracle/kinds.h"
+#include "tests/gpu/fields.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-enum { WIDTH = 240, HEIGHT = 136 };
-
-static scene world;
-
-static void open_world(const char *name, int lights) {
-    cli_error error = { "" };
-    expect(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error), &error);
-    expect(scene_apply_lights(
-               &world, &(scene_lights_options) { .random_count = lights, .seed = 7, .hide = true },
-               &error),
-           &error);
-}
-
-static shade_field *open_field_within(int bands, bool moves, size_t bytes_max) {
-    cli_error error = { "" };
-    const shade_field_options options = { .error = SHADE_FIELD_ERROR,
-                                          .moves = moves,
-                                          .bytes_max = bytes_max };
-    shade_field *field = shade_field_create(&world, &options, bands, &error);
-    expect(field != NULL, &error);
-    return field;
-}
-
-static shade_field *open_field(int bands, bool moves) {
-    return open_field_within(bands, moves, 0);
-}
-
-static image render_by(gpu_renderer *renderer, gpu_frame *frame, method_kind method,
-                       shade_field *field) {
-    frame->method = method;
-    shade_field_attach(field, frame);
-    return render_image(renderer, frame);
-}
 
 /* The library's images by the field and by all lights: within a hundredth of the local peak. */
 static difference differ_from_sums(gpu_renderer *renderer, gpu_frame *frame, shade_field *field) {
@@ -55,13 +15,6 @@ static difference differ_from_sums(gpu_renderer *renderer, gpu_frame *frame, sha
     image_free(&by_sums);
     assert_true(!(d.worst > 0.01) && !(d.rms > 0.001));
     return d;
-}
-
-/* Balls, under lights of which one is the same from everywhere, one is ambient, too, and a spot. */
-static void open_every_kind(void) {
-    open_world("builtin:balls", 20);
-    for (int i = 0; i < KINDS; i++)
-        world.lights[world.light_count++].emitter = one_of_each_kind[i];
 }
 
 static void a_thousand_lights_look_as_their_sums_do(void **state) {
@@ -121,19 +74,6 @@ static void lights_that_move_leave_the_image_of_where_they_are(void **state) {
 
 /* --- on the device ---------------------------------------------------------------------------- */
 
-/* The library's image and the shader's by one field, which has but the nodes that the camera sees
- * before all of them are wanted. */
-static difference devices_differ(gpu_renderer *renderer, gpu_frame *frame, shade_field *field) {
-    frame->host = shade_frame;
-    image on_host = render_by(renderer, frame, METHOD_FIELD, field);
-    frame->host = NULL;
-    image on_device = render_by(renderer, frame, METHOD_FIELD, field);
-    const difference d = differ(&on_device, &on_host);
-    image_free(&on_host);
-    image_free(&on_device);
-    return d;
-}
-
 static void expect_same_image(const char *what, gpu_renderer *renderer, gpu_frame *frame) {
     shade_field *field = open_field_within(frame->bands, false, device.storage_max);
     expect_same(what, devices_differ(renderer, frame, field));
@@ -173,41 +113,6 @@ static void shaders_draw_every_kind_of_light(void **state) {
     frame.bands = usual_bands();
     expect_same_image("all kinds", renderer, &frame);
     gpu_renderer_destroy(renderer);
-    scene_free(&world);
-}
-
-/* Every material is cloth, and every third lies under a coat: coats and fibers reflect what the
- * field gives there. Both devices differ by at most a level of 255, as under lights one by one. */
-static void shaders_draw_coats_and_sheen(void **state) {
-    (void)state;
-    override_set tables = { .count = 0 };
-    cli_error error = { "" };
-    open_world("builtin:balls", 40);
-    scene_material cloths[64];
-    assert_true(world.material_count <= 64);
-    for (size_t i = 0; i < world.material_count; i++) {
-        scene_material *cloth = &cloths[i];
-        *cloth = world.materials[i];
-        cloth->sheen_color[0] = 1;
-        cloth->sheen_color[1] = 0.5f;
-        cloth->sheen_roughness = (float)(i + 1) / (float)world.material_count;
-        cloth->coat = i % 3 == 0 ? 0.5f : 0;
-    }
-    world.materials = cloths;
-    gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
-    frame.bands = 5;
-    expect(override_bake_fibers(&tables, &world, frame.bands, frame.window, &error) &&
-               override_apply(&tables, &world, renderer, &error),
-           &error);
-    shade_field *field = open_field_within(frame.bands, false, device.storage_max);
-    const difference d = devices_differ(renderer, &frame, field);
-    print_message("coats and sheen: at most %.1e of the local peak, %.1e in root mean square\n",
-                  d.worst, d.rms);
-    assert_true(!(d.worst > 4e-3) && !(d.rms > 2e-4));
-    shade_field_destroy(field);
-    gpu_renderer_destroy(renderer);
-    override_free(&tables);
     scene_free(&world);
 }
 
@@ -380,7 +285,6 @@ int main(int count, char **arguments) {
     };
     const struct CMUnitTest kinds[] = {
         cmocka_unit_test(shaders_draw_every_kind_of_light),
-        cmocka_unit_test(shaders_draw_coats_and_sheen),
     };
     const struct CMUnitTest lights[] = {
         cmocka_unit_test(tens_of_thousands_of_lights_all_count),
