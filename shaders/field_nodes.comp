@@ -3,8 +3,8 @@
  * coarser field interpolated, with what the lights near them add.
  *
  * A group is the nodes of one block of the coarser field, which have one list of lights; a thread
- * has the coefficients l, m and l, -m of a node. Nothing is indexed by them but the result, so no
- * array is needed, and one program is for all numbers of bands. */
+ * has the coefficients m and -m of SHARED_FIELD_BANDS bands of a node, from `low` on, so that one
+ * program is for all numbers of bands. */
 #include "shared.h"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
@@ -28,11 +28,22 @@ layout(location = 2) uniform int first;     /* of the lights, LIGHTS of which ar
 
 const float pi = 3.14159265;
 
+int node_index(int l, int m) {
+    return l * l + l + m;
+}
+
+/* How many threads have the bands of a column. */
+int node_parts(int m) {
+    return (bands - m + SHARED_FIELD_BANDS - 1) / SHARED_FIELD_BANDS;
+}
+
 /* --- coefficients ----------------------------------------------------------------------------- */
 
-/* Of one color a column: value and derivatives by x, y, z. */
+#define NODE_EACH(X) X(0) X(1) X(2) X(3)
+
+/* Of each band: of each color a column, value and derivatives by x, y, z. */
 struct node_sums {
-    mat3x4 cosine, sine; /* of m, of -m */
+    mat3x4 cosine[SHARED_FIELD_BANDS], sine[SHARED_FIELD_BANDS]; /* of m, of -m */
 };
 
 /* Y_lm is this factor, a polynomial of z that begins with z^(l - m), and the real or, of -m, the
@@ -45,50 +56,63 @@ float node_norm(int l, int m) {
     return m % 2 == 0 ? sqrt(square) : -sqrt(square);
 }
 
-/* What a sphere of radiance 1 has of them at a point outside of it: as src/kernels/gradient.h, by
- * differences of R_l and P_l(alpha). fade: how much of the sphere the field has, and the derivative
- * by the distance. */
-void node_project(int l, int m, float norm, vec3 v, float d, float r, vec2 fade, out vec4 cosine,
-                  out vec4 sine) {
+/* A sphere of radiance 1 outside of which the point lies, in a band l of column m: as
+ * src/kernels/gradient.h has it, R_l and P_l(alpha) by their differences. */
+struct node_light {
+    vec3 w;    /* direction to the center */
+    float t;   /* 1 - alpha */
+    vec3 size; /* pi sin²a; that by the distance; twice that by alpha */
+    vec2 fade; /* how much of it the field has, and the derivative by the distance */
+    float c, s, c_before, s_before;             /* parts of (x + iy)^m, and of the power before */
+    float q, q_before, slope, slope_before;     /* the polynomial and its derivative, and before */
+    float R, R_step, P, P_step;
+};
+
+/* In band 0 of column 0. */
+node_light node_light_at(vec3 v, float d, float r, vec2 fade) {
     float e = sqrt((d - r) * (d + r)), inverse = 1.0 / (d * (d + e)), per_d = (d + e) * inverse;
-    float t = r * r * inverse, s2 = r * r * per_d * per_d;
-    vec3 w = v * per_d;
-    float c = 1.0, s = 0.0, c_before = 0.0, s_before = 0.0;
-    float q = 1.0, q_before = 0.0, slope = 0.0, slope_before = 0.0;
-    float R = 1.0, R_step = 0.0, P = 1.0, P_step = 0.0;
-    for (int k = 1; k <= l; k++) {
-        if (k <= m) {
-            c_before = c;
-            s_before = s;
-            c = w.x * c_before - w.y * s_before;
-            s = w.x * s_before + w.y * c_before;
-        } else {
-            float b = float((k - 1) * (k - 1) - m * m) / float(4 * (k - 1) * (k - 1) - 1);
-            float q_next = w.z * q - b * q_before;
-            float slope_next = q + w.z * slope - b * slope_before;
-            q_before = q;
-            q = q_next;
-            slope_before = slope;
-            slope = slope_next;
-        }
-        if (k > 1)
-            R_step = (float(k - 2) * R_step - float(2 * k - 1) * t * R) / float(k + 1);
-        P_step = (float(k - 1) * P_step - float(2 * k - 1) * t * P) / float(k);
-        R += R_step;
-        P += P_step;
+    float s2 = r * r * per_d * per_d, across = pi * s2 * per_d;
+    vec3 size = vec3(pi * s2, across, 2.0 * across / max(e * per_d, COS_MIN));
+    return node_light(v * per_d, r * r * inverse, size, fade, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0,
+                      1.0, 0.0, 1.0, 0.0);
+}
+
+/* From band k - 1 to k, and on the way to column m to the column k. */
+void node_step(int k, int m, inout node_light a) {
+    if (k <= m) {
+        a.c_before = a.c;
+        a.s_before = a.s;
+        a.c = a.w.x * a.c_before - a.w.y * a.s_before;
+        a.s = a.w.x * a.s_before + a.w.y * a.c_before;
+    } else {
+        float b = float((k - 1) * (k - 1) - m * m) / float(4 * (k - 1) * (k - 1) - 1);
+        float q = a.w.z * a.q - b * a.q_before, slope = a.q + a.w.z * a.slope - b * a.slope_before;
+        a.q_before = a.q;
+        a.q = q;
+        a.slope_before = a.slope;
+        a.slope = slope;
     }
-    float value = pi * (l == 0 ? 2.0 * t : s2 * R), across = l == 0 ? 0.0 : pi * s2 * per_d * R;
-    float along = 2.0 * pi * s2 * per_d / max(e * per_d, COS_MIN) * P;
-    along = fade.x * along - fade.y * value;
-    value *= fade.x * norm * q;
-    across *= fade.x * norm;
-    float around = float(m) * across * q, tilt = across * slope;
-    along = along * norm * q + around + w.z * tilt;
-    float up = w.z * along - tilt;
-    cosine = vec4(value * c, w.x * c * along - around * c_before,
-                  w.y * c * along + around * s_before, c * up);
-    sine = vec4(value * s, w.x * s * along - around * s_before,
-                w.y * s * along - around * c_before, s * up);
+    if (k > 1)
+        a.R_step = (float(k - 2) * a.R_step - float(2 * k - 1) * a.t * a.R) / float(k + 1);
+    a.P_step = (float(k - 1) * a.P_step - float(2 * k - 1) * a.t * a.P) / float(k);
+    a.R += a.R_step;
+    a.P += a.P_step;
+}
+
+void node_take(int l, int m, float norm, node_light a, vec3 color, inout mat3x4 cosine,
+               inout mat3x4 sine) {
+    float q = norm * a.q, value = l == 0 ? 2.0 * pi * a.t : a.size.x * a.R;
+    float across = l == 0 ? 0.0 : a.fade.x * a.size.y * a.R;
+    float along = a.fade.x * a.size.z * a.P - a.fade.y * value;
+    float around = float(m) * across * q, tilt = across * norm * a.slope;
+    along = along * q + around + a.w.z * tilt;
+    value *= a.fade.x * q;
+    vec3 by = vec3(a.w.xy * along, a.w.z * along - tilt);
+    cosine += outerProduct(vec4(value * a.c, by.x * a.c - around * a.c_before,
+                                by.y * a.c + around * a.s_before, by.z * a.c), color);
+    if (m > 0)
+        sine += outerProduct(vec4(value * a.s, by.x * a.s - around * a.s_before,
+                                  by.y * a.s - around * a.c_before, by.z * a.s), color);
 }
 
 /* --- lights ----------------------------------------------------------------------------------- */
@@ -103,17 +127,24 @@ vec2 node_fade(int light, float d) {
     return vec2(value.x - value.y, slope.x - slope.y);
 }
 
-void node_add(int light, vec3 at, int l, int m, float norm, inout node_sums sums) {
+void node_add(int light, vec3 at, int low, int m, vec4 norm, inout node_sums sums) {
     vec4 sphere = lights[light].sphere;
     vec3 v = sphere.xyz - at, color = lights[light].radiance.rgb;
     float d = length(v);
     vec2 fade = node_fade(light, d);
-    vec4 cosine, sine;
     if (fade == vec2(0.0))
         return;
-    node_project(l, m, norm, v, d, sphere.w, fade, cosine, sine);
-    sums.cosine += outerProduct(cosine, color);
-    sums.sine += outerProduct(sine, color);
+    node_light a = node_light_at(v, d, sphere.w, fade);
+    for (int k = 1; k <= low; k++)
+        node_step(k, m, a);
+#define NODE_BAND(i)                                                                               \
+    if (low + i < bands) {                                                                         \
+        if (i > 0)                                                                                 \
+            node_step(low + i, m, a);                                                              \
+        node_take(low + i, m, norm[i], a, color, sums.cosine[i], sums.sine[i]);                    \
+    }
+    NODE_EACH(NODE_BAND)
+#undef NODE_BAND
 }
 
 /* Where they are in the lists: those of the block, and those near everywhere; how many in all. */
@@ -137,7 +168,7 @@ node_lights node_find(ivec3 block) {
     return node_lights(own, everywhere, own.y + everywhere.y);
 }
 
-int node_light(node_lights near, int i) {
+int node_listed(node_lights near, int i) {
     if (coarsest)
         return i;
     return int(coarser_lists[i < near.own.y ? near.own.x + i : near.everywhere.x + i - near.own.y]);
@@ -173,8 +204,7 @@ mat3x4 node_read(int at, mat4 weights) {
 }
 
 /* A node lies on a coarser one, or in the middle between some. */
-node_sums node_interpolate(ivec3 node, int l, int m) {
-    node_sums sums = node_sums(mat3x4(0.0), mat3x4(0.0));
+void node_interpolate(ivec3 node, int low, int m, inout node_sums sums) {
     ivec3 size = ivec3(coarser.nodes.xyz), middle = node & 1;
     vec3 s = 0.5 * vec3(middle);
     for (int k = 0; k < (middle == ivec3(0) ? 1 : 8); k++) {
@@ -186,50 +216,75 @@ node_sums node_interpolate(ivec3 node, int l, int m) {
             mat4(node_weight(x.value, y.value, z.value), node_weight(x.slope, y.value, z.value),
                  node_weight(x.value, y.slope, z.value), node_weight(x.value, y.value, z.slope));
         corner += node / 2;
-        int at = ((corner.z * size.y + corner.y) * size.x + corner.x) * 3 * bands * bands + l * l + l;
-        sums.cosine += node_read(at + m, weights);
-        sums.sine += node_read(at - m, weights);
+        int at = ((corner.z * size.y + corner.y) * size.x + corner.x) * 3 * bands * bands;
+#define NODE_BAND(i)                                                                               \
+    if (low + i < bands) {                                                                         \
+        sums.cosine[i] += node_read(at + node_index(low + i, m), weights);                         \
+        sums.sine[i] += node_read(at + node_index(low + i, -m), weights);                          \
     }
-    return sums;
+        NODE_EACH(NODE_BAND)
+#undef NODE_BAND
+    }
 }
 
 /* --- a node ----------------------------------------------------------------------------------- */
 
-node_sums node_begin(ivec3 node, int at, int l, int m) {
-    int count = bands * bands;
-    if (first > 0)
-        return node_sums(mat3x4(field_nodes[at + m], field_nodes[at + m + count],
-                                field_nodes[at + m + 2 * count]),
-                         mat3x4(field_nodes[at - m], field_nodes[at - m + count],
-                                field_nodes[at - m + 2 * count]));
-    if (coarsest)
-        return node_sums(mat3x4(0.0), mat3x4(0.0));
-    return node_interpolate(node, l, m);
+/* Without the lights, or as an earlier dispatch has left it. */
+node_sums node_begin(ivec3 node, int at, int low, int m) {
+    node_sums sums;
+    int green = bands * bands, blue = 2 * green;
+#define NODE_BAND(i) sums.cosine[i] = sums.sine[i] = mat3x4(0.0);
+    NODE_EACH(NODE_BAND)
+#undef NODE_BAND
+    if (first == 0 && !coarsest)
+        node_interpolate(node, low, m, sums);
+    if (first == 0)
+        return sums;
+#define NODE_BAND(i)                                                                               \
+    if (low + i < bands) {                                                                         \
+        int c = at + node_index(low + i, m), s = at + node_index(low + i, -m);                     \
+        sums.cosine[i] = mat3x4(field_nodes[c], field_nodes[c + green], field_nodes[c + blue]);    \
+        sums.sine[i] = mat3x4(field_nodes[s], field_nodes[s + green], field_nodes[s + blue]);      \
+    }
+    NODE_EACH(NODE_BAND)
+#undef NODE_BAND
+    return sums;
 }
 
-void node_end(int at, int m, node_sums sums) {
-    for (int c = 0; c < 3; c++) {
-        field_nodes[at + m + c * bands * bands] = sums.cosine[c];
-        if (m > 0)
-            field_nodes[at - m + c * bands * bands] = sums.sine[c];
-    }
+void node_write(int at, mat3x4 sums) {
+    field_nodes[at] = sums[0];
+    field_nodes[at + bands * bands] = sums[1];
+    field_nodes[at + 2 * bands * bands] = sums[2];
 }
 
 void main() {
-    int pairs = bands * (bands + 1) / 2, pair = int(gl_WorkGroupID.x) % pairs, l = 0;
-    ivec3 block = ivec3(int(gl_WorkGroupID.x) / pairs, gl_WorkGroupID.yz);
+    int parts = 0, m = 0;
+    for (int k = 0; k < bands; k++)
+        parts += node_parts(k);
+    int part = int(gl_WorkGroupID.x) % parts;
+    ivec3 block = ivec3(int(gl_WorkGroupID.x) / parts, gl_WorkGroupID.yz);
     ivec3 node = 4 * block + ivec3(gl_LocalInvocationID), size = ivec3(field.nodes.xyz);
     node_lights near = node_find(block);
     if (any(greaterThanEqual(node, size)) || (first > 0 && first >= near.count))
         return;
-    while ((l + 1) * (l + 2) / 2 <= pair)
-        l++;
-    int m = pair - l * (l + 1) / 2;
-    int at = ((node.z * size.y + node.y) * size.x + node.x) * 3 * bands * bands + l * l + l;
+    for (; part >= node_parts(m); m++)
+        part -= node_parts(m);
+    int low = m + SHARED_FIELD_BANDS * part;
+    int at = ((node.z * size.y + node.y) * size.x + node.x) * 3 * bands * bands;
     vec3 point = field.origin.xyz + field.cell.xyz * vec3(node);
-    float norm = node_norm(l, m);
-    node_sums sums = node_begin(node, at, l, m);
+    vec4 norm;
+#define NODE_BAND(i) norm[i] = node_norm(low + i, m);
+    NODE_EACH(NODE_BAND)
+#undef NODE_BAND
+    node_sums sums = node_begin(node, at, low, m);
     for (int i = first; i < min(near.count, first + LIGHTS); i++)
-        node_add(node_light(near, i), point, l, m, norm, sums);
-    node_end(at, m, sums);
+        node_add(node_listed(near, i), point, low, m, norm, sums);
+#define NODE_BAND(i)                                                                               \
+    if (low + i < bands) {                                                                         \
+        node_write(at + node_index(low + i, m), sums.cosine[i]);                                   \
+        if (m > 0)                                                                                 \
+            node_write(at + node_index(low + i, -m), sums.sine[i]);                                \
+    }
+    NODE_EACH(NODE_BAND)
+#undef NODE_BAND
 }

@@ -110,6 +110,7 @@ typedef struct shared_reflector {
  * environment nor materials. */
 #define SHARED_FIELD_COARSER_NODES 5
 #define SHARED_FIELD_COARSER       6
+#define SHARED_FIELD_BANDS         4 /* of a column, that a thread has there */
 
 /* How a field lies, before its lists, which are uint; as std430. */
 #ifdef LAMPION_SHADER

@@ -22,13 +22,21 @@ static bool compile(gpu_renderer *r, cli_error *error) {
     return r->field_program;
 }
 
+/* Threads of a node. */
+static int count_parts(int bands) {
+    int count = 0;
+    for (int m = 0; m < bands; m++)
+        count += (bands - m + SHARED_FIELD_BANDS - 1) / SHARED_FIELD_BANDS;
+    return count;
+}
+
 /* Of the coarsest field the lists are not read. */
 static void compute_level(const gpu_renderer *r, const lmp_field *field, int level) {
     const lmp_field_info info = lmp_field_describe(field);
     const bool coarsest = !lmp_field_coarser(field);
     const gpu_field_level *own = &r->field[level], *from = coarsest ? own : own + 1;
     const size_t count = coarsest ? info.light_count : from->longest;
-    const int bands = info.desc.bands, pairs = bands * (bands + 1) / 2, *n = info.desc.nodes;
+    const int bands = info.desc.bands, parts = count_parts(bands), *n = info.desc.nodes;
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_FIELD_NODES, own->nodes);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_FIELD, own->block);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_FIELD_COARSER_NODES, from->nodes);
@@ -37,7 +45,7 @@ static void compute_level(const gpu_renderer *r, const lmp_field *field, int lev
     glUniform1i(COARSEST, coarsest);
     for (size_t first = 0; first == 0 || first < count; first += LIGHTS) {
         glUniform1i(FIRST, (GLint)first);
-        glDispatchCompute((GLuint)(pairs * ((n[0] + 3) / 4)), (GLuint)(n[1] + 3) / 4,
+        glDispatchCompute((GLuint)(parts * ((n[0] + 3) / 4)), (GLuint)(n[1] + 3) / 4,
                           (GLuint)(n[2] + 3) / 4);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
