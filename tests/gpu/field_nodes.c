@@ -82,6 +82,7 @@ static float *read_nodes(size_t bytes, double *milliseconds) {
                               .whole_field = the_field };
     gpu_upload_lights(f.renderer, &frame);
     expect(gpu_bind_field(f.renderer, &frame, milliseconds, &error), &error);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(f.renderer->field[0].nodes, 0, (GLsizeiptr)bytes, texels);
     return texels;
 }
@@ -108,7 +109,7 @@ static void check_nodes(lmp_field_desc desc, int levels) {
     const size_t texels = nodes * 3 * LMP_SH_COUNT(desc.bands), bytes = 4 * texels * sizeof(float);
     double error[2], milliseconds;
     int count = 0;
-    desc.light_max = LIGHTS_MAX;
+    desc.light_max = (int)f.count;
     assert_int_equal(lmp_field_create(NULL, &desc, &f.field), LMP_OK);
     for (const lmp_field *level = f.field; level; level = lmp_field_coarser(level))
         count++;
@@ -149,6 +150,29 @@ static void nodes_without_a_coarser_field_are_the_library_s(void **state) {
     close_fixture();
 }
 
+/* Large ones, so many that a coarser field's lists have no room for each in every block. */
+static void push_large(void) {
+    for (int i = 0; i < 30; i++)
+        push_sphere(random_position(-2, 2), 2.5f, 2);
+}
+
+/* Lights that fade, near everywhere in a coarser field. */
+static size_t count_everywhere(const lmp_field_desc *desc) {
+    static uint32_t begin[4096], lights[1 << 16];
+    lmp_field *field;
+    assert_int_equal(lmp_field_create(NULL, desc, &field), LMP_OK);
+    assert_int_equal(lmp_field_reset(field, f.emitters, f.count), LMP_OK);
+    const lmp_field *coarse = lmp_field_coarser(field);
+    const lmp_field_info info = lmp_field_describe(coarse);
+    const int *n = info.desc.nodes, blocks = n[0] / 2 * (n[1] / 2) * (n[2] / 2);
+    size_t count = 0;
+    assert_true(blocks + 2 <= 4096 && lmp_field_lists(coarse, 1 << 16, begin, lights) <= 1 << 16);
+    for (uint32_t i = begin[blocks]; i < begin[blocks + 1]; i++)
+        count += f.emitters[lights[i]].kind == LMP_LIGHT_SPHERE;
+    lmp_field_destroy(field);
+    return count;
+}
+
 static void nodes_of_coarser_fields_are_the_library_s(void **state) {
     (void)state;
     static const int bands[] = { 1, 3, 5, 10 };
@@ -156,7 +180,11 @@ static void nodes_of_coarser_fields_are_the_library_s(void **state) {
     push_all();
     for (int i = 0; i < 4; i++)
         check_nodes(grid(bands[i], 15, 14, 13, 0.6f), 2);
-    check_nodes(grid(3, 30, 27, 25, 0.3f), 3);
+    push_large();
+    lmp_field_desc fine = grid(3, 30, 27, 25, 0.3f);
+    fine.light_max = (int)f.count;
+    assert_true(count_everywhere(&fine) > 0);
+    check_nodes(fine, 3);
     close_fixture();
 }
 
