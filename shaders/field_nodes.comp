@@ -117,12 +117,12 @@ void node_take(int l, int m, float norm, node_light a, vec3 color, inout mat3x4 
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* f, less that of the coarser field, of the spheres that it does not have whole; 0 is of others. */
+/* f, less that of the coarser field: 0 from inside a sphere, and of lights that are none. */
 vec2 node_fade(int light, float d) {
     vec2 per_reach = vec2(field.origin.w, coarsest ? 0.0 : coarser.origin.w);
     vec2 t = clamp((d - lights[light].sphere.w) * per_reach, 0.0, 1.0), u = t * t, rest = 1.0 - u;
     vec2 value = u * u * (6.0 - u * (8.0 - 3.0 * u)), slope = 24.0 * per_reach * t * u * rest * rest;
-    if (lights[light].radiance.w > float(SHARED_LIGHT_HIDDEN) || t.x == 0.0)
+    if (lights[light].radiance.w > float(SHARED_LIGHT_HIDDEN))
         return vec2(0.0);
     return vec2(value.x - value.y, slope.x - slope.y);
 }
