@@ -278,6 +278,11 @@ LMP_INLINE void accumulate_all_lights(const accumulate_work *work, accumulate_ti
         accumulate_lights(work, tile, monic, keeps, 1, i, point);
 }
 
+/* The sums are of red, green, blue. */
+static inline accumulate_sets accumulate_colors_of(const accumulate_work *work) {
+    return (accumulate_sets) { 3, 0, 3, work->lights->adds };
+}
+
 /* One tile of all. Functions of their own, for the code of tiles would take their registers. */
 static LMP_NOINLINE void accumulate_untiled(const accumulate_work *work, const vf point[3]) {
     const int bands = work->bands;
@@ -286,8 +291,8 @@ static LMP_NOINLINE void accumulate_untiled(const accumulate_work *work, const v
 static LMP_NOINLINE void accumulate_put_untiled(const accumulate_work *work,
                                                 const lmp_kernel_out *out) {
     const int bands = work->bands;
-    accumulate_put(bands, (accumulate_tile) { 0, bands, 0, bands }, 1, ACCUMULATE_SETS, work->sums,
-                   work->waiting, out, work->element, work->live);
+    accumulate_put(bands, (accumulate_tile) { 0, bands, 0, bands }, 1, accumulate_colors_of(work),
+                   work->sums, work->waiting, out, work->element, work->live);
 }
 
 LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const vf point[3],
@@ -303,8 +308,8 @@ LMP_INLINE void accumulate_tiles(const accumulate_work *work, int monic, const v
          tile = accumulate_next(bands, tile, work->most)) {
         memset(work->sums, 0, 6 * accumulate_pairs(tile) * sizeof *work->sums);
         accumulate_all_lights(work, tile, monic, 1, point);
-        accumulate_put(bands, tile, monic, ACCUMULATE_SETS, work->sums, work->waiting, out,
-                       work->element, work->live);
+        accumulate_put(bands, tile, monic, accumulate_colors_of(work), work->sums, work->waiting,
+                       out, work->element, work->live);
     }
 }
 

@@ -43,15 +43,20 @@ static inline size_t accumulate_pairs(accumulate_tile tile) {
     return pairs;
 }
 
-/* What accumulate_put writes: of a (l, m) with `planes` sums of +m, then as many of -m, the sums
- * skip … skip+sets-1, which are the output's sets of bands^2 values. */
+/* What accumulate_put writes, or adds to the output: of a (l, m) with `planes` sums of +m, then as
+ * many of -m, the sums skip … skip+sets-1, which are the output's sets of bands^2 values. */
 typedef struct accumulate_sets {
-    int planes, skip, sets;
+    int planes, skip, sets, adds;
 } accumulate_sets;
-#define ACCUMULATE_SETS                                                                            \
-    (accumulate_sets) {                                                                            \
-        3, 0, 3                                                                                    \
-    }
+
+/* Values of a block on their way out. */
+static inline void accumulate_out(int adds, const float *block, size_t first, size_t values,
+                                  const lmp_kernel_out *out, size_t element, size_t live) {
+    if (adds)
+        layout_add(block, first, values, out, element, live);
+    else
+        layout_put(block, first, values, out, element, live);
+}
 
 /* Band l of a set: value m at plus + m * stride, value -m at minus - m * stride. */
 LMP_INLINE void accumulate_band(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
@@ -68,30 +73,31 @@ LMP_INLINE void accumulate_band(accumulate_tile tile, int l, int monic, int plan
 
 /* Band l of a set as rows, from `index` on: its values from -last to -first and from first to last,
  * or all between. */
-LMP_INLINE void accumulate_runs(accumulate_tile tile, int l, int monic, int planes, const vf *sums,
-                                float *block, size_t index, const lmp_kernel_out *out,
-                                size_t element, size_t live) {
+LMP_INLINE void accumulate_runs(accumulate_tile tile, int l, int monic, accumulate_sets of,
+                                const vf *sums, float *block, size_t index,
+                                const lmp_kernel_out *out, size_t element, size_t live) {
     const int last = l < tile.end ? l : tile.end - 1, middle = l * l + l;
     const int wide = tile.first == 0 ? 2 * last + 1 : last - tile.first + 1;
     float *minus = block + last * LMP_LANES;
     float *plus = tile.first == 0 ? minus : block + (wide - tile.first) * LMP_LANES;
-    accumulate_band(tile, l, monic, planes, sums, plus, minus, LMP_LANES);
-    layout_put(block, index + (size_t)(middle - last), (size_t)wide, out, element, live);
+    accumulate_band(tile, l, monic, of.planes, sums, plus, minus, LMP_LANES);
+    accumulate_out(of.adds, block, index + (size_t)(middle - last), (size_t)wide, out, element,
+                   live);
     if (tile.first > 0)
-        layout_put(block + wide * LMP_LANES, index + (size_t)(middle + tile.first), (size_t)wide,
-                   out, element, live);
+        accumulate_out(of.adds, block + wide * LMP_LANES, index + (size_t)(middle + tile.first),
+                       (size_t)wide, out, element, live);
 }
 
 /* Bands low … high-1 of a set, which are whole, as rows. */
-LMP_INLINE void accumulate_whole(accumulate_tile tile, int low, int high, int monic, int planes,
-                                 const vf *sums, float *block, size_t index,
+LMP_INLINE void accumulate_whole(accumulate_tile tile, int low, int high, int monic,
+                                 accumulate_sets of, const vf *sums, float *block, size_t index,
                                  const lmp_kernel_out *out, size_t element, size_t live) {
     for (int l = low; l < high; l++) {
         float *middle = block + (l * l + l - low * low) * LMP_LANES;
-        accumulate_band(tile, l, monic, planes, sums, middle, middle, LMP_LANES);
+        accumulate_band(tile, l, monic, of.planes, sums, middle, middle, LMP_LANES);
     }
-    layout_put(block, index + (size_t)(low * low), (size_t)(high * high - low * low), out, element,
-               live);
+    accumulate_out(of.adds, block, index + (size_t)(low * low), (size_t)(high * high - low * low),
+                   out, element, live);
 }
 
 /* A tile of whole columns of a set, in the order of its sums: value l*l+l±m at
@@ -117,7 +123,7 @@ LMP_INLINE void accumulate_columns(int bands, accumulate_tile tile, int monic, i
 LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accumulate_sets of,
                                const vf *sums, vf *waiting, const lmp_kernel_out *out,
                                size_t element, size_t live) {
-    const int direct = LMP_LANES == 1 || (out->planar && live == LMP_LANES);
+    const int direct = !of.adds && (LMP_LANES == 1 || (out->planar && live == LMP_LANES));
     const int columns = tile.low == tile.first && tile.high == bands;
     const int all = tile.first == 0 && tile.end == bands && bands * bands <= ACCUMULATE_WAITING;
     const size_t stride = out->planar ? out->stride : 1;
@@ -133,7 +139,7 @@ LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accum
         }
         if (columns && all) {
             accumulate_columns(bands, tile, monic, of.planes, set, block, LMP_LANES);
-            layout_put(block, index, (size_t)(bands * bands), out, element, live);
+            accumulate_out(of.adds, block, index, (size_t)(bands * bands), out, element, live);
             continue;
         }
         for (; low < tile.high; low = high) {
@@ -142,13 +148,12 @@ LMP_INLINE void accumulate_put(int bands, accumulate_tile tile, int monic, accum
             if (direct) {
                 accumulate_band(tile, low, monic, of.planes, set, middle, middle, stride);
             } else if (tile.first > 0 || low >= tile.end) {
-                accumulate_runs(tile, low, monic, of.planes, set, block, index, out, element, live);
+                accumulate_runs(tile, low, monic, of, set, block, index, out, element, live);
             } else {
                 while (high < tile.end && high < tile.high &&
                        (high + 1) * (high + 1) - low * low <= ACCUMULATE_WAITING)
                     high++;
-                accumulate_whole(tile, low, high, monic, of.planes, set, block, index, out, element,
-                                 live);
+                accumulate_whole(tile, low, high, monic, of, set, block, index, out, element, live);
             }
         }
     }

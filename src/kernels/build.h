@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* build.h - one build of the kernels: the file that includes it sets LMP_LANES and LMP_KERNELS, and
  * CMake its instruction set. */
-#include "src/kernels/accumulate_few.h"
+#include "src/kernels/accumulate_more.h"
 #include "src/kernels/eval_gradient.h"
 #include "src/kernels/field.h"
 #include "src/kernels/ggx.h"
 #include "src/kernels/gradient.h"
 #include "src/kernels/image.h"
+#include "src/kernels/kinds.h"
 #include "src/kernels/lobe.h"
 #include "src/kernels/preintegrated_brdf.h"
 #include "src/kernels/project.h"
@@ -45,6 +46,9 @@ const lmp_kernels LMP_KERNELS = {
     .zonal = kernel_zonal,
     .project = kernel_project,
     .accumulate = kernel_accumulate,
+    .accumulate_more = kernel_accumulate_more,
+    .add = kernel_add,
+    .cone = kernel_cone,
     .gradient = kernel_gradient,
     .fading_gradient = kernel_fading_gradient,
     .interpolate = kernel_interpolate,

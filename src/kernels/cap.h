@@ -3,11 +3,13 @@
  *
  * One quotient and two roots serve everything: with e = sqrt(d² - r²), alpha = e/d and
  * X = 1/(d (d + e)),  1/d = (d + e) X,  t = 1 - alpha = r² X,  s2 = sin²a = (r/d)². Inside the
- * sphere d and r are exchanged (light.h). */
+ * sphere d and r are exchanged (light.h). A radius of LMP_KERNEL_DIRAC is a point
+ * light: the cap of no size that pi s2 = 1/d² makes as strong. */
 #ifndef LAMPION_KERNELS_CAP_H
 #define LAMPION_KERNELS_CAP_H
 
 #include "src/base/tables.h"
+#include "src/kernels/kernels.h"
 #include "src/kernels/lanes.h"
 
 #include <float.h>
@@ -26,11 +28,20 @@ typedef struct cap_lanes {
     int inside;  /* some lane is inside, or d = 0 */
 } cap_lanes;
 
-/* Some lane is inside, or d = 0; the lanes that are neither get the bits of cap_from. A square that
- * underflows counts as 0. By value, so that the common path keeps its cap in registers. */
+/* s2 of a Dirac, 0 where the radius says that it is none. */
+LMP_INLINE vf cap_dirac(vf d2, vf r) {
+    const vf held = vf_max(d2, vf_set(LMP_KERNEL_DIRAC_MIN * LMP_KERNEL_DIRAC_MIN));
+    return vf_select_less(r, vf_set(0), vf_set(1 / LMP_KERNEL_PI) / held, vf_set(0));
+}
+
+/* Some lane is inside, or d = 0, or a Dirac; the lanes that are neither get the bits of cap_from. A
+ * square that underflows counts as 0. By value, so that the common path keeps its cap in registers.
+ */
 static __attribute__((noinline)) cap_lanes cap_inside(vf x, vf y, vf z, vf d2, vf d, vf r, vf gap) {
     const vf zero = vf_set(0), one = vf_set(1), least = vf_set(FLT_MIN);
-    vf r2 = r * r;
+    const vf dirac = cap_dirac(d2, r);
+    vf r2 = vf_select_less(r, zero, zero, r * r);
+    gap = vf_select_less(r, zero, d2, gap);
     d2 = vf_select_less(d2, least, zero, d2);
     r2 = vf_select_less(r2, least, zero, r2);
     d = vf_select_less(zero, d2, d, zero);
@@ -52,6 +63,9 @@ static __attribute__((noinline)) cap_lanes cap_inside(vf x, vf y, vf z, vf d2, v
     cap.even = vf_select_less(d2, r2, -one, one);
     cap.alpha = e * per_far;
     cap.s2_per_d = vf_select_less(d2, r2, d * per_far * per_far, cap.s2 * cap.per_d);
+    cap.s2 = cap.s2 + dirac;
+    cap.t_full = cap.t_full + 0.5f * dirac;
+    cap.s2_per_d = cap.s2_per_d + dirac * cap.per_d;
     cap.inside = 1;
     return cap;
 }

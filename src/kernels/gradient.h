@@ -208,7 +208,7 @@ static void kernel_fading_gradient(const lmp_scratch *scratch, int bands,
                                    const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
                                    float cos_min, lmp_kernel_fade fade, size_t count,
                                    const lmp_kernel_out *out, const lmp_kernel_out *gradient) {
-    const accumulate_sets values = { 12, 0, 3 }, slopes = { 12, 3, 9 };
+    const accumulate_sets values = { 12, 0, 3, 0 }, slopes = { 12, 3, 9, 0 };
     vf stack[ACCUMULATE_STACK];
     const int each = ACCUMULATE_LIGHTS * (int)(sizeof(gradient_band) / sizeof *stack);
     const accumulate_memory memory = accumulate_lent(scratch, stack);

@@ -45,6 +45,12 @@ typedef struct lmp_kernel_pairs {
     const float *radius;
 } lmp_kernel_pairs;
 
+/* The radius that makes a point light of a sphere, of intensity where radiance is, and the distance
+ * from which on it falls. Its square is above that of any distance: as far as kernels that know
+ * spheres alone can tell, the point is inside. */
+#define LMP_KERNEL_DIRAC     -1e19f
+#define LMP_KERNEL_DIRAC_MIN 1e-6f
+
 /* Spheres wherever the caller keeps them; radiance.x … z are red, green, blue. */
 typedef struct lmp_kernel_lights {
     lmp_vec3_array center;
@@ -55,7 +61,14 @@ typedef struct lmp_kernel_lights {
      */
     const float *visibility;
     size_t visibility_stride;
+    int adds; /* accumulate_more's own */
 } lmp_kernel_lights;
+
+/* A spot's: the cosine of the outer one, and what the inner one's is more. */
+typedef struct lmp_kernel_cone {
+    lmp_vec3 center, axis; /* from the light */
+    float outer, width;
+} lmp_kernel_cone;
 
 /* A preintegrated lobe (lampion/preintegrated.h), and where lobes lie in it
  * (src/preintegrated/lobe_eval.h): an array a member, readable like planes. */
@@ -224,7 +237,16 @@ typedef struct lmp_kernels {
     /* 3 bands^2 values: the red, green and blue coefficients of the sum of the lights. */
     void (*accumulate)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                        const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out);
-    /* The same, and 9 bands^2 values: their derivatives by x, then y, then z; |cos a| is held at
+    /* The same, added to what the output holds. */
+    void (*accumulate_more)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
+                            const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out);
+    /* Adds values to the output's from `first` on, times each element's factor. */
+    void (*add)(const float *sh, size_t first, size_t values, const float *factors, size_t count,
+                const lmp_kernel_out *out);
+    /* Multiplies whole registers of factors by what of a spot's light comes to the points. */
+    void (*cone)(const lmp_kernel_cone *cone, const lmp_kernel_vec3 *points, size_t count,
+                 float *factors);
+    /* As accumulate, and 9 bands^2 values: derivatives by x, then y, then z; |cos a| is held at
      * cos_min and up, for they are infinite on the sphere's surface. */
     void (*gradient)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                      const lmp_kernel_vec3 *points, float cos_min, size_t count,

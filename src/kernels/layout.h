@@ -212,6 +212,21 @@ static inline void layout_get(float *block, size_t first, size_t values, const l
     }
 }
 
+/* layout_put of what is added to the output. */
+static inline void layout_add(const float *block, size_t first, size_t values,
+                              const lmp_kernel_out *out, size_t element, size_t live) {
+    enum { SOME = 16 };
+    const lmp_kernel_in in = { out->at, out->stride, out->planar };
+    float LMP_ALIGNED sums[SOME * LMP_LANES];
+    for (size_t v = 0, some; v < values; v += some) {
+        some = values - v < SOME ? values - v : SOME;
+        layout_get(sums, first + v, some, &in, element, live);
+        for (size_t i = 0; i < some * LMP_LANES; i += LMP_LANES)
+            vf_store(sums + i, vf_load(sums + i) + vf_load(block + v * LMP_LANES + i));
+        layout_put(sums, first + v, some, out, element, live);
+    }
+}
+
 /* The elements of a block that exist. */
 LMP_INLINE size_t layout_live(size_t count, size_t element) {
     return count - element < LMP_LANES ? count - element : LMP_LANES;

@@ -199,6 +199,22 @@ static void wrong_accumulate(const lmp_scratch *scratch, int bands, const lmp_ke
     honest.accumulate(scratch, bands, lights, points, count, out);
     spoil(out);
 }
+static void wrong_accumulate_more(const lmp_scratch *scratch, int bands,
+                                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,
+                                  size_t count, const lmp_kernel_out *out) {
+    honest.accumulate_more(scratch, bands, lights, points, count, out);
+    spoil(out);
+}
+static void wrong_add(const float *sh, size_t first, size_t values, const float *factors,
+                      size_t count, const lmp_kernel_out *out) {
+    honest.add(sh, first, values, factors, count, out);
+    spoil(out);
+}
+static void wrong_cone(const lmp_kernel_cone *cone, const lmp_kernel_vec3 *points, size_t count,
+                       float *factors) {
+    honest.cone(cone, points, count, factors);
+    spoil(&(lmp_kernel_out) { factors, 1, 0 });
+}
 /* Its derivatives follow the values (run). */
 static void wrong_gradient(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                            const lmp_kernel_vec3 *points, float cos_min, size_t count,
@@ -304,6 +320,9 @@ static const lmp_kernels wrong = { .eval = wrong_eval,
                                    .zonal = wrong_zonal,
                                    .project = wrong_project,
                                    .accumulate = wrong_accumulate,
+                                   .accumulate_more = wrong_accumulate_more,
+                                   .add = wrong_add,
+                                   .cone = wrong_cone,
                                    .gradient = wrong_gradient,
                                    .fading_gradient = wrong_fading_gradient,
                                    .interpolate = wrong_interpolate,

@@ -5,6 +5,7 @@
 
 #include "tests/kernels/nodes.h"
 #include "tests/kernels/shading.h"
+#include "tests/kernels/sums.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,6 +37,10 @@ typedef enum kind {
     INTERPOLATE,
     REFINE,
     SHADE_FIELD,
+    ACCUMULATE_MORE,
+    ACCUMULATE_DIRACS,
+    ADD,
+    CONE,
     KINDS
 } kind;
 static const char *const kind_names[] = { "eval",
@@ -60,7 +65,11 @@ static const char *const kind_names[] = { "eval",
                                           "fading_gradient",
                                           "interpolate",
                                           "refine",
-                                          "shade_field" };
+                                          "shade_field",
+                                          "accumulate_more",
+                                          "accumulate of Diracs",
+                                          "add",
+                                          "cone" };
 
 /* Of Phong's, that a kernel of shading takes. */
 static int lobes_of(kind which) {
@@ -86,10 +95,14 @@ static size_t values_of(kind which, int bands) {
     const size_t n = LMP_SH_COUNT(bands);
     switch (which) {
     case DOT:
+    case CONE:
         return 1;
     case ZONAL:
         return (size_t)bands;
     case ACCUMULATE:
+    case ACCUMULATE_MORE:
+    case ACCUMULATE_DIRACS:
+    case ADD:
     case IMAGE:
     case INTERPOLATE:
         return 3 * n;
@@ -268,15 +281,6 @@ static void run_shading(const lmp_kernels *k, kind which, int bands, const input
     }
 }
 
-static lmp_kernel_lights lights_of(const inputs *in) {
-    return (lmp_kernel_lights) {
-        .center = { in->center[0], in->center[1], in->center[2], sizeof(float) },
-        .radius = { in->radius, sizeof(float) },
-        .radiance = { in->rgb[0], in->rgb[1], in->rgb[2], sizeof(float) },
-        .count = LIGHTS,
-    };
-}
-
 /* Sums of lights, whose gradients follow them: further on in a row, or in the planes after. */
 static void run_sums(const lmp_kernels *k, kind which, int bands, const inputs *in, size_t count,
                      const lmp_kernel_out *out) {
@@ -322,6 +326,18 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case GRADIENT:
     case FADING_GRADIENT:
         run_sums(k, which, bands, in, count, out);
+        break;
+    case ACCUMULATE_MORE:
+        run_more(k, bands, in, count, out);
+        break;
+    case ACCUMULATE_DIRACS:
+        run_diracs(k, bands, in, count, out);
+        break;
+    case ADD:
+        run_add(k, bands, in, count, out);
+        break;
+    case CONE:
+        run_cone(k, in, count, out);
         break;
     case LOBE:
         k->lobe(bands, lambda, &axis, &lights, &point, count, out);
