@@ -198,6 +198,38 @@ LMP_API void lmp_sphere_accumulate_gradient_n(const lmp_scratch *scratch, int ba
                                               lmp_sh_layout layout, size_t stride, float *sh,
                                               size_t gradient_stride, float *gradient);
 
+/* lmp_light_project at many points: 3 * LMP_SH_COUNT(bands) values an element, red, then green,
+ * then blue, of the sum of lights of any kinds. visibility as above, for every light; NULL: all
+ * comes, the same bits.
+ *
+ * Sums have one order, whatever points a call is about: spheres alone are added as
+ * lmp_sphere_accumulate_n adds them, to the bit. Of other lights those at positions come first, in
+ * groups of LMP_LIGHT_GROUP whose sums are added one after the other, then the others one by one,
+ * whose coefficients are the same everywhere and are found once for many points. */
+#define LMP_LIGHT_GROUP 32
+LMP_API void lmp_light_project_n(const lmp_scratch *scratch, int bands, const lmp_light *lights,
+                                 size_t light_count, const float *visibility, lmp_vec3_array points,
+                                 size_t point_count, lmp_sh_layout layout, size_t stride,
+                                 float *sh);
+
+/* The same added to what sh holds: lights that are switched on. One whose colors are negated is
+ * taken away again, up to rounding, of each time 2^-23 of the most that sh held. */
+LMP_API void lmp_light_add_n(const lmp_scratch *scratch, int bands, const lmp_light *lights,
+                             size_t light_count, const float *visibility, lmp_vec3_array points,
+                             size_t point_count, lmp_sh_layout layout, size_t stride, float *sh);
+
+/* --- lights that do not matter ------------------------------------------------------------------
+ */
+
+/* The distance from its position beyond which a light gives any surface at most this irradiance, in
+ * every channel; so much, too, is the error of leaving it out there. That of n bands of its
+ * coefficients, the root of the sum of their squares, is then at most n / sqrt(pi) times as much,
+ * and half of that where the light looks small. Irradiances of lights left out add up.
+ *
+ * irradiance > 0. 0: it is never more. INFINITY: the light has no position, and is more everywhere
+ */
+LMP_API float lmp_light_range(const lmp_light *light, float irradiance);
+
 /* --- units ------------------------------------------------------------------------------------ */
 
 /* Of a sphere with uniform radiance L: power 4 pi² r² L, intensity pi r² L, both exact at any

@@ -6,6 +6,7 @@
 #include "src/base/precondition.h"
 #include "src/base/tables.h"
 #include "src/base/unroll.h"
+#include "src/kernels/kernels.h"
 
 #include <lampion/light.h>
 
@@ -32,6 +33,9 @@ static inline bool lmp_are_spheres(const lmp_spheres *spheres, size_t count) {
     return lmp_are_finite(spheres->center, count) &&
            lmp_are_within(spheres->radius, count, 0, LMP_LENGTH_MAX);
 }
+
+/* Of a spot. */
+lmp_kernel_cone lmp_light_cone(const lmp_light *spot);
 
 /* Whether the members that the light's kind names are in their ranges (light.h). */
 bool lmp_is_light(const lmp_light *light);

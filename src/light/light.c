@@ -44,12 +44,18 @@ static void set_angle(const lmp_light *light, lmp_cap *cap) {
             light->radiance, cap);
 }
 
+lmp_kernel_cone lmp_light_cone(const lmp_light *spot) {
+    const float inner = cosf(spot->inner), outer = cosf(spot->outer);
+    return (lmp_kernel_cone) { spot->position, spot->direction, outer,
+                               fmaxf(inner - outer, 1e-3f) };
+}
+
 /* 1 inside the inner cone, 0 outside the outer one, of the direction from the light. */
 static float spot_falloff(const lmp_light *light, lmp_vec3 from_light) {
-    const lmp_vec3 d = light->direction;
-    const float inner = cosf(light->inner), outer = cosf(light->outer);
+    const lmp_kernel_cone cone = lmp_light_cone(light);
+    const lmp_vec3 d = cone.axis;
     const float cosine = d.x * from_light.x + d.y * from_light.y + d.z * from_light.z;
-    const float position = (cosine - outer) / fmaxf(inner - outer, 1e-3f);
+    const float position = (cosine - cone.outer) / cone.width;
     const float held = fminf(fmaxf(position, 0), 1);
     return held * held;
 }

@@ -319,6 +319,64 @@ static void the_sun_has_the_radiance_its_irradiance_says(void **state) {
     CHECK_WITHIN(fabs((double)lmp_cap_irradiance_from_radiance(1, 1.5707963f) - ORACLE_PI), 1e-6);
 }
 
+/* On either side of the range, of a light in front of the surface; irradiance is that of the cap,
+ * as light.h has it, of at most a hemisphere. */
+static void a_light_is_no_more_than_was_asked_beyond_its_range(void **state) {
+    (void)state;
+    const float asked = 0.05f;
+    for (int i = 0; i < 600; i++) {
+        lmp_light light = { .kind = (lmp_light_kind)(i % 3),
+                            .direction = check_random_direction(),
+                            .radius = (float)check_random_between(0.01, 2),
+                            .inner = 0.2f,
+                            .outer = 0.4f,
+                            .radiance = { (float)check_random_between(-9, 9), 0.01f,
+                                          (float)check_random_between(0.1, 3) } };
+        const float range = lmp_light_range(&light, asked);
+        const float most = fmaxf(fabsf(light.radiance.r), light.radiance.b);
+        const float distances[] = { 0.999f * range, 1.001f * range, 3 * range };
+        for (int k = 0; k < 3; k++) {
+            const lmp_vec3 w = light.direction;
+            const lmp_vec3 point = { distances[k] * w.x, distances[k] * w.y, distances[k] * w.z };
+            lmp_cap cap;
+            lmp_light_cap(&light, point, &cap);
+            const float there =
+                fmaxf(fabsf(cap.strength.r), fmaxf(fabsf(cap.strength.g), fabsf(cap.strength.b)));
+            assert_true(k == 0 ? there > asked : there <= asked);
+            float sh[3 * COUNT];
+            lmp_light_project(BANDS, &light, 1, point, sh);
+            double squares = 0;
+            for (int v = 0; v < COUNT; v++)
+                squares += (double)sh[2 * COUNT + v] * (double)sh[2 * COUNT + v];
+            if (k > 0)
+                assert_true(sqrt(squares) <= BANDS / sqrt(ORACLE_PI) * (double)asked);
+        }
+        assert_true(range > 0 && most > 0);
+        light.kind = LMP_LIGHT_SPHERE;
+        assert_true(lmp_light_range(&light, 3.2f * most) == 0);
+    }
+}
+
+static void lights_without_a_position_reach_everywhere_or_nowhere(void **state) {
+    (void)state;
+    const lmp_light sun = { .kind = LMP_LIGHT_DIRECTIONAL,
+                            .direction = { 0, 1, 0 },
+                            .irradiance = { 1, 3, 2 } };
+    lmp_light cap = sun, above = sun;
+    cap.kind = LMP_LIGHT_CAP;
+    above.kind = LMP_LIGHT_HEMISPHERE;
+    above.ground = (lmp_rgb) { 5, 0, 0 };
+    const float angles[] = { 0.01f, 1, 2.5f };
+    assert_true(lmp_light_range(&sun, 2.99f) == INFINITY && lmp_light_range(&sun, 3) == 0);
+    assert_true(lmp_light_range(&above, 15.7f) == INFINITY && lmp_light_range(&above, 15.8f) == 0);
+    for (int i = 0; i < 3; i++) {
+        cap.angle = angles[i];
+        const float most = lmp_cap_irradiance_from_radiance(3, fminf(angles[i], 1.5707963f));
+        assert_true(lmp_light_range(&cap, 0.999f * most) == INFINITY);
+        assert_true(lmp_light_range(&cap, 1.001f * most) == 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sphere_is_the_cap_it_covers),
@@ -326,6 +384,8 @@ int main(void) {
         cmocka_unit_test(a_directional_light_is_a_dirac),
         cmocka_unit_test(a_point_light_falls_with_the_square_and_is_a_tiny_sphere),
         cmocka_unit_test(a_point_light_stays_finite_where_it_is),
+        cmocka_unit_test(a_light_is_no_more_than_was_asked_beyond_its_range),
+        cmocka_unit_test(lights_without_a_position_reach_everywhere_or_nowhere),
         cmocka_unit_test(a_spot_light_fades_between_its_cones),
         cmocka_unit_test(a_spot_light_with_equal_cones_has_a_hard_edge),
         cmocka_unit_test(a_hemisphere_light_is_sky_and_ground),

@@ -166,6 +166,9 @@ static void shade_under_a_field(void) {
     X(lmp_sphere_accumulate_visible_n, LAYOUTS(lmp_sphere_accumulate_visible_n(NULL, N, &spheres, LIGHTS, NULL, points, COUNT, layout, 0, out))) \
     X(lmp_sphere_accumulate_n, LAYOUTS(lmp_sphere_accumulate_n(NULL, N, &spheres, LIGHTS, points, COUNT, layout, 0, out))) \
     X(lmp_sphere_accumulate_gradient_n, LAYOUTS(lmp_sphere_accumulate_gradient_n(NULL, N, &spheres, LIGHTS, points, COUNT, layout, 0, out, 0, slopes))) \
+    X(lmp_light_project_n, LAYOUTS(lmp_light_project_n(NULL, N, lights, LIGHTS, NULL, points, COUNT, layout, 0, out))) \
+    X(lmp_light_add_n, LAYOUTS(lmp_light_add_n(NULL, N, lights, LIGHTS, NULL, points, COUNT, layout, 0, out))) \
+    X(lmp_light_range, (void)lmp_light_range(lights, 0.1f)) \
     X(lmp_sphere_power_from_radiance, lmp_sphere_power_from_radiance(1, 1)) \
     X(lmp_sphere_radiance_from_power, lmp_sphere_radiance_from_power(1, 1)) \
     X(lmp_sphere_intensity_from_radiance, lmp_sphere_intensity_from_radiance(1, 1)) \
