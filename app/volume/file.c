@@ -21,29 +21,19 @@ volume_file volume_file_of(const char *path) {
 
 /* --- 16 bits ---------------------------------------------------------------------------------- */
 
-#define HALF_MAX   65504.0f
-#define HALF_LEAST 0x1p-14f /* below it the numbers are multiples of HALF_STEP */
-#define HALF_STEP  0x1p-24f
+#define HALF_MAX 65504.0f
 
-/* The nearest number that IEEE 754's binary16 holds. */
-static float round_to_half(float value) {
-    uint32_t bits;
-    if (fabsf(value) < HALF_LEAST)
-        return rintf(value / HALF_STEP) * HALF_STEP;
-    memcpy(&bits, &value, sizeof bits);
-    bits = (bits + 0xfff + (bits >> 13 & 1)) & ~0x1fffu;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+/* The number that they hold, infinite past HALF_MAX. */
+static uint16_t half_bits(float value) {
+    uint16_t half;
+    lmp_sh_pack_half(&value, 1, &half);
+    return half;
 }
 
-/* Of such a number. */
-static uint16_t half_bits(float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    const uint32_t sign = bits >> 16 & 0x8000;
-    const uint32_t size = fabsf(value) < HALF_LEAST ? (uint32_t)(fabsf(value) / HALF_STEP)
-                                                    : (bits - 0x38000000) >> 13 & 0x7fff;
-    return (uint16_t)(sign | size);
+static float round_to_half(float value) {
+    const uint16_t half = half_bits(value);
+    lmp_sh_unpack_half(&half, 1, &value);
+    return value;
 }
 
 /* --- values ----------------------------------------------------------------------------------- */

@@ -199,6 +199,14 @@ LMP_API void lmp_sh_dot_n(int bands, const float *a, const float *b, size_t coun
 LMP_API void lmp_sh_rotate_n(int bands, const float *matrices, const float *sh, size_t count,
                              lmp_sh_layout layout, size_t stride, float *rotated);
 
+/* Numbers of 16 bits, IEEE 754's binary16, which shaders and textures take: any array of values,
+ * as what a batch wrote, gaps included, for buffers half as large. Each is rounded to the nearest,
+ * ties to even; from 65520 on that is infinity, and the least above 0 is 2^-24. NaN stays NaN.
+ *
+ * values and halves must not overlap */
+LMP_API void lmp_sh_pack_half(const float *values, size_t count, uint16_t *halves);
+LMP_API void lmp_sh_unpack_half(const uint16_t *halves, size_t count, float *values);
+
 /* --- in double -----------------------------------------------------------------------------------
  * For research: within 1e-13 of exact values to 20 bands (docs/accuracy.md), the same bits on every
  * machine but for rotations, which take sines of the C library. One element a call and no vectors,

@@ -6,6 +6,7 @@
 #include "src/kernels/field.h"
 #include "src/kernels/ggx.h"
 #include "src/kernels/gradient.h"
+#include "src/kernels/half.h"
 #include "src/kernels/image.h"
 #include "src/kernels/kinds.h"
 #include "src/kernels/lobe.h"
@@ -37,6 +38,8 @@ const lmp_kernels LMP_KERNELS = {
     .load_rows = kernel_load_rows,
     .store_colors = kernel_store_colors,
     .ggx = kernel_ggx,
+    .pack_half = kernel_pack_half,
+    .unpack_half = kernel_unpack_half,
     .eval = kernel_eval,
     .eval_gradient = kernel_eval_gradient,
     .dot = kernel_dot,

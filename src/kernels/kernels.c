@@ -5,6 +5,10 @@
 
 #include <stdatomic.h>
 
+#ifdef LMP_KERNELS_X86
+#include <cpuid.h>
+#endif
+
 extern const lmp_kernels lmp_kernels_scalar;
 #ifdef LMP_KERNELS_VECTOR
 extern const lmp_kernels lmp_kernels_vector;
@@ -16,6 +20,14 @@ extern const lmp_kernels lmp_kernels_avx2, lmp_kernels_avx512;
 /* The only state of the library. Whoever finds it empty publishes the same value. */
 static _Atomic(const lmp_kernels *) lmp_kernel_table;
 
+#ifdef LMP_KERNELS_X86
+/* Conversions of 16 bits, which every CPU with AVX2 has; clang 14 has no name for them. */
+static int kernels_have_halves(void) {
+    unsigned a, b, c, d;
+    return __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C);
+}
+#endif
+
 unsigned lmp_cpu_flags(void) {
     unsigned flags = LMP_CPU_SCALAR;
 #ifdef LMP_KERNELS_VECTOR
@@ -23,7 +35,7 @@ unsigned lmp_cpu_flags(void) {
 #endif
 #ifdef LMP_KERNELS_X86
     __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx2"))
+    if (__builtin_cpu_supports("avx2") && kernels_have_halves())
         flags |= LMP_CPU_AVX2;
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512dq"))

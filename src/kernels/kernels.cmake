@@ -27,7 +27,7 @@ endif()
 if(LAMPION_SIMD AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   list(APPEND lampion_kernel_builds LMP_KERNELS_X86)
   set_source_files_properties(${kernels}/avx2.c PROPERTIES
-    COMPILE_OPTIONS "${lampion_kernel_options};-mavx2")
+    COMPILE_OPTIONS "${lampion_kernel_options};-mavx2;-mf16c")
   set_source_files_properties(${kernels}/avx512.c PROPERTIES
     COMPILE_OPTIONS "${lampion_kernel_options};-mavx512f;-mavx512vl;-mavx512dq;-mprefer-vector-width=512")
 else()

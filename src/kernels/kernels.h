@@ -208,6 +208,9 @@ typedef struct lmp_kernels {
     void (*ggx)(const lmp_kernel_ggx *table, const lmp_kernel_vec3 *normal,
                 const lmp_kernel_vec3 *view, const float *roughness, size_t count, int lobes,
                 const lmp_kernel_ggx_lobe *to, float *diffuse_f90);
+    /* Floats as binary16 and back (src/base/half.h). */
+    void (*pack_half)(const float *values, size_t count, uint16_t *halves);
+    void (*unpack_half)(const uint16_t *halves, size_t count, float *values);
     /* bands^2 values: Y_lm. */
     void (*eval)(int bands, const lmp_kernel_vec3 *directions, size_t count,
                  const lmp_kernel_out *out);

@@ -4,6 +4,7 @@
  * Texels go through a kernel in runs of a row, a few orders m a pass, and what a run adds is summed
  * in double, so that no number of texels loses digits. Where a run's texels are is found once for
  * all rows or faces that share it. */
+#include "src/base/half.h"
 #include "src/base/precondition.h"
 #include "src/kernels/kernels.h"
 
@@ -38,19 +39,6 @@ static grid grid_of(lmp_texel texel, int width, int channels, size_t row_stride,
     return g;
 }
 
-/* Infinity and NaN have the exponent that 2^112 would be short of. */
-static float float_of_half(uint16_t half) {
-    const uint32_t size = (half & 0x7fffu) << 13, sign = (half & 0x8000u) << 16;
-    float value;
-    memcpy(&value, &size, sizeof value);
-    value *= 0x1p112f;
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    bits |= sign | ((half & 0x7c00u) == 0x7c00u ? 0x7f800000u : 0);
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* --- a pass ----------------------------------------------------------------------------------- */
 
 /* What is projected now: orders m … m+orders-1 of a few channels, and a run of texels. */
@@ -69,7 +57,7 @@ static void read_channel(const pass *p, const char *at, int count, const double 
         for (int i = 0; i < count; i++) {
             uint16_t half;
             memcpy(&half, at + (size_t)i * stride, sizeof half);
-            value[i] = (float)((double)float_of_half(half) * solid_angle[i]);
+            value[i] = (float)((double)lmp_float_of_half(half) * solid_angle[i]);
         }
     else
         for (int i = 0; i < count; i++) {

@@ -131,6 +131,8 @@ static void create_half_a_host(void) {
     X(radiance, cap_of((lmp_light) { .radiance = { 1, 1, 1 } }), cap_of((lmp_light) { .radiance = { 1, INFINITY, 1 } })) \
     X(nowhere_gradient, lmp_sphere_project_gradient(BANDS, at, 1, at, a, b), lmp_sphere_project_gradient(BANDS, at, 0, at, a, b)) \
     X(scratch, summed(0), summed(sizeof(float))) \
+    X(pack_half, lmp_sh_pack_half(a, VALUES, (uint16_t *)(void *)(a + VALUES)), lmp_sh_pack_half(a, VALUES, (uint16_t *)(void *)(a + VALUES - 1))) \
+    X(unpack_half, lmp_sh_unpack_half((uint16_t *)(void *)a, VALUES, a + VALUES / 2), lmp_sh_unpack_half((uint16_t *)(void *)a, VALUES, a + VALUES / 2 - 1)) \
     X(lights_n, lmp_light_project_n(NULL, 2, NULL, 0, NULL, lmp_vec3_array_same(&at), 1, LMP_SH_PLANAR, 4, a), lmp_light_project_n(NULL, 2, NULL, 0, NULL, lmp_vec3_array_same(&at), 1, LMP_SH_PLANAR, 2, a)) \
     X(add_n, lmp_light_add_n(NULL, 2, NULL, 0, NULL, lmp_vec3_array_same(&at), 1, LMP_SH_PLANAR, 0, a), lmp_light_add_n(NULL, 2, NULL, 0, NULL, lmp_vec3_array_same(&nowhere), 1, LMP_SH_PLANAR, 0, a)) \
     X(range, (void)lmp_light_range(&(lmp_light) { 0 }, 1), (void)lmp_light_range(&(lmp_light) { 0 }, 0)) \

@@ -34,6 +34,7 @@ static double matrices_double[LMP_SH_ROTATION_COUNT(N)];
 static float numbers[COUNT], texels[6 * 3 * 4 * 4];
 static float ggx_texels[4 * LMP_GGX_TEXELS];
 static lmp_ggx_lobes ggx;
+static uint16_t halves[COUNT];
 static lmp_vec3 vectors[COUNT];
 static lmp_light lights[LIGHTS];
 static lmp_cap cap;
@@ -151,6 +152,8 @@ static void shade_under_a_field(void) {
     X(lmp_sh_product_destroy, lmp_sh_product_destroy(product), product = NULL) \
     X(lmp_sh_eval_n, LAYOUTS(lmp_sh_eval_n(N, points, COUNT, layout, 0, out))) \
     X(lmp_sh_eval_gradient_n, LAYOUTS(lmp_sh_eval_gradient_n(N, points, COUNT, layout, 0, out, 0, slopes))) \
+    X(lmp_sh_pack_half, lmp_sh_pack_half(sh, COUNT, halves)) \
+    X(lmp_sh_unpack_half, lmp_sh_unpack_half(halves, COUNT, out)) \
     X(lmp_sh_dot_n, LAYOUTS(lmp_sh_dot_n(N, sh, sh, COUNT, layout, 0, rgb))) \
     X(lmp_sh_rotate_n, LAYOUTS(lmp_sh_rotate_n(N, matrices, sh, COUNT, layout, 0, out))) \
     X(lmp_light_cap, lmp_light_cap(lights, at, &cap)) \
