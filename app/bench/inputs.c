@@ -9,6 +9,22 @@ static float uniform(uint32_t *state) {
     return (float)(*state >> 8) / 16777216.0f;
 }
 
+/* A sun, a sky, six spots, twelve points and as many spheres, in turn. */
+static void kinds_create(bench_inputs *in) {
+    static const lmp_light_kind kinds[] = { LMP_LIGHT_SPHERE, LMP_LIGHT_POINT };
+    for (int i = 0; i < BENCH_LIGHTS; i++) {
+        lmp_light *light = &in->kinds[i];
+        *light = in->lights[i];
+        light->kind = i == 0       ? LMP_LIGHT_DIRECTIONAL
+                      : i == 1     ? LMP_LIGHT_HEMISPHERE
+                      : i % 5 == 4 ? LMP_LIGHT_SPOT
+                                   : kinds[i % 2];
+        light->direction = (lmp_vec3) { in->axis[0][i], in->axis[1][i], in->axis[2][i] };
+        light->inner = 0.5f;
+        light->outer = 2;
+    }
+}
+
 bool bench_inputs_create(bench_inputs *in) {
     const size_t values =
         12 * (size_t)BENCH_OUTPUT_FLOATS + 16 * 12 * LMP_SH_COUNT(LMP_BANDS_MAX) * 4;
@@ -52,6 +68,7 @@ bool bench_inputs_create(bench_inputs *in) {
                           .radius = in->radius[i],
                           .radiance = { in->radiance[0][i], in->radiance[1][i],
                                         in->radiance[2][i] } };
+    kinds_create(in);
     lmp_lobe_phong(LMP_BANDS_MAX, 20, in->lambda);
     in->out = aligned_alloc(64, values * sizeof(float));
     in->vectors = aligned_alloc(64, values * sizeof(float));
@@ -100,6 +117,7 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     b.vectors = in->vectors;
     b.out = in->out;
     b.lights = in->lights;
+    b.kinds = in->kinds;
     b.lobe = in->lobes;
     b.field = in->field;
     b.surfaces = (lmp_surfaces) { .position = b.points,

@@ -15,7 +15,7 @@ typedef struct bench_inputs {
     lmp_material phong[BENCH_ELEMENTS_MAX], ggx[BENCH_ELEMENTS_MAX], tabulated;
     float lambda[LMP_BANDS_MAX];
     float *out, *vectors, *matrices;
-    lmp_light lights[BENCH_LIGHTS];
+    lmp_light lights[BENCH_LIGHTS], kinds[BENCH_LIGHTS]; /* spheres, and as a level has them */
     /* What the kernels that read a table read now. */
     lmp_preintegrated_lobe *lobes;
     lmp_brdf_table *table;

@@ -64,6 +64,14 @@ static void run_accumulate(const bench_batch *b) {
     lmp_sphere_accumulate_n(&scratch, b->bands, &b->spheres, BENCH_LIGHTS, b->points, b->count,
                             b->layout, b->stride, b->out);
 }
+static void run_kinds(const bench_batch *b) {
+    const lmp_scratch scratch = scratch_of_thread();
+    lmp_light_project_n(&scratch, b->bands, b->kinds, BENCH_LIGHTS, NULL, b->points, b->count,
+                        b->layout, b->stride, b->out);
+}
+static void run_pack_half(const bench_batch *b) {
+    lmp_sh_pack_half(b->vectors, 3 * b->count * LMP_SH_COUNT(b->bands), (uint16_t *)(void *)b->out);
+}
 /* The calls an engine makes for one light and one point, a call an element. */
 static void run_one_light(const bench_batch *b) {
     const lmp_vec3_array *c = &b->spheres.center, *p = &b->points;
@@ -202,6 +210,9 @@ static double slots_accumulate(int n) {
     return 24 + 11 * later(n) + 6 * n + entries(n) + 6 * n + 12 * steps(n) + 3 * steps(n) +
            3.0 * n * n / BENCH_LIGHTS;
 }
+static double slots_pack_half(int n) {
+    return 3.0 * n * n;
+}
 static double slots_gradient(int n) {
     return 29 + 16 * later(n) + 5 + 8 * n + 4 * steps(n) + 11 * entries(n) + 32 * n + 64 * steps(n);
 }
@@ -253,6 +264,8 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
       BENCH_TABLE_NONE, false },
     { "accumulate", values_rgb, slots_accumulate, run_accumulate, bench_paper_accumulate,
       BENCH_LIGHTS, false, BENCH_TABLE_NONE, false },
+    { "kinds", values_rgb, slots_accumulate, run_kinds, bench_paper_accumulate, BENCH_LIGHTS, false,
+      BENCH_TABLE_NONE, false },
     { "gradient", values_gradient, slots_gradient, run_gradient, bench_paper_gradient, BENCH_LIGHTS,
       false, BENCH_TABLE_NONE, false },
     { "one-light", values_basis, slots_project, run_one_light, bench_paper_project, 1, true,
@@ -281,6 +294,8 @@ const bench_kernel bench_kernels[BENCH_KERNELS] = {
     { "rotate-z", values_basis, slots_rotate_z, run_rotate_z, bench_paper_rotate, 1, true,
       BENCH_TABLE_NONE, false },
     { "rotate", values_basis, slots_rotate, run_rotate, bench_paper_rotate, 1, false,
+      BENCH_TABLE_NONE, false },
+    { "pack-half", values_rgb, slots_pack_half, run_pack_half, bench_paper_pack_half, 1, true,
       BENCH_TABLE_NONE, false },
     { "dot", values_basis, slots_dot, run_dot, bench_paper_dot, 1, false, BENCH_TABLE_NONE, false },
     { "shade-zonal", values_lobe, slots_shade_zonal, run_shade_zonal, bench_paper_shade,

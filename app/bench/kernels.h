@@ -30,7 +30,7 @@ typedef struct bench_batch {
     lmp_spheres spheres;
     const float *distances, *lambda, *matrices, *vectors;
     lmp_surfaces surfaces;
-    const lmp_light *lights;
+    const lmp_light *lights, *kinds;
     const lmp_preintegrated_lobe *lobe; /* of the kernels that read one */
     lmp_field *field;                   /* the same */
     float *out;
@@ -59,7 +59,7 @@ typedef struct bench_kernel {
     bool ggx; /* it shades glTF's metallic-roughness */
 } bench_kernel;
 
-enum { BENCH_KERNELS = 25 };
+enum { BENCH_KERNELS = 27 };
 extern const bench_kernel bench_kernels[BENCH_KERNELS];
 
 /* --- paper.c: elements of the same work by the paper's formulas, one by one ------------------- */
@@ -77,6 +77,7 @@ void bench_paper_zonal(const bench_batch *b, size_t element);
 void bench_paper_project(const bench_batch *b, size_t element);
 void bench_paper_accumulate(const bench_batch *b, size_t element);
 void bench_paper_accumulate_few(const bench_batch *b, size_t element);
+void bench_paper_pack_half(const bench_batch *b, size_t element);
 void bench_paper_gradient(const bench_batch *b, size_t element);
 void bench_paper_lobe(const bench_batch *b, size_t element);
 void bench_paper_shade(const bench_batch *b, size_t element);

@@ -124,6 +124,16 @@ void bench_paper_accumulate(const bench_batch *b, size_t i) {
 void bench_paper_accumulate_few(const bench_batch *b, size_t i) {
     paper_sum(b, BENCH_LIGHTS_FEW, i, (lmp_vec3) { 0, 0, 0 }, coefficient_sink);
 }
+/* Halves by their definition: multiples of the step of the number's exponent. */
+void bench_paper_pack_half(const bench_batch *b, size_t i) {
+    const size_t n = 3 * LMP_SH_COUNT(b->bands);
+    for (size_t v = 0; v < n; v++) {
+        int exponent;
+        frexpf(b->vectors[n * i + v], &exponent);
+        const float step = ldexpf(1, (exponent < -13 ? -13 : exponent) - 11);
+        coefficient_sink[v] = rintf(b->vectors[n * i + v] / step) * step;
+    }
+}
 /* The paper has no gradient: one-sided differences. */
 void bench_paper_gradient(const bench_batch *b, size_t i) {
     const size_t n = 3 * LMP_SH_COUNT(b->bands);
