@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* light_n.c - lights of any kind at many points. Those that stand somewhere are spheres and Diracs
- * to the kernel, a group of them a call, for what they are to it is made anew from lmp_light; the
- * others are the same cap from everywhere: coefficients that are found once for a chunk of points.
- */
+ * to the kernel, a group of them a call, copied to what it reads; the others are the same cap from
+ * everywhere: coefficients that are found once for a chunk of points. */
 #define LMP_BATCH 64
 
 #include "src/kernels/batch.h"

@@ -288,7 +288,11 @@ static void run_sums(const lmp_kernels *k, kind which, int bands, const inputs *
     const lmp_kernel_lights lights = lights_of(in);
     lmp_kernel_out gradient = *out;
     gradient.at += 3 * LMP_SH_COUNT(bands) * (out->planar ? out->stride : 1);
-    if (which == ACCUMULATE)
+    if (which == ACCUMULATE_MORE)
+        run_more(k, bands, in, count, out);
+    else if (which == ACCUMULATE_DIRACS)
+        run_diracs(k, bands, in, count, out);
+    else if (which == ACCUMULATE)
         k->accumulate(NULL, bands, &lights, &point, count, out);
     else if (which == GRADIENT)
         k->gradient(NULL, bands, &lights, &point, LMP_COS_MIN, count, out, &gradient);
@@ -323,15 +327,11 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
         k->project(bands, &pairs, count, out);
         break;
     case ACCUMULATE:
+    case ACCUMULATE_MORE:
+    case ACCUMULATE_DIRACS:
     case GRADIENT:
     case FADING_GRADIENT:
         run_sums(k, which, bands, in, count, out);
-        break;
-    case ACCUMULATE_MORE:
-        run_more(k, bands, in, count, out);
-        break;
-    case ACCUMULATE_DIRACS:
-        run_diracs(k, bands, in, count, out);
         break;
     case ADD:
         run_add(k, bands, in, count, out);
@@ -352,18 +352,12 @@ static void run(const lmp_kernels *k, kind which, int bands, const inputs *in, s
     case IMAGE:
         run_image(k, bands, in, count, out);
         break;
-    case SHADE_ZONAL:
-    case SHADE_PREINTEGRATED_LOBE:
-    case SHADE_PREINTEGRATED_BRDF:
-    case SHADE_ZONAL_FEW:
-    case SHADE_PREINTEGRATED_LOBE_FEW:
-    case SHADE_ZONAL_ALL:
-    case SHADE_PREINTEGRATED_LOBE_ALL:
-    case SHADE_FIELD:
-        run_shading(k, which, bands, in, count, out);
+    case INTERPOLATE:
+    case REFINE:
+        run_nodes(k, which == REFINE, bands, in, count, out);
         break;
     default:
-        run_nodes(k, which == REFINE, bands, in, count, out);
+        run_shading(k, which, bands, in, count, out);
         break;
     }
 }
