@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Materials into the G-buffer. SURFACE_MASKED: discard by alpha (a variant, for discarding costs
- * the early depth test): by the cutoff, or of what blends as many samples as let pass what is
- * behind. SURFACE_LAYERED: of materials with a coat, a sheen or a tint. */
+/* Materials into the G-buffer. SURFACE_PLAIN: of those without maps and colors of vertices, for
+ * which nothing but the normal is interpolated. SURFACE_MASKED: discard by alpha (a variant, for
+ * discarding costs the early depth test): by the cutoff, or of what blends as many samples as let
+ * pass what is behind. SURFACE_LAYERED: of materials with a coat, a sheen or a tint. */
 #include "gbuffer.glsl"
 #include "shared.h"
 #ifdef SURFACE_LAYERED
@@ -38,6 +39,13 @@ layout(binding = SHARED_OCCLUSION + 4) uniform sampler2D coat_roughness_map;
 layout(binding = SHARED_OCCLUSION + 5) uniform sampler2D coat_normal_map;
 layout(binding = SHARED_OCCLUSION + 6) uniform sampler2D sheen_color_map;
 layout(binding = SHARED_OCCLUSION + 7) uniform sampler2D sheen_roughness_map;
+#endif
+
+/* Whether a flag of the material is set. */
+#ifdef SURFACE_PLAIN
+#define IS_SET(flag) false
+#else
+#define IS_SET(flag) ((flag) > 0.0)
 #endif
 
 vec2 map_uv(int map) {
@@ -83,7 +91,7 @@ float blend_threshold() {
 #endif
 
 bool has_map(int map) {
-    return more[map / 4 - 1][map % 4] > 0.0;
+    return IS_SET(more[map / 4 - 1][map % 4]);
 }
 
 /* A texel of a map of normals around n. */
@@ -123,8 +131,10 @@ void write_layers() {
 #endif
 
 void main() {
-    vec4 base = base_color * world_color;
-    if (maps.x > 0.0)
+    vec4 base = base_color;
+    if (IS_SET(vertex.x))
+        base *= world_color;
+    if (IS_SET(maps.x))
         base *= texture(base_color_map, map_uv(SHARED_BASE_COLOR));
 #ifdef SURFACE_MASKED
     if (vertex.z > 0.0 ? base.a <= blend_threshold() : base.a < factors.w)
@@ -132,7 +142,7 @@ void main() {
 #endif
 
     float metallic = factors.x, roughness = factors.y;
-    if (maps.y > 0.0) {
+    if (IS_SET(maps.y)) {
         vec4 texel = texture(metallic_roughness_map, map_uv(SHARED_METALLIC_ROUGHNESS));
         metallic *= texel.b;
         roughness *= texel.g;
@@ -140,13 +150,13 @@ void main() {
 
     /* Both sides are lit: the back of a sheet has the opposite normal. */
     vec3 n = normalize(world_normal);
-    if (maps.z > 0.0)
+    if (IS_SET(maps.z))
         n = bend(n, texture(normal_map, map_uv(SHARED_NORMAL)).xyz, factors.z);
     if (!gl_FrontFacing)
         n = -n;
 
     vec3 emitted = emission.rgb;
-    if (maps.w > 0.0)
+    if (IS_SET(maps.w))
         emitted *= texture(emission_map, map_uv(SHARED_EMISSION)).rgb;
 
     vec2 layers = vec2(1.0);

@@ -23,5 +23,5 @@ void main() {
     world_normal = normal;
     world_uv = uv;
     world_tangent = tangent;
-    world_color = vertex.x > 0.0 ? color : vec4(1.0);
+    world_color = color;
 }

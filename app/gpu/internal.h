@@ -34,6 +34,7 @@ typedef struct gpu_draw {
 typedef struct gpu_material {
     GLuint maps[SHARED_MAPS], samplers[SHARED_MAPS]; /* of OpenGL; map 0 = none */
     bool double_sided, masked, layered, sheen;
+    bool plain;       /* none of these but the first, no maps and no colors of vertices */
     float f0[3], f90; /* as in scene_material */
     int table;        /* of gpu_set_tables, instead of all that, or -1 */
 } gpu_material;
@@ -53,7 +54,7 @@ typedef struct gpu_mesh {
 
 /* The variants of surface.frag. */
 typedef struct gpu_surfaces {
-    GLuint opaque, masked, layered, layered_masked;
+    GLuint plain, opaque, masked, layered, layered_masked;
 } gpu_surfaces;
 
 bool gpu_mesh_create(const gpu_context *context, const scene *scene, gpu_mesh *mesh,

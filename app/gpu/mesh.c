@@ -94,6 +94,14 @@ static bool create_textures(const gpu_context *context, const scene *world, gpu_
 
 /* --- materials -------------------------------------------------------------------------------- */
 
+static bool is_plain(const scene_material *source) {
+    bool plain = !scene_is_layered(source) &&
+                 !(source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND | SCENE_VERTEX_COLORS));
+    for (int i = 0; i < SCENE_MAPS; i++)
+        plain = plain && source->maps[i].texture < 0;
+    return plain;
+}
+
 static void fill_material(const scene *world, size_t number, const gpu_mesh *mesh,
                           gpu_material *material, shared_material *block) {
     const scene_material *source = &world->materials[number];
@@ -113,6 +121,7 @@ static void fill_material(const scene *world, size_t number, const gpu_mesh *mes
     material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
+    material->plain = is_plain(source);
 }
 
 static bool create_materials(const scene *world, gpu_mesh *mesh) {
@@ -304,6 +313,8 @@ static bool may_be_seen(const mat4 m, const gpu_draw *draw) {
 static GLuint program_of(const gpu_surfaces *programs, const gpu_material *material) {
     if (material->layered)
         return material->masked ? programs->layered_masked : programs->layered;
+    if (material->plain)
+        return programs->plain;
     return material->masked ? programs->masked : programs->opaque;
 }
 

@@ -28,7 +28,8 @@ static bool create_tones(gpu_renderer *r, cli_error *error) {
 static bool create_surface(bool layered, gpu_surfaces *surface, cli_error *error) {
     const gpu_stage stages[] = { { GL_VERTEX_SHADER, "surface.vert" },
                                  { GL_FRAGMENT_SHADER, "surface.frag" } };
-    return (surface->opaque = gpu_program(stages, 2, "", error)) &&
+    return (surface->plain = gpu_program(stages, 2, "#define SURFACE_PLAIN\n", error)) &&
+           (surface->opaque = gpu_program(stages, 2, "", error)) &&
            (surface->masked = gpu_program(stages, 2, "#define SURFACE_MASKED\n", error)) &&
            (!layered ||
             ((surface->layered = gpu_program(stages, 2, "#define SURFACE_LAYERED\n", error)) &&
@@ -98,10 +99,10 @@ void gpu_renderer_destroy(gpu_renderer *r) {
     gpu_mesh_destroy(&r->mesh);
     for (int i = 0; i < r->variant_count; i++)
         glDeleteProgram(r->variants[i].program);
-    const GLuint programs[] = { r->surface.opaque,  r->surface.masked,
-                                r->surface.layered, r->surface.layered_masked,
-                                r->light,           r->surfaces,
-                                r->resolve };
+    const GLuint programs[] = {
+        r->surface.plain,          r->surface.opaque, r->surface.masked, r->surface.layered,
+        r->surface.layered_masked, r->light,          r->surfaces,       r->resolve
+    };
     for (size_t i = 0; i < sizeof programs / sizeof programs[0]; i++)
         if (programs[i])
             glDeleteProgram(programs[i]);
