@@ -175,11 +175,10 @@ static int plan_levels(const lmp_host *host, const lmp_field_desc *desc, lmp_fie
  * list, and one room for bricks is enough, for levels take turns. */
 static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
     const size_t lights = (size_t)levels->info.desc.light_max;
-    const size_t brick = FIELD_BRICK * levels->info.node_bytes;
     size_t used = (size_t)count * sizeof *levels;
     lmp_field *const at = (lmp_field *)(void *)memory;
     used += LINE - ((uintptr_t)memory + used) % LINE;
-    levels->scratch = take(memory, &used, levels->task_count * brick);
+    levels->scratch = take(memory, &used, levels->task_count * lmp_field_scratch(levels));
     levels->lights = take(memory, &used, lights * sizeof *levels->lights);
     levels->spheres = take(memory, &used, lights * sizeof *levels->spheres);
     for (int i = 0; i < count; i++) {

@@ -25,7 +25,8 @@ enum { FIELD_STALE, FIELD_WANTED, FIELD_READY };
 enum {
     FIELD_BRICK = 16,
     FIELD_BLOCK = 2,     /* cells along the edge of a block */
-    FIELD_TASKS = 32,    /* that compute bricks, at most: each has room for one */
+    FIELD_TASKS = 32,    /* that compute bricks, at most: each has room for one, and */
+    FIELD_PASS = 256,    /* for so many lights near it, which the kernel takes at once */
     FIELD_COARSE = 2048, /* nodes from which on a coarser field pays */
     FIELD_NODES = 1 << 24
 };
@@ -81,6 +82,11 @@ lmp_result lmp_field_allocate(const lmp_host *host, const lmp_field_desc *desc, 
 
 /* Lists a light as one more. */
 void lmp_field_push_light(lmp_field *field, const lmp_light *light);
+
+/* Bytes of a task's scratch: what the kernel gives a brick, and the lights that it takes. */
+static inline size_t lmp_field_scratch(const lmp_field *field) {
+    return FIELD_BRICK * field->info.node_bytes + FIELD_PASS * sizeof(field_sphere);
+}
 
 /* --- nodes (nodes.c) -------------------------------------------------------------------------- */
 

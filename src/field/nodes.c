@@ -7,11 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Lights that the kernel takes at once, where they are not all. */
-enum { PASS = 32 };
-
 static size_t brick_floats(const lmp_field *field) {
     return FIELD_BRICK * 4 * field->stride;
+}
+
+/* A task's own. */
+static float *scratch_of(const lmp_field *field, size_t task) {
+    return (float *)(void *)((char *)field->scratch + task * lmp_field_scratch(field));
 }
 
 /* --- states ----------------------------------------------------------------------------------- */
@@ -139,7 +141,7 @@ typedef struct brick_lights {
     uint32_t first[3]; /* the brick's first node */
     brick_points points;
     field_box box;
-    field_sphere near[PASS];
+    field_sphere *near;
     size_t count;
     float *scratch, *nodes;
 } brick_lights;
@@ -156,6 +158,7 @@ static void begin(const lmp_field *field, size_t brick, float *scratch, float *n
     lights->field = field;
     lights->count = 0;
     lights->scratch = scratch;
+    lights->near = (field_sphere *)(void *)(scratch + brick_floats(field));
     lights->nodes = nodes;
     find_brick(field, brick, lights->first);
     set_points(field, lights->first, &lights->points);
@@ -171,7 +174,7 @@ static void take(brick_lights *lights, const field_sphere *sphere) {
     if (!is_near(lights->field, &lights->box, sphere))
         return;
     lights->near[lights->count++] = *sphere;
-    if (lights->count == PASS)
+    if (lights->count == FIELD_PASS)
         flush(lights);
 }
 
@@ -221,7 +224,7 @@ static void compute(const lmp_field *field, size_t brick, float *scratch) {
 /* Every task_count-th brick, each by way of the task's own scratch. */
 static lmp_result compute_task(size_t index, void *data) {
     lmp_field *field = data;
-    float *scratch = field->scratch + index * brick_floats(field);
+    float *scratch = scratch_of(field, index);
     for (size_t brick = index; brick < field->brick_count; brick += field->task_count)
         if (state_of(field, brick) == FIELD_WANTED) {
             compute(field, brick, scratch);
@@ -304,7 +307,7 @@ static void compute_change(const field_change *change, size_t brick, float *scra
 static void change_task(size_t index, void *data) {
     const field_change *change = data;
     const lmp_field *field = change->field;
-    float *scratch = field->scratch + index * brick_floats(field);
+    float *scratch = scratch_of(field, index);
     const size_t end = (index + 1) * field->brick_count / field->task_count;
     for (size_t brick = index * field->brick_count / field->task_count; brick < end; brick++)
         if (state_of(field, brick) == FIELD_READY)
