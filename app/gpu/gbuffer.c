@@ -243,13 +243,28 @@ static lmp_rgb color_of(const uint8_t *root) {
                        (float)(root[2] * root[2]) / 65025 };
 }
 
-/* Of a surface. In place, for it is large. */
-static void decode_material(const gpu_gbuffer *g, size_t pixel, lmp_material *material) {
-    const gpu_base16 *base = &g->base_metallic[pixel];
-    const gpu_pair16 *of = &g->roughness_kind[pixel];
-    const bool layered = gpu_mesh_is_layered(g->mesh, of->v);
+/* Roots of base colors and metallic, then the roughness: of every pixel of a span, for the
+ * quotients are then taken several at once. */
+enum { UNITS = 64 };
+typedef struct gpu_units {
+    float base[4 * UNITS], rough[2 * UNITS];
+} gpu_units;
+
+static void decode_units(const gpu_gbuffer *g, size_t pixel, size_t count, gpu_units *units) {
+    const uint16_t *restrict base = (const void *)&g->base_metallic[pixel];
+    const uint16_t *restrict rough = (const void *)&g->roughness_kind[pixel];
+    for (size_t i = 0; i < 4 * count; i++)
+        units->base[i] = unit(base[i]);
+    for (size_t i = 0; i < 2 * count; i++)
+        units->rough[i] = unit(rough[i]);
+}
+
+/* Of a surface, without its colors. In place, for it is large. */
+static void decode_reflector(const gpu_gbuffer *g, size_t pixel, lmp_material *material) {
+    const int kind = g->roughness_kind[pixel].v;
+    const bool layered = gpu_mesh_is_layered(g->mesh, kind);
     const lmp_rgb tint = layered ? color_of(g->tint[pixel]) : (lmp_rgb) { 1, 1, 1 };
-    gpu_mesh_material(g->mesh, g->tables, g->brdfs, of->v, (float)g->layers[pixel].v / 255, tint,
+    gpu_mesh_material(g->mesh, g->tables, g->brdfs, kind, (float)g->layers[pixel].v / 255, tint,
                       material);
     if (layered) {
         const uint8_t *sheen = g->sheen[pixel];
@@ -257,13 +272,24 @@ static void decode_material(const gpu_gbuffer *g, size_t pixel, lmp_material *ma
         if (sheen[0] || sheen[1] || sheen[2])
             material->fibers = (lmp_fibers) { color_of(sheen), (float)sheen[3] / 255, g->fibers };
     }
-    float units[4]; /* divided together */
-    for (int i = 0; i < 4; i++)
-        units[i] = unit(i < 3 ? base->root[i] : base->metallic);
-    material->base_color =
-        (lmp_rgb) { units[0] * units[0], units[1] * units[1], units[2] * units[2] };
-    material->metallic = units[3];
-    material->roughness = unit(of->u);
+}
+
+/* Whether a pixel has what the one before has, but for colors; that is a surface's, too. */
+static bool is_alike(const gpu_gbuffer *g, size_t pixel) {
+    return !g->coat && g->roughness_kind[pixel].v == g->roughness_kind[pixel - 1].v &&
+           g->layers[pixel].v == g->layers[pixel - 1].v;
+}
+
+/* `i` in the units. Neighbors are often alike, and `reflector` is what the one before has. */
+static void decode_material(const gpu_gbuffer *g, size_t pixel, const gpu_units *units, size_t i,
+                            lmp_material *reflector, lmp_material *material) {
+    const float *base = &units->base[4 * i];
+    if (i == 0 || !is_alike(g, pixel))
+        decode_reflector(g, pixel, reflector);
+    *material = *reflector;
+    material->base_color = (lmp_rgb) { base[0] * base[0], base[1] * base[1], base[2] * base[2] };
+    material->metallic = base[3];
+    material->roughness = units->rough[2 * i];
 }
 
 static void decode_coat_normal(const gpu_gbuffer *g, size_t pixel, size_t x, const gpu_row *row) {
@@ -295,27 +321,43 @@ int gpu_gbuffer_sample(const gpu_gbuffer *g) {
     return g->sample;
 }
 
-static void decode_span(const gpu_gbuffer *g, const gpu_span *span, gpu_row *row) {
-    decode_positions(g, span, row);
-    decode_views(g, span, row);
-    decode_normals(g, span, row);
-    for (size_t i = 0; i < (size_t)span->count; i++) {
-        const size_t pixel = first_pixel(g, span) + i, x = span->at + i;
+static lmp_rgb emission_of(const gpu_gbuffer *g, int kind, size_t pixel, size_t x,
+                           const gpu_row *row) {
+    return kind == SHARED_KIND_NONE    ? decode_nothing(g, x, row)
+           : kind == SHARED_KIND_LIGHT ? light_of(g, g->normal[pixel].u)
+                                       : decode_emission(g->emission[pixel]);
+}
+
+/* `count` pixels, into the arrays from `at` on. */
+static void decode_pixels(const gpu_gbuffer *g, size_t first, size_t count, size_t at,
+                          gpu_row *row) {
+    gpu_units units;
+    lmp_material reflector;
+    decode_units(g, first, count, &units);
+    for (size_t i = 0; i < count; i++) {
+        const size_t pixel = first + i, x = at + i;
         const int kind = g->roughness_kind[pixel].v;
-        const lmp_rgb emission = kind == SHARED_KIND_NONE    ? decode_nothing(g, x, row)
-                                 : kind == SHARED_KIND_LIGHT ? light_of(g, g->normal[pixel].u)
-                                                             : decode_emission(g->emission[pixel]);
+        const lmp_rgb emission = emission_of(g, kind, pixel, x, row);
         row->emission[0][x] = emission.r;
         row->emission[1][x] = emission.g;
         row->emission[2][x] = emission.b;
         row->kind[x] = (unsigned char)(kind < SHARED_KIND_SURFACE ? kind : GPU_KIND_SURFACE);
         if (kind < SHARED_KIND_SURFACE)
             continue;
-        decode_material(g, pixel, &row->material[x]);
+        decode_material(g, pixel, &units, i, &reflector, &row->material[x]);
         row->ambient[x] = (float)g->layers[pixel].u / 255;
         if (g->coat)
             decode_coat_normal(g, pixel, x, row);
     }
+}
+
+static void decode_span(const gpu_gbuffer *g, const gpu_span *span, gpu_row *row) {
+    const size_t pixel = first_pixel(g, span), count = (size_t)span->count;
+    decode_positions(g, span, row);
+    decode_views(g, span, row);
+    decode_normals(g, span, row);
+    for (size_t i = 0; i < count; i += UNITS)
+        decode_pixels(g, pixel + i, count - i < UNITS ? count - i : UNITS, span->at + i, row);
 }
 
 void gpu_gbuffer_tile(const gpu_gbuffer *g, int x, int y, int width, int height, gpu_row *row) {

@@ -102,9 +102,11 @@ static void shade_tile(const shading *s, const gpu_gbuffer *gbuffer, const int a
     const int height = size[1] - at[1] < TILE ? size[1] - at[1] : TILE;
     gpu_gbuffer_tile(gbuffer, at[0], at[1], width, height, row);
     shade_pixels(s, row, (size_t)(width * height), pixels);
-    for (int i = 0; i < width * height; i++) {
-        const size_t x = (size_t)(at[0] + i % width), y = (size_t)(at[1] + i / width);
-        memcpy(rgba + 4 * (y * (size_t)size[0] + x), pixels + 4 * i, 3 * sizeof *rgba);
+    for (int y = 0; y < height; y++) {
+        const float *from = pixels + 4 * y * width;
+        float *to = rgba + 4 * ((size_t)(at[1] + y) * (size_t)size[0] + (size_t)at[0]);
+        for (int x = 0; x < width; x++)
+            memcpy(to + 4 * x, from + 4 * x, 3 * sizeof *to);
     }
 }
 
