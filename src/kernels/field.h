@@ -52,10 +52,15 @@ LMP_INLINE void field_all_weights(const lmp_kernel_cells *cells, size_t e, float
     field_weights(axis, weights);
 }
 
-/* The rows of a cell. */
+/* The rows of a cell's corners: the values of each, and `stride` floats on its derivatives. */
 typedef struct field_terms {
-    const float *row[FIELD_WEIGHTS];
+    const float *corner[8];
+    size_t stride;
 } field_terms;
+
+/* Sums of points lie by the vector: all points' first ones, then the next, as transpositions to
+ * planes take them. */
+#define FIELD_STEP ((size_t)LMP_LANES * LMP_LANES)
 
 /* `width` vectors of each sum. */
 LMP_INLINE void field_add(int sums, int width, const field_terms *terms,
@@ -64,7 +69,7 @@ LMP_INLINE void field_add(int sums, int width, const field_terms *terms,
     LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++) sum[i][j] =
         vf_set(0);
     LMP_ROLLED for (int k = 0; k < FIELD_WEIGHTS; k++) {
-        const float *row = terms->row[k] + at;
+        const float *row = terms->corner[k / 4] + (size_t)(k % 4) * terms->stride + at;
         vf value[5];
         LMP_UNROLL for (int j = 0; j < width; j++) value[j] = vf_load(row + j * LMP_LANES);
         LMP_UNROLL for (int i = 0; i < sums; i++) {
@@ -76,7 +81,7 @@ LMP_INLINE void field_add(int sums, int width, const field_terms *terms,
         }
     }
     LMP_UNROLL for (int i = 0; i < sums; i++) LMP_UNROLL for (int j = 0; j < width; j++)
-        vf_store(to[i] + at + j * LMP_LANES, sum[i][j]);
+        vf_store(to[i] + (at / LMP_LANES + (size_t)j) * FIELD_STEP, sum[i][j]);
 }
 
 /* `count` coefficients of each sum, and what fills their last vector. */
@@ -105,11 +110,6 @@ static LMP_NOINLINE void field_four(const field_terms *terms, size_t count,
 
 typedef float field_rows[FIELD_TOGETHER * LMP_LANES];
 
-/* Row k of a cell: of each corner the values, then the derivatives. */
-LMP_INLINE const float *field_row(const lmp_kernel_cells *cells, const uint32_t *corners, int k) {
-    return cells->nodes + (4 * (size_t)corners[k / 4] + (size_t)(k % 4)) * cells->stride;
-}
-
 /* Coefficients at … at + count - 1 of points e … e + live - 1. */
 LMP_INLINE void field_values(const lmp_kernel_cells *cells, size_t e, size_t live, size_t at,
                              size_t count, const float *weights, float *rows) {
@@ -117,39 +117,52 @@ LMP_INLINE void field_values(const lmp_kernel_cells *cells, size_t e, size_t liv
         const uint32_t *corners = cells->corners + 8 * (e + lane);
         const float *by[FIELD_SUMS];
         float *to[FIELD_SUMS];
-        field_terms terms;
+        field_terms terms = { .stride = cells->stride };
         for (some = 1; some < FIELD_SUMS && lane + some < live &&
                        memcmp(corners, corners + 8 * some, 8 * sizeof *corners) == 0;)
             some++;
         if (some < FIELD_SUMS)
             some = 1;
-        for (int k = 0; k < FIELD_WEIGHTS; k++)
-            terms.row[k] = field_row(cells, corners, k) + at;
+        for (int k = 0; k < 8; k++)
+            terms.corner[k] = cells->nodes + 4 * (size_t)corners[k] * cells->stride + at;
         for (size_t i = 0; i < some; i++) {
             by[i] = weights + lane + i;
-            to[i] = rows + (lane + i) * FIELD_TOGETHER;
+            to[i] = rows + (lane + i) * LMP_LANES;
         }
         (some == 1 ? field_one : field_four)(&terms, count, by, to);
     }
 }
 
+/* As many coefficients as there are lanes, of as many points, to planes. */
+LMP_INLINE void field_square(const float *rows, float *to, size_t stride) {
+#if LMP_LANES > 1
+    layout_square(rows, to, stride);
+#else
+    (void)stride;
+    *to = *rows;
+#endif
+}
+
 /* Rows go out as they are, or as planes. */
 LMP_INLINE void field_put(const float *rows, size_t at, size_t count, const lmp_kernel_out *out,
                           size_t e, size_t live) {
-    if (!out->planar) {
-        for (size_t i = 0; i < live; i++)
-            memcpy(out->at + (e + i) * out->stride + at, rows + i * FIELD_TOGETHER,
-                   count * sizeof *rows);
-        return;
-    }
-    float *const to = out->at + at * out->stride + e;
-    for (size_t v = 0; v < count; v += 4) {
-        float LMP_ALIGNED block[4 * LMP_LANES];
-        const lmp_kernel_in in = { rows + v, FIELD_TOGETHER, 0 };
-        const size_t some = count - v < 4 ? count - v : 4;
-        layout_get(block, 0, some, &in, 0, live);
+    for (size_t v = 0; v < count; v += LMP_LANES, rows += FIELD_STEP) {
+        const size_t some = count - v < LMP_LANES ? count - v : LMP_LANES;
+        float LMP_ALIGNED block[FIELD_STEP];
+        if (!out->planar) {
+            for (size_t i = 0; i < live; i++)
+                memcpy(out->at + (e + i) * out->stride + at + v, rows + i * LMP_LANES,
+                       some * sizeof *rows);
+            continue;
+        }
+        float *const to = out->at + (at + v) * out->stride + e;
+        if (some == LMP_LANES && live == LMP_LANES) {
+            field_square(rows, to, out->stride);
+            continue;
+        }
+        field_square(rows, block, LMP_LANES);
         for (size_t i = 0; i < some; i++)
-            layout_put_plane(to + (v + i) * out->stride, block + i * LMP_LANES, live);
+            layout_put_plane(to + i * out->stride, block + i * LMP_LANES, live);
     }
 }
 
@@ -160,6 +173,8 @@ static void kernel_interpolate(size_t values, const lmp_kernel_cells *cells, siz
         float LMP_ALIGNED weights[FIELD_WEIGHTS * LMP_LANES];
         field_rows LMP_ALIGNED rows;
         field_all_weights(cells, e, weights);
+        if (live < LMP_LANES)
+            memset(rows, 0, sizeof rows);
         for (size_t at = 0; at < values; at += FIELD_TOGETHER) {
             const size_t some = values - at < FIELD_TOGETHER ? values - at : FIELD_TOGETHER;
             field_values(cells, e, live, at, some, weights, rows);
