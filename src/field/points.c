@@ -27,15 +27,21 @@ lmp_kernel_cells lmp_field_cells(const lmp_field *field, const float *nodes,
                                 { cells->fraction[0], cells->fraction[1], cells->fraction[2] } };
 }
 
-/* Of points outside the grid any cell will do. */
+/* Neighbors are often in one cell. Of points outside the grid any will do. */
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
                            const lmp_kernel_out *out) {
     field_cells found = { .fraction = { { 0 } } };
-    for (size_t i = 0; i < count; i++) {
-        field_place place;
+    field_place place, last = { .cell = { UINT32_MAX } };
+    for (size_t i = 0; i < count; i++, last = place) {
         if (!lmp_field_find(field, points[i], &place))
             place = (field_place) { 0 };
-        lmp_field_set_place(field, &place, i, &found);
+        if (memcmp(place.cell, last.cell, sizeof last.cell) != 0) {
+            lmp_field_set_place(field, &place, i, &found);
+            continue;
+        }
+        memcpy(&found.corners[8 * i], &found.corners[8 * (i - 1)], 8 * sizeof *found.corners);
+        for (int a = 0; a < 3; a++)
+            found.fraction[a][i] = place.fraction[a];
     }
     const lmp_kernel_cells cells = lmp_field_cells(field, field->nodes, &found);
     lmp_kernels_get()->interpolate(field->values, &cells, count, out);

@@ -179,14 +179,14 @@ static void shade_one(const field_shading *shading, const lmp_surfaces *surfaces
     memcpy((char *)rgb + i * stride, &color, sizeof color);
 }
 
-/* Surfaces with lobes, inside the grid: shades those that wait and are like the first. A function
- * of its own, for shade_one must not be called on top of its chunk. */
+/* Surfaces with so many lobes, inside the grid, that fit a chunk. A function of its own, for
+ * shade_one must not be called on top of its chunk. */
 static __attribute__((noinline)) void shade_alike(const field_shading *shading,
-                                                  const lmp_surfaces *surfaces,
-                                                  shade_waiting *waiting, size_t stride,
-                                                  float *rgb) {
+                                                  const lmp_surfaces *surfaces, int lobes,
+                                                  size_t from, const uint16_t *order, size_t count,
+                                                  size_t stride, float *rgb) {
     shade_chunk chunk;
-    lmp_shade_take_alike(surfaces, false, waiting, &chunk);
+    lmp_shade_take_lobes(surfaces, lobes, from, order, count, &chunk);
     lmp_shade_load_chunk(surfaces, &chunk);
     for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
         shade_far(shading, first, &chunk);
@@ -195,11 +195,14 @@ static __attribute__((noinline)) void shade_alike(const field_shading *shading,
     lmp_shade_store(&chunk.planes, chunk.at, chunk.count, stride, rgb);
 }
 
-/* Blocks so many apart have the same key: they come mixed, which costs time alone. */
-enum { BLOCKS = 1 << 20 };
+/* Cells so many apart have the same key: they come mixed, which costs time alone. */
+enum { CELLS = 1 << 20 };
 
-/* Whether the field and zonal sums have all that a surface reflects; then a key of its lobes and
- * block, by which it is sorted. */
+/* Surfaces of one number of lobes: 1, 3 or 5. */
+enum { KINDS = LMP_KERNEL_LOBES_MAX / 2 + 1 };
+
+/* Whether the field and zonal sums have all that a surface reflects; then a key of its lobes, its
+ * block and its cell, by which it is sorted. */
 static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size_t i,
                       uint32_t *key) {
     const lmp_material *material = lmp_material_at(surfaces, i);
@@ -211,23 +214,31 @@ static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size
         return false;
     const int lobes = lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, i),
                                             lmp_vec3_element(&surfaces->view, i));
-    *key = (uint32_t)lobes / 2 * BLOCKS + lmp_field_block(field, place.cell) % BLOCKS;
+    const uint32_t *cell = place.cell;
+    const uint32_t within = (cell[2] % FIELD_BLOCK * FIELD_BLOCK + cell[1] % FIELD_BLOCK) *
+                                FIELD_BLOCK +
+                            cell[0] % FIELD_BLOCK;
+    const uint32_t each = FIELD_BLOCK * FIELD_BLOCK * FIELD_BLOCK;
+    *key = (uint32_t)lobes / 2 * CELLS + (lmp_field_block(field, cell) * each + within) % CELLS;
     return true;
 }
 
-/* Those of FIELD_SORTED surfaces that have lobes, sorted, and behind them the others; returns how
- * many they are. A function of its own, for its keys are not wanted on the stack below. */
-static __attribute__((noinline)) size_t sort(const lmp_field *field, const lmp_surfaces *surfaces,
-                                             size_t first, size_t count, uint16_t *order) {
+/* Those of FIELD_SORTED surfaces that have lobes, sorted, and behind them the others; counts those
+ * of each number of lobes. A function of its own, for its keys are not wanted on the stack below.
+ */
+static __attribute__((noinline)) void sort(const lmp_field *field, const lmp_surfaces *surfaces,
+                                           size_t first, size_t count, uint16_t *order,
+                                           size_t kinds[KINDS]) {
     uint32_t keys[FIELD_SORTED];
     size_t sorted = 0, others = count;
+    memset(kinds, 0, KINDS * sizeof *kinds);
     for (size_t i = 0; i < count; i++)
-        if (has_lobes(field, surfaces, first + i, &keys[i]))
+        if (has_lobes(field, surfaces, first + i, &keys[i])) {
             order[sorted++] = (uint16_t)i;
-        else
+            kinds[keys[i] / CELLS]++;
+        } else
             order[--others] = (uint16_t)i;
     lmp_field_sort(keys, sorted, order);
-    return sorted;
 }
 
 static field_shading prepare(const lmp_shade_settings *settings, const lmp_field *field) {
@@ -251,14 +262,17 @@ void lmp_field_shade_n(const lmp_shade_settings *settings, const lmp_field *fiel
     for (size_t first = 0; first < count; first += FIELD_SORTED) {
         const size_t some = count - first < FIELD_SORTED ? count - first : FIELD_SORTED;
         uint16_t order[FIELD_SORTED];
-        const size_t sorted = sort(field, surfaces, first, some, order);
-        for (size_t i = sorted; i < some; i++)
-            shade_one(&shading, surfaces, first + order[i], stride, rgb);
-        shade_waiting waiting = { .count = 0 };
-        for (size_t next = 0; next < sorted || waiting.count > 0;) {
-            while (next < sorted && waiting.count < FIELD_CHUNK)
-                lmp_shade_wait(surfaces, first + order[next++], &waiting);
-            shade_alike(&shading, surfaces, &waiting, stride, rgb);
+        size_t kinds[KINDS], next = 0;
+        sort(field, surfaces, first, some, order, kinds);
+        for (int k = 0; k < KINDS; k++) {
+            const size_t end = next + kinds[k], fit = lmp_shade_capacity(2 * k + 1);
+            for (size_t taken; next < end; next += taken) {
+                taken = fit < FIELD_CHUNK ? fit : FIELD_CHUNK;
+                taken = end - next < taken ? end - next : taken;
+                shade_alike(&shading, surfaces, 2 * k + 1, first, order + next, taken, stride, rgb);
+            }
         }
+        for (; next < some; next++)
+            shade_one(&shading, surfaces, first + order[next], stride, rgb);
     }
 }

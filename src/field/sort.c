@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* sort.c - surfaces in the order of their lobes and blocks: those that are shaded together then
+/* sort.c - surfaces in the order of their lobes and cells: those that are shaded together then
  * read the same nodes, and the same lights are near them. */
 #include "src/field/field.h"
 
@@ -26,14 +26,26 @@ static bool sort_digit(const uint32_t *from, size_t count, int shift, uint32_t *
     return true;
 }
 
+/* Neighbors have often one key: runs of them are sorted. */
 void lmp_field_sort(const uint32_t *keys, size_t count, uint16_t *order) {
-    uint32_t words[2][FIELD_SORTED] = { { 0 } };
+    uint32_t words[2][FIELD_SORTED];
+    uint16_t from[FIELD_SORTED], end[FIELD_SORTED];
+    size_t runs = 0, sorted = 0;
     int at = 0;
-    for (size_t i = 0; i < count; i++)
-        words[0][i] = keys[order[i]] << INDEX | order[i];
-    for (int shift = INDEX; shift < 32 && count > 0; shift += DIGIT)
-        if (sort_digit(words[at], count, shift, words[1 - at]))
+    for (size_t i = 0, start = 0; i < count; i++) {
+        from[i] = order[i];
+        if (i == 0 || keys[from[i]] != keys[from[i - 1]]) {
+            start = i;
+            words[0][runs++] = keys[from[i]] << INDEX | (uint32_t)i;
+        }
+        end[start] = (uint16_t)(i + 1);
+    }
+    for (int shift = INDEX; shift < 32 && runs > 1; shift += DIGIT)
+        if (sort_digit(words[at], runs, shift, words[1 - at]))
             at = 1 - at;
-    for (size_t i = 0; i < count; i++)
-        order[i] = (uint16_t)(words[at][i] & (FIELD_SORTED - 1));
+    for (size_t r = 0; r < runs; r++) {
+        const uint32_t start = words[at][r] & (FIELD_SORTED - 1);
+        for (uint32_t i = start; i < end[start]; i++)
+            order[sorted++] = from[i];
+    }
 }

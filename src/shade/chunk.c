@@ -22,13 +22,33 @@ static size_t same_lobes(const shade_waiting *waiting, size_t most) {
     return mixed ? 0 : count;
 }
 
+/* Of those at chunk->at, which come in any order where the caller sorts them. */
+static void set_source(shade_source source, int lobes, size_t count, shade_chunk *chunk) {
+    size_t gaps = 0;
+    for (size_t i = 0; i < count; i++)
+        gaps |= (chunk->at[i] - chunk->at[0]) ^ i;
+    lmp_shade_fill(chunk->at, count);
+    chunk->source = source;
+    chunk->phong_count = lobes;
+    chunk->count = count;
+    chunk->in_a_row = gaps == 0;
+}
+
+void lmp_shade_take_lobes(const lmp_surfaces *surfaces, int lobes, size_t first,
+                          const uint16_t *order, size_t count, shade_chunk *chunk) {
+    for (size_t i = 0; i < count; i++)
+        chunk->at[i] = first + order[i];
+    set_source(lmp_shade_source(lmp_material_at(surfaces, chunk->at[0]), false), lobes, count,
+               chunk);
+}
+
 void lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, shade_waiting *waiting,
                           shade_chunk *chunk) {
     const int lobes = waiting->lobes[0];
     const shade_source source =
         lmp_shade_source(lmp_material_at(surfaces, waiting->at[0]), preintegrated);
     const size_t most = lmp_shade_capacity(lobes);
-    size_t others = 0, i = lobes > 0 ? same_lobes(waiting, most) : 0, gaps = 0;
+    size_t others = 0, i = lobes > 0 ? same_lobes(waiting, most) : 0;
     memcpy(chunk->at, waiting->at, i * sizeof *chunk->at);
     size_t taken = i;
     /* Without branches, which surfaces that take turns would mislead. */
@@ -47,13 +67,7 @@ void lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, shad
     memmove(waiting->at + others, waiting->at + i, rest * sizeof *waiting->at);
     memmove(waiting->lobes + others, waiting->lobes + i, rest * sizeof *waiting->lobes);
     waiting->count = others + rest;
-    for (i = 0; i < taken; i++) /* surfaces come in any order where the caller sorts them */
-        gaps |= (chunk->at[i] - chunk->at[0]) ^ i;
-    lmp_shade_fill(chunk->at, taken);
-    chunk->source = source;
-    chunk->phong_count = lobes;
-    chunk->count = taken;
-    chunk->in_a_row = gaps == 0;
+    set_source(source, lobes, taken, chunk);
 }
 
 static void load_lobes(const lmp_surfaces *surfaces, shade_chunk *chunk) {

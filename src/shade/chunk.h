@@ -49,6 +49,10 @@ static inline void lmp_shade_wait(const lmp_surfaces *surfaces, size_t at, shade
 void lmp_shade_take_alike(const lmp_surfaces *surfaces, bool preintegrated, shade_waiting *waiting,
                           shade_chunk *chunk);
 
+/* Takes surfaces first + order[i] that fit and have so many Phong lobes each. */
+void lmp_shade_take_lobes(const lmp_surfaces *surfaces, int lobes, size_t first,
+                          const uint16_t *order, size_t count, shade_chunk *chunk);
+
 /* Of the surfaces taken all that a kernel reads; nothing is accumulated yet. */
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk);
 
