@@ -97,16 +97,14 @@ enum { TILE = 32 };
 
 static void shade_tile(const shading *s, const gpu_gbuffer *gbuffer, const int at[2],
                        const int size[2], gpu_row *row, float *rgba) {
-    float pixels[4 * TILE * TILE];
+    float pixels[4 * TILE * TILE] = { 0 };
     const int width = size[0] - at[0] < TILE ? size[0] - at[0] : TILE;
     const int height = size[1] - at[1] < TILE ? size[1] - at[1] : TILE;
     gpu_gbuffer_tile(gbuffer, at[0], at[1], width, height, row);
     shade_pixels(s, row, (size_t)(width * height), pixels);
     for (int y = 0; y < height; y++) {
-        const float *from = pixels + 4 * y * width;
         float *to = rgba + 4 * ((size_t)(at[1] + y) * (size_t)size[0] + (size_t)at[0]);
-        for (int x = 0; x < width; x++)
-            memcpy(to + 4 * x, from + 4 * x, 3 * sizeof *to);
+        memcpy(to, pixels + 4 * y * width, 4 * (size_t)width * sizeof *to);
     }
 }
 

@@ -125,13 +125,19 @@ static inline bool lmp_field_find(const lmp_field *field, lmp_vec3 point, field_
     return true;
 }
 
+static inline bool lmp_field_same_cell(const uint32_t a[3], const uint32_t b[3]) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /* A box, and how far a point lies from it, squared. */
 typedef struct field_box {
     lmp_vec3 low, high;
 } field_box;
 
+/* Without branches, which lights in no order would mislead. */
 static inline float lmp_field_gap(float low, float at, float high) {
-    return at < low ? low - at : at > high ? at - high : 0;
+    const float below = low - at, above = at - high, gap = below > above ? below : above;
+    return gap > 0 ? gap : 0;
 }
 
 static inline float lmp_field_distance2(const field_box *box, lmp_vec3 at) {
@@ -191,10 +197,18 @@ void lmp_field_set_place(const lmp_field *field, const field_place *place, size_
 lmp_kernel_cells lmp_field_cells(const lmp_field *field, const float *nodes,
                                  const field_cells *cells);
 
+/* Blocks of cells, once for neighbors in one. */
+enum { FIELD_BLOCKS = 64 };
+typedef struct field_blocks {
+    size_t count;
+    uint32_t at[FIELD_BLOCKS];
+} field_blocks;
+
 /* Interpolated coefficients of up to FIELD_BRICK points, of any cell where they lie outside the
- * grid; and rows of field->values with what near lights add. */
+ * grid; and rows of field->values with what near lights add. blocks, or NULL, receives those of
+ * points inside, if need be one more a point. */
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
-                           const lmp_kernel_out *out);
+                           field_blocks *blocks, const lmp_kernel_out *out);
 void lmp_field_rows(const lmp_field *field, const lmp_vec3 *points, size_t count, float *rows);
 
 /* --- surfaces (sort.c) ------------------------------------------------------------------------ */

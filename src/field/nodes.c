@@ -46,7 +46,7 @@ void lmp_field_want(lmp_field *field, lmp_vec3_array points, size_t count) {
     for (size_t i = 0; i < count; i++) {
         field_place place;
         if (!lmp_field_find(field, lmp_vec3_element(&points, i), &place) ||
-            memcmp(place.cell, last, sizeof last) == 0)
+            lmp_field_same_cell(place.cell, last))
             continue;
         want_corners(field, place.cell);
         memcpy(last, place.cell, sizeof last);

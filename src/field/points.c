@@ -27,16 +27,25 @@ lmp_kernel_cells lmp_field_cells(const lmp_field *field, const float *nodes,
                                 { cells->fraction[0], cells->fraction[1], cells->fraction[2] } };
 }
 
+static void note_block(uint32_t block, field_blocks *blocks) {
+    if (blocks->count == 0 || blocks->at[blocks->count - 1] != block)
+        blocks->at[blocks->count++] = block;
+}
+
 /* Neighbors are often in one cell. Of points outside the grid any will do. */
 void lmp_field_interpolate(const lmp_field *field, const lmp_vec3 *points, size_t count,
-                           const lmp_kernel_out *out) {
-    field_cells found = { .fraction = { { 0 } } };
+                           field_blocks *blocks, const lmp_kernel_out *out) {
+    field_cells found;
     field_place place, last = { .cell = { UINT32_MAX } };
+    memset(found.fraction, 0, sizeof found.fraction);
     for (size_t i = 0; i < count; i++, last = place) {
-        if (!lmp_field_find(field, points[i], &place))
+        const bool inside = lmp_field_find(field, points[i], &place);
+        if (!inside)
             place = (field_place) { 0 };
-        if (memcmp(place.cell, last.cell, sizeof last.cell) != 0) {
+        if (!lmp_field_same_cell(place.cell, last.cell)) {
             lmp_field_set_place(field, &place, i, &found);
+            if (inside && blocks)
+                note_block(lmp_field_block(field, place.cell), blocks);
             continue;
         }
         memcpy(&found.corners[8 * i], &found.corners[8 * (i - 1)], 8 * sizeof *found.corners);
@@ -114,7 +123,7 @@ static size_t load_points(lmp_vec3_array array, size_t first, size_t count, lmp_
 
 void lmp_field_rows(const lmp_field *field, const lmp_vec3 *points, size_t count, float *rows) {
     const lmp_kernel_out out = { rows, field->values, 0 };
-    lmp_field_interpolate(field, points, count, &out);
+    lmp_field_interpolate(field, points, count, NULL, &out);
     for (size_t i = 0; i < count; i++)
         add_near(field, points[i], rows + i * field->values);
 }

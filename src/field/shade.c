@@ -25,7 +25,7 @@ static lmp_kernel_vec3 from(const lmp_kernel_vec3 *planes, size_t first) {
 
 /* A function of its own: under the zonal kernel its planes would be too much stack. */
 static __attribute__((noinline)) void shade_far(const field_shading *shading, size_t first,
-                                                const shade_chunk *chunk) {
+                                                const shade_chunk *chunk, field_blocks *blocks) {
     const lmp_field *field = shading->field;
     const size_t left = chunk->count - first, count = left < FIELD_BRICK ? left : FIELD_BRICK;
     float planes[FIELD_ROWS];
@@ -47,7 +47,7 @@ static __attribute__((noinline)) void shade_far(const field_shading *shading, si
         memset(planes, 0, FIELD_BRICK * field->values * sizeof *planes);
     const lmp_kernel_out out = { planes, FIELD_BRICK, 1 };
     const lmp_kernel_in in = { planes, FIELD_BRICK, 1 };
-    lmp_field_interpolate(field, points, count, &out);
+    lmp_field_interpolate(field, points, count, blocks, &out);
     lmp_kernels_get()->shade_field(field->info.desc.bands, shading->window, shading->diffuse,
                                    &surfaces, &in, count, &sums);
 }
@@ -80,7 +80,7 @@ static field_box box_of(const shade_chunk *chunk) {
 static bool is_near(const lmp_field *field, uint32_t light, const field_box *box) {
     const field_sphere *sphere = &field->spheres[light];
     const float reach = (sphere->radius + field->info.reach) * 1.0001f;
-    return lmp_field_distance2(box, sphere->center) < reach * reach || field->everywhere[light];
+    return (lmp_field_distance2(box, sphere->center) < reach * reach) | field->everywhere[light];
 }
 
 /* Lights near a chunk that are found at once. */
@@ -89,33 +89,31 @@ enum { FOUND = 128 };
 /* The first of them from light *next on, which becomes the one to go on with or FIELD_NONE. A
  * function of its own: under the zonal kernel its set would be too much stack. */
 static __attribute__((noinline)) size_t find_near(const lmp_field *field, const shade_chunk *chunk,
-                                                  uint32_t *next, uint32_t found[FOUND]) {
+                                                  const field_blocks *blocks, uint32_t *next,
+                                                  uint32_t found[FOUND]) {
     const field_box box = box_of(chunk);
-    uint32_t last = FIELD_NONE, light = *next;
     size_t count = 0;
     field_set near;
     lmp_field_set_clear(field, &near);
-    for (size_t i = 0; i < chunk->count; i++) {
-        field_place place;
-        if (!lmp_field_find(field, lmp_batch_get(&chunk->surfaces.point, i), &place))
-            continue;
-        const uint32_t block = lmp_field_block(field, place.cell);
-        if (block != last)
-            lmp_field_set_add(field, block, &near);
-        last = block;
-    }
-    while (count < FOUND && (light = lmp_field_set_next(&near, light)) != FIELD_NONE) {
-        if (is_near(field, light, &box))
-            found[count++] = light;
-        light++;
-    }
-    *next = count < FOUND ? FIELD_NONE : light;
+    for (size_t i = 0; i < blocks->count; i++)
+        lmp_field_set_add(field, blocks->at[i], &near);
+    for (uint32_t word = *next / 64; word < near.words; word++)
+        for (uint64_t bits = near.bits[word]; bits; bits &= bits - 1) {
+            const uint32_t light = 64 * word + (uint32_t)__builtin_ctzll(bits);
+            if (count == FOUND) {
+                *next = light;
+                return count;
+            }
+            found[count] = light;
+            count += light >= *next && is_near(field, light, &box);
+        }
+    *next = FIELD_NONE;
     return count;
 }
 
 /* Surfaces that are shaded together at most; lights that the zonal kernel takes at once, and how
  * many of them may be spots, which have a plane of their own. */
-enum { FIELD_CHUNK = 64, PASS = LMP_KERNEL_LIGHTS_MAX, SPOTS = 3 };
+enum { FIELD_CHUNK = FIELD_BLOCKS, PASS = LMP_KERNEL_LIGHTS_MAX, SPOTS = 3 };
 
 /* Adds the first of the lights found; returns how many. */
 static size_t add_near(const field_shading *shading, const uint32_t *found, size_t count,
@@ -139,10 +137,11 @@ static size_t add_near(const field_shading *shading, const uint32_t *found, size
     return taken;
 }
 
-static void shade_near(const field_shading *shading, shade_chunk *chunk) {
+static void shade_near(const field_shading *shading, const field_blocks *blocks,
+                       shade_chunk *chunk) {
     for (uint32_t next = 0; next != FIELD_NONE;) {
         uint32_t found[FOUND];
-        const size_t count = find_near(shading->field, chunk, &next, found);
+        const size_t count = find_near(shading->field, chunk, blocks, &next, found);
         for (size_t i = 0; i < count;)
             i += add_near(shading, found + i, count - i, chunk);
     }
@@ -186,11 +185,12 @@ static __attribute__((noinline)) void shade_alike(const field_shading *shading,
                                                   size_t from, const uint16_t *order, size_t count,
                                                   size_t stride, float *rgb) {
     shade_chunk chunk;
+    field_blocks blocks = { .count = 0 };
     lmp_shade_take_lobes(surfaces, lobes, from, order, count, &chunk);
     lmp_shade_load_chunk(surfaces, &chunk);
     for (size_t first = 0; first < chunk.count; first += FIELD_BRICK)
-        shade_far(shading, first, &chunk);
-    shade_near(shading, &chunk);
+        shade_far(shading, first, &chunk, &blocks);
+    shade_near(shading, &blocks, &chunk);
     lmp_shade_sum_planes(chunk.count, chunk.phong_count, chunk.ambient, &chunk.planes);
     lmp_shade_store(&chunk.planes, chunk.at, chunk.count, stride, rgb);
 }
@@ -215,9 +215,9 @@ static bool has_lobes(const lmp_field *field, const lmp_surfaces *surfaces, size
     const int lobes = lmp_shade_phong_count(material, lmp_vec3_element(&surfaces->normal, i),
                                             lmp_vec3_element(&surfaces->view, i));
     const uint32_t *cell = place.cell;
-    const uint32_t within = (cell[2] % FIELD_BLOCK * FIELD_BLOCK + cell[1] % FIELD_BLOCK) *
-                                FIELD_BLOCK +
-                            cell[0] % FIELD_BLOCK;
+    const uint32_t within =
+        (cell[2] % FIELD_BLOCK * FIELD_BLOCK + cell[1] % FIELD_BLOCK) * FIELD_BLOCK +
+        cell[0] % FIELD_BLOCK;
     const uint32_t each = FIELD_BLOCK * FIELD_BLOCK * FIELD_BLOCK;
     *key = (uint32_t)lobes / 2 * CELLS + (lmp_field_block(field, cell) * each + within) % CELLS;
     return true;
