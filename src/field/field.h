@@ -66,11 +66,12 @@ struct lmp_field {
     lmp_light *lights;
     field_sphere *spheres;
     uint8_t *everywhere; /* of each light: it is in the list of that name */
-    /* Lists of blocks, then of the lights that are near everywhere; and of unused entries. */
+    /* Lists of blocks, then of the lights that are near everywhere; and of entries that were used,
+     * besides which all from `untouched` on are free, too. */
     uint32_t *lists;
     field_entry *entries;
     size_t entry_count;
-    uint32_t free, free_count;
+    uint32_t free, untouched, free_count;
     uint64_t changed; /* lights, since the nodes were computed */
 };
 

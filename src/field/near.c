@@ -8,9 +8,10 @@
 
 /* --- lists ------------------------------------------------------------------------------------ */
 
-/* A ball around a light, from the grid's origin, and the blocks of the box around it. */
+/* A ball around a light, from the grid's origin, the edges of blocks, and those of the box around
+ * it. */
 typedef struct near_ball {
-    float center[3], radius;
+    float center[3], radius, edge[3];
     uint32_t first[3], end[3];
 } near_ball;
 
@@ -34,6 +35,7 @@ static near_ball ball_of(const lmp_field *field, const field_sphere *sphere) {
     near_ball ball = { .radius = sphere->radius + field->info.reach };
     for (int a = 0; a < 3; a++) {
         const float edge = block_edge(field, a);
+        ball.edge[a] = edge;
         ball.center[a] = coordinate(sphere->center, a) - coordinate(field->info.desc.origin, a);
         ball.first[a] = held(floorf((ball.center[a] - ball.radius) / edge), field->blocks[a]);
         ball.end[a] = held(floorf((ball.center[a] + ball.radius) / edge) + 1, field->blocks[a]);
@@ -41,17 +43,24 @@ static near_ball ball_of(const lmp_field *field, const field_sphere *sphere) {
     return ball;
 }
 
-/* Whether the ball reaches a block. */
-static bool reaches(const lmp_field *field, const near_ball *ball, const uint32_t block[3]) {
-    float distance2 = 0;
-    for (int a = 0; a < 3; a++) {
+/* How far a block lies from the center along an axis, squared. */
+static float gap2(const near_ball *ball, int axis, uint32_t block) {
+    const float low = ball->edge[axis] * (float)block;
+    const float gap = lmp_field_gap(low, ball->center[axis], low + ball->edge[axis]);
+    return gap * gap;
+}
+
+/* Whether the ball reaches a block that lies so far from its center along the last two axes. */
+static bool reaches_along(const near_ball *ball, uint32_t block, const float others2[2]) {
+    return gap2(ball, 0, block) + others2[0] + others2[1] <= ball->radius * ball->radius;
+}
+
+static bool reaches(const near_ball *ball, const uint32_t block[3]) {
+    const float others2[2] = { gap2(ball, 1, block[1]), gap2(ball, 2, block[2]) };
+    for (int a = 0; a < 3; a++)
         if (block[a] < ball->first[a] || block[a] >= ball->end[a])
             return false;
-        const float edge = block_edge(field, a), low = edge * (float)block[a];
-        const float gap = lmp_field_gap(low, ball->center[a], low + edge);
-        distance2 += gap * gap;
-    }
-    return distance2 <= ball->radius * ball->radius;
+    return reaches_along(ball, block[0], others2);
 }
 
 typedef void list_action(lmp_field *field, uint32_t light, size_t list);
@@ -63,13 +72,15 @@ static size_t each_list(lmp_field *field, uint32_t light, const near_ball *ball,
     uint32_t at[3];
     size_t count = 0;
     for (at[2] = ball->first[2]; at[2] < ball->end[2]; at[2]++)
-        for (at[1] = ball->first[1]; at[1] < ball->end[1]; at[1]++)
+        for (at[1] = ball->first[1]; at[1] < ball->end[1]; at[1]++) {
+            const float others2[2] = { gap2(ball, 1, at[1]), gap2(ball, 2, at[2]) };
+            const size_t row = (at[2] * field->blocks[1] + at[1]) * field->blocks[0];
             for (at[0] = ball->first[0]; at[0] < ball->end[0]; at[0]++)
-                if (reaches(field, ball, at) && !(other && reaches(field, other, at))) {
-                    action(field, light,
-                           (at[2] * field->blocks[1] + at[1]) * field->blocks[0] + at[0]);
+                if (reaches_along(ball, at[0], others2) && !(other && reaches(other, at))) {
+                    action(field, light, row + at[0]);
                     count++;
                 }
+        }
     return count;
 }
 
@@ -84,7 +95,10 @@ static void put(lmp_field *field, uint32_t light, size_t list) {
     if (at == FIELD_NONE || field->entries[at].count == FIELD_ENTRY) {
         const uint32_t next = at;
         at = field->free;
-        field->free = field->entries[at].next;
+        if (at == FIELD_NONE)
+            at = field->untouched++;
+        else
+            field->free = field->entries[at].next;
         field->free_count--;
         field->entries[at].next = next;
         field->entries[at].count = 0;
@@ -161,11 +175,11 @@ static void relist_light(lmp_field *field, uint32_t light, const field_sphere *w
     each_list(field, light, &after, &before, put);
 }
 
+/* Entries are not chained: most are never used, and far more than caches hold. */
 static void unlist_all(lmp_field *field) {
-    for (size_t i = 0; i < field->entry_count; i++)
-        field->entries[i].next = i + 1 < field->entry_count ? (uint32_t)(i + 1) : FIELD_NONE;
     memset(field->lists, 0xff, (field->block_count + 1) * sizeof *field->lists);
-    field->free = 0;
+    field->free = FIELD_NONE;
+    field->untouched = 0;
     field->free_count = (uint32_t)field->entry_count;
 }
 
