@@ -18,12 +18,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     float number = 0, eye[3] = { 0 };
     const char *name = NULL;
     cli_list list = { .count = 0 };
+    cli_numbers numbers = { .count = 0 };
     const cli_option options[] = {
         { "flag", 'f', CLI_FLAG, &flag, NULL, "help", 0, 0, NULL, &given },
         { "count", 'c', CLI_INT, &count, "N", "help", 1, 9, NULL, NULL },
         { "pixels", 0, CLI_SIZE, pixels, "WxH", "help", 0, 0, NULL, NULL },
         { "grid", 0, CLI_GRID, grid, "XxYxZ", "help", 1, 9, NULL, NULL },
         { "range", 0, CLI_RANGE, range, "N|A-B", "help", 0, 99, NULL, NULL },
+        { "numbers", 0, CLI_NUMBERS, &numbers, "N,N", "help", 1, 9, NULL, NULL },
         { "part", 0, CLI_PART, part, "I/N", "help", 1, 99, NULL, NULL },
         { "choice", 0, CLI_CHOICE, &choice, "WORD", "help", 0, 0, choices, NULL },
         { "seed", 0, CLI_SEED, &seed, "N", "help", 0, 0, NULL, NULL },
@@ -49,7 +51,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (cli_parse(&command, options, word_count, words, &operand_count, &operands, &status) &&
         (count < 1 || count > 9 || choice < 0 || choice > 1 || grid[2] < 1 || grid[2] > 9 ||
          range[0] < 0 || range[1] > 99 || range[1] < range[0] || part[0] < 1 || part[0] > part[1] ||
-         operand_count > word_count - 1))
+         operand_count > word_count - 1 || numbers.count > CLI_NUMBERS_MAX ||
+         (numbers.count > 0 && (numbers.values[0] < 1 || numbers.values[0] > 9))))
         abort();
     free(text);
     return 0;

@@ -10,10 +10,11 @@ typedef struct bench_options {
     int bands;                 /* 0: many */
     int mask, threads, kernel; /* of cpu; kernel 0: all */
     /* of gpu */
-    int device, method;  /* indices of bench_devices and bench_methods */
-    int lights, size[2]; /* 0: many */
-    int seconds;         /* 0: a default, or no limit if `full` */
-    const char *scene;   /* NULL: many */
+    int device, method; /* indices of bench_devices and bench_methods */
+    cli_numbers lights; /* none: many */
+    int size[2];        /* 0: many */
+    int seconds;        /* 0: a default, or no limit if `full` */
+    const char *scene;  /* NULL: many */
     const char *gl_device;
     cli_list materials;
 } bench_options;

@@ -9,10 +9,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { FRAMES = 9, SECONDS = 180, SEED = 7, LIGHTS_MADE = 1024 };
 enum { SCENES = 2, SIZES = 3, BANDS = 6, LIGHTS = 6 };
-_Static_assert(SIZES *BANDS *LIGHTS == BENCH_SETTINGS_MAX, "room for all settings");
+_Static_assert(SIZES *BANDS *CLI_NUMBERS_MAX == BENCH_SETTINGS_MAX, "room for all settings");
 
 static double now_ms(void) {
     return 1e3 * timing_now();
@@ -66,7 +67,7 @@ static void plan_cases(bench_plan *plan, const bench_options *o) {
 
 /* The paper's 30 lights over the bands, its 8 bands over the lights; whatever is fixed; or all. */
 static bool is_setting(const bench_options *o, int bands, int lights) {
-    return o->full || o->lights || lights == 30 || (!o->bands && bands == 8 && lights <= 300);
+    return o->full || o->lights.count || lights == 30 || (!o->bands && bands == 8 && lights <= 300);
 }
 
 static void plan_setting(bench_plan *plan, const bench_options *o, const bench_setting *setting) {
@@ -79,17 +80,20 @@ static void plan_setting(bench_plan *plan, const bench_options *o, const bench_s
 
 /* Of one scene: all bands with the first number of lights, then the other lights. */
 static void plan_rows(bench_plan *plan, const bench_options *o) {
-    const int own_bands[] = { o->bands, 0 }, own_lights[] = { o->lights, 0 };
+    const int own_bands[] = { o->bands, 0 };
+    int own_lights[CLI_NUMBERS_MAX + 1] = { 0 };
     const int *const bands = o->bands ? own_bands : all_bands;
-    const int *const lights = o->lights ? own_lights : all_lights;
+    const int *const lights = o->lights.count ? own_lights : all_lights;
+    memcpy(own_lights, o->lights.values, (size_t)o->lights.count * sizeof *own_lights);
     const int sizes = o->full && !o->size[0] ? SIZES : 1;
     for (int s = 0; s < sizes; s++) {
         const int *const size = o->size[0] ? o->size : all_sizes[s];
         for (const int *b = bands; *b; b++)
-            plan_setting(plan, o, &(bench_setting) { *b, lights[0], size });
+            plan_setting(plan, o,
+                         &(bench_setting) { .bands = *b, .lights = lights[0], .size = size });
         for (const int *b = bands; *b; b++)
             for (const int *l = lights + 1; *l; l++)
-                plan_setting(plan, o, &(bench_setting) { *b, *l, size });
+                plan_setting(plan, o, &(bench_setting) { .bands = *b, .lights = *l, .size = size });
     }
 }
 
@@ -146,7 +150,42 @@ static int bands_max(const bench_scene *s, const bench_case *c) {
     return most;
 }
 
-/* In its part of the time left, but one frame at least. */
+/* One of them, all lights taken anew; its tone curve, too. */
+static bool time_frame(bench_scene *s, const gpu_frame *frame, unsigned char *rgb8,
+                       gpu_times *times, cli_error *error) {
+    const image_display display = { .exposure = 1 };
+    shade_field_forget(frame->field);
+    return gpu_render(s->renderer, frame, times, error) &&
+           gpu_read_rgb8(s->renderer, &display, rgb8, times, error);
+}
+
+/* In the row's part of the time left, but one frame at least: where the library shades, which
+ * compiles nothing, the first one, if that takes as long. */
+static bool time_frames(bench_scene *s, const bench_row *c, const gpu_frame *frame,
+                        bench_result *result, cli_error *error) {
+    double shading[FRAMES], whole[FRAMES];
+    int count = 0;
+    gpu_times times;
+    const double start = now_ms(), end = start + (s->plan->end_ms - start) / s->plan->rows_ahead;
+    unsigned char *rgb8 = malloc(3 * (size_t)c->width * (size_t)c->height);
+    bool ok = (rgb8 || cli_fail(error, NULL, "out of memory")) &&
+              time_frame(s, frame, rgb8, &times, error);
+    result->compile_ms = now_ms() - start - times.total;
+    const bool enough = device_table[c->by->device].on_host && now_ms() >= end;
+    while (ok && (count == 0 || (count < FRAMES && now_ms() < end))) {
+        ok = enough || time_frame(s, frame, rgb8, &times, error);
+        shading[count] = times.shade + times.transfer;
+        whole[count++] = times.total;
+    }
+    free(rgb8);
+    if (!ok)
+        return false;
+    result->ms = timing_of(shading, count).median;
+    result->frame_ms = timing_of(whole, count).median;
+    result->frames = count;
+    return true;
+}
+
 static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, cli_error *error) {
     gpu_frame frame = {
         .width = c->width,
@@ -169,63 +208,96 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
             return false;
         shade_field_attach(s->field, &frame);
     }
-    double samples[FRAMES];
-    int count = 0;
-    gpu_times times;
-    const double start = now_ms(), end = start + (s->plan->end_ms - start) / s->plan->rows_ahead;
-    if (!gpu_render(s->renderer, &frame, &times, error))
-        return false;
-    result->compile_ms = now_ms() - start - times.total;
-    do {
-        shade_field_forget(frame.field); /* all lights are taken anew */
-        if (!gpu_render(s->renderer, &frame, &times, error))
-            return false;
-        samples[count++] = times.shade + times.transfer;
-    } while (count < FRAMES && now_ms() < end);
-    result->ms = timing_of(samples, count).median;
-    result->frames = count;
-    return true;
+    return time_frames(s, c, &frame, result, error);
 }
 
 /* --- all rows --------------------------------------------------------------------------------- */
 
-/* Everything that is chosen, at one setting. */
-static bool time_setting(bench_scene *s, const bench_setting *setting, cli_error *error) {
+/* Of several numbers of lights, fields and what they are compared with tell most. */
+static bool is_later(const bench_options *o, const bench_case *c) {
+    return o->lights.count > 1 && !(method_table[c->method].reads & METHOD_READS_FIELD) &&
+           c->method != bench_compared();
+}
+
+/* Whether there is no time left, or not as much as the library needs by its estimate. */
+static bool is_left_out(const bench_plan *plan, const bench_row *c) {
+    const method_work work = { (size_t)c->lights, c->bands, (double)c->width * c->height };
+    const bool on_host = device_table[c->by->device].on_host;
+    return now_ms() + (on_host ? method_estimate(c->by->method, &work) : 0) > plan->end_ms;
+}
+
+/* Says which, as long as there is room. */
+#define NAMES_END "; …"
+static void leave_out(bench_plan *plan, const bench_row *c) {
+    const size_t used = strlen(plan->left_out), size = sizeof plan->left_out;
+    char text[96];
+    snprintf(text, sizeof text, "%s%s %s, %d bands, %d lights", used ? "; " : "",
+             device_table[c->by->device].name, method_table[c->by->method].name, c->bands,
+             c->lights);
+    if (used + strlen(text) + sizeof NAMES_END <= size)
+        strcpy(plan->left_out + used, text);
+    else if (!strstr(plan->left_out, NAMES_END))
+        strcpy(plan->left_out + used, NAMES_END);
+    plan->rows_left_out++;
+}
+
+static bool time_case(bench_scene *s, bench_setting *setting, int number, cli_error *error) {
     bench_plan *plan = s->plan;
-    double paper = 0;
+    const bench_row row = { &plan->cases[number], setting->bands, setting->lights, setting->size[0],
+                            setting->size[1] };
+    bench_result result;
+    if (is_left_out(plan, &row)) {
+        leave_out(plan, &row);
+        return true;
+    }
+    if (!find_materials(s, row.bands, error))
+        return false;
+    if (row.bands > bands_max(s, row.by))
+        return true;
+    if (!time_row(s, &row, &result, error))
+        return false;
+    setting->frame_ms[number] = result.frame_ms;
+    if (method_table[row.by->method].baseline)
+        setting->paper_ms = result.ms;
+    bench_print_row(s, &row, &result, setting->paper_ms);
+    return true;
+}
+
+/* What is chosen, at one setting: that which is later, or that which is not. */
+static bool time_setting(bench_scene *s, bench_setting *setting, bool later, cli_error *error) {
+    bench_plan *plan = s->plan;
     for (int i = 0; i < plan->case_count; i++) {
-        const bench_row row = { &plan->cases[i], setting->bands, setting->lights, setting->size[0],
-                                setting->size[1] };
-        bench_result result;
-        if (!is_chosen(s->options, row.by, row.bands))
+        const bench_case *by = &plan->cases[i];
+        if (!is_chosen(s->options, by, setting->bands) || is_later(s->options, by) != later)
             continue;
-        if (now_ms() > plan->end_ms) {
-            plan->rows_left_out++;
-            continue;
-        }
-        if (!find_materials(s, row.bands, error))
+        if (!time_case(s, setting, i, error))
             return false;
-        if (row.bands <= bands_max(s, row.by)) {
-            if (!time_row(s, &row, &result, error))
-                return false;
-            paper = method_table[row.by->method].baseline ? result.ms : paper;
-            bench_print_row(s, &row, &result, paper);
-        }
         plan->rows_ahead--;
     }
     return true;
 }
 
 static bool time_all(bench_scene *s, cli_error *error) {
-    for (int i = 0; i < s->plan->setting_count; i++)
-        if (!time_setting(s, &s->plan->settings[i], error))
-            return false;
+    bench_plan *plan = s->plan;
+    for (int i = 0; i < plan->setting_count; i++) {
+        plan->settings[i].paper_ms = 0;
+        memset(plan->settings[i].frame_ms, 0, sizeof plan->settings[i].frame_ms);
+    }
+    for (int later = 0; later < 2; later++)
+        for (int i = 0; i < plan->setting_count; i++)
+            if (!time_setting(s, &plan->settings[i], later == 1, error))
+                return false;
+    if (s->options->lights.count > 1 && !s->options->json)
+        bench_print_frames(s);
     return true;
 }
 
 /* Of those that rows ask for; lights are smaller the more there are. */
 static int most_lights(const bench_options *o) {
-    return o->lights > LIGHTS_MADE ? o->lights : LIGHTS_MADE;
+    int most = LIGHTS_MADE;
+    for (int i = 0; i < o->lights.count; i++)
+        most = o->lights.values[i] > most ? o->lights.values[i] : most;
+    return most;
 }
 
 static bool open_scene(bench_scene *s, cli_error *error) {
@@ -286,6 +358,7 @@ int bench_gpu(const cli_command *command, const bench_options *o) {
     if (o->json && ok)
         printf("\n  ]\n}\n");
     if (plan.rows_left_out)
-        cli_note(NULL, "%d rows left out for want of time (--time)", plan.rows_left_out);
+        cli_note(NULL, "%d rows left out for want of time (--time): %s", plan.rows_left_out,
+                 plan.left_out);
     return ok ? CLI_OK : cli_report(&error);
 }

@@ -13,7 +13,7 @@ typedef struct bench_case {
     device_kind device;
 } bench_case;
 
-enum { BENCH_SETTINGS_MAX = 108 };
+enum { BENCH_CASES_MAX = METHODS_TIMED * DEVICES, BENCH_SETTINGS_MAX = 288 };
 
 /* A row's frame, and what shades it. */
 typedef struct bench_row {
@@ -22,7 +22,8 @@ typedef struct bench_row {
 } bench_row;
 
 typedef struct bench_result {
-    double ms; /* median of the shading of `frames` */
+    double ms;       /* median of the shading of `frames` */
+    double frame_ms; /* and of all that they took, from the G-buffer to the tone curve */
     int frames;
     double compile_ms; /* of the shader */
 } bench_result;
@@ -31,17 +32,19 @@ typedef struct bench_result {
 typedef struct bench_setting {
     int bands, lights;
     const int *size;
+    double paper_ms, frame_ms[BENCH_CASES_MAX]; /* by case; 0: none */
 } bench_setting;
 
 /* The settings in the order of what they tell, and the time for them all. */
 typedef struct bench_plan {
-    bench_case cases[METHODS_TIMED * DEVICES];
+    bench_case cases[BENCH_CASES_MAX];
     int case_count;
     unsigned reads; /* what their methods read: METHOD_READS_… */
     bench_setting settings[BENCH_SETTINGS_MAX];
     int setting_count;
     int rows_ahead, rows_left_out;
-    double end_ms; /* of now_ms */
+    char left_out[256]; /* which */
+    double end_ms;      /* of now_ms */
 } bench_plan;
 
 /* A scene open on the device, with as many lights as any row asks for. */
@@ -66,5 +69,11 @@ typedef struct bench_scene {
 void bench_print_header(const bench_scene *scene);
 void bench_print_row(bench_scene *scene, const bench_row *row, const bench_result *result,
                      double paper);
+
+/* The method that fields are compared with. */
+method_kind bench_compared(void);
+
+/* Whole frames by lights, in a line each, with how many times as fast as by that. */
+void bench_print_frames(const bench_scene *scene);
 
 #endif

@@ -52,6 +52,7 @@ static void print_json(const bench_scene *s, const bench_row *c, const bench_res
     cJSON_AddNumberToObject(row, "width", c->width);
     cJSON_AddNumberToObject(row, "height", c->height);
     add_number(row, "ms", result->ms);
+    add_number(row, "frame_ms", result->frame_ms);
     cJSON_AddNumberToObject(row, "frames", result->frames);
     add_number(row, "ns_per_pixel_light", ns);
     if (paper > 0)
@@ -78,12 +79,13 @@ void bench_print_row(bench_scene *s, const bench_row *c, const bench_result *res
         char ratio[32] = "-";
         if (paper > 0)
             snprintf(ratio, sizeof ratio, "%.2f", paper / result->ms);
-        printf("%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %6d %9.3f %9s %9.0f %9zu %8.0f %8.0f "
-               "%8.0f\n",
-               s->name, device_table[c->by->device].name, method_table[c->by->method].name,
-               c->bands, c->lights, c->width, c->height, result->ms, result->frames, ns, ratio,
-               result->compile_ms, tables.bytes / 1024, tables.ms, tables.lobes_ms,
-               tables.preintegrated_ms);
+        printf(
+            "%-15s %-4s %-14s %5d %6d  %4dx%-4d %10.3f %10.3f %6d %9.3f %9s %9.0f %9zu %8.0f %8.0f "
+            "%8.0f\n",
+            s->name, device_table[c->by->device].name, method_table[c->by->method].name, c->bands,
+            c->lights, c->width, c->height, result->ms, result->frame_ms, result->frames, ns, ratio,
+            result->compile_ms, tables.bytes / 1024, tables.ms, tables.lobes_ms,
+            tables.preintegrated_ms);
     }
     s->first = false;
     fflush(stdout);
@@ -118,11 +120,70 @@ void bench_print_header(const bench_scene *s) {
         printf("%s%s", i ? ", " : "materials: ", o->materials.items[i]);
     printf("%s"
            "ms: from G-buffer to radiance, to the CPU and back where it shades, median of the "
-           "frames (%s); x paper: against the paper's fragment shader in the same run; ms at the "
+           "frames (%s); whole: with the G-buffer and the tone curve; x paper: against the paper's "
+           "fragment shader in the same run; ms at the "
            "end: making or reading the materials' tables, the lobes, preintegrating the materials' "
            "tables\n",
            o->materials.count ? "\n" : "", s->context.software ? "wall clock" : "timer queries");
-    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene", "dev",
-           "method", "bands", "lights", "size", "ms", "frames", "ns/pair", "x paper", "compile",
-           "table KB", "table", "lobes", "preint.");
+    printf("%-15s %-4s %-14s %5s %6s  %9s %10s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene",
+           "dev", "method", "bands", "lights", "size", "ms", "whole", "frames", "ns/pair",
+           "x paper", "compile", "table KB", "table", "lobes", "preint.");
+}
+
+/* --- whole frames ----------------------------------------------------------------------------- */
+
+method_kind bench_compared(void) {
+    int m = 0;
+    while (!(method_table[m].reads & METHOD_READS_FIELD))
+        m++;
+    return method_table[m].compared;
+}
+
+/* What others are compared with, on the same device; 0: it was not timed. */
+static double compared_ms(const bench_plan *plan, const bench_setting *setting, int i) {
+    for (int k = 0; k < plan->case_count; k++)
+        if (plan->cases[k].device == plan->cases[i].device &&
+            plan->cases[k].method == bench_compared())
+            return setting->frame_ms[k];
+    return 0;
+}
+
+static void print_line(const bench_plan *plan, const bench_setting *setting) {
+    printf("%6d", setting->lights);
+    for (int i = 0; i < plan->case_count; i++) {
+        const double ms = setting->frame_ms[i], compared = compared_ms(plan, setting, i);
+        char ratio[32] = "", text[64] = "-";
+        if (ms > 0 && compared > 0)
+            snprintf(ratio, sizeof ratio, " (%.3g)", compared / ms);
+        if (ms > 0)
+            snprintf(text, sizeof text, "%.4g%s", ms, ratio);
+        printf("  %18s", text);
+    }
+    putchar('\n');
+}
+
+/* Whether they stand in one table. */
+static bool is_together(const bench_setting *a, const bench_setting *b) {
+    return a->bands == b->bands && a->size == b->size;
+}
+
+void bench_print_frames(const bench_scene *s) {
+    const bench_plan *plan = s->plan;
+    for (int i = 0; i < plan->setting_count; i++) {
+        const bench_setting *first = &plan->settings[i];
+        bool printed = false;
+        for (int k = 0; k < i; k++)
+            printed = printed || is_together(&plan->settings[k], first);
+        if (printed)
+            continue;
+        printf("\nwhole frames, %d bands, %dx%d: ms (times as fast as %s)\n%6s", first->bands,
+               first->size[0], first->size[1], method_table[bench_compared()].name, "lights");
+        for (int k = 0; k < plan->case_count; k++)
+            printf("  %3s %14s", device_table[plan->cases[k].device].name,
+                   method_table[plan->cases[k].method].name);
+        putchar('\n');
+        for (int k = i; k < plan->setting_count; k++)
+            if (is_together(&plan->settings[k], first))
+                print_line(plan, &plan->settings[k]);
+    }
 }

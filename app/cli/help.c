@@ -89,6 +89,7 @@ static void describe_default(const cli_option *option, char *text, size_t size) 
         break;
     case CLI_FLAG:
     case CLI_RANGE:
+    case CLI_NUMBERS:
     case CLI_LIST:
         break;
     }

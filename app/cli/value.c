@@ -23,6 +23,7 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
         *maximum = INT_MAX;
         break;
     case CLI_INT:
+    case CLI_NUMBERS:
         *minimum = INT_MIN;
         *maximum = INT_MAX;
         break;
@@ -39,7 +40,7 @@ void option_limits(const cli_option *option, double *minimum, double *maximum) {
 }
 
 int option_digits(const cli_option *option) {
-    return option->kind == CLI_INT ? 10 : 7;
+    return option->kind == CLI_INT || option->kind == CLI_NUMBERS ? 10 : 7;
 }
 
 bool cli_number(const char *text, size_t length, double *value) {
@@ -118,6 +119,27 @@ static bool store_numbers(const cli_option *option, const char *text, cli_error 
     return true;
 }
 
+static bool store_list(const cli_option *option, const char *text, cli_error *error) {
+    cli_numbers read = { .count = 0 };
+    const char *rest = text;
+    for (bool more = true; more;) {
+        double value;
+        const char end = strchr(rest, ',') ? ',' : '\0';
+        if (read.count == CLI_NUMBERS_MAX)
+            return cli_fail(error, NULL, "--%s: more than %d numbers", option->name,
+                            CLI_NUMBERS_MAX);
+        if (!read_number(&rest, "+-" DIGITS, end, &value))
+            return cli_fail(error, NULL, "--%s: \"%s\" is not a list such as 10,100,1000",
+                            option->name, text);
+        if (!in_range(option, value))
+            return out_of_range(option, text, error);
+        read.values[read.count++] = (int)value;
+        more = end == ',';
+    }
+    *(cli_numbers *)option->target = read;
+    return true;
+}
+
 /* FIRST-LAST, or a COUNT from 0 on. */
 static bool store_range(const cli_option *option, const char *text, cli_error *error) {
     const bool both = strchr(text, '-') != NULL;
@@ -187,6 +209,8 @@ bool option_store(const cli_option *option, const char *text, cli_error *error) 
         return true;
     case CLI_RANGE:
         return store_range(option, text, error);
+    case CLI_NUMBERS:
+        return store_list(option, text, error);
     case CLI_PART:
         return store_part(option, text, error);
     case CLI_SEED:

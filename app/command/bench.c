@@ -29,8 +29,9 @@ static int run(const cli_command *command, int argc, char **argv) {
           bench_methods(), NULL },
         { "scene", 0, CLI_TEXT, &o.scene, "SCENE",
           "gpu: the rows of one scene; without it builtin:atrium", 0, 0, NULL, NULL },
-        { "lights", 0, CLI_INT, &o.lights, "N",
-          "gpu: the rows of so many lights alone; 0: of several", 0, SCENE_LIGHTS_MAX, NULL, NULL },
+        { "lights", 0, CLI_NUMBERS, &o.lights, "N,N,N",
+          "gpu: the rows of so many lights alone; of several numbers also a table of whole frames",
+          1, SCENE_LIGHTS_MAX, NULL, NULL },
         { "size", 0, CLI_SIZE, o.size, "WxH", "gpu: pixels of the rows; without it 1980x995", 1,
           GPU_SIZE_MAX, NULL, &size_given },
         { "time", 0, CLI_INT, &o.seconds, "SECONDS",
@@ -66,6 +67,7 @@ const cli_command command_bench = {
                 "lampion bench cpu --kernel accumulate --bands 6\n"
                 "lampion bench gpu --json > gpu.json\n"
                 "lampion bench gpu --scene builtin:ball --bands 8 --size 3400x900\n"
+                "lampion bench gpu --device cpu --bands 5 --lights 10,100,1000,4000\n"
                 "lampion bench gpu --full --size 600x816 --method preintegrated\n"
                 "lampion bench gpu --scene builtin:ball --material test_material=sgd:nickel\n",
     .run = run,

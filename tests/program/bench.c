@@ -43,6 +43,7 @@ static cJSON *rows_of(const char *arguments) {
         "width",
         "height",
         "ms",
+        "frame_ms",
         "ns_per_pixel_light",
         "compile_ms",
         "table_bytes",
@@ -145,6 +146,7 @@ static void options_fix_what_the_rows_are_of(void **state) {
         { "--scene $F/a\\\"b.obj", 10, 1, 7, 5 }, /* 30 lights, then others of 8 bands */
         { "--scene $F/a\\\"b.obj --bands 8", 1, 1, 1, 1 },
         { "--scene $F/a\\\"b.obj --lights 4", 6, 1, 6, 1 },
+        { "--scene $F/a\\\"b.obj --bands 8 --lights 4,9,2", 3, 1, 1, 3 },
         { "--full --scene $F/a\\\"b.obj", 36, 1, 12, 31 },
         { "--full --scene $F/a\\\"b.obj --bands 2", 6, 1, 1, 6 },
         { "--full --scene $F/a\\\"b.obj --lights 4", 6, 1, 6, 1 },
@@ -165,6 +167,27 @@ static void options_fix_what_the_rows_are_of(void **state) {
                      count_values(root, "lights"));
         cJSON_Delete(root);
     }
+}
+
+/* The field, and what it is compared with, for all numbers; in the end a line for each. */
+static void several_numbers_of_lights_make_a_table_of_whole_frames(void **state) {
+    (void)state;
+    const char *const list = "--size 16x16 --scene $F/a\\\"b.obj --device cpu --bands 3 "
+                             "--lights 3,20";
+    char json[256];
+    snprintf(json, sizeof json, "--json %s", list);
+    cJSON *root = rows_of(json);
+    const char *const methods[] = { "zonal", "field", "zonal", "field", "preintegrated" };
+    assert_int_equal(count_rows(root), 6);
+    for (int i = 0; i < 5; i++)
+        assert_string_equal(text_at(root, i, "method"), methods[i]);
+    assert_true(number_at(root, 2, "lights") == 20 && number_at(root, 4, "lights") == 3);
+    cJSON_Delete(root);
+    assert_int_equal(bench(list), 0);
+    char *text = read_output("out"), *table = strstr(text, "\nwhole frames, 3 bands, 16x16: ms");
+    assert_non_null(table);
+    assert_true(strstr(table, "\n     3  ") && strstr(table, "\n    20  "));
+    free(text);
 }
 
 /* The paper's 8 bands and 30 lights; what is left out is said. */
@@ -235,6 +258,7 @@ static void bad_options_end_before_anything_runs(void **state) {
         { 2, "--method polar" },
         { 2, "--device tpu" },
         { 2, "--lights 65537" },
+        { 2, "--lights 4,0" },
         { 2, "--size 0x4" },
         { 1, "--scene $F/none.obj" },
         { 1, "--scene $F/a\\\"b.obj --material wall" },
@@ -271,6 +295,7 @@ int main(void) {
         cmocka_unit_test(a_setting_has_a_row_of_each_method),
         cmocka_unit_test(materials_are_in_the_rows),
         cmocka_unit_test(options_fix_what_the_rows_are_of),
+        cmocka_unit_test(several_numbers_of_lights_make_a_table_of_whole_frames),
         cmocka_unit_test(the_most_telling_rows_come_first_while_there_is_time),
         cmocka_unit_test(fields_have_rows_of_updates_and_of_points),
         cmocka_unit_test(kernels_without_scalar_rows_have_no_ratio_to_them),

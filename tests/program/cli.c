@@ -26,6 +26,7 @@ typedef struct values {
     float fov, eye[3];
     const char *output;
     cli_list lights;
+    cli_numbers counts;
 } values;
 
 typedef struct outcome {
@@ -68,6 +69,7 @@ static outcome parse(int argc, char **argv) {
         { "output", 'o', CLI_TEXT, &v->output, "FILE", "image", 0, 0, NULL, NULL },
         { "frames", 0, CLI_RANGE, v->frames, "N|A-B", "frames", 0, 99, NULL, NULL },
         { "part", 0, CLI_PART, v->part, "I/N", "part", 1, 99, NULL, NULL },
+        { "counts", 0, CLI_NUMBERS, &v->counts, "N,N", "counts", 1, 99, NULL, NULL },
         { "lights", 0, CLI_LIST, &v->lights, "FILE", "lights", 0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },
     };
@@ -123,6 +125,18 @@ static void ranges_and_parts_are_read(void **state) {
     assert_true(o.go_on && o.values.frames[0] == 7 && o.values.frames[1] == 7);
 }
 
+static void lists_of_numbers_are_read(void **state) {
+    (void)state;
+    outcome o = PARSE("--counts", "10,99,1");
+    assert_true(o.go_on && o.values.counts.count == 3);
+    assert_true(o.values.counts.values[0] == 10 && o.values.counts.values[1] == 99 &&
+                o.values.counts.values[2] == 1);
+    o = PARSE("--counts=1,2", "--counts=7");
+    assert_true(o.go_on && o.values.counts.count == 1 && o.values.counts.values[0] == 7);
+    o = PARSE("--counts", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16");
+    assert_true(o.go_on && o.values.counts.count == CLI_NUMBERS_MAX);
+}
+
 static void absent_options_keep_their_defaults(void **state) {
     (void)state;
     const outcome o = PARSE("-");
@@ -174,6 +188,12 @@ static void wrong_values_are_refused_in_one_line(void **state) {
         { "--part=4/3", "not a part" },
         { "--part=3", "not a part" },
         { "--part=1/100", "out of range (1 to 99)" },
+        { "--counts=", "not a list" },
+        { "--counts=1,", "not a list" },
+        { "--counts=1,,2", "not a list" },
+        { "--counts=1,2.5", "not a list" },
+        { "--counts=1,100", "out of range (1 to 99)" },
+        { "--counts=1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1", "more than 16 numbers" },
         { "--verbose=1", "takes no value" },
         { "--output", "needs a value" },
     };
@@ -276,6 +296,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_is_read_in_every_spelling),
         cmocka_unit_test(ranges_and_parts_are_read),
+        cmocka_unit_test(lists_of_numbers_are_read),
         cmocka_unit_test(absent_options_keep_their_defaults),
         cmocka_unit_test(wrong_values_are_refused_in_one_line),
         cmocka_unit_test(a_forgotten_value_does_not_eat_the_next_option),
