@@ -10,12 +10,21 @@
 
 #include "src/kernels/accumulate.h"
 
-#if LMP_LANES == 4 || LMP_LANES == 8
-
-/* Points that are few, as measured, and the bands whose sums fit the stack. */
+/* Points that are few, as measured (16 lanes leave them to AVX2), and the bands whose sums fit the
+ * stack. */
 #define FEW_POINTS(bands)                                                                          \
-    (LMP_LANES == 4 ? (bands) <= 10 ? 2 : 1 : (bands) < 5 || (bands) > 10 ? 4 : 5)
+    (LMP_LANES == 1                ? 0                                                             \
+     : LMP_LANES == 4              ? (bands) <= 10 ? 2 : 1                                         \
+     : (bands) < 5 || (bands) > 10 ? 4                                                             \
+                                   : 5)
 #define FEW_BANDS 32
+
+/* Whether `live` points cost less one by one, as measured: a block of them costs as much as one. */
+LMP_INLINE int few_pays(int bands, size_t lights, size_t live) {
+    return bands <= FEW_BANDS && live <= FEW_POINTS(bands) && 4 * live <= lights + 8;
+}
+
+#if LMP_LANES == 4 || LMP_LANES == 8
 
 /* Orders of a block, the bands of it that are summed at a time, and registers of lights that begin
  * side by side, for each waits for its roots and its quotient. */
@@ -54,11 +63,6 @@ typedef struct few_work {
     float LMP_ALIGNED planes[FEW_PLANES];
     float LMP_ALIGNED rows[LMP_LANES * FEW_ROW];
 } few_work;
-
-/* Whether `live` points cost less one by one, as measured: a block of them costs as much as one. */
-LMP_INLINE int few_pays(int bands, size_t lights, size_t live) {
-    return bands <= FEW_BANDS && live <= FEW_POINTS(bands) && 4 * live <= lights + 8;
-}
 
 /* Elements i, i + 1, … of an array that is no plane. */
 static LMP_NOINLINE vf few_load_apart(const float *array, size_t stride, size_t i, size_t live) {
@@ -126,9 +130,9 @@ LMP_INLINE void few_clear(int bands, int first, float *planes) {
         vf_store(planes + (FEW_ORDERS + i) * LMP_LANES, vf_set(0));
     }
     planes += LMP_LANES * LMP_LANES;
-    LMP_UNROLL for (int k = 0; k < FEW_ORDERS && k < bands - first; k++)
-        LMP_UNROLL for (int i = k + 1; i < FEW_ORDERS; i++)
-            vf_store(planes + (k * FEW_ORDERS + i) * LMP_LANES, vf_set(0));
+    const int rows = bands - first < FEW_ORDERS ? bands - first : FEW_ORDERS;
+    LMP_UNROLL for (int k = 0; k < rows; k++) LMP_UNROLL for (int i = k + 1; i < FEW_ORDERS; i++)
+        vf_store(planes + (k * FEW_ORDERS + i) * LMP_LANES, vf_set(0));
 }
 
 /* The same of the blocks before order `end`, and those that follow up to a multiple of LMP_LANES.
@@ -174,7 +178,7 @@ LMP_INLINE void few_sum(int count, int begins, int more, size_t live, few_work *
         if (begins) {
             const vf azimuth = vf_load(azimuths + e * FEW_ROW);
             LMP_UNROLL for (int c = 0; c < 3; c++) color[c] =
-                work->rgb[c * LMP_LANES + e] * azimuth;
+                work->rgb[(size_t)c * LMP_LANES + e] * azimuth;
         } else {
             LMP_UNROLL for (int c = 0; c < 3; c++) color[c] = work->color[e][c];
         }
@@ -203,16 +207,6 @@ LMP_INLINE void few_add(int count, size_t live, few_work *work, const float *azi
         few_sum(left, k == 0, 0, live, work, azimuths, rows + k * FEW_ORDERS, sums + k);
 }
 
-/* A row a light of `values` planes, and those up to a multiple of LMP_LANES. */
-LMP_INLINE void few_rows(const float *planes, int values, float *rows) {
-    LMP_UNROLL for (int v = 0; v < values; v += LMP_LANES)
-#if LMP_LANES == 8
-        layout_rows_group(planes + v * LMP_LANES, rows + v, FEW_ROW);
-#else
-        layout_rows4(planes + v * LMP_LANES, rows + v, FEW_ROW);
-#endif
-}
-
 /* Adds a register of lights to the sums of the blocks that begin with orders begin … end-1: all
  * their planes, then all their rows, then all sums, for each of these takes all registers. */
 LMP_INLINE void few_blocks(int bands, int begin, int end, size_t live, few_lanes *lanes,
@@ -226,7 +220,8 @@ LMP_INLINE void few_blocks(int bands, int begin, int end, size_t live, few_lanes
                    work->planes + (few_values(bands, first) - before) * LMP_LANES);
     if (end < bands)
         lanes->light = light;
-    few_rows(work->planes, values, work->rows);
+    LMP_UNROLL for (int v = 0; v < values; v += LMP_LANES)
+        layout_square(work->planes + v * LMP_LANES, work->rows + v, FEW_ROW);
     LMP_UNROLL for (int first = begin; first < end; first += FEW_ORDERS)
         few_add(bands - first, live, work, work->rows + few_values(bands, first) - before,
                 work->sums + few_bands(bands, first));
@@ -277,7 +272,8 @@ LMP_INLINE void few_put_band(int bands, int first, int l, const vf sums[3], floa
     }
 #endif
     const float *sum = (const float *)(const void *)sums;
-    LMP_UNROLL for (int m = first; m <= l && m < first + FEW_ORDERS; m++, sum++) {
+    const int end = l + 1 < first + FEW_ORDERS ? l + 1 : first + FEW_ORDERS;
+    LMP_UNROLL for (int m = first; m < end; m++, sum++) {
         const float norm = few_norm(bands, l, m);
         LMP_UNROLL for (int c = 0; c < 3; c++) {
             if (m > 0)

@@ -109,6 +109,24 @@ LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride)
     }
 }
 #else
+#if LMP_LANES == 16
+#define LAYOUT_QUARTERS(a, b, i, j)                                                                \
+    __builtin_shufflevector(a, b, 4 * (i), 4 * (i) + 1, 4 * (i) + 2, 4 * (i) + 3, 4 * (j),         \
+                            4 * (j) + 1, 4 * (j) + 2, 4 * (j) + 3, 16 + 4 * (i), 17 + 4 * (i),     \
+                            18 + 4 * (i), 19 + 4 * (i), 16 + 4 * (j), 17 + 4 * (j), 18 + 4 * (j),  \
+                            19 + 4 * (j))
+
+/* The same of quarters of registers. */
+LMP_INLINE void layout_transpose_quarters(vf v[4]) {
+    const vf ab0 = LAYOUT_QUARTERS(v[0], v[1], 0, 2), ab1 = LAYOUT_QUARTERS(v[0], v[1], 1, 3);
+    const vf cd0 = LAYOUT_QUARTERS(v[2], v[3], 0, 2), cd1 = LAYOUT_QUARTERS(v[2], v[3], 1, 3);
+    v[0] = LAYOUT_QUARTERS(ab0, cd0, 0, 2);
+    v[1] = LAYOUT_QUARTERS(ab1, cd1, 0, 2);
+    v[2] = LAYOUT_QUARTERS(ab0, cd0, 1, 3);
+    v[3] = LAYOUT_QUARTERS(ab1, cd1, 1, 3);
+}
+#endif
+
 /* A cache line after the other: the store buffer merges neighbors. */
 #define LAYOUT_GROUP 16
 LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
@@ -123,6 +141,24 @@ LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride)
     }
 }
 #endif
+
+/* As many values as there are lanes of a full block, to whole registers. */
+LMP_INLINE void layout_square(const float *block, float *row, size_t stride) {
+#if LMP_LANES == 16
+    vf t[16];
+    LMP_UNROLL for (int i = 0; i < 16; i++) t[i] = vf_load(block + i * LMP_LANES);
+    LMP_UNROLL for (int i = 0; i < 16; i += 4) layout_transpose4(t + i);
+    LMP_UNROLL for (int j = 0; j < 4; j++) {
+        vf q[4] = { t[j], t[4 + j], t[8 + j], t[12 + j] };
+        layout_transpose_quarters(q);
+        LMP_UNROLL for (int g = 0; g < 4; g++) vf_store(row + (size_t)(4 * g + j) * stride, q[g]);
+    }
+#elif LMP_LANES == 8
+    layout_rows_group(block, row, stride);
+#else
+    layout_rows4(block, row, stride);
+#endif
+}
 
 /* The other way, of four values. */
 LMP_INLINE void layout_planes4(const float *row, size_t stride, float *block) {
