@@ -59,15 +59,15 @@ LMP_API void lmp_lobe_response_n(int bands, const float *lambda, lmp_vec3_array 
  * with c = (1 - v·h)^5; glTF's core has F90 = 1. Its diffuse part, (1 - F) base/pi, is in all
  * directions the fraction 1 - diffuse_f0 F0 - diffuse_f90 F90 of base/pi.
  *
- * The lobes from LMP_GGX_LOBES_FEW on have weight 0 but toward grazing views, from about 53 degrees
- * on. Lobes reach a little below the horizon: docs/ggx.md has the errors. */
+ * The lobes from LMP_GGX_LOBES_FEW on have weight 0 but toward grazing views, from 53 degrees on,
+ * of rough surfaces from 41. Lobes reach a little below the horizon: docs/ggx.md has the errors. */
 #define LMP_GGX_LOBES     5
 #define LMP_GGX_LOBES_FEW 3
 
 typedef struct lmp_ggx_lobe {
     lmp_vec3 axis;  /* unit, in the plane of incidence */
-    float exponent; /* 0.02 … 1e7 */
-    float f0, f90;  /* f0 may be below 0, but f0 + f90 and f90 are not */
+    float exponent; /* 0.02 … 1.1e8 */
+    float f0, f90;  /* -5 … 5: some lobes take from others */
 } lmp_ggx_lobe;
 
 typedef struct lmp_ggx_lobes {

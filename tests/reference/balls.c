@@ -154,7 +154,7 @@ static void balls_are_drawn_as_the_ground_truth_has_them(void **state) {
     for (int i = 0; i < BALLS; i++) {
         const double rms = error_of_ball(i, &drawn, &truth, &noise);
         print_message("%s%.4f%s", i % SIDE ? " " : "| ", rms, i % SIDE == SIDE - 1 ? " |\n" : " |");
-        CHECK_WITHIN(rms, 0.02);
+        CHECK_WITHIN(rms, 0.01);
     }
     image_free(&drawn);
     image_free(&truth);

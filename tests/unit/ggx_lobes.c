@@ -109,17 +109,17 @@ static void phong_lobes_over_caps_have_their_closed_forms(void **state) {
 
 /* A white metal under caps of half angle 0.15 above the horizon, and the largest and the rms error
  * of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps. These are
- * the bounds, but of the smoothest metals at 0 and 60 degrees, whose tails a few lobes end. */
+ * the bounds, to a thousandth, but for the largest error of the smoothest metal at 60 degrees. */
 static const struct around {
-    double roughness, degrees, ltc_largest, ltc_rms, largest, rms;
+    double roughness, degrees, ltc_largest, ltc_rms, largest;
 } around[] = {
-    { 0.2, 0, 0.002, 0.0010, 0.01, 0.004 },   { 0.2, 60, 0.014, 0.006, 0.016, 0.007 },
-    { 0.2, 85, 0.208, 0.069, 0.208, 0.069 },  { 0.35, 0, 0.003, 0.0017, 0.005, 0.0017 },
-    { 0.35, 60, 0.023, 0.010, 0.023, 0.010 }, { 0.35, 75, 0.102, 0.046, 0.102, 0.046 },
-    { 0.35, 85, 0.244, 0.143, 0.244, 0.143 }, { 0.5, 0, 0.010, 0.006, 0.010, 0.006 },
-    { 0.5, 60, 0.068, 0.033, 0.068, 0.033 },  { 0.5, 85, 0.177, 0.094, 0.177, 0.094 },
-    { 0.7, 60, 0.145, 0.064, 0.145, 0.064 },  { 0.7, 85, 0.232, 0.104, 0.232, 0.104 },
-    { 0.9, 60, 0.154, 0.041, 0.154, 0.041 },  { 0.9, 85, 0.220, 0.080, 0.220, 0.080 },
+    { 0.2, 0, 0.002, 0.001, 0.002 },   { 0.2, 60, 0.014, 0.006, 0.016 },
+    { 0.2, 85, 0.208, 0.069, 0.208 },  { 0.35, 0, 0.003, 0.0017, 0.003 },
+    { 0.35, 60, 0.023, 0.010, 0.023 }, { 0.35, 75, 0.102, 0.046, 0.102 },
+    { 0.35, 85, 0.244, 0.143, 0.244 }, { 0.5, 0, 0.010, 0.006, 0.010 },
+    { 0.5, 60, 0.068, 0.033, 0.068 },  { 0.5, 85, 0.177, 0.094, 0.177 },
+    { 0.7, 60, 0.145, 0.064, 0.145 },  { 0.7, 85, 0.232, 0.104, 0.232 },
+    { 0.9, 60, 0.154, 0.041, 0.154 },  { 0.9, 85, 0.220, 0.080, 0.220 },
 };
 
 static void lobes_follow_ggx_around_the_mirror_direction(void **state) {
@@ -134,7 +134,7 @@ static void lobes_follow_ggx_around_the_mirror_direction(void **state) {
         print_message("| %.2f | %.0f | %.3f %.3f | %.3f %.3f |\n", row->roughness, row->degrees,
                       d.largest, d.rms, row->ltc_largest, row->ltc_rms);
         CHECK_WITHIN(d.largest, row->largest);
-        CHECK_WITHIN(d.rms, row->rms);
+        CHECK_WITHIN(d.rms, row->ltc_rms);
     }
 }
 
@@ -171,15 +171,14 @@ static void plates_look_as_the_specification_says(void **state) {
                                     metal ? 0.9 : 0.04, 1, metal ? 0 : 0.5 };
             const apart worst = compare_plates(&s, &all);
             print_message(" %.3f %.2f %.3f |", worst.rms, worst.largest, worst.energy);
-            const bool chalk = metal && plate_roughnesses[r] > 0.9 && degrees > 70;
-            CHECK_WITHIN(worst.rms, chalk ? 0.05 : 0.035);
+            CHECK_WITHIN(worst.rms, 0.02);
             CHECK_WITHIN(worst.largest, 0.12);
             CHECK_WITHIN(fabs(worst.energy - 1), 0.05);
         }
         print_message("\n");
     }
     print_message("rms of %ld plates: %.4f\n", all.count, check_errors_rms(&all));
-    CHECK_WITHIN(check_errors_rms(&all), 0.015);
+    CHECK_WITHIN(check_errors_rms(&all), 0.01);
 }
 
 /* Under a uniform sky. What GGX loses, light that would leave after several reflections, is lost.
@@ -273,6 +272,32 @@ static void lobes_follow_ggx_everywhere(void **state) {
     }
 }
 
+/* Lobes of negative weight take from others: of lights over the horizon, were they as small as
+ * points, hardly anything is reflected below 0. */
+static void no_small_light_is_reflected_below_nothing(void **state) {
+    (void)state;
+    double least = 0;
+    for (int i = 0; i < check_count(100, 2000); i++) {
+        const double root = check_random_between(0, 1), roughness = check_random_between(0.1, 1);
+        const oracle_gltf s = { roughness * roughness, acos(root * root),
+                                check_random_between(0, 1), 1, 0 };
+        const lmp_ggx_lobes lobes = lobes_of(&s);
+        const cap_grid caps = { 0.01, PI, 60, 12, 0 };
+        double peak = 0, lowest = 0, middle[3];
+        for (int k = 0; k < caps.distances * caps.azimuths; k++) {
+            cap_middle(&s, &caps, k / caps.azimuths, k % caps.azimuths, middle);
+            if (middle[2] <= caps.lowest)
+                continue;
+            const double reflected = by_lobes(&s, &lobes, middle, caps.half_angle);
+            peak = fmax(peak, reflected);
+            lowest = fmin(lowest, reflected);
+        }
+        least = fmin(least, lowest / peak);
+    }
+    print_message("least reflection: %.4f of the peak\n", least);
+    CHECK_WITHIN(-least, 0.02);
+}
+
 static void beyond_the_table_lobes_stay_as_at_its_edge(void **state) {
     (void)state;
     const lmp_ggx_lobes smooth = lobes_at(0.5, 0.0316), rough = lobes_at(0.5, 1);
@@ -302,8 +327,7 @@ static void axes_lie_in_the_plane_of_incidence_on_the_mirror_side(void **state) 
             CHECK_WITHIN(fabsf(q.x * side.x + q.y * side.y + q.z * side.z), 1e-5);
             CHECK_WITHIN(fabsf(q.x * q.x + q.y * q.y + q.z * q.z - 1), 1e-5);
             CHECK_WITHIN(-(q.x * mirror.x + q.y * mirror.y + q.z * mirror.z), 1e-5);
-            CHECK_WITHIN(-lobes.lobe[k].f90, 0);
-            CHECK_WITHIN(-(lobes.lobe[k].f0 + lobes.lobe[k].f90), 1e-6);
+            assert_true(lobes.lobe[k].exponent >= 0.019f && lobes.lobe[k].exponent <= 1.1e8f);
         }
     }
 }
@@ -334,6 +358,7 @@ int main(void) {
         cmocka_unit_test(the_diffuse_part_loses_what_is_reflected),
         cmocka_unit_test(lobes_follow_ggx_everywhere),
         cmocka_unit_test(lobes_change_smoothly_with_view_and_roughness),
+        cmocka_unit_test(no_small_light_is_reflected_below_nothing),
         cmocka_unit_test(beyond_the_table_lobes_stay_as_at_its_edge),
         cmocka_unit_test(axes_lie_in_the_plane_of_incidence_on_the_mirror_side),
         cmocka_unit_test(texels_hold_the_lobes_and_else_nothing),

@@ -7,13 +7,20 @@
 
 static const double pi = 3.14159265358979323846;
 
-enum { RINGS = 48 }; /* of a cap, and the azimuths of a ring */
+enum { RINGS = 48, RINGS_FEW = 24 }; /* of a cap, and the azimuths of a ring */
 
-static double gauss_node[RINGS], gauss_weight[RINGS];
+typedef struct quadrature {
+    int count;
+    double node[RINGS], weight[RINGS];
+} quadrature;
+
+static quadrature fine = { .count = RINGS }, coarse = { .count = RINGS_FEW };
 
 void caps_start(void) {
     for (int i = 0; i < RINGS; i++)
-        lmp_gauss_legendre(RINGS, i, &gauss_node[i], &gauss_weight[i]);
+        lmp_gauss_legendre(RINGS, i, &fine.node[i], &fine.weight[i]);
+    for (int i = 0; i < RINGS_FEW; i++)
+        lmp_gauss_legendre(RINGS_FEW, i, &coarse.node[i], &coarse.weight[i]);
 }
 
 /* --- caps ------------------------------------------------------------------------------------- */
@@ -26,24 +33,25 @@ typedef struct ring {
     double z, sine, half_arc, weight;
 } ring;
 
-static int cap_rings(double to, double a, double limit, ring rings[2 * RINGS]) {
+static int cap_rings(const quadrature *q, double to, double a, double limit,
+                     ring rings[2 * RINGS]) {
     int count = 0;
     const double full = fmin(a - to, limit);
-    for (int i = 0; full > 0 && i < RINGS; i++) {
-        const double theta = full * (1 + gauss_node[i]) / 2;
+    for (int i = 0; full > 0 && i < q->count; i++) {
+        const double theta = full * (1 + q->node[i]) / 2;
         rings[count++] =
-            (ring) { cos(theta), sin(theta), pi, full / 2 * gauss_weight[i] * sin(theta) };
+            (ring) { cos(theta), sin(theta), pi, full / 2 * q->weight[i] * sin(theta) };
     }
     if (a - to >= limit || to - a >= limit)
         return count;
     const double low = asin(fmin(fmax((fabs(to - a) - to) / a, -1), 1));
     const double high = to + a <= limit ? pi / 2 : asin((limit - to) / a);
-    for (int i = 0; i < RINGS; i++) {
-        const double psi = (low + high) / 2 + (high - low) / 2 * gauss_node[i];
+    for (int i = 0; i < q->count; i++) {
+        const double psi = (low + high) / 2 + (high - low) / 2 * q->node[i];
         const double theta = to + a * sin(psi), sine = sin(theta);
         const double s2 = sin((a + theta - to) / 2) * sin((a - theta + to) / 2) / (sine * sin(to));
         rings[count++] = (ring) { cos(theta), sine, 2 * asin(sqrt(fmin(fmax(s2, 0), 1))),
-                                  (high - low) / 2 * gauss_weight[i] * a * cos(psi) * sine };
+                                  (high - low) / 2 * q->weight[i] * a * cos(psi) * sine };
     }
     return count;
 }
@@ -51,7 +59,7 @@ static int cap_rings(double to, double a, double limit, ring rings[2 * RINGS]) {
 /* --- GGX, glTF 2.0 appendix B ----------------------------------------------------------------- */
 
 static void ggx_add(const ggx_view *view, double x, double y, double z, double weight,
-                    double value[2]) {
+                    double value[3]) {
     const double a2 = view->alpha * view->alpha;
     const double along = 1 + view->z * z - view->sine * x; /* 1 + v·l = 2 (v·h)² */
     if (!(along > 0))
@@ -63,37 +71,40 @@ static void ggx_add(const ggx_view *view, double x, double y, double z, double w
     const double all = weight * a2 / (pi * q * q) * visible;
     value[0] += all * (1 - schlick);
     value[1] += all * schlick;
+    value[2] += weight * schlick * z / pi;
 }
 
 /* Reflected radiance of a cap of radiance 1 around (sin t cos p, sin t sin p, cos t). */
-void caps_ggx(const ggx_view *view, double t, double p, double a, double value[2]) {
+void caps_ggx(const ggx_view *view, double t, double p, double a, double value[3]) {
+    const quadrature *q = view->alpha < 0.25 ? &fine : &coarse;
     ring rings[2 * RINGS];
-    const int count = cap_rings(t, a, pi / 2, rings);
-    value[0] = value[1] = 0;
+    const int count = cap_rings(q, t, a, pi / 2, rings);
+    value[0] = value[1] = value[2] = 0;
     for (int i = 0; i < count; i++) {
         const ring *r = &rings[i];
         const double x = r->sine - view->sine, z = view->alpha * (r->z + view->z);
         const double width = sqrt((x * x + z * z) / (r->sine * view->sine + 1e-9));
         const double low = asinh((p - r->half_arc) / width),
                      high = asinh((p + r->half_arc) / width);
-        for (int k = 0; k < RINGS; k++) {
-            const double s = (low + high) / 2 + (high - low) / 2 * gauss_node[k];
+        for (int k = 0; k < q->count; k++) {
+            const double s = (low + high) / 2 + (high - low) / 2 * q->node[k];
             const double phi = width * sinh(s);
-            const double weight = (high - low) / 2 * gauss_weight[k] * width * cosh(s) * r->weight;
+            const double weight = (high - low) / 2 * q->weight[k] * width * cosh(s) * r->weight;
             ggx_add(view, r->sine * cos(phi), r->sine * sin(phi), r->z, weight, value);
         }
     }
 }
 
 /* The same of a whole sky, over visible normals (Heitz 2018), which no roughness makes peaked. */
-void caps_ggx_sky(const ggx_view *view, double value[2]) {
+void caps_ggx_sky(const ggx_view *view, double value[3]) {
     const double stretched = hypot(view->alpha * view->sine, view->z);
     const double vx = -view->alpha * view->sine / stretched, vz = view->z / stretched;
     value[0] = value[1] = 0;
+    value[2] = caps_diffuse(view->z);
     for (int i = 0; i < RINGS * RINGS; i++) {
-        const double r = sqrt((1 + gauss_node[i / RINGS]) / 2),
-                     phi = pi * (1 + gauss_node[i % RINGS]);
-        const double weight = gauss_weight[i / RINGS] * gauss_weight[i % RINGS] / 4;
+        const double r = sqrt((1 + fine.node[i / RINGS]) / 2),
+                     phi = pi * (1 + fine.node[i % RINGS]);
+        const double weight = fine.weight[i / RINGS] * fine.weight[i % RINGS] / 4;
         const double t1 = r * cos(phi), blend = (1 + vz) / 2;
         const double t2 = (1 - blend) * sqrt(1 - t1 * t1) + blend * r * sin(phi);
         const double t3 = sqrt(fmax(0, 1 - t1 * t1 - t2 * t2));
@@ -115,11 +126,22 @@ void caps_ggx_sky(const ggx_view *view, double value[2]) {
     }
 }
 
+double caps_cosine(double t, double a) {
+    if (t + a <= pi / 2 || a >= pi / 2)
+        return a >= pi / 2 ? 1 : sin(a) * sin(a) * cos(t);
+    ring rings[2 * RINGS];
+    const int count = cap_rings(&fine, t, a, pi / 2, rings);
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += rings[i].weight * 2 * rings[i].half_arc * rings[i].z;
+    return sum / pi;
+}
+
 /* --- Phong lobes over caps -------------------------------------------------------------------- */
 
 static double phong_cap(double exponent, double angle, double a) {
     ring rings[2 * RINGS];
-    const int count = cap_rings(angle, a, fmin(pi / 2, 9 / sqrt(exponent + 1)), rings);
+    const int count = cap_rings(&fine, angle, a, fmin(pi / 2, 9 / sqrt(exponent + 1)), rings);
     double sum = 0;
     for (int i = 0; i < count; i++)
         sum +=
@@ -190,10 +212,10 @@ double caps_diffuse(double z) {
     double sum = 0;
     for (int i = 0; i < RINGS; i++)
         for (int k = 0; k < RINGS; k++) {
-            const double cosine = (1 + gauss_node[i]) / 2, phi = pi * (1 + gauss_node[k]) / 2;
+            const double cosine = (1 + fine.node[i]) / 2, phi = pi * (1 + fine.node[k]) / 2;
             const double along = z * cosine - sine * sqrt(1 - cosine * cosine) * cos(phi);
             const double u = 1 - sqrt(fmax(0, 1 + along) / 2);
-            sum += gauss_weight[i] * gauss_weight[k] * cosine * u * u * u * u * u;
+            sum += fine.weight[i] * fine.weight[k] * cosine * u * u * u * u * u;
         }
     return sum / 2;
 }

@@ -13,9 +13,13 @@ typedef struct ggx_view {
 } ggx_view;
 
 /* ∫ f_r cos over the cap of half angle a around (sin t cos p, sin t sin p, cos t), and over the
- * whole sky. value: with Fresnel's factor 1 - (1 - v·h)^5, and with (1 - v·h)^5. */
-void caps_ggx(const ggx_view *view, double t, double p, double a, double value[2]);
-void caps_ggx_sky(const ggx_view *view, double value[2]);
+ * whole sky. value: with Fresnel's factor 1 - (1 - v·h)^5, with (1 - v·h)^5, and the same factor of
+ * what a white diffuse surface reflects. */
+void caps_ggx(const ggx_view *view, double t, double p, double a, double value[3]);
+void caps_ggx_sky(const ggx_view *view, double value[3]);
+
+/* The part of light around the normal's cosine / pi in a cap, t from the normal. */
+double caps_cosine(double t, double a);
 
 /* ∫ (1 - v·h)^5 cos / pi over the sky: what a diffuse surface loses of F90 - F0. */
 double caps_diffuse(double z);

@@ -1,44 +1,71 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes src/lobe/ggx_table.c to standard output, and how well it fits to standard error; takes a
- * minute and a half of one core.
+/* Writes src/lobe/ggx_table.c to standard output, and how well it fits to standard error; takes
+ * three and a half minutes of one core.
  *
  * A node of the table, a view angle and a roughness, is a least-squares fit of Phong lobes to what
- * caps of three sizes and a whole sky reflect by glTF's GGX. The sizes follow the width of the
- * lobe, so that mirrors are fitted as closely as chalk. Errors of some hundredths of a peak count
- * by their fourth power, those of rough metals by their sixth, and what all caps of a size reflect
- * together counts besides. Nodes are first fitted along a path, each from its neighbor's result,
- * then again under a pull to the mean of their neighbors, which falls from sweep to sweep: lobes
- * keep their identity, and the table can be interpolated. */
-#include "src/lobe/generate/node.h"
+ * caps of four sizes and a whole sky reflect by glTF's GGX. The sizes follow the width of the lobe,
+ * so that mirrors are fitted as closely as chalk. Errors of some hundredths of a peak count by
+ * their fourth power, and what all caps of a size reflect together counts besides.
+ *
+ * Nodes are first fitted along a path, each from its neighbor's result, and with no weight below 0;
+ * then rough ones get lobes of negative weight; then all are fitted in sweeps, each to what it and
+ * the means of it and its neighbors should follow, which is what is looked up between nodes. A pull
+ * to the mean of the neighbors falls from sweep to sweep. */
+#include "src/lobe/generate/fit.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { VIEWS = LMP_GGX_VIEWS, ROUGHNESSES = LMP_GGX_ROUGHNESSES, SWEEPS = 12 };
+enum {
+    VIEWS = LMP_GGX_VIEWS,
+    ROUGHNESSES = LMP_GGX_ROUGHNESSES,
+    FINE_VIEWS = 2 * VIEWS - 1, /* with the places halfway between */
+    FINE_ROUGHNESSES = 2 * ROUGHNESSES - 1
+};
 
-/* --- the fits --------------------------------------------------------------------------------- */
+static const double pi = 3.14159265358979323846;
 
-static fit_node nodes[ROUGHNESSES][VIEWS];
-static caps_table tables[ROUGHNESSES][SIZES + 1];
+static fit_node nodes[FINE_ROUGHNESSES][FINE_VIEWS];
+static caps_table tables[FINE_ROUGHNESSES][SIZES + 1];
+static double fits[ROUGHNESSES][VIEWS][PARAMETERS];
 
-static double node_alpha(int row) {
+static double fine_alpha(int row) {
     const double least = (double)LMP_GGX_ROUGHNESS_MIN;
-    const double roughness = least + (1 - least) * row / (ROUGHNESSES - 1);
+    const double roughness = least + (1 - least) * row / (FINE_ROUGHNESSES - 1);
     return roughness * roughness;
 }
 
-/* Column VIEWS-1 is normal incidence. */
-static double node_z(int column) {
-    const double root = (double)column / (VIEWS - 1);
+/* The last column is normal incidence. */
+static double fine_z(int column) {
+    const double root = (double)column / (FINE_VIEWS - 1);
     return root * root;
 }
 
+static void create_nodes(void) {
+#pragma omp parallel for schedule(dynamic)
+    for (int row = 0; row < FINE_ROUGHNESSES; row++) {
+        const double alpha = fine_alpha(row);
+        for (int size = 0; size <= SIZES; size++)
+            caps_table_fill(&tables[row][size], alpha, node_cap_size(alpha, size));
+        for (int column = 0; column < FINE_VIEWS; column++)
+            node_create(&nodes[row][column], fine_z(column), alpha, tables[row]);
+    }
+}
+
+/* --- what lobes may be ------------------------------------------------------------------------ */
+
+/* From 0 at `from` to 1 at `until`. */
+static double ramp(double x, double from, double until) {
+    return fmin(fmax((x - from) / (until - from), 0), 1);
+}
+
 /* The column from which a row's lobes from LMP_GGX_LOBES_FEW on have weight 0: smooth surfaces need
- * them from about 55 degrees on, rough ones from 65. */
+ * them from 53 degrees on, rough ones from 41. */
 static int few_column(int row) {
-    return row < 15 ? 24 : row < 18 ? 38 - row : 20;
+    return row < 17 ? 24 : row < 20 ? row + 7 : 27;
 }
 
 /* They fade towards it. */
@@ -46,12 +73,56 @@ static double extra_max(int row, int column) {
     return fmax(0, fmin(3, 0.12 * (few_column(row) - column)));
 }
 
+/* GGX of roughness 1 is z/(z + c) around the normal, a broad lobe less a narrower one; and two
+ * lobes of opposite signs end a reflection toward the horizon. The lobes that become negative are
+ * those that rough materials have no other use for: lobe 0, which is near the horizon at columns
+ * below HORIZON and around the normal from there on, and at grazing views lobe 1, around the
+ * normal. */
+enum {
+    HORIZON = 17,
+    SHARED = 22,
+    AROUND_NORMAL = 24,
+    AROUND_NORMAL_GRAZING = 28,
+    NEAR_HORIZON = 20
+};
+#define NEGATIVE_MOST 2.5
+
+static double least_weight(int row, int column, int lobe) {
+    if (lobe > 1)
+        return 0;
+    if (lobe == 1)
+        return -NEGATIVE_MOST * ramp(row, AROUND_NORMAL_GRAZING, AROUND_NORMAL_GRAZING + 2) *
+               ramp(-column, -SHARED - 2, -SHARED + 1);
+    const double around = NEGATIVE_MOST * ramp(row, AROUND_NORMAL, 30);
+    const double near = ramp(row, NEAR_HORIZON - 1, NEAR_HORIZON + 2);
+    return column > HORIZON ? -around : -fmax(around, near);
+}
+
+static void problem_create(fit_problem *problem, int row, int column, bool negative, double pull) {
+    static const double least[4] = { -10, CAPS_SPREAD_LOG_MIN + 0.3, 0, 0 };
+    const double alpha = fine_alpha(2 * row), exponent_min = 0.02;
+    const double most[4] = { 80,
+                             fmin(CAPS_SPREAD_LOG_MAX - 0.3, -log(exponent_min * alpha * alpha)), 3,
+                             3 };
+    *problem = (fit_problem) { .terms = { { .node = &nodes[2 * row][2 * column], .weight = 1 } },
+                               .count = 1,
+                               .pull = pull };
+    for (int i = 0; i < PARAMETERS; i++) {
+        const bool weight = i % 4 >= 2;
+        problem->least[i] = weight && negative ? least_weight(row, column, i / 4) : least[i % 4];
+        problem->most[i] =
+            weight && i / 4 >= LMP_GGX_LOBES_FEW ? extra_max(row, column) : most[i % 4];
+    }
+}
+
+/* --- the path --------------------------------------------------------------------------------- */
+
 static void fit_from(int row, int column, int row_from, int column_from) {
-    fit_node *to = &nodes[row][column];
-    double toward[PARAMETERS];
-    memcpy(toward, nodes[row_from][column_from].fit, sizeof toward);
-    memcpy(to->fit, toward, sizeof toward);
-    node_fit(to, to->fit, toward, 0.1, 60);
+    fit_problem problem;
+    problem_create(&problem, row, column, false, 0.1);
+    memcpy(problem.toward, fits[row_from][column_from], sizeof problem.toward);
+    memcpy(fits[row][column], problem.toward, sizeof problem.toward);
+    fit_improve(&problem, fits[row][column], 60);
 }
 
 static void fit_path(void) {
@@ -59,8 +130,11 @@ static void fit_path(void) {
     static const double first[PARAMETERS] = { -0.33, -2.81, 0.11, 0.035, 1.39, -1.63, 0.21,
                                               0.07,  14.5,  2.86, 0.17,  0.05, 0.40,  -2.66,
                                               0.15,  0.05,  3.33, 0,     0.22, 0.07 };
-    memcpy(nodes[row][column].fit, first, sizeof first);
-    node_fit(&nodes[row][column], nodes[row][column].fit, first, 1e-3, 200);
+    fit_problem problem;
+    problem_create(&problem, row, column, false, 1e-3);
+    memcpy(problem.toward, first, sizeof first);
+    memcpy(fits[row][column], first, sizeof first);
+    fit_improve(&problem, fits[row][column], 200);
     for (int r = row + 1; r < ROUGHNESSES; r++)
         fit_from(r, column, r - 1, column);
     for (int r = row - 1; r >= 0; r--)
@@ -74,39 +148,148 @@ static void fit_path(void) {
     }
 }
 
-/* Fits a node again, pulled to the mean of its neighbors. It starts from where it is: from a
- * neighbor's fit it might come to other lobes, and the table would have a seam. */
-static void refit(int row, int column, double pull) {
-    static const int around[4][2] = { { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
-    double toward[PARAMETERS] = { 0 };
+/* --- lobes of negative weight ----------------------------------------------------------------- */
+
+static void put(double lobe[4], double height, double spread_log, double f0, double f90) {
+    lobe[0] = height;
+    lobe[1] = spread_log;
+    lobe[2] = f0;
+    lobe[3] = f90;
+}
+
+/* Lobe k, around the normal, in part taken from the broad one. */
+static void start_around_normal(double p[PARAMETERS], int k, int row) {
+    const double alpha = fine_alpha(2 * row), weight = 0.4 * ramp(row, AROUND_NORMAL, 31);
+    put(p + 4 * k, 60, -log(1.3 * alpha * alpha), -weight, 0);
+    p[4 * 2 + 1] -= 0.2;
+    p[4 * 2 + 2] += 1.1 * weight;
+}
+
+/* At grazing views: lobes 0 and 3 near the horizon, and lobe 1, 14 degrees from the mirror
+ * direction to the normal, vanishes before it becomes the one around the normal. */
+static void start_near_horizon(double p[PARAMETERS], int row, int column) {
+    const double alpha = fine_alpha(2 * row), z = fine_z(2 * column), toward = 14 * pi / 180;
+    const double fade = ramp(-column, -HORIZON, -HORIZON + 3);
+    const double weight = 0.1 * ramp(row, NEAR_HORIZON, NEAR_HORIZON + 3) * fade;
+    put(p, -0.095, -3.38, -weight, -0.4 * weight);
+    put(p + 12, -0.07, -3.47, 1.05 * weight, 0.45 * weight);
+    if (row > AROUND_NORMAL_GRAZING) {
+        start_around_normal(p, 1, row);
+    } else if (row > AROUND_NORMAL) {
+        const double left =
+            fade * 0.05 * ramp(-row, -AROUND_NORMAL_GRAZING - 1, -AROUND_NORMAL - 1);
+        put(p + 4, (sqrt(1 - z * z) / tan(acos(z) - toward) - z) / alpha, -log(14 * alpha * alpha),
+            left, 0.3 * left);
+    }
+}
+
+static void start_negative(int row, int column) {
+    double *p = fits[row][column];
+    if (column >= HORIZON && row <= AROUND_NORMAL)
+        return;
+    if (column < HORIZON) {
+        start_near_horizon(p, row, column);
+    } else {
+        start_around_normal(p, 0, row);
+        if (row > AROUND_NORMAL_GRAZING && column < SHARED) {
+            const double part = ramp(-column, -SHARED, -HORIZON);
+            put(p + 4, p[0], p[1], part * p[2], 0);
+            p[2] *= 1 - part;
+        }
+    }
+    fit_problem problem;
+    problem_create(&problem, row, column, true, 0.01);
+    memcpy(problem.toward, p, sizeof problem.toward);
+    fit_improve(&problem, p, 40);
+}
+
+static void start_all_negative(void) {
+#pragma omp parallel for schedule(dynamic)
+    for (int column = 0; column < VIEWS; column++)
+        for (int row = NEAR_HORIZON + 1; row < ROUGHNESSES; row++)
+            start_negative(row, column);
+}
+
+/* --- sweeps ----------------------------------------------------------------------------------- */
+
+/* What lies halfway to the neighbors, also to those across. */
+static void add_neighbors(fit_problem *problem, int row, int column) {
     int count = 0;
-    for (int i = 0; i < 4; i++) {
-        const int r = row + around[i][0], c = column + around[i][1];
-        if (r < 0 || r >= ROUGHNESSES || c < 0 || c >= VIEWS)
+    for (int i = 0; i < 9; i++) {
+        const int down = i / 3 - 1, right = i % 3 - 1, r = row + down, c = column + right;
+        if (i == 4 || r < 0 || r >= ROUGHNESSES || c < 0 || c >= VIEWS)
+            continue;
+        const bool across = down != 0 && right != 0;
+        fit_term *term = &problem->terms[problem->count++];
+        *term = (fit_term) { &nodes[2 * row + down][2 * column + right],
+                             { fits[r][c], fits[row][c], fits[r][column] },
+                             across ? 3 : 1,
+                             across ? 0.5 : 1 };
+        if (across)
             continue;
         for (int k = 0; k < PARAMETERS; k++)
-            toward[k] += nodes[r][c].fit[k];
+            problem->toward[k] += fits[r][c][k];
         count++;
     }
     for (int k = 0; k < PARAMETERS; k++)
-        toward[k] /= count;
-    node_fit(&nodes[row][column], nodes[row][column].fit, toward, pull, 12);
+        problem->toward[k] /= count;
 }
 
-static void report(const char *when) {
-    double worst = 0, sum = 0;
-    int row = 0, column = 0;
-    for (int i = 0; i < ROUGHNESSES * VIEWS; i++) {
-        const double error = node_error(&nodes[i / VIEWS][i % VIEWS]);
-        sum += error * error;
-        if (error > worst) {
-            worst = error;
-            row = i / VIEWS;
-            column = i % VIEWS;
+/* Nodes of a color are no neighbors. */
+static void sweep(int first_row, bool negative, double pull, int steps) {
+    for (int color = 0; color < 4; color++) {
+#pragma omp parallel for schedule(dynamic)
+        for (int i = first_row * VIEWS; i < ROUGHNESSES * VIEWS; i++) {
+            const int row = i / VIEWS, column = i % VIEWS;
+            if (row % 2 * 2 + column % 2 != color)
+                continue;
+            fit_problem problem;
+            problem_create(&problem, row, column, negative, pull);
+            add_neighbors(&problem, row, column);
+            fit_improve(&problem, fits[row][column], steps);
         }
     }
-    fprintf(stderr, "%-6s rms %.4f, worst node %.4f (row %d, column %d)\n", when,
-            sqrt(sum / (ROUGHNESSES * VIEWS)), worst, row, column);
+}
+
+/* Of the nodes, and of the places halfway between two, and four. */
+static void report(const char *when) {
+    double worst[3] = { 0 }, sum[3] = { 0 };
+    int at[3] = { 0 }, count[3] = { 0 };
+    for (int i = 0; i < FINE_ROUGHNESSES * FINE_VIEWS; i++) {
+        const int row = i / FINE_VIEWS, column = i % FINE_VIEWS, kind = row % 2 + column % 2;
+        const int r = row / 2, c = column / 2, below = (row + 1) / 2, right = (column + 1) / 2;
+        const double *const near[4] = { fits[r][c], fits[r][right], fits[below][c],
+                                        fits[below][right] };
+        double mean[PARAMETERS], chain[PARAMETERS];
+        fit_mean(near, 4, mean, chain);
+        const double error = node_error(&nodes[row][column], mean);
+        sum[kind] += error * error;
+        count[kind]++;
+        if (error > worst[kind]) {
+            worst[kind] = error;
+            at[kind] = i;
+        }
+    }
+    fprintf(stderr, "%-6s", when);
+    for (int k = 0; k < 3; k++)
+        fprintf(stderr, " rms %.4f, worst %.4f (row %.1f, column %.1f)", sqrt(sum[k] / count[k]),
+                worst[k], at[k] / FINE_VIEWS / 2., at[k] % FINE_VIEWS / 2.);
+    fprintf(stderr, "\n");
+}
+
+static void fit_all(void) {
+    enum { SMOOTH = 3, ROUGH = 6, FIRST_ROUGH = 18 };
+    fit_path();
+    report("path");
+    for (int i = 0; i < SMOOTH; i++)
+        sweep(0, false, 0.1 * pow(0.4, i), 3);
+    report("smooth");
+    start_all_negative();
+    for (int i = 0; i < ROUGH; i++)
+        sweep(FIRST_ROUGH, true, 0.1 * pow(0.02, (double)i / (ROUGH - 1)), 4);
+    report("rough");
+    sweep(0, true, 0.002, 4);
+    report("all");
 }
 
 /* --- output ----------------------------------------------------------------------------------- */
@@ -118,11 +301,11 @@ static void print_table(void) {
            "#include \"src/lobe/ggx_table.h\"\n\n"
            "const float lmp_ggx_table[LMP_GGX_ROUGHNESSES][LMP_GGX_VIEWS][LMP_GGX_LOBES][4] = {\n");
     for (int row = 0; row < ROUGHNESSES; row++) {
-        printf("  { /* alpha %.4f */\n", node_alpha(row));
+        printf("  { /* alpha %.4f */\n", fine_alpha(2 * row));
         for (int column = 0; column < VIEWS; column++) {
             printf("    {");
             for (int k = 0; k < LOBES; k++) {
-                const double *p = nodes[row][column].fit + 4 * k;
+                const double *p = fits[row][column] + 4 * k;
                 printf(" { %.4ff, %#.5gf, %.5ff, %.5ff },", p[0], exp(p[1]), p[2], p[3]);
             }
             printf(" },\n");
@@ -134,34 +317,15 @@ static void print_table(void) {
         printf("  %d,\n", few_column(row));
     printf("};\n\nconst float lmp_ggx_diffuse[LMP_GGX_VIEWS] = {\n");
     for (int column = 0; column < VIEWS; column++)
-        printf("  %.7ff,\n", caps_diffuse(node_z(column)));
+        printf("  %.7ff,\n", caps_diffuse(fine_z(2 * column)));
     printf("};\n");
 }
 
 int main(void) {
     caps_start();
-#pragma omp parallel for schedule(dynamic)
-    for (int row = 0; row < ROUGHNESSES; row++) {
-        for (int size = 0; size <= SIZES; size++)
-            caps_table_fill(&tables[row][size], node_alpha(row),
-                            node_cap_size(node_alpha(row), size));
-        for (int column = 0; column < VIEWS; column++)
-            node_create(&nodes[row][column], node_z(column), node_alpha(row),
-                        extra_max(row, column), tables[row]);
-    }
+    create_nodes();
     fprintf(stderr, "targets done\n");
-    fit_path();
-    report("path");
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        const double pull = 0.1 * pow(0.02, (double)sweep / (SWEEPS - 1));
-        for (int color = 0; color < 2; color++) {
-#pragma omp parallel for schedule(dynamic)
-            for (int i = 0; i < ROUGHNESSES * VIEWS; i++)
-                if ((i / VIEWS + i % VIEWS) % 2 == color)
-                    refit(i / VIEWS, i % VIEWS, pull);
-        }
-        report("sweep");
-    }
+    fit_all();
     print_table();
     return EXIT_SUCCESS;
 }

@@ -2,81 +2,102 @@
 #include "src/lobe/generate/node.h"
 
 #include <math.h>
-#include <stdbool.h>
-#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 
 static const double dielectric_f0 = 0.04;
-static const double weight_of_size[SIZES + 1] = { 1, 0.8, 0.5, 4 };
-static const double weight_of_material[MATERIALS] = { 1, 0.8 };
+static const double weight_of_material[MATERIALS] = { 1, 0.5 };
 
-#define LARGE         0.03 /* in parts of the peak: a large error */
+/* At all views, and along the normal, where three lobes can follow what is seen under small caps to
+ * a thousandth, but not their tails, too; halfway to the next column little of this is left. */
+static const double weight_of_size[2][SIZES + 1] = { { 1, 1.8, 0.8, 0.4, 3 },
+                                                     { 6, 90, 0.1, 0.05, 8 } };
+
 #define ENERGY_WEIGHT 0.3
+#define HIDDEN_WEIGHT 0.3  /* of caps below the horizon */
+#define NEGATIVE      6    /* what an error counts where the lobes reflect less than nothing */
+#define ALBEDO        0.25 /* of the diffuse base that a dielectric is seen over */
 
 /* --- nodes of the table ----------------------------------------------------------------------- */
 
 double node_cap_size(double alpha, int size) {
-    static const double wide[SIZES] = { 1.5, 5, 15 }, most[SIZES] = { 0.06, 0.2, 0.7 };
+    static const double wide[SIZES] = { 1.5, 4, 8, 15 };
+    static const double most[SIZES] = { 0.05, 0.13, 0.35, 0.927 };
     return size == SIZES ? pi / 2 : fmin(wide[size] * alpha, most[size]);
 }
 
-/* By Fresnel's factor of a value's two parts. */
-static void set_targets(fit_node *node, int cap, const double value[2]) {
+/* 0 for smooth surfaces, 1 for rough ones. */
+static double roughly(const fit_node *node) {
+    return fmin(fmax((node->view.alpha - 0.1) / 0.3, 0), 1);
+}
+
+/* A large error, in parts of the peak. */
+static double large(const fit_node *node) {
+    return 0.02 + 0.03 * roughly(node);
+}
+
+/* By Fresnel's factor of a value's parts. A dielectric's base is lit less where more is reflected,
+ * and drawn by the mean of that: the lobes of rough ones make up for the difference. */
+static void set_targets(fit_node *node, int cap, const double value[3], double cosine) {
     for (int m = 0; m < MATERIALS; m++) {
         const double f0 = m == 0 ? 1 : dielectric_f0;
-        node->target[m][cap] = f0 * value[0] + value[1];
+        const double base = m == 0 ? 0 : ALBEDO * (1 - f0);
+        node->target[m][cap] =
+            f0 * value[0] + value[1] - roughly(node) * base * (value[2] - node->lost * cosine);
+        node->base[m][cap] = base * (1 - node->lost) * cosine;
     }
 }
 
 /* Cap k of AZIMUTHS on ring i of DISTANCES around the mirror direction. */
 static void cap_create(fit_node *node, int size, int i, int k) {
     const double a = node_cap_size(node->view.alpha, size);
-    const double reach = fmin(0.7 * pi, a + 8 * node->view.alpha);
+    const double reach = fmin(2, a + 7 * node->view.alpha);
     const double rho = reach * (i + 0.5) / DISTANCES, psi = pi * (k + 0.5) / AZIMUTHS;
     const double across = sin(rho) * cos(psi), y = sin(rho) * sin(psi);
     const double x = cos(rho) * node->view.sine + across * node->view.z;
     const double z = cos(rho) * node->view.z - across * node->view.sine;
     const int cap = (size * DISTANCES + i) * AZIMUTHS + k;
-    const double hidden = z < -sin(a) ? 0.3 : 1;
-    double value[2];
-    caps_ggx(&node->view, fmax(acos(fmin(z, 1)), 1e-9), atan2(y, x), a, value);
+    const double t = fmax(acos(fmin(z, 1)), 1e-9);
+    double value[3];
+    caps_ggx(&node->view, t, atan2(y, x), a, value);
     node->direction[cap][0] = x;
     node->direction[cap][1] = z;
-    set_targets(node, cap, value);
-    node->solid[cap] = hidden < 1 ? 0 : sin(rho);
+    set_targets(node, cap, value, caps_cosine(t, a));
+    node->solid[cap] = z < -sin(a) ? 0 : sin(rho);
     for (int m = 0; m < MATERIALS; m++)
-        node->weight[m][cap] = hidden * sqrt(sin(rho));
+        node->weight[m][cap] =
+            pow(sin(rho), (1 + roughly(node)) / 2) * (z < -sin(a) ? HIDDEN_WEIGHT : 1);
 }
 
 /* Makes the errors of a size of caps, in parts of its peak, weigh what the size and the material
  * do. */
 static void scale_weights(fit_node *node, int size, int material) {
     const int count = size == SIZES ? 1 : DISTANCES * AZIMUTHS, first = size * DISTANCES * AZIMUTHS;
+    const double toward_normal = pow(node->view.z, 48);
+    const double size_weight =
+        weight_of_size[0][size] * (1 - toward_normal) + weight_of_size[1][size] * toward_normal;
     double peak = 0, sum = 0, *weight = node->weight[material];
     for (int cap = first; cap < first + count; cap++) {
-        peak = fmax(peak, node->target[material][cap]);
+        peak = fmax(peak, node->target[material][cap] + node->base[material][cap]);
         sum += weight[cap];
     }
     for (int cap = first; cap < first + count; cap++)
-        weight[cap] =
-            weight_of_material[material] * weight_of_size[size] * sqrt(weight[cap] / sum) / peak;
+        weight[cap] = weight_of_material[material] * size_weight * sqrt(weight[cap] / sum) / peak;
     node->peak[material][size] = peak;
 }
 
-void node_create(fit_node *node, double z, double alpha, double extra_max,
-                 const caps_table *tables) {
+void node_create(fit_node *node, double z, double alpha, const caps_table *tables) {
     const double a2 = alpha * alpha;
-    double sky[2];
+    double sky[3];
     node->view = (ggx_view) { alpha, z, sqrt(1 - z * z), sqrt(a2 + (1 - a2) * z * z) };
     node->tables = tables;
-    node->extra_max = extra_max;
+    node->lost = caps_diffuse(z);
     for (int size = 0; size < SIZES; size++)
         for (int i = 0; i < DISTANCES; i++)
             for (int k = 0; k < AZIMUTHS; k++)
                 cap_create(node, size, i, k);
     caps_ggx_sky(&node->view, sky);
-    set_targets(node, CAPS - 1, sky);
+    set_targets(node, CAPS - 1, sky, 1);
     node->direction[CAPS - 1][0] = 0;
     node->direction[CAPS - 1][1] = 1;
     for (int m = 0; m < MATERIALS; m++) {
@@ -86,13 +107,10 @@ void node_create(fit_node *node, double z, double alpha, double extra_max,
     }
 }
 
-/* --- the fit ---------------------------------------------------------------------------------- */
+/* --- how far lobes are from GGX ----------------------------------------------------------------
+ */
 
-typedef struct equations {
-    double matrix[PARAMETERS][PARAMETERS], vector[PARAMETERS], error;
-} equations;
-
-static void equations_add(equations *e, const double row[PARAMETERS], double residual) {
+void equations_add(equations *e, const double row[PARAMETERS], double residual) {
     e->error += residual * residual;
     for (int i = 0; i < PARAMETERS; i++) {
         e->vector[i] -= row[i] * residual;
@@ -106,7 +124,8 @@ typedef struct cap_model {
     double value[MATERIALS], row[MATERIALS][PARAMETERS];
 } cap_model;
 
-static void model_cap(const fit_node *node, const double p[PARAMETERS], int cap, cap_model *to) {
+static void model_cap(const fit_node *node, const double p[PARAMETERS],
+                      const double chain[PARAMETERS], int cap, cap_model *to) {
     const double *d = node->direction[cap];
     for (int m = 0; m < MATERIALS; m++)
         to->value[m] = 0;
@@ -126,31 +145,30 @@ static void model_cap(const fit_node *node, const double p[PARAMETERS], int cap,
             const double f0 = m == 0 ? 1 : dielectric_f0, w = f0 * q[2] + (1 - f0) * q[3];
             double *r = to->row[m] + 4 * k;
             to->value[m] += w * value[0];
-            r[0] = w * rotation;
-            r[1] = w * value[2];
-            r[2] = f0 * value[0];
-            r[3] = (1 - f0) * value[0];
+            r[0] = chain[4 * k + 0] * w * rotation;
+            r[1] = chain[4 * k + 1] * w * value[2];
+            r[2] = chain[4 * k + 2] * f0 * value[0];
+            r[3] = chain[4 * k + 3] * (1 - f0) * value[0];
         }
     }
 }
 
-/* Adds the errors of a cap: beyond LARGE they count by their fourth power, and by their
- * sixth on rough metals, whose reflection ends at the horizon as no lobe does; that of a dielectric
- * is seen over a diffuse base. */
-static void add_cap(const fit_node *node, int m, int cap, const cap_model *model, equations *e) {
+/* Adds the errors of a cap: large ones count by their fourth power. */
+static void add_cap(const fit_node *node, int m, int cap, const cap_model *model, double scale,
+                    equations *e) {
     const double peak = node->peak[m][cap / (DISTANCES * AZIMUTHS)];
     const double error = model->value[m] - node->target[m][cap];
-    const double square = (error / peak / LARGE) * (error / peak / LARGE);
-    const double rough = m == 0 ? 0.3 * pow(node->view.alpha, 4) : 0;
-    const double steep = rough * square * square, root = sqrt(1 + square + steep);
+    const double part = error / peak / large(node), square = part * part, root = sqrt(1 + square);
+    const double dark = model->value[m] + node->base[m][cap] < 0 ? NEGATIVE : 1;
+    const double weight = scale * node->weight[m][cap] * dark;
     double row[PARAMETERS];
     for (int i = 0; i < PARAMETERS; i++)
-        row[i] = node->weight[m][cap] * model->row[m][i] * (1 + 2 * square + 3 * steep) / root;
-    equations_add(e, row, node->weight[m][cap] * error * root);
+        row[i] = weight * model->row[m][i] * (1 + 2 * square) / root;
+    equations_add(e, row, weight * error * root);
 }
 
 /* Adds the error of the energy that all caps of a size reflect. */
-static void add_energy(const fit_node *node, int m, int size, const cap_model *models,
+static void add_energy(const fit_node *node, int m, int size, const cap_model *models, double scale,
                        equations *e) {
     double row[PARAMETERS] = { 0 }, error = 0, all = 0;
     const int first = size * DISTANCES * AZIMUTHS;
@@ -162,115 +180,30 @@ static void add_energy(const fit_node *node, int m, int size, const cap_model *m
             row[k] += solid * models[i].row[m][k];
     }
     for (int k = 0; k < PARAMETERS; k++)
-        row[k] *= ENERGY_WEIGHT / all;
-    equations_add(e, row, ENERGY_WEIGHT / all * error);
+        row[k] *= scale * ENERGY_WEIGHT / all;
+    equations_add(e, row, scale * ENERGY_WEIGHT / all * error);
 }
 
-static void accumulate(const fit_node *node, const double p[PARAMETERS],
-                       const double toward[PARAMETERS], double pull, equations *e) {
-    static const double scale[4] = { 1, 0.5, 2, 2 };
+void node_add(const fit_node *node, const double p[PARAMETERS], const double chain[PARAMETERS],
+              double weight, equations *e) {
     cap_model models[DISTANCES * AZIMUTHS];
-    memset(e, 0, sizeof *e);
     for (int size = 0; size <= SIZES; size++) {
         const int first = size * DISTANCES * AZIMUTHS;
         const int count = size == SIZES ? 1 : DISTANCES * AZIMUTHS;
         for (int i = 0; i < count; i++)
-            model_cap(node, p, first + i, &models[i]);
+            model_cap(node, p, chain, first + i, &models[i]);
         for (int m = 0; m < MATERIALS; m++) {
             for (int i = 0; i < count; i++)
-                add_cap(node, m, first + i, &models[i], e);
+                add_cap(node, m, first + i, &models[i], weight, e);
             if (size < SIZES)
-                add_energy(node, m, size, models, e);
+                add_energy(node, m, size, models, weight, e);
         }
     }
-    for (int i = 0; i < PARAMETERS; i++) {
-        double row[PARAMETERS] = { 0 };
-        row[i] = pull * scale[i % 4];
-        equations_add(e, row, row[i] * (p[i] - toward[i]));
-    }
 }
 
-/* x with (matrix + damping diagonal) x = vector, by Cholesky; false if it is not definite. */
-static bool solve(const equations *e, double damping, double x[PARAMETERS]) {
-    double l[PARAMETERS][PARAMETERS];
-    for (int i = 0; i < PARAMETERS; i++)
-        for (int k = 0; k <= i; k++) {
-            double sum = e->matrix[i][k] * (i == k ? 1 + damping : 1) + (i == k ? 1e-15 : 0);
-            for (int j = 0; j < k; j++)
-                sum -= l[i][j] * l[k][j];
-            if (i == k && !(sum > 0))
-                return false;
-            l[i][k] = i == k ? sqrt(sum) : sum / l[k][k];
-        }
-    for (int i = 0; i < PARAMETERS; i++) {
-        x[i] = e->vector[i];
-        for (int k = 0; k < i; k++)
-            x[i] -= l[i][k] * x[k];
-        x[i] /= l[i][i];
-    }
-    for (int i = PARAMETERS - 1; i >= 0; i--) {
-        for (int k = i + 1; k < PARAMETERS; k++)
-            x[i] -= l[k][i] * x[k];
-        x[i] /= l[i][i];
-    }
-    return true;
-}
-
-/* Least values of a lobe's parameters: weights are not negative. */
-static const double least[4] = { -10, CAPS_SPREAD_LOG_MIN + 0.3, 0, 0 };
-
-static double most(const fit_node *node, int i) {
-    static const double of_all[4] = { 80, CAPS_SPREAD_LOG_MAX - 0.3, 3, 3 };
-    return i % 4 >= 2 && i / 4 >= LMP_GGX_LOBES_FEW ? node->extra_max : of_all[i % 4];
-}
-
-/* Parameters at a bound that want to go beyond stay where they are. */
-static void equations_bound(const fit_node *node, equations *e, const double p[PARAMETERS]) {
-    for (int i = 0; i < PARAMETERS; i++) {
-        const bool low = p[i] <= least[i % 4] && e->vector[i] < 0;
-        const bool high = p[i] >= most(node, i) && e->vector[i] > 0;
-        if (!low && !high)
-            continue;
-        for (int k = 0; k < PARAMETERS; k++)
-            e->matrix[i > k ? i : k][i > k ? k : i] = i == k;
-        e->vector[i] = 0;
-    }
-}
-
-/* Improves p; the sum of squares, pull included. */
-double node_fit(const fit_node *node, double p[PARAMETERS], const double toward[PARAMETERS],
-                double pull, int steps) {
-    equations now, next;
-    double damping = 1e-3, step[PARAMETERS], tried[PARAMETERS];
-    for (int k = 0; k < PARAMETERS; k++)
-        p[k] = fmin(p[k], most(node, k));
-    accumulate(node, p, toward, pull, &now);
-    equations_bound(node, &now, p);
-    for (int i = 0; i < steps && damping < 1e6; i++) {
-        if (!solve(&now, damping, step)) {
-            damping *= 10;
-            continue;
-        }
-        for (int k = 0; k < PARAMETERS; k++)
-            tried[k] = fmin(fmax(p[k] + step[k], least[k % 4]), most(node, k));
-        accumulate(node, tried, toward, pull, &next);
-        if (next.error < now.error) {
-            const bool done = next.error > now.error * (1 - 1e-7);
-            memcpy(p, tried, sizeof tried);
-            equations_bound(node, &next, p);
-            now = next;
-            damping = fmax(damping / 5, 1e-9);
-            if (done)
-                break;
-        } else {
-            damping *= 4;
-        }
-    }
-    return now.error;
-}
-
-double node_error(const fit_node *node) {
-    equations alone;
-    accumulate(node, node->fit, node->fit, 0, &alone);
+double node_error(const fit_node *node, const double p[PARAMETERS]) {
+    equations alone = { 0 };
+    const double alike[PARAMETERS] = { 0 }; /* derivatives are of no use */
+    node_add(node, p, alike, 1, &alone);
     return sqrt(alone.error / (SIZES * MATERIALS));
 }
