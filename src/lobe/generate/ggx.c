@@ -73,7 +73,7 @@ static double extra_max(int row, int column) {
     return fmax(0, fmin(3, 0.12 * (few_column(row) - column)));
 }
 
-/* GGX of roughness 1 is z/(z + c) around the normal, a broad lobe less a narrower one; and two
+/* GGX of roughness 1 is z/(z + c) around the normal, a wide lobe less a narrower one; and two
  * lobes of opposite signs end a reflection toward the horizon. The lobes that become negative are
  * those that rough materials have no other use for: lobe 0, which is near the horizon at columns
  * below HORIZON and around the normal from there on, and at grazing views lobe 1, around the
@@ -157,7 +157,7 @@ static void put(double lobe[4], double height, double spread_log, double f0, dou
     lobe[3] = f90;
 }
 
-/* Lobe k, around the normal, in part taken from the broad one. */
+/* Lobe k, around the normal, in part taken from the wide one. */
 static void start_around_normal(double p[PARAMETERS], int k, int row) {
     const double alpha = fine_alpha(2 * row), weight = 0.4 * ramp(row, AROUND_NORMAL, 31);
     put(p + 4 * k, 60, -log(1.3 * alpha * alpha), -weight, 0);
