@@ -17,6 +17,7 @@ static const double weight_of_size[2][SIZES + 1] = { { 1, 1.8, 0.8, 0.4, 3 },
 #define HIDDEN_WEIGHT 0.3  /* of caps below the horizon */
 #define NEGATIVE      6    /* what an error counts where the lobes reflect less than nothing */
 #define ALBEDO        0.25 /* of the diffuse base that a dielectric is seen over */
+#define DARK          0.08 /* of the darkest base that its mean Fresnel loss is made up for */
 
 /* --- nodes of the table ----------------------------------------------------------------------- */
 
@@ -42,8 +43,8 @@ static void set_targets(fit_node *node, int cap, const double value[3], double c
     for (int m = 0; m < MATERIALS; m++) {
         const double f0 = m == 0 ? 1 : dielectric_f0;
         const double base = m == 0 ? 0 : ALBEDO * (1 - f0);
-        node->target[m][cap] =
-            f0 * value[0] + value[1] - roughly(node) * base * (value[2] - node->lost * cosine);
+        const double dark = m == 0 ? 0 : roughly(node) * DARK * (1 - f0);
+        node->target[m][cap] = f0 * value[0] + value[1] - dark * (value[2] - node->lost * cosine);
         node->base[m][cap] = base * (1 - node->lost) * cosine;
     }
 }
