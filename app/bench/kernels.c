@@ -220,16 +220,20 @@ static double slots_lobe(int n) {
     return 19 + 6 + 2 + (n > 1 ? 3 : 0) + 11 * later(n) + 7;
 }
 
-/* A cap seen from two axes, and three channels of two lobes. */
+/* A cap, its cosines with two axes, and three channels of two lobes. */
 enum { SLOTS_CAP = 17, SLOTS_DIRECTION = 12, SLOTS_ACCUMULATE = 12 };
+/* A lobe's cosine, response and three channels. */
+enum { SLOTS_LOBE = 5 + 3 + 6 };
+static double slots_shade_phong(int n) {
+    return SLOTS_LOBE + 5 + (n <= 48 ? 5 : 6) * later(n);
+}
 static double slots_shade_zonal(int n) {
-    /* The cap's R_l, the mirror direction's P_l and their sum; every other band the normal's. */
-    const double band = n <= 48 ? 9 + 3.5 : 12 + 4;
-    return SLOTS_CAP + SLOTS_DIRECTION + SLOTS_ACCUMULATE + 8 + band * later(n);
+    /* R_l, and of every other band the diffuse lobe's sum. */
+    const double band = n <= 48 ? 3 + 3 : 5 + 3.5;
+    return SLOTS_CAP + 4 + SLOTS_LOBE + 3 + band * later(n) + slots_shade_phong(n);
 }
 static double slots_shade_ggx(int n) {
-    /* Two lobes more: direction, P_l, sum, three channels. */
-    return slots_shade_zonal(n) + 2 * (6 + 4 + 6 + (n <= 48 ? 6 : 7) * later(n));
+    return slots_shade_zonal(n) + 2 * slots_shade_phong(n);
 }
 /* Floats alone: the products of 16-bit coefficients with their weights are integers. A reading:
  * coordinates, two splines' weights, rounded, four rows; and an angle before. */
