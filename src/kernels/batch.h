@@ -15,6 +15,9 @@
 #define LMP_BATCH 192
 #endif
 
+/* Floats of a cache line. */
+#define LMP_BATCH_LINE 16
+
 typedef struct lmp_batch_plane {
     float at[LMP_BATCH] __attribute__((aligned(64)));
 } lmp_batch_plane;
@@ -105,12 +108,48 @@ static inline size_t lmp_batch_stride(size_t stride, size_t tight) {
     return stride ? stride / sizeof(float) : tight;
 }
 
-/* The elements from `first` on of a result of `values` values an element. */
+/* A result of `values` values an element, and the same without its first elements. */
+static inline lmp_kernel_out lmp_batch_all(float *at, size_t values, size_t count, int planar,
+                                           size_t stride) {
+    return (lmp_kernel_out) { at, lmp_batch_stride(stride, planar ? count : values), planar };
+}
+static inline lmp_kernel_out lmp_batch_from(const lmp_kernel_out *all, size_t first) {
+    lmp_kernel_out out = *all;
+    out.at += out.planar ? first : first * out.stride;
+    return out;
+}
 static inline lmp_kernel_out lmp_batch_out(float *at, size_t values, size_t count, int planar,
                                            size_t stride, size_t first) {
-    lmp_kernel_out out = { at, lmp_batch_stride(stride, planar ? count : values), planar };
-    out.at += planar ? first : first * out.stride;
-    return out;
+    const lmp_kernel_out all = lmp_batch_all(at, values, count, planar, stride);
+    return lmp_batch_from(&all, first);
+}
+
+/* Results larger than this are stored past the caches. A core that shares 32 MB of the last one
+ * with others gains by it from 8 MB on, and up to 16 MB a reader may still find them in larger
+ * ones. Below 7 bands, kernels are about as fast the ordinary way. */
+#define LMP_BATCH_STREAMED            ((size_t)16 << 20)
+#define LMP_BATCH_STREAMED_VALUES_MIN 49
+
+/* Planes have to begin in the same place of a line, or none of them is written in whole lines. */
+static inline bool lmp_batch_streams(const lmp_kernel_out *out, size_t values, size_t count) {
+    return values >= LMP_BATCH_STREAMED_VALUES_MIN && values <= LMP_KERNEL_STREAM_VALUES_MAX &&
+           values * sizeof(float) * count > LMP_BATCH_STREAMED &&
+           (!out->planar || out->stride % LMP_BATCH_LINE == 0);
+}
+
+/* Elements of the chunk from `first` on; the first one of planes that are streamed ends where a
+ * line of them does. */
+static inline size_t lmp_batch_chunk(const lmp_kernel_out *all, bool streams, size_t count,
+                                     size_t first) {
+    const size_t head = -((uintptr_t)all->at / sizeof(float)) % LMP_BATCH_LINE;
+    return streams && all->planar && first == 0 && head > 0 ? head : lmp_batch_count(count, first);
+}
+
+/* Shows other threads what was streamed. */
+static inline void lmp_batch_fence(void) {
+#ifdef __SSE2__
+    __builtin_ia32_sfence();
+#endif
 }
 
 #endif

@@ -32,6 +32,9 @@ typedef struct lmp_kernel_vec3 {
     const float *x, *y, *z;
 } lmp_kernel_vec3;
 
+/* Values of an element, at most, that a kernel streams: of 10 bands. */
+#define LMP_KERNEL_STREAM_VALUES_MAX 100
+
 /* Rows anywhere: that of element e begins at[e] * stride bytes after the first. at is readable like
  * planes, and what is read past `count` names rows, too. */
 typedef struct lmp_kernel_rows {
@@ -214,7 +217,11 @@ typedef struct lmp_kernels {
     /* bands^2 values: Y_lm. */
     void (*eval)(int bands, const lmp_kernel_vec3 *directions, size_t count,
                  const lmp_kernel_out *out);
-    /* The same, and 3 bands^2 values: their derivatives along the sphere by x, then y, then z. */
+    /* The same of up to LMP_KERNEL_STREAM_VALUES_MAX, stored past the caches where the instruction
+     * set can: seen by other threads after lmp_batch_fence. */
+    void (*eval_streamed)(int bands, const lmp_kernel_vec3 *directions, size_t count,
+                          const lmp_kernel_out *out);
+    /* As eval, and 3 bands^2 values: their derivatives along the sphere by x, then y, then z. */
     void (*eval_gradient)(int bands, const lmp_kernel_vec3 *directions, size_t count,
                           const lmp_kernel_out *out, const lmp_kernel_out *gradient);
     /* One value: the dot product of two elements of `values` values. */
@@ -237,6 +244,9 @@ typedef struct lmp_kernels {
     /* bands^2 values: L_lm (paper Eq. 12 and 13). */
     void (*project)(int bands, const lmp_kernel_pairs *pairs, size_t count,
                     const lmp_kernel_out *out);
+    /* As eval_streamed. */
+    void (*project_streamed)(int bands, const lmp_kernel_pairs *pairs, size_t count,
+                             const lmp_kernel_out *out);
     /* 3 bands^2 values: the red, green and blue coefficients of the sum of the lights. */
     void (*accumulate)(const lmp_scratch *scratch, int bands, const lmp_kernel_lights *lights,
                        const lmp_kernel_vec3 *points, size_t count, const lmp_kernel_out *out);

@@ -192,6 +192,18 @@ LMP_INLINE vf vf_load_first(const float *from, int count) {
 LMP_INLINE void vf_store(float *to, vf v) {
     memcpy(to, &v, sizeof v);
 }
+#if LMP_LANES > 1 && defined(__SSE2__)
+/* Past the caches, to an aligned address; seen by other threads after a fence. */
+LMP_INLINE void vf_stream(float *to, vf v) {
+#if LMP_LANES == 16
+    _mm512_stream_ps(to, (__m512)v);
+#elif LMP_LANES == 8
+    _mm256_stream_ps(to, (__m256)v);
+#else
+    _mm_stream_ps(to, (__m128)v);
+#endif
+}
+#endif
 /* The first `count` of them, 1 … LMP_LANES - 1; nothing past them is written. */
 LMP_INLINE void vf_store_first(float *to, vf v, int count) {
 #if LMP_LANES >= 8

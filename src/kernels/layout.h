@@ -69,9 +69,9 @@ LMP_INLINE vf layout_load_quarters(const float *from, size_t step) {
 
 /* Four planes of a full block as rows. The row is hidden, for the compilers would hold every one,
  * in vector registers if need be. */
-LMP_INLINE void layout_rows4(const float *block, float *row, size_t stride) {
+LMP_INLINE void layout_rows4(const float *block, size_t plane, float *row, size_t stride) {
     vf t[4];
-    LMP_UNROLL for (int i = 0; i < 4; i++) t[i] = vf_load(block + i * LMP_LANES);
+    LMP_UNROLL for (size_t i = 0; i < 4; i++) t[i] = vf_load(block + i * plane);
     layout_transpose4(t);
     LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
         layout_store_quarter(row, t[e % 4], e / 4);
@@ -81,9 +81,9 @@ LMP_INLINE void layout_rows4(const float *block, float *row, size_t stride) {
 }
 
 /* Of four planes three, without what follows a row. */
-LMP_INLINE void layout_rows3(const float *block, float *row, size_t stride) {
+LMP_INLINE void layout_rows3(const float *block, size_t plane, float *row, size_t stride) {
     vf t[4];
-    LMP_UNROLL for (int i = 0; i < 3; i++) t[i] = vf_load(block + i * LMP_LANES);
+    LMP_UNROLL for (size_t i = 0; i < 3; i++) t[i] = vf_load(block + i * plane);
     t[3] = t[2];
     layout_transpose4(t);
     LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
@@ -95,11 +95,11 @@ LMP_INLINE void layout_rows3(const float *block, float *row, size_t stride) {
 
 #if LMP_LANES == 8
 #define LAYOUT_GROUP 8
-LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
+LMP_INLINE void layout_rows_group(const float *block, size_t plane, float *row, size_t stride) {
     LMP_UNROLL for (int quarter = 0; quarter < LMP_LANES; quarter += 4) {
         vf t[4];
-        LMP_UNROLL for (int i = 0; i < 4; i++) t[i] =
-            layout_load_quarters(block + i * LMP_LANES + quarter, 4 * LMP_LANES);
+        LMP_UNROLL for (size_t i = 0; i < 4; i++) t[i] =
+            layout_load_quarters(block + i * plane + quarter, 4 * plane);
         layout_transpose4(t);
         LMP_UNROLL for (int e = 0; e < 4; e++) {
             vf_store(row, t[e]);
@@ -129,9 +129,9 @@ LMP_INLINE void layout_transpose_quarters(vf v[4]) {
 
 /* A cache line after the other: the store buffer merges neighbors. */
 #define LAYOUT_GROUP 16
-LMP_INLINE void layout_rows_group(const float *block, float *row, size_t stride) {
+LMP_INLINE void layout_rows_group(const float *block, size_t plane, float *row, size_t stride) {
     vf t[16];
-    LMP_UNROLL for (int i = 0; i < 16; i++) t[i] = vf_load(block + i * LMP_LANES);
+    LMP_UNROLL for (size_t i = 0; i < 16; i++) t[i] = vf_load(block + i * plane);
     LMP_UNROLL for (int i = 0; i < 16; i += 4) layout_transpose4(t + i);
     LMP_UNROLL for (int e = 0; e < LMP_LANES; e++) {
         LMP_UNROLL for (int i = 0; i < 4; i++)
@@ -154,9 +154,9 @@ LMP_INLINE void layout_square(const float *block, float *row, size_t stride) {
         LMP_UNROLL for (int g = 0; g < 4; g++) vf_store(row + (size_t)(4 * g + j) * stride, q[g]);
     }
 #elif LMP_LANES == 8
-    layout_rows_group(block, row, stride);
+    layout_rows_group(block, LMP_LANES, row, stride);
 #else
-    layout_rows4(block, row, stride);
+    layout_rows4(block, LMP_LANES, row, stride);
 #endif
 }
 
@@ -171,32 +171,38 @@ LMP_INLINE void layout_planes4(const float *row, size_t stride, float *block) {
 
 #endif
 
-/* Writes `values` planes of a block as rows; `live` elements of it exist. Where the block is on the
- * stack is hidden: written by pointers and read relative to the stack pointer, it takes a Zen 4 up
- * to twice the time. */
-static inline void layout_rows(const float *block, size_t values, float *rows, size_t stride,
-                               size_t live) {
+/* Writes `values` planes, `plane` floats apart, as rows; `live` elements of them exist. Where the
+ * planes are on the stack is hidden: written by pointers and read relative to the stack pointer,
+ * they take a Zen 4 up to twice the time. */
+LMP_INLINE void layout_rows_of(const float *planes, size_t plane, size_t values, float *rows,
+                               size_t stride, size_t live) {
 #if LMP_LANES > 1
-    LMP_OPAQUE(block);
+    LMP_OPAQUE(planes);
     if (live == LMP_LANES && values >= 4) {
         size_t v = 0;
         for (; v + LAYOUT_GROUP <= values; v += LAYOUT_GROUP)
-            layout_rows_group(block + v * LMP_LANES, rows + v, stride);
+            layout_rows_group(planes + v * plane, plane, rows + v, stride);
         for (; v + 4 <= values; v += 4)
-            layout_rows4(block + v * LMP_LANES, rows + v, stride);
+            layout_rows4(planes + v * plane, plane, rows + v, stride);
         /* The last four again, rather than what is left of them one by one. */
         if (v < values)
-            layout_rows4(block + (values - 4) * LMP_LANES, rows + values - 4, stride);
+            layout_rows4(planes + (values - 4) * plane, plane, rows + values - 4, stride);
         return;
     }
     if (live == LMP_LANES && values == 3) {
-        layout_rows3(block, rows, stride);
+        layout_rows3(planes, plane, rows, stride);
         return;
     }
 #endif
     for (size_t v = 0; v < values; v++)
         for (size_t e = 0; e < live; e++)
-            rows[e * stride + v] = block[v * LMP_LANES + e];
+            rows[e * stride + v] = planes[v * plane + e];
+}
+
+/* The planes of a block. */
+static inline void layout_rows(const float *block, size_t values, float *rows, size_t stride,
+                               size_t live) {
+    layout_rows_of(block, LMP_LANES, values, rows, stride, live);
 }
 
 /* A plane's `live` elements, from a block and to one; the lanes past them are 0. */

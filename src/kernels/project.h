@@ -6,6 +6,7 @@
 
 #include "src/kernels/basis.h"
 #include "src/kernels/cap.h"
+#include "src/kernels/stream.h"
 
 /* BASIS_BLOCKS full blocks of any number of bands go side by side where planes take them. */
 LMP_INLINE int put_wide(const lmp_kernel_out *out, size_t element, size_t count) {
@@ -16,6 +17,10 @@ LMP_INLINE void eval_axis(const lmp_kernel_vec3 *directions, size_t e, vf axis[3
     axis[0] = vf_load(directions->x + e);
     axis[1] = vf_load(directions->y + e);
     axis[2] = vf_load(directions->z + e);
+}
+
+LMP_INLINE lmp_kernel_vec3 project_from(const lmp_kernel_vec3 *vectors, size_t e) {
+    return (lmp_kernel_vec3) { vectors->x + e, vectors->y + e, vectors->z + e };
 }
 
 static LMP_NOINLINE void eval_any(int bands, const lmp_kernel_vec3 *directions, size_t count,
@@ -53,6 +58,23 @@ static void kernel_eval(int bands, const lmp_kernel_vec3 *directions, size_t cou
         eval_straight(bands, directions, count, out);
     else
         eval_any(bands, directions, count, out);
+}
+
+static void kernel_eval_streamed(int bands, const lmp_kernel_vec3 *directions, size_t count,
+                                 const lmp_kernel_out *out) {
+#if STREAM
+    stream s;
+    stream_begin(&s, out, (size_t)(bands * bands));
+    const lmp_kernel_out tile = stream_tile(&s);
+    for (size_t e = 0; e < count; e += STREAM_TILE) {
+        const lmp_kernel_vec3 at = project_from(directions, e);
+        eval_straight(bands, &at, stream_count(count, e), &tile);
+        stream_put(&s, e, stream_count(count, e));
+    }
+    stream_end(&s);
+#else
+    kernel_eval(bands, directions, count, out);
+#endif
 }
 
 /* The axis of the cap of pair e, and the factors of its bands. */
@@ -114,6 +136,24 @@ static void kernel_project(int bands, const lmp_kernel_pairs *pairs, size_t coun
         project_wide(bands, pairs, e, out);
     for (; e < count; e += LMP_LANES)
         project_block(bands, pairs, e, count, out);
+}
+
+static void kernel_project_streamed(int bands, const lmp_kernel_pairs *pairs, size_t count,
+                                    const lmp_kernel_out *out) {
+#if STREAM
+    stream s;
+    stream_begin(&s, out, (size_t)(bands * bands));
+    const lmp_kernel_out tile = stream_tile(&s);
+    for (size_t e = 0; e < count; e += STREAM_TILE) {
+        const lmp_kernel_pairs at = { project_from(&pairs->center, e),
+                                      project_from(&pairs->point, e), pairs->radius + e };
+        project_straight(bands, &at, stream_count(count, e), &tile);
+        stream_put(&s, e, stream_count(count, e));
+    }
+    stream_end(&s);
+#else
+    kernel_project(bands, pairs, count, out);
+#endif
 }
 
 /* The zonal coefficient is L_l0 along the axis: radial_l Y_l0(z) (paper Eq. 12 and 13). */

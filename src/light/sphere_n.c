@@ -34,18 +34,22 @@ void lmp_sphere_project_n(int bands, const lmp_spheres *spheres, lmp_vec3_array 
     assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
     assert(lmp_are_spheres(spheres, count) && lmp_are_finite(points, count));
     const lmp_kernels *kernels = lmp_kernels_get();
+    const lmp_kernel_out all =
+        lmp_batch_all(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride);
+    const bool streams = lmp_batch_streams(&all, LMP_SH_COUNT(bands), count);
     batch_pairs planes;
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        const size_t n = lmp_batch_count(count, first);
-        const lmp_kernel_out out =
-            lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
+    for (size_t first = 0, n; first < count; first += n) {
+        n = lmp_batch_chunk(&all, streams, count, first);
+        const lmp_kernel_out out = lmp_batch_from(&all, first);
         const lmp_kernel_pairs pairs = {
             lmp_batch_vectors(&spheres->center, first, n, lmp_batch_in(&planes.center)),
             lmp_batch_vectors(&points, first, n, lmp_batch_in(&planes.point)),
             lmp_batch_floats(spheres->radius.at, spheres->radius.stride, first, n, planes.radius.at)
         };
-        kernels->project(bands, &pairs, n, &out);
+        (streams ? kernels->project_streamed : kernels->project)(bands, &pairs, n, &out);
     }
+    if (streams)
+        lmp_batch_fence();
 }
 
 /* Copies sphere `sphere` and point `point` to element i. */
@@ -63,16 +67,19 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
     assert(lmp_are_spheres(spheres, sphere_count) && lmp_are_finite(points, point_count));
     const size_t count = sphere_count * point_count;
     assert(lmp_is_layout(layout, stride, LMP_SH_COUNT(bands), count));
+    const lmp_kernels *kernels = lmp_kernels_get();
+    const lmp_kernel_out all =
+        lmp_batch_all(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride);
+    const bool streams = lmp_batch_streams(&all, LMP_SH_COUNT(bands), count);
     size_t sphere = 0, point = 0;
     /* Zero: the lanes past the last pair are read too. */
     batch_pairs planes = { 0 };
     const lmp_kernel_pairs pairs = { lmp_batch_planes(lmp_batch_in(&planes.center)),
                                      lmp_batch_planes(lmp_batch_in(&planes.point)),
                                      planes.radius.at };
-    for (size_t first = 0; first < count; first += LMP_BATCH) {
-        const size_t n = lmp_batch_count(count, first);
-        const lmp_kernel_out out =
-            lmp_batch_out(sh, LMP_SH_COUNT(bands), count, layout == LMP_SH_PLANAR, stride, first);
+    for (size_t first = 0, n; first < count; first += n) {
+        n = lmp_batch_chunk(&all, streams, count, first);
+        const lmp_kernel_out out = lmp_batch_from(&all, first);
         for (size_t i = 0; i < n; i++) {
             batch_pair(spheres, sphere, &points, point, i, &planes);
             if (++sphere == sphere_count) {
@@ -80,8 +87,10 @@ void lmp_sphere_project_all(int bands, const lmp_spheres *spheres, size_t sphere
                 point++;
             }
         }
-        lmp_kernels_get()->project(bands, &pairs, n, &out);
+        (streams ? kernels->project_streamed : kernels->project)(bands, &pairs, n, &out);
     }
+    if (streams)
+        lmp_batch_fence();
 }
 
 static lmp_kernel_lights lights_of(const lmp_spheres *spheres, size_t count) {

@@ -4,40 +4,45 @@
 
 #include <lampion/sh.h>
 
-/* Gradients too, where there is one. */
-static void eval_all(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
-                     size_t stride, float *sh, size_t gradient_stride, float *gradient) {
+void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
+                   size_t stride, float *sh) {
     const size_t values = LMP_SH_COUNT(bands);
     const int planar = layout == LMP_SH_PLANAR;
     assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, values, count));
     assert(lmp_are_unit(directions, count));
     const lmp_kernels *kernels = lmp_kernels_get();
+    const lmp_kernel_out all = lmp_batch_all(sh, values, count, planar, stride);
+    const bool streams = lmp_batch_streams(&all, values, count);
+    lmp_batch_room room;
+    for (size_t first = 0, n; first < count; first += n) {
+        n = lmp_batch_chunk(&all, streams, count, first);
+        const lmp_kernel_vec3 vectors =
+            lmp_batch_vectors(&directions, first, n, lmp_batch_in(&room));
+        const lmp_kernel_out out = lmp_batch_from(&all, first);
+        (streams ? kernels->eval_streamed : kernels->eval)(bands, &vectors, n, &out);
+    }
+    if (streams)
+        lmp_batch_fence();
+}
+
+void lmp_sh_eval_gradient_n(int bands, lmp_vec3_array directions, size_t count,
+                            lmp_sh_layout layout, size_t stride, float *sh, size_t gradient_stride,
+                            float *gradient) {
+    const size_t values = LMP_SH_COUNT(bands);
+    const int planar = layout == LMP_SH_PLANAR;
+    assert(lmp_is_bands(bands) && lmp_is_layout(layout, stride, values, count));
+    assert(lmp_is_layout(layout, gradient_stride, 3 * values, count));
+    assert(lmp_are_unit(directions, count));
     lmp_batch_room room;
     for (size_t first = 0; first < count; first += LMP_BATCH) {
         const size_t n = lmp_batch_count(count, first);
         const lmp_kernel_vec3 vectors =
             lmp_batch_vectors(&directions, first, n, lmp_batch_in(&room));
         const lmp_kernel_out out = lmp_batch_out(sh, values, count, planar, stride, first);
-        if (!gradient) {
-            kernels->eval(bands, &vectors, n, &out);
-            continue;
-        }
         const lmp_kernel_out slopes =
             lmp_batch_out(gradient, 3 * values, count, planar, gradient_stride, first);
-        kernels->eval_gradient(bands, &vectors, n, &out, &slopes);
+        lmp_kernels_get()->eval_gradient(bands, &vectors, n, &out, &slopes);
     }
-}
-
-void lmp_sh_eval_n(int bands, lmp_vec3_array directions, size_t count, lmp_sh_layout layout,
-                   size_t stride, float *sh) {
-    eval_all(bands, directions, count, layout, stride, sh, 0, NULL);
-}
-
-void lmp_sh_eval_gradient_n(int bands, lmp_vec3_array directions, size_t count,
-                            lmp_sh_layout layout, size_t stride, float *sh, size_t gradient_stride,
-                            float *gradient) {
-    assert(lmp_is_layout(layout, gradient_stride, 3 * LMP_SH_COUNT(bands), count));
-    eval_all(bands, directions, count, layout, stride, sh, gradient_stride, gradient);
 }
 
 static lmp_kernel_in batch_in(int bands, const float *at, size_t count, lmp_sh_layout layout,

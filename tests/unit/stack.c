@@ -26,6 +26,12 @@ static const lmp_vec3 up = { 0, 0, 1 }, at = { 0.1f, 0.2f, 0.3f };
 static const lmp_quat rotated_by = { 0.1f, 0.2f, 0.3f, 0.9f };
 static const float unrotated[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 static float sh[COUNT * 3 * N * N], out[COUNT * 3 * N * N], slopes[COUNT * 9 * N * N];
+/* Results that are stored past the caches. */
+enum { LARGE = 42016 };
+static float large[LARGE * 100];
+static const float one_radius = 0.1f;
+static const lmp_spheres one_sphere = { .center = { &up.x, &up.y, &up.z, 0 },
+                                        .radius = { &one_radius, 0 } };
 static float matrices[LMP_SH_ROTATION_COUNT(N)], weights[N], lambda[N], rgb[3 * COUNT];
 static const double up_double[3] = { 0, 0, 1 }, turned_double[4] = { 0.1, 0.2, 0.3, 0.9 };
 static double sh_double[N * N], out_double[N * N], slopes_double[3 * N * N],
@@ -150,7 +156,7 @@ static void shade_under_a_field(void) {
     X(lmp_sh_multiply_few, lmp_sh_multiply_few(N < LMP_SH_FEW_BANDS ? N : LMP_SH_FEW_BANDS, sh, sh, out)) \
     X(lmp_sh_multiply, lmp_sh_multiply(product, sh, sh, out)) \
     X(lmp_sh_product_destroy, lmp_sh_product_destroy(product), product = NULL) \
-    X(lmp_sh_eval_n, LAYOUTS(lmp_sh_eval_n(N, points, COUNT, layout, 0, out))) \
+    X(lmp_sh_eval_n, LAYOUTS(lmp_sh_eval_n(N, points, COUNT, layout, 0, out), lmp_sh_eval_n(10, lmp_vec3_array_same(&up), LARGE, layout, 0, large))) \
     X(lmp_sh_eval_gradient_n, LAYOUTS(lmp_sh_eval_gradient_n(N, points, COUNT, layout, 0, out, 0, slopes))) \
     X(lmp_sh_pack_half, lmp_sh_pack_half(sh, COUNT, halves)) \
     X(lmp_sh_unpack_half, lmp_sh_unpack_half(halves, COUNT, out)) \
@@ -164,7 +170,7 @@ static void shade_under_a_field(void) {
     X(lmp_sphere_project, lmp_sphere_project(N, up, 0.5f, at, out)) \
     X(lmp_sphere_project_gradient, lmp_sphere_project_gradient(N, up, 0.5f, at, out, slopes)) \
     X(lmp_sphere_zonal_n, LAYOUTS(lmp_sphere_zonal_n(N, floats, floats, COUNT, layout, 0, out))) \
-    X(lmp_sphere_project_n, LAYOUTS(lmp_sphere_project_n(N, &spheres, points, LIGHTS, layout, 0, out))) \
+    X(lmp_sphere_project_n, LAYOUTS(lmp_sphere_project_n(N, &spheres, points, LIGHTS, layout, 0, out), lmp_sphere_project_n(10, &one_sphere, lmp_vec3_array_same(&at), LARGE, layout, 0, large))) \
     X(lmp_sphere_project_all, LAYOUTS(lmp_sphere_project_all(N, &spheres, LIGHTS, points, 5, layout, 0, out))) \
     X(lmp_sphere_accumulate_visible_n, LAYOUTS(lmp_sphere_accumulate_visible_n(NULL, N, &spheres, LIGHTS, NULL, points, COUNT, layout, 0, out))) \
     X(lmp_sphere_accumulate_n, LAYOUTS(lmp_sphere_accumulate_n(NULL, N, &spheres, LIGHTS, points, COUNT, layout, 0, out))) \
