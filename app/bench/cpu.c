@@ -13,13 +13,13 @@
 #include <string.h>
 
 static const int bands_timed[] = { 3, 5, 6, 8, 10, 20, 50, 128 };
-enum { BANDS_TIMED = sizeof bands_timed / sizeof *bands_timed, RUNS_MAX = 401 };
+enum { BANDS_TIMED = sizeof bands_timed / sizeof *bands_timed, RUNS_MAX = 401, LARGE_BANDS = 10 };
 
 typedef struct measurement {
     const char *isa;
     timing_quartiles ns; /* a light-point pair */
     double peak_fraction, vs_paper;
-    double stores;    /* ns a pair, of nothing but stores of as much */
+    double stores;    /* ns a pair, of nothing but stores of as much, the faster kind */
     size_t output;    /* bytes a call writes */
     double vs_scalar; /* 0: scalar was not measured */
 } measurement;
@@ -54,6 +54,25 @@ static int calls_of(const bench_kernel *kernel, const bench_batch *b) {
     return one > 40000 ? 1 : (int)(40000 / (one + 1)) + 1;
 }
 
+/* The caches of today's cores, at least and at most; a server's core shares the last one. */
+enum { FIRST_CACHE = 48 << 10, SECOND_CACHE = 1 << 20, LAST_CACHE = 32 << 20 };
+
+static const char *working_set(size_t bytes) {
+    return bytes <= FIRST_CACHE    ? "L1"
+           : bytes <= SECOND_CACHE ? "L2"
+           : bytes <= LAST_CACHE   ? "L3"
+                                   : "memory";
+}
+
+/* Stores past the caches would leave nothing in them for the kernel. */
+static double fastest_stores(unsigned flag, float *to, size_t count) {
+    const double plain = bench_stores(flag, to, count);
+    if (count * sizeof(float) <= LAST_CACHE)
+        return plain;
+    const double streamed = bench_streams(flag, to, count);
+    return plain < streamed ? plain : streamed;
+}
+
 /* ns a pair; the peak is measured between the runs, for other loads come and go. */
 static measurement measure(const bench_kernel *kernel, const bench_batch *b, unsigned flag,
                            int runs) {
@@ -67,7 +86,7 @@ static measurement measure(const bench_kernel *kernel, const bench_batch *b, uns
     const int calls = calls_of(kernel, b);
     for (int i = 0; i < runs; i++) {
         const double before = bench_peak(flag);
-        stores[i] = bench_stores(flag, b->out, written) / pairs;
+        stores[i] = fastest_stores(flag, b->out, written) / pairs;
         ns[i] = time_calls(kernel, b, calls) / pairs;
         const double after = bench_peak(flag), peak = before < after ? before : after;
         fraction[i] = kernel->slots(b->bands) / lanes / ns[i] * peak;
@@ -90,9 +109,9 @@ static double measure_paper(const bench_kernel *kernel, const bench_batch *b, in
     return timing_of(ns, runs).median;
 }
 
-static void print_row(const bench_options *o, bool first, const bench_kernel *kernel, int bands,
-                      lmp_sh_layout layout, const measurement *m) {
-    const char *name = layout == LMP_SH_PLANAR ? "planar" : "rows";
+static void print_row(const bench_options *o, bool first, const bench_kernel *kernel,
+                      const bench_batch *b, const measurement *m) {
+    const char *name = b->layout == LMP_SH_PLANAR ? "planar" : "rows";
     char vs_scalar[32] = "-";
     if (m->vs_scalar > 0)
         snprintf(vs_scalar, sizeof vs_scalar, "%.3g", m->vs_scalar);
@@ -101,34 +120,36 @@ static void print_row(const bench_options *o, bool first, const bench_kernel *ke
     if (o->json)
         printf("%s    {\"kernel\": \"%s\", \"bands\": %d, \"isa\": \"%s\", \"layout\": \"%s\", "
                "\"ns\": %.4g, \"ns_quartiles\": [%.4g, %.4g], \"peak_fraction\": %.3f, "
-               "\"stores_ns\": %.3g, \"output_bytes\": %zu, \"vs_paper\": %.3g, "
+               "\"stores_ns\": %.3g, \"output_bytes\": %zu, \"working_set\": \"%s\", \"vs_paper\": "
+               "%.3g, "
                "\"vs_scalar\": %s}",
-               first ? "" : ",\n", kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower,
-               m->ns.upper, m->peak_fraction, m->stores, m->output, m->vs_paper, vs_scalar);
+               first ? "" : ",\n", kernel->name, b->bands, m->isa, name, m->ns.median, m->ns.lower,
+               m->ns.upper, m->peak_fraction, m->stores, m->output, working_set(m->output),
+               m->vs_paper, vs_scalar);
     else
-        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %6.3g %5.4g %9.3g %9s\n",
-               kernel->name, bands, m->isa, name, m->ns.median, m->ns.lower, m->ns.upper,
-               m->peak_fraction, m->stores, (double)m->output / 1024, m->vs_paper, vs_scalar);
+        printf("%-23s %5d  %-7s %-6s %10.4g  %9.4g … %-9.4g %5.2f %6.3g %6.5g %-6s %9.3g %9s\n",
+               kernel->name, b->bands, m->isa, name, m->ns.median, m->ns.lower, m->ns.upper,
+               m->peak_fraction, m->stores, (double)m->output / 1024, working_set(m->output),
+               m->vs_paper, vs_scalar);
     fflush(stdout);
 }
 
-/* The rows of one kernel at one number of bands, of one layout. */
-static void measure_rows(const bench_options *o, bench_inputs *in, const bench_kernel *kernel,
-                         int bands, lmp_sh_layout layout, bool *first) {
+/* The rows of one kernel on one batch. */
+static void measure_batch(const bench_options *o, const bench_kernel *kernel, const bench_batch *b,
+                          bool *first) {
     const int runs = o->full ? 301 : 31;
-    const bench_batch b = bench_batch_of(in, kernel, bands, layout);
-    const double paper = measure_paper(kernel, &b, o->full ? 31 : 5);
+    const double paper = measure_paper(kernel, b, o->full ? 31 : 5);
     double scalar = 0;
     for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag *= 2) {
         if (!(flag & (unsigned)o->mask & lmp_cpu_flags()))
             continue;
         lmp_cpu_mask(flag);
-        measurement m = measure(kernel, &b, flag, flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
+        measurement m = measure(kernel, b, flag, flag == LMP_CPU_SCALAR && !o->full ? 7 : runs);
         m.isa = lmp_cpu_name();
         m.vs_paper = paper / m.ns.median;
         scalar = flag == LMP_CPU_SCALAR ? m.ns.median : scalar;
         m.vs_scalar = scalar / m.ns.median;
-        print_row(o, *first, kernel, bands, layout, &m);
+        print_row(o, *first, kernel, b, &m);
         *first = false;
     }
 }
@@ -142,6 +163,27 @@ static bool measured_at(const bench_options *o, const bench_kernel *kernel, int 
     return kernel->table == BENCH_TABLE_NONE || o->bands || bands == BENCH_TABLE_BANDS;
 }
 
+/* Kernels that do little but store are timed where stores take longer, too: in the second cache and
+ * in memory. */
+static bool measured_large(const bench_kernel *kernel, int bands) {
+    return bands == LARGE_BANDS && !kernel->shades &&
+           (kernel->paper == bench_paper_basis || kernel->paper == bench_paper_project);
+}
+
+static bool measure_large(const bench_options *o, bench_inputs *in, const bench_kernel *kernel,
+                          int bands, lmp_sh_layout layout, bool *first) {
+    static const size_t outputs[] = { 512 << 10, 64 << 20 };
+    bool made = true;
+    for (int i = 0; i < 2 && made; i++) {
+        bench_large large;
+        made = bench_large_create(in, kernel, bands, layout, outputs[i], &large);
+        if (made)
+            measure_batch(o, kernel, &large.batch, first);
+        bench_large_free(&large);
+    }
+    return made;
+}
+
 static bool measure_kernels(const bench_options *o, bench_inputs *in) {
     const int *bands = o->bands ? &o->bands : bands_timed;
     bool first = true, ok = true;
@@ -152,8 +194,12 @@ static bool measure_kernels(const bench_options *o, bench_inputs *in) {
                 continue;
             ok = ok && bench_tables_create(kernel->table, bands[n], in);
             for (int layout = kernel->shades ? LMP_SH_INTERLEAVED : LMP_SH_PLANAR;
-                 ok && layout >= LMP_SH_INTERLEAVED; layout--)
-                measure_rows(o, in, kernel, bands[n], (lmp_sh_layout)layout, &first);
+                 ok && layout >= LMP_SH_INTERLEAVED; layout--) {
+                const bench_batch b = bench_batch_of(in, kernel, bands[n], (lmp_sh_layout)layout);
+                measure_batch(o, kernel, &b, &first);
+                if (measured_large(kernel, bands[n]))
+                    ok = measure_large(o, in, kernel, bands[n], (lmp_sh_layout)layout, &first);
+            }
             bench_tables_free(in);
         }
     return ok;
@@ -218,11 +264,12 @@ static void print_header(const bench_options *o) {
         "ns a light-point pair (%d lights a point where lights are summed): median, quartiles; "
         "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each), "
         "above 1 where additions\nhave units of their own; ns of nothing but stores of the output, "
-        "and its KiB; times the speed of\nthe paper's Eq. 12 and 13 one by one, and of the scalar "
+        "its KiB and where these fit; times the speed of\nthe paper's Eq. 12 and 13 one by one, "
+        "and of the scalar "
         "build\n",
         BENCH_LIGHTS);
-    printf("%-23s %5s  %-7s %-6s %10s  %-21s %5s %6s %5s %9s %9s\n", "kernel", "bands", "isa",
-           "layout", "ns", "quartiles", "peak", "stores", "KiB", "x paper", "x scalar");
+    printf("%-23s %5s  %-7s %-6s %10s  %-21s %5s %6s %6s %-6s %9s %9s\n", "kernel", "bands", "isa",
+           "layout", "ns", "quartiles", "peak", "stores", "KiB", "in", "x paper", "x scalar");
 }
 
 int bench_cpu(const bench_options *o) {

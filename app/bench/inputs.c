@@ -135,6 +135,46 @@ bench_batch bench_batch_of(bench_inputs *in, const bench_kernel *kernel, int ban
     return b;
 }
 
+/* --- outputs larger than the first cache ------------------------------------------------------ */
+
+static const float *repeated(const float *from, size_t count, float *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[i % BENCH_ELEMENTS_MAX];
+    return to;
+}
+
+static lmp_vec3_array vectors_repeated(lmp_vec3_array from, size_t count, float *to) {
+    return (lmp_vec3_array) { repeated(from.x, count, to), repeated(from.y, count, to + count),
+                              repeated(from.z, count, to + 2 * count), sizeof(float) };
+}
+
+bool bench_large_create(bench_inputs *in, const bench_kernel *kernel, int bands,
+                        lmp_sh_layout layout, size_t bytes, bench_large *large) {
+    bench_batch *b = &large->batch;
+    *b = bench_batch_of(in, kernel, bands, layout);
+    const size_t values = kernel->values(bands);
+    b->count = (bytes / sizeof(float) / values / 16 | 1) * 16;
+    b->stride = sizeof(float) * (layout == LMP_SH_PLANAR ? b->count : values);
+    large->inputs = aligned_alloc(64, 10 * b->count * sizeof(float));
+    large->out = aligned_alloc(64, values * b->count * sizeof(float));
+    if (!large->inputs || !large->out)
+        return false;
+    float *to = large->inputs;
+    b->axes = vectors_repeated(b->axes, b->count, to);
+    b->points = vectors_repeated(b->points, b->count, to + 3 * b->count);
+    b->spheres.center = vectors_repeated(b->spheres.center, b->count, to + 6 * b->count);
+    b->spheres.radius.at = repeated(b->spheres.radius.at, b->count, to + 9 * b->count);
+    for (size_t i = 0; i < values * b->count; i++)
+        large->out[i] = 0;
+    b->out = large->out;
+    return true;
+}
+
+void bench_large_free(bench_large *large) {
+    free(large->inputs);
+    free(large->out);
+}
+
 /* --- tables ----------------------------------------------------------------------------------- */
 
 void bench_tables_free(bench_inputs *in) {

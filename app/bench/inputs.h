@@ -35,4 +35,14 @@ void bench_tables_free(bench_inputs *inputs);
 bench_batch bench_batch_of(bench_inputs *inputs, const bench_kernel *kernel, int bands,
                            lmp_sh_layout layout);
 
+/* The same elements over and over, as many as fill `bytes` of output; false without memory. Free
+ * *large in any case. */
+typedef struct bench_large {
+    bench_batch batch;
+    float *inputs, *out;
+} bench_large;
+bool bench_large_create(bench_inputs *inputs, const bench_kernel *kernel, int bands,
+                        lmp_sh_layout layout, size_t bytes, bench_large *large);
+void bench_large_free(bench_large *large);
+
 #endif

@@ -76,10 +76,24 @@ __attribute__((target("avx2"))) static double stores_avx2(float *to, size_t coun
 static double stores_sse2(float *to, size_t count) {
     STORE_LOOP(__m128, _mm_set1_ps(1), _mm_store_ps)
 }
+__attribute__((target("avx512f"))) static double streams_avx512(float *to, size_t count) {
+    STORE_LOOP(__m512, _mm512_set1_ps(1), _mm512_stream_ps)
+}
+__attribute__((target("avx2"))) static double streams_avx2(float *to, size_t count) {
+    STORE_LOOP(__m256, _mm256_set1_ps(1), _mm256_stream_ps)
+}
+static double streams_sse2(float *to, size_t count) {
+    STORE_LOOP(__m128, _mm_set1_ps(1), _mm_stream_ps)
+}
 double bench_stores(unsigned flag, float *to, size_t count) {
     return flag == LMP_CPU_AVX512 ? stores_avx512(to, count)
            : flag == LMP_CPU_AVX2 ? stores_avx2(to, count)
                                   : stores_sse2(to, count);
+}
+double bench_streams(unsigned flag, float *to, size_t count) {
+    return flag == LMP_CPU_AVX512 ? streams_avx512(to, count)
+           : flag == LMP_CPU_AVX2 ? streams_avx2(to, count)
+                                  : streams_sse2(to, count);
 }
 double bench_peak(unsigned flag) {
     return flag == LMP_CPU_AVX512 ? peak_avx512()
@@ -112,5 +126,8 @@ double bench_stores(unsigned flag, float *to, size_t count) {
         __asm__ volatile("" ::: "memory");
     }
     return (1e9 * timing_now() - from) / (double)passes;
+}
+double bench_streams(unsigned flag, float *to, size_t count) {
+    return bench_stores(flag, to, count);
 }
 #endif

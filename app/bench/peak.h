@@ -13,4 +13,7 @@ double bench_peak(unsigned flag);
  * them, by the instruction set's registers: no kernel that writes as much takes less. */
 double bench_stores(unsigned flag, float *to, size_t count);
 
+/* The same past the caches, where the instruction set can. */
+double bench_streams(unsigned flag, float *to, size_t count);
+
 #endif

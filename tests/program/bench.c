@@ -224,6 +224,27 @@ static void fields_have_rows_of_updates_and_of_points(void **state) {
     }
 }
 
+/* Kernels that do little but store, of 10 bands: the first cache, the second and memory. */
+static void rows_say_where_their_outputs_fit(void **state) {
+    (void)state;
+    static const char *const sets[] = { "L1", "L2", "memory" };
+    assert_int_equal(bench_of("cpu", "--json --kernel basis --bands 10 --threads 1 --cpu-mask 2"),
+                     0);
+    char *text = read_output("out");
+    cJSON *root = cJSON_ParseWithOpts(text, NULL, true);
+    assert_non_null(root);
+    assert_int_equal(count_rows(root), 6);
+    const cJSON *row;
+    int i = 0;
+    cJSON_ArrayForEach(row, cJSON_GetObjectItem(root, "rows")) {
+        const cJSON *set = cJSON_GetObjectItem(row, "working_set");
+        assert_string_equal(cJSON_GetStringValue(set), sets[i++ % 3]);
+        assert_true(cJSON_GetObjectItem(row, "stores_ns")->valuedouble > 0);
+    }
+    cJSON_Delete(root);
+    free(text);
+}
+
 /* Against what was not measured there is no ratio. */
 static void kernels_without_scalar_rows_have_no_ratio_to_them(void **state) {
     (void)state;
@@ -298,6 +319,7 @@ int main(void) {
         cmocka_unit_test(several_numbers_of_lights_make_a_table_of_whole_frames),
         cmocka_unit_test(the_most_telling_rows_come_first_while_there_is_time),
         cmocka_unit_test(fields_have_rows_of_updates_and_of_points),
+        cmocka_unit_test(rows_say_where_their_outputs_fit),
         cmocka_unit_test(kernels_without_scalar_rows_have_no_ratio_to_them),
         cmocka_unit_test(bad_options_end_before_anything_runs),
     };
