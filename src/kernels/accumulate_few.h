@@ -337,8 +337,6 @@ static void accumulate_points(const lmp_scratch *scratch, int bands,
 
 #elif LMP_LANES == 16
 
-extern const lmp_kernels lmp_kernels_avx2;
-
 /* Points that leave half of the lanes alone cost less by AVX2, with the same bits. */
 static void accumulate_points(const lmp_scratch *scratch, int bands,
                               const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points,

@@ -14,7 +14,7 @@ extern const lmp_kernels lmp_kernels_scalar;
 extern const lmp_kernels lmp_kernels_vector;
 #endif
 #ifdef LMP_KERNELS_X86
-extern const lmp_kernels lmp_kernels_avx2, lmp_kernels_avx512;
+extern const lmp_kernels lmp_kernels_avx512;
 #endif
 
 /* The only state of the library. Whoever finds it empty publishes the same value. */

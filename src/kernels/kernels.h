@@ -307,6 +307,9 @@ typedef struct lmp_kernels {
                                      lmp_rgb ambient, size_t count, float *const rgb[3]);
 } lmp_kernels;
 
+/* The build for AVX2, to which that for AVX-512 hands what it would not do faster. */
+extern const lmp_kernels lmp_kernels_avx2;
+
 /* Fills the table with the best build among `cpu_flags` (lmp_cpu_flag, cpu.h) that this library
  * and machine have; scalar when there is none. Returns the flag of the build taken. */
 unsigned lmp_kernels_init(lmp_kernels *kernels, unsigned cpu_flags);

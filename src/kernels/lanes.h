@@ -192,12 +192,10 @@ LMP_INLINE vf vf_load_first(const float *from, int count) {
 LMP_INLINE void vf_store(float *to, vf v) {
     memcpy(to, &v, sizeof v);
 }
-#if LMP_LANES > 1 && defined(__SSE2__)
+#if (LMP_LANES == 4 || LMP_LANES == 8) && defined(__SSE2__)
 /* Past the caches, to an aligned address; seen by other threads after a fence. */
 LMP_INLINE void vf_stream(float *to, vf v) {
-#if LMP_LANES == 16
-    _mm512_stream_ps(to, (__m512)v);
-#elif LMP_LANES == 8
+#if LMP_LANES == 8
     _mm256_stream_ps(to, (__m256)v);
 #else
     _mm_stream_ps(to, (__m128)v);

@@ -72,6 +72,8 @@ static void kernel_eval_streamed(int bands, const lmp_kernel_vec3 *directions, s
         stream_put(&s, e, stream_count(count, e));
     }
     stream_end(&s);
+#elif LMP_LANES == 16
+    lmp_kernels_avx2.eval_streamed(bands, directions, count, out);
 #else
     kernel_eval(bands, directions, count, out);
 #endif
@@ -151,6 +153,8 @@ static void kernel_project_streamed(int bands, const lmp_kernel_pairs *pairs, si
         stream_put(&s, e, stream_count(count, e));
     }
     stream_end(&s);
+#elif LMP_LANES == 16
+    lmp_kernels_avx2.project_streamed(bands, pairs, count, out);
 #else
     kernel_project(bands, pairs, count, out);
 #endif
