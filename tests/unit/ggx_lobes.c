@@ -108,18 +108,16 @@ static void phong_lobes_over_caps_have_their_closed_forms(void **state) {
 }
 
 /* A white metal under caps of half angle 0.15 above the horizon, and the largest and the rms error
- * of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps. These are
- * the bounds, to a thousandth, but for the largest error of the smoothest metal at 60 degrees. */
+ * of linearly transformed cosines (Heitz et al. 2016, the published table) on such caps, rounded to
+ * a thousandth: the bounds. */
 static const struct around {
-    double roughness, degrees, ltc_largest, ltc_rms, largest;
+    double roughness, degrees, ltc_largest, ltc_rms;
 } around[] = {
-    { 0.2, 0, 0.002, 0.001, 0.002 },   { 0.2, 60, 0.014, 0.006, 0.016 },
-    { 0.2, 85, 0.208, 0.069, 0.208 },  { 0.35, 0, 0.003, 0.0017, 0.003 },
-    { 0.35, 60, 0.023, 0.010, 0.023 }, { 0.35, 75, 0.102, 0.046, 0.102 },
-    { 0.35, 85, 0.244, 0.143, 0.244 }, { 0.5, 0, 0.010, 0.006, 0.010 },
-    { 0.5, 60, 0.068, 0.033, 0.068 },  { 0.5, 85, 0.177, 0.094, 0.177 },
-    { 0.7, 60, 0.145, 0.064, 0.145 },  { 0.7, 85, 0.232, 0.104, 0.232 },
-    { 0.9, 60, 0.154, 0.041, 0.154 },  { 0.9, 85, 0.220, 0.080, 0.220 },
+    { 0.2, 0, 0.002, 0.001 },   { 0.2, 60, 0.014, 0.006 },  { 0.2, 85, 0.208, 0.069 },
+    { 0.35, 0, 0.003, 0.0017 }, { 0.35, 60, 0.023, 0.010 }, { 0.35, 75, 0.102, 0.046 },
+    { 0.35, 85, 0.244, 0.143 }, { 0.5, 0, 0.010, 0.006 },   { 0.5, 60, 0.068, 0.033 },
+    { 0.5, 85, 0.177, 0.094 },  { 0.7, 60, 0.145, 0.064 },  { 0.7, 85, 0.232, 0.104 },
+    { 0.9, 60, 0.154, 0.041 },  { 0.9, 85, 0.220, 0.080 },
 };
 
 static void lobes_follow_ggx_around_the_mirror_direction(void **state) {
@@ -133,7 +131,7 @@ static void lobes_follow_ggx_around_the_mirror_direction(void **state) {
         const apart d = compare(&s, &caps, false);
         print_message("| %.2f | %.0f | %.3f %.3f | %.3f %.3f |\n", row->roughness, row->degrees,
                       d.largest, d.rms, row->ltc_largest, row->ltc_rms);
-        CHECK_WITHIN(d.largest, row->largest);
+        CHECK_WITHIN(d.largest, row->ltc_largest + 0.0005);
         CHECK_WITHIN(d.rms, row->ltc_rms);
     }
 }

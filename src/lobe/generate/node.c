@@ -32,9 +32,10 @@ static double roughly(const fit_node *node) {
     return fmin(fmax((node->view.alpha - 0.1) / 0.3, 0), 1);
 }
 
-/* A large error, in parts of the peak. */
+/* A large error, in parts of the peak: less of it shows where highlights are small. */
 static double large(const fit_node *node) {
-    return 0.02 + 0.03 * roughly(node);
+    const double alpha = node->view.alpha, smoothly = fmin(fmax((0.1 - alpha) / 0.05, 0), 1);
+    return 0.02 - 0.009 * smoothly + 0.03 * roughly(node);
 }
 
 /* By Fresnel's factor of a value's parts. A dielectric's base is lit less where more is reflected,
