@@ -15,9 +15,6 @@
 #define LMP_BATCH 192
 #endif
 
-/* Floats of a cache line. */
-#define LMP_BATCH_LINE 16
-
 typedef struct lmp_batch_plane {
     float at[LMP_BATCH] __attribute__((aligned(64)));
 } lmp_batch_plane;
@@ -134,14 +131,14 @@ static inline lmp_kernel_out lmp_batch_out(float *at, size_t values, size_t coun
 static inline bool lmp_batch_streams(const lmp_kernel_out *out, size_t values, size_t count) {
     return values >= LMP_BATCH_STREAMED_VALUES_MIN && values <= LMP_KERNEL_STREAM_VALUES_MAX &&
            values * sizeof(float) * count > LMP_BATCH_STREAMED &&
-           (!out->planar || out->stride % LMP_BATCH_LINE == 0);
+           (!out->planar || out->stride % LMP_KERNEL_LINE == 0);
 }
 
 /* Elements of the chunk from `first` on; the first one of planes that are streamed ends where a
  * line of them does. */
 static inline size_t lmp_batch_chunk(const lmp_kernel_out *all, bool streams, size_t count,
                                      size_t first) {
-    const size_t head = -((uintptr_t)all->at / sizeof(float)) % LMP_BATCH_LINE;
+    const size_t head = -((uintptr_t)all->at / sizeof(float)) % LMP_KERNEL_LINE;
     return streams && all->planar && first == 0 && head > 0 ? head : lmp_batch_count(count, first);
 }
 

@@ -32,6 +32,9 @@ typedef struct lmp_kernel_vec3 {
     const float *x, *y, *z;
 } lmp_kernel_vec3;
 
+/* Floats of a cache line. */
+#define LMP_KERNEL_LINE 16
+
 /* Values of an element, at most, that a kernel streams: of 10 bands. */
 #define LMP_KERNEL_STREAM_VALUES_MAX 100
 

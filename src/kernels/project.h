@@ -60,18 +60,18 @@ static void kernel_eval(int bands, const lmp_kernel_vec3 *directions, size_t cou
         eval_any(bands, directions, count, out);
 }
 
+#if STREAM
+static void eval_tile(int bands, const void *directions, size_t element, size_t count,
+                      const lmp_kernel_out *out) {
+    const lmp_kernel_vec3 at = project_from(directions, element);
+    eval_straight(bands, &at, count, out);
+}
+#endif
+
 static void kernel_eval_streamed(int bands, const lmp_kernel_vec3 *directions, size_t count,
                                  const lmp_kernel_out *out) {
 #if STREAM
-    stream s;
-    stream_begin(&s, out, (size_t)(bands * bands));
-    const lmp_kernel_out tile = stream_tile(&s);
-    for (size_t e = 0; e < count; e += STREAM_TILE) {
-        const lmp_kernel_vec3 at = project_from(directions, e);
-        eval_straight(bands, &at, stream_count(count, e), &tile);
-        stream_put(&s, e, stream_count(count, e));
-    }
-    stream_end(&s);
+    stream_all(eval_tile, bands, directions, count, out);
 #elif LMP_LANES == 16
     lmp_kernels_avx2.eval_streamed(bands, directions, count, out);
 #else
@@ -140,19 +140,20 @@ static void kernel_project(int bands, const lmp_kernel_pairs *pairs, size_t coun
         project_block(bands, pairs, e, count, out);
 }
 
+#if STREAM
+static void project_tile(int bands, const void *inputs, size_t element, size_t count,
+                         const lmp_kernel_out *out) {
+    const lmp_kernel_pairs *pairs = inputs;
+    const lmp_kernel_pairs at = { project_from(&pairs->center, element),
+                                  project_from(&pairs->point, element), pairs->radius + element };
+    project_straight(bands, &at, count, out);
+}
+#endif
+
 static void kernel_project_streamed(int bands, const lmp_kernel_pairs *pairs, size_t count,
                                     const lmp_kernel_out *out) {
 #if STREAM
-    stream s;
-    stream_begin(&s, out, (size_t)(bands * bands));
-    const lmp_kernel_out tile = stream_tile(&s);
-    for (size_t e = 0; e < count; e += STREAM_TILE) {
-        const lmp_kernel_pairs at = { project_from(&pairs->center, e),
-                                      project_from(&pairs->point, e), pairs->radius + e };
-        project_straight(bands, &at, stream_count(count, e), &tile);
-        stream_put(&s, e, stream_count(count, e));
-    }
-    stream_end(&s);
+    stream_all(project_tile, bands, pairs, count, out);
 #elif LMP_LANES == 16
     lmp_kernels_avx2.project_streamed(bands, pairs, count, out);
 #else

@@ -3,18 +3,12 @@
  * each with lobes of its own; lights are broadcast.
  *
  * Of each light a surface needs a number a lobe: what the diffuse and the Phong lobes respond to
- * its cap. shade_zonal.h sums bands, preintegrated_lobe.h reads them from a table. The number of
- * Phong lobes is a constant wherever `lobes` is passed. */
+ * its cap. shade_zonal.h sums bands, preintegrated_lobe.h reads them from a table. */
 #ifndef LAMPION_KERNELS_SHADE_H
 #define LAMPION_KERNELS_SHADE_H
 
 #include "src/kernels/accumulate.h"
 #include "src/kernels/fade.h"
-
-/* Where the lobes of a block of surfaces lie and point. */
-typedef struct shade_block {
-    vf point[3], normal[3], axis[LMP_KERNEL_LOBES_MAX][3];
-} shade_block;
 
 /* What of a light they need: of its cap of at most a hemisphere u, the cosine of its axis with the
  * normal, and t; the weight of its responses, t but for the light's scale and sign. With
@@ -77,18 +71,12 @@ LMP_INLINE vf shade_dot(const vf a[3], const cap_lanes *cap) {
     return a[0] * cap->x + a[1] * cap->y + a[2] * cap->z;
 }
 
-LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, int plain, size_t e,
-                                   const shade_block *block, shade_direction *direction, vf *v) {
-    const cap_lanes cap = shade_cap(light, plain, e, block->point, direction);
-    direction->u = shade_dot(block->normal, &cap) * cap.per_d;
-    LMP_UNROLL for (int k = 0; k < lobes; k++) v[k] = shade_dot(block->axis[k], &cap) * cap.per_d;
-}
-
-/* Adds a response to what a lobe of a block of surfaces has accumulated: red, green, blue. */
-LMP_INLINE void shade_accumulate(lmp_rgb rgb, vf response, vf sums[3]) {
-    sums[0] = sums[0] + rgb.r * response;
-    sums[1] = sums[1] + rgb.g * response;
-    sums[2] = sums[2] + rgb.b * response;
+/* Adds a response to what a lobe of a block of surfaces has accumulated: red, green, blue. By its
+ * address, a color is spread over the lanes as it is read. */
+LMP_INLINE void shade_accumulate(const lmp_rgb *rgb, vf response, vf sums[3]) {
+    sums[0] = sums[0] + rgb->r * response;
+    sums[1] = sums[1] + rgb->g * response;
+    sums[2] = sums[2] + rgb->b * response;
 }
 
 LMP_INLINE void shade_planes(const lmp_kernel_vec3 *planes, size_t e, vf to[3]) {
@@ -105,21 +93,6 @@ LMP_INLINE void shade_sums_load(float *const planes[3], size_t e, vf sums[3]) {
 LMP_INLINE void shade_sums_store(const vf sums[3], size_t e, float *const planes[3]) {
     for (int c = 0; c < 3; c++)
         vf_store(planes[c] + e, sums[c]);
-}
-
-/* Some lights first, then their lobes: in one loop, the roots and quotients of a light would wait
- * for each other at its beginning. The v of a light follow those of the one before. */
-LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
-                                 const lmp_kernel_light *lights, size_t light_count, int plain,
-                                 size_t e, shade_direction *directions, vf *v) {
-    shade_block block;
-    shade_planes(&surfaces->point, e, block.point);
-    shade_planes(&surfaces->normal, e, block.normal);
-    LMP_UNROLL for (int k = 0; k < lobes; k++)
-        shade_planes(&surfaces->lobe[k].axis, e, block.axis[k]);
-    for (size_t i = 0; i < light_count; i++)
-        shade_direction_of(lobes, &lights[i], plain, e, &block, &directions[i],
-                           v + i * (size_t)lobes);
 }
 
 #endif

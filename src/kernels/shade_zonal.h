@@ -125,9 +125,7 @@ LMP_INLINE void zonal_add(const zonal_pair *pair, int is_ambient, const lmp_rgb 
     vf response = pair->of_sum * sum + pair->of_whole * whole;
     if (__builtin_expect(is_ambient, 0))
         response = response + 2 * whole * pair->ambient;
-    sums[0] = sums[0] + rgb->r * response;
-    sums[1] = sums[1] + rgb->g * response;
-    sums[2] = sums[2] + rgb->b * response;
+    shade_accumulate(rgb, response, sums);
 }
 
 /* A lobe of a tile from surface e on: its axes, where its weights are (none of the diffuse one),

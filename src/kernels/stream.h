@@ -13,15 +13,15 @@
 #if (LMP_LANES == 4 || LMP_LANES == 8) && defined(__SSE2__)
 #define STREAM 1
 
-/* Elements of a tile, and floats of a cache line. */
+/* Elements of a tile. */
 #define STREAM_TILE 32
-#define STREAM_LINE 16
 
 /* Floats of a block of rows with what was left of a line, rounded up to pages: a store across the
  * border of two pages waits for all before it, and rows begin anywhere. */
 #define STREAM_ROWS 1024
 
-_Static_assert(STREAM_ROWS >= STREAM_LINE + LMP_LANES * LMP_KERNEL_STREAM_VALUES_MAX, "rows fit");
+_Static_assert(STREAM_ROWS >= LMP_KERNEL_LINE + LMP_LANES * LMP_KERNEL_STREAM_VALUES_MAX,
+               "rows fit");
 
 /* Rows that wait lie at rows[half]: `waiting` floats without gaps, which belong at `to`. */
 typedef struct stream {
@@ -41,27 +41,19 @@ LMP_INLINE void stream_begin(stream *s, const lmp_kernel_out *out, size_t values
     s->half = 0;
 }
 
-/* Where a tile is computed, and how many elements it has from `element` on. */
-LMP_INLINE lmp_kernel_out stream_tile(stream *s) {
-    return (lmp_kernel_out) { s->planes, STREAM_TILE, 1 };
-}
-LMP_INLINE size_t stream_count(size_t count, size_t element) {
-    return count - element < STREAM_TILE ? count - element : STREAM_TILE;
-}
-
 /* Floats from the beginning of the line to this one. */
 LMP_INLINE size_t stream_into_line(const float *at) {
-    return (uintptr_t)at / sizeof *at % STREAM_LINE;
+    return (uintptr_t)at / sizeof *at % LMP_KERNEL_LINE;
 }
 
 /* Lines that are not written whole, by ordinary stores. */
 LMP_INLINE void stream_run(float *to, const float *from, size_t count) {
-    const size_t head = (STREAM_LINE - stream_into_line(to)) % STREAM_LINE;
+    const size_t head = (LMP_KERNEL_LINE - stream_into_line(to)) % LMP_KERNEL_LINE;
     size_t i = 0;
     for (; i < head && i < count; i++)
         to[i] = from[i];
-    for (; i + STREAM_LINE <= count; i += STREAM_LINE)
-        LMP_UNROLL for (size_t k = 0; k < STREAM_LINE; k += LMP_LANES)
+    for (; i + LMP_KERNEL_LINE <= count; i += LMP_KERNEL_LINE)
+        LMP_UNROLL for (size_t k = 0; k < LMP_KERNEL_LINE; k += LMP_LANES)
             vf_stream(to + i + k, vf_load(from + i + k));
     for (; i < count; i++)
         to[i] = from[i];
@@ -112,6 +104,23 @@ LMP_INLINE void stream_end(stream *s) {
     const size_t run = s->out->stride == s->values ? s->waiting : s->values;
     for (size_t i = 0; i < s->waiting; i += run, s->to += s->out->stride)
         stream_run(s->to, rows + i, run);
+}
+
+/* Computes elements of some inputs, `count` from `element` on. */
+typedef void stream_compute(int bands, const void *inputs, size_t element, size_t count,
+                            const lmp_kernel_out *out);
+
+static void stream_all(stream_compute *compute, int bands, const void *inputs, size_t count,
+                       const lmp_kernel_out *out) {
+    stream s;
+    stream_begin(&s, out, (size_t)(bands * bands));
+    const lmp_kernel_out tile = { s.planes, STREAM_TILE, 1 };
+    for (size_t e = 0; e < count; e += STREAM_TILE) {
+        const size_t n = count - e < STREAM_TILE ? count - e : STREAM_TILE;
+        compute(bands, inputs, e, n, &tile);
+        stream_put(&s, e, n);
+    }
+    stream_end(&s);
 }
 
 #else

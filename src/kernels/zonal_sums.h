@@ -27,7 +27,7 @@ typedef vf zonal_number;
 /* Fewer bands are padded by some of weight 0. */
 #define ZONAL_BANDS_MIN 3
 
-/* Lights that go through the bands of a lobe side by side. */
+/* Lights, or blocks of surfaces, that go through the bands of a lobe side by side, at most. */
 #define ZONAL_SIDE_BY_SIDE 4
 
 /* What is the same for every surface, by band. The factors of R_l P_l hold their norms, of l = 0
@@ -65,7 +65,7 @@ static inline void zonal_prepare(int bands, int monic, const float *window, cons
 LMP_INLINE void zonal_phong(int bands, const zonal_tables *tables, vf exponent, vf *weights) {
     vf before = vf_set(1), lambda = (exponent + 1) / (exponent + 2);
     weights[0] = before * tables->phong[0];
-    LMP_ROLLED for (int l = 1; l < bands || l < ZONAL_BANDS_MIN; l++) {
+    LMP_ROLLED for (int l = 1; l < bands; l++) {
         weights[l] = lambda * tables->phong[l];
         const vf next = before * ((exponent - (float)(l - 1)) / (exponent + (float)(l + 2)));
         before = lambda;
