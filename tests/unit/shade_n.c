@@ -304,32 +304,38 @@ static void every_instruction_set_gives_the_same_bits(void **state) {
     lmp_preintegrated_lobe_destroy(lobe);
 }
 
-/* Whatever the lanes are: surfaces of a chunk, or few of them beside each other. */
+/* Whatever the lanes are: surfaces of a chunk, or few of them beside each other; of many materials,
+ * or of one, whose factors a block takes over from the one before. */
 static void few_lights_give_a_surface_the_same_bits_in_any_company(void **state) {
     (void)state;
     static float first[COUNT * 3], rgb[COUNT * 3], alone[3];
     const int bands[] = { 1, 4, 10, 11, 49, 128 };
+    const lmp_material same = { .diffuse = color(), .specular = color(), .exponent = 20 };
     scatter_both_kinds();
-    for (size_t count = 1; count < 10; count++)
-        for (int b = 0; b < 6; b++)
-            for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
-                const lmp_shade_settings settings = { .bands = bands[b] };
-                lmp_surfaces surfaces = interleaved();
-                if (lmp_cpu_mask(flag) != flag)
-                    continue;
-                lmp_shade_n(&settings, &surfaces, COUNT, lights, count, 0, rgb);
-                if (flag == LMP_CPU_SCALAR)
-                    memcpy(first, rgb, sizeof rgb);
-                assert_memory_equal(first, rgb, sizeof rgb);
-                const size_t i = (7 * count + (size_t)b) % COUNT;
-                const lmp_surface *s = &vertices[i].surface;
-                surfaces.position = lmp_vec3_array_same(&s->position);
-                surfaces.normal = lmp_vec3_array_same(&s->normal);
-                surfaces.view = lmp_vec3_array_same(&s->view);
-                surfaces.material = &vertices[i].material;
-                lmp_shade_n(&settings, &surfaces, 1, lights, count, 0, alone);
-                assert_memory_equal(alone, &rgb[3 * i], sizeof alone);
+    for (size_t run = 0; run < 9 * 6 * 2; run++)
+        for (unsigned flag = 1; flag < LMP_CPU_ALL; flag *= 2) {
+            const size_t count = 1 + run % 9, i = 7 * run % COUNT;
+            const lmp_shade_settings settings = { .bands = bands[run / 9 % 6] };
+            const lmp_surface *s = &vertices[i].surface;
+            lmp_surfaces surfaces = interleaved();
+            if (lmp_cpu_mask(flag) != flag)
+                continue;
+            if (run >= 9 * 6) {
+                surfaces.material = &same;
+                surfaces.material_stride = 0;
             }
+            lmp_shade_n(&settings, &surfaces, COUNT, lights, count, 0, rgb);
+            if (flag == LMP_CPU_SCALAR)
+                memcpy(first, rgb, sizeof rgb);
+            assert_memory_equal(first, rgb, sizeof rgb);
+            surfaces.position = lmp_vec3_array_same(&s->position);
+            surfaces.normal = lmp_vec3_array_same(&s->normal);
+            surfaces.view = lmp_vec3_array_same(&s->view);
+            if (surfaces.material_stride)
+                surfaces.material = &vertices[i].material;
+            lmp_shade_n(&settings, &surfaces, 1, lights, count, 0, alone);
+            assert_memory_equal(alone, &rgb[3 * i], sizeof alone);
+        }
     lmp_cpu_mask(LMP_CPU_ALL);
 }
 
