@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* filter.c - small kernels whose taps move apart from pass to pass (à trous, Dammertz 2010). */
 #include "app/shadow/planes.h"
-#include "app/shadow/wide.h"
+#include "app/trace/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -93,7 +93,7 @@ static void add_tap(const filter_pass *pass, const span *at, block *b) {
     }
 }
 
-static SHADOW_WIDE void filter_block(const filter_pass *pass, int y, block *b) {
+static TRACE_WIDE void filter_block(const filter_pass *pass, int y, block *b) {
     static const float kernel[2] = { 0.5f, 0.25f };
     const shadow_planes *p = pass->planes;
     memset(b->total, 0, sizeof b->total);

@@ -2,7 +2,7 @@
 #include "app/shadow/point.h"
 
 #include "app/scene/vector.h"
-#include "app/shadow/wide.h"
+#include "app/trace/wide.h"
 
 /* The triangle of a pixel is looked for this many lifts before and behind its position. */
 static const float near_lifts = 10;
@@ -48,7 +48,7 @@ static lmp_vec3 mix(const shadow_vectors corners[3], const shadow_lanes weights[
  * triangle would meet its neighbors. So it starts as high as the surface of second degree that has
  * the corners' normals, which lies half as far off the triangle as the corners' tangent planes,
  * and, against rounding, a little off the triangle. Hollows stay where they are drawn. */
-static SHADOW_WIDE void leave_triangles(const triangle_lanes *t, float lift, shadow_points *p) {
+static TRACE_WIDE void leave_triangles(const triangle_lanes *t, float lift, shadow_points *p) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 a = shadow_lane(&t->corners[0], i);
         const lmp_vec3 cross = vec_cross(vec_sub(shadow_lane(&t->corners[1], i), a),
@@ -82,8 +82,10 @@ static void find_origins(const shadow_view *view, shadow_points *p) {
     triangle_lanes triangles = { 0 };
     trace_rays rays;
     trace_hit hits[SHADOW_LANES];
-    for (int i = 0; i < SHADOW_LANES; i++)
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        rays.start[i] = 0;
         rays.length[i] = p->lit[i] ? 2 * before : -1;
+    }
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < SHADOW_LANES; i++) {
             rays.origin[c][i] = p->position.of[c][i] + before * p->view.of[c][i];
@@ -224,8 +226,8 @@ static lmp_vec3 half_way(lmp_vec3 v, lmp_vec3 w) {
     return vec_scale(sum, 1 / (length > 0 ? length : 1));
 }
 
-static SHADOW_WIDE void reflect_bare(const shadow_points *p, const shadow_vectors *directions,
-                                     shadow_vectors *k) {
+static TRACE_WIDE void reflect_bare(const shadow_points *p, const shadow_vectors *directions,
+                                    shadow_vectors *k) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 n = shadow_lane(&p->normal, i), v = shadow_lane(&p->view, i);
         const lmp_vec3 w = shadow_lane(directions, i), h = half_way(v, w);
@@ -240,8 +242,8 @@ static SHADOW_WIDE void reflect_bare(const shadow_points *p, const shadow_vector
     }
 }
 
-static SHADOW_WIDE void add_coats(const shadow_points *p, const shadow_vectors *directions,
-                                  shadow_vectors *k) {
+static TRACE_WIDE void add_coats(const shadow_points *p, const shadow_vectors *directions,
+                                 shadow_vectors *k) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 n = shadow_lane(&p->coat_normal, i), v = shadow_lane(&p->view, i);
         const lmp_vec3 w = shadow_lane(directions, i), h = half_way(v, w);

@@ -3,7 +3,7 @@
 
 #include "app/scene/vector.h"
 #include "app/shadow/sequence.h"
-#include "app/shadow/wide.h"
+#include "app/trace/wide.h"
 
 #include <float.h>
 #include <string.h>
@@ -21,7 +21,7 @@ typedef struct shadow_sums {
 } shadow_sums;
 
 /* The next numbers in 0 … 1 of every pixel. */
-static SHADOW_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
+static TRACE_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, shadow_lanes *u) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         float numbers[3];
         shadow_draw(&sequences[i], ray, numbers);
@@ -31,8 +31,8 @@ static SHADOW_WIDE void draw(const shadow_sequence *sequences, uint32_t ray, sha
 }
 
 /* The sources that numbers fall on. */
-static SHADOW_WIDE void choose(const shadow_job *job, shadow_lanes *weights, const float *u,
-                               int *chosen) {
+static TRACE_WIDE void choose(const shadow_job *job, shadow_lanes *weights, const float *u,
+                              int *chosen) {
     const size_t last = job->source_count - 1;
     for (int i = 0; i < SHADOW_LANES; i++)
         chosen[i] = 0;
@@ -53,8 +53,8 @@ static void weigh_choice(const shadow_points *p, shadow_lanes *weights, const in
 }
 
 /* What each ray brings; rays that would bring nothing are not sent. */
-static SHADOW_WIDE void value_rays(const shadow_samples *samples, const shadow_vectors *k,
-                                   const float *weight, ray_shot *shot) {
+static TRACE_WIDE void value_rays(const shadow_samples *samples, const shadow_vectors *k,
+                                  const float *weight, ray_shot *shot) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float scale = 1 / (weight[i] > 0 ? weight[i] : 1);
         const float r = samples->arrives.of[0][i] * k->of[0][i] * scale;
@@ -66,6 +66,7 @@ static SHADOW_WIDE void value_rays(const shadow_samples *samples, const shadow_v
         shot->value.of[0][i] = sent ? r : 0;
         shot->value.of[1][i] = sent ? g : 0;
         shot->value.of[2][i] = sent ? b : 0;
+        shot->rays.start[i] = 0;
         shot->rays.length[i] = sent ? samples->length[i] : -1;
     }
 }
@@ -98,8 +99,8 @@ static float slope_of(float size, float length, float distance, float footprint)
 }
 
 /* Adds what the rays have found to the pixels' sums. */
-static SHADOW_WIDE void add_shot(const ray_shot *shot, const float *distances,
-                                 const shadow_points *points, shadow_sums *sums) {
+static TRACE_WIDE void add_shot(const ray_shot *shot, const float *distances,
+                                const shadow_points *points, shadow_sums *sums) {
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float length = shot->rays.length[i], mean = shot->mean[i];
         const bool hidden = distances[i] < length;

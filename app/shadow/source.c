@@ -2,7 +2,7 @@
 #include "app/shadow/source.h"
 
 #include "app/scene/vector.h"
-#include "app/shadow/wide.h"
+#include "app/trace/wide.h"
 
 /* --- the sources ------------------------------------------------------------------------------ */
 
@@ -174,8 +174,8 @@ static void weigh(const shadow_source *source, const shadow_points *p, float *we
         weigh_coats(&caps, p, weights);
 }
 
-SHADOW_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
-                                      const shadow_points *points, shadow_lanes *sums) {
+TRACE_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
+                                     const shadow_points *points, shadow_lanes *sums) {
     static const shadow_lanes none = { 0 };
     for (size_t s = 0; s < count; s++) {
         const float *before = s > 0 ? sums[s - 1] : none;
@@ -293,9 +293,9 @@ static void bring_light(const source_lanes *lanes, const seen_lanes *seen,
     }
 }
 
-static SHADOW_WIDE void draw_caps(const source_lanes *lanes, const shadow_vectors *positions,
-                                  const float *u, const float *v, seen_lanes *seen,
-                                  shadow_samples *samples) {
+static TRACE_WIDE void draw_caps(const source_lanes *lanes, const shadow_vectors *positions,
+                                 const float *u, const float *v, seen_lanes *seen,
+                                 shadow_samples *samples) {
     see(lanes, positions, seen);
     leave_axis(seen, u, v, &samples->direction);
     end_rays(lanes, seen, u, samples->length);

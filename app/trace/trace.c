@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/trace/trace.h"
 
+#include "app/scene/blob.h"
+#include "app/trace/blend.h"
 #include "app/trace/texture.h"
+#include "app/trace/triangle.h"
 
 #include <embree3/rtcore.h>
 #include <math.h>
@@ -15,6 +18,7 @@ typedef struct trace_mesh {
     const scene *scene;
     const scene_mesh *mesh;
     const scene_material *material;
+    float margin; /* of its triangles' bounds */
 } trace_mesh;
 
 struct trace_bvh {
@@ -23,11 +27,12 @@ struct trace_bvh {
     RTCScene rays;
 };
 
-/* Embree hands the context it was called with to the filter. */
+/* Embree hands the context it was called with to the test. */
 typedef struct trace_context {
     struct RTCIntersectContext embree;
-    const trace_bvh *bvh;
     trace_kind kind;
+    triangle_rays rays;      /* Embree's, by their number */
+    const trace_rays *image; /* of TRACE_IMAGE */
 } trace_context;
 
 typedef struct trace_triangle {
@@ -62,15 +67,13 @@ double trace_lift(const scene *world) {
 /* Light passes what blends where a mask would let it. */
 static bool may_be_cut(const scene_material *material, trace_kind kind) {
     return material->flags & SCENE_ALPHA_MASK ||
-           (material->flags & SCENE_ALPHA_BLEND && kind == TRACE_LIGHT);
+           (material->flags & SCENE_ALPHA_BLEND && kind != TRACE_CAMERA);
 }
 
-static bool cut_out(const trace_mesh *mesh, const trace_triangle *t, trace_kind kind) {
+static double alpha_of(const trace_mesh *mesh, const trace_triangle *t) {
     const scene_material *material = mesh->material;
     const uint32_t set = material->base_color_map.set;
     double uv[2] = { 0, 0 }, rgba[4], alpha = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
-    if (!may_be_cut(material, kind))
-        return false;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
             uv[k] += t->weights[i] * (double)t->corners[i]->uv[set][k];
@@ -78,72 +81,142 @@ static bool cut_out(const trace_mesh *mesh, const trace_triangle *t, trace_kind 
             alpha += t->weights[i] * (double)t->corners[i]->color[3] / 65535;
     }
     trace_texture_at(mesh->scene, &material->base_color_map, uv, rgba);
-    return rgba[3] * alpha * (double)material->base_color[3] < (double)material->alpha_cutoff;
+    return rgba[3] * alpha * (double)material->base_color[3];
 }
+
+/* --- rays against a triangle ------------------------------------------------------------------ */
 
 /* Embree hands rays and hits over as rows of n values; C++ alone has names for them. */
-enum { ROW_DIRECTION = 4, ROW_NORMAL = 0, ROW_U = 3, ROW_V = 4, ROW_TRIANGLE = 5, ROW_MESH = 6 };
+enum {
+    ROW_START = 3,
+    ROW_END = 8,
+    ROW_RAY = 10,
+    ROW_U = 15,
+    ROW_V = 16,
+    ROW_TRIANGLE = 17,
+    ROW_MESH = 18,
+    ROW_INSTANCE = 19
+};
 
-static float value_at(const void *rows, unsigned row, unsigned n, unsigned lane) {
-    return ((const float *)rows)[row * n + lane];
+/* Of some rays and a triangle of a mesh. */
+typedef struct trace_packet {
+    float *rows;
+    unsigned count;
+    const trace_mesh *mesh;
+    const trace_context *context;
+    uint32_t number, triangle; /* of the mesh, and in it */
+} trace_packet;
+
+static float *value_of(const trace_packet *p, unsigned row, unsigned lane) {
+    return &p->rows[row * p->count + lane];
 }
 
-static uint32_t number_at(const void *rows, unsigned row, unsigned n, unsigned lane) {
-    return ((const uint32_t *)rows)[row * n + lane];
+static uint32_t *number_of(const trace_packet *p, unsigned row, unsigned lane) {
+    return (uint32_t *)(void *)value_of(p, row, lane);
 }
 
-/* Faces are counter-clockwise to their viewer, and Embree's normals point to him. */
-static bool shows_back(const struct RTCFilterFunctionNArguments *a, unsigned lane) {
-    float facing = 0;
-    for (unsigned c = 0; c < 3; c++)
-        facing += value_at(a->hit, ROW_NORMAL + c, a->N, lane) *
-                  value_at(a->ray, ROW_DIRECTION + c, a->N, lane);
-    return facing >= 0;
+/* The nearest triangle counts, and of those at one distance the first: so it matters neither which
+ * shape the tree has nor in which order it is visited. */
+static bool comes_first(const trace_packet *p, unsigned lane, float distance) {
+    const float end = *value_of(p, ROW_END, lane);
+    if (!(distance > *value_of(p, ROW_START, lane) && distance <= end))
+        return false;
+    const uint32_t mesh = *number_of(p, ROW_MESH, lane);
+    return distance < end || p->number < mesh ||
+           (p->number == mesh && p->triangle < *number_of(p, ROW_TRIANGLE, lane));
 }
 
-static void pass_cut_out(const struct RTCFilterFunctionNArguments *a) {
-    const trace_context *context = (const trace_context *)(const void *)a->context;
+/* Of the ray's pixel and the triangle. */
+static double threshold_of(const trace_packet *p, unsigned lane) {
+    const trace_rays *rays = p->context->image;
+    const uint32_t pixel = rays->pixel[*number_of(p, ROW_RAY, lane)];
+    return (double)blend_threshold(pixel + p->number * 747796405u + p->triangle * 2891336453u,
+                                   rays->sample, rays->samples);
+}
+
+static bool lets_pass(const trace_packet *p, unsigned lane, const triangle_hits *hits) {
+    const scene_material *material = p->mesh->material;
+    const trace_kind kind = p->context->kind;
+    if (kind != TRACE_LIGHT && !hits->front[lane] && !(material->flags & SCENE_DOUBLE_SIDED))
+        return true;
+    if (!may_be_cut(material, kind))
+        return false;
+    trace_triangle t;
+    set_corners(p->mesh->scene, p->mesh->mesh, p->triangle, hits->u[lane], hits->v[lane], t.corners,
+                t.weights);
+    const double alpha = alpha_of(p->mesh, &t);
+    return kind == TRACE_IMAGE && material->flags & SCENE_ALPHA_BLEND
+               ? alpha <= threshold_of(p, lane)
+               : alpha < (double)material->alpha_cutoff;
+}
+
+static void keep(const trace_packet *p, unsigned lane, const triangle_hits *hits) {
+    *value_of(p, ROW_END, lane) = hits->distance[lane];
+    *value_of(p, ROW_U, lane) = hits->u[lane];
+    *value_of(p, ROW_V, lane) = hits->v[lane];
+    *number_of(p, ROW_TRIANGLE, lane) = p->triangle;
+    *number_of(p, ROW_MESH, lane) = p->number;
+    *number_of(p, ROW_INSTANCE, lane) = RTC_INVALID_GEOMETRY_ID;
+}
+
+/* The number of the packet's first ray: numbers run on, and are those of rays that take part. */
+static unsigned first_ray(const trace_packet *p, const int *valid) {
+    unsigned lane = 0;
+    while (lane + 1 < p->count && !valid[lane])
+        lane++;
+    return *number_of(p, ROW_RAY, lane) - lane;
+}
+
+static void intersect(const struct RTCIntersectFunctionNArguments *a) {
+    const trace_packet p = { .rows = (float *)a->rayhit,
+                             .count = a->N,
+                             .mesh = a->geometryUserPtr,
+                             .context = (const trace_context *)(const void *)a->context,
+                             .number = a->geomID,
+                             .triangle = a->primID };
+    const uint32_t *index =
+        p.mesh->scene->indices + p.mesh->mesh->first_index + 3 * (size_t)p.triangle;
+    const scene_vertex *vertices = p.mesh->scene->vertices;
+    const float *const corners[3] = { vertices[index[0]].position, vertices[index[1]].position,
+                                      vertices[index[2]].position };
+    triangle_hits hits;
+    if (!triangle_test(&p.context->rays, first_ray(&p, a->valid), p.count, corners, &hits))
+        return;
+    for (unsigned i = 0; i < p.count; i++)
+        if (a->valid[i] && comes_first(&p, i, hits.distance[i]) && !lets_pass(&p, i, &hits))
+            keep(&p, i, &hits);
+}
+
+/* Widened, so that the tree's rounding drops no triangle that the test would hit. */
+static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
     const trace_mesh *mesh = a->geometryUserPtr;
-    for (unsigned i = 0; i < a->N; i++) {
-        if (!a->valid[i])
-            continue;
-        trace_triangle t;
-        set_corners(mesh->scene, mesh->mesh, number_at(a->hit, ROW_TRIANGLE, a->N, i),
-                    value_at(a->hit, ROW_U, a->N, i), value_at(a->hit, ROW_V, a->N, i), t.corners,
-                    t.weights);
-        if (cut_out(mesh, &t, context->kind))
-            a->valid[i] = 0;
-    }
-}
-
-static void pass_backs(const struct RTCFilterFunctionNArguments *a) {
-    const trace_context *context = (const trace_context *)(const void *)a->context;
-    for (unsigned i = 0; i < a->N; i++) {
-        if (!a->valid[i])
-            continue;
-        const uint32_t mesh = number_at(a->hit, ROW_MESH, a->N, i);
-        const uint32_t flags = context->bvh->meshes[mesh].material->flags;
-        if (!(flags & SCENE_DOUBLE_SIDED) && shows_back(a, i))
-            a->valid[i] = 0;
-    }
+    const uint32_t *index = mesh->scene->indices + mesh->mesh->first_index + 3 * (size_t)a->primID;
+    float minimum[3], maximum[3];
+    blob_bounds(mesh->scene->vertices, index, 3, minimum, maximum);
+    const float margin = mesh->margin;
+    *a->bounds_o = (struct RTCBounds) {
+        .lower_x = minimum[0] - margin,
+        .lower_y = minimum[1] - margin,
+        .lower_z = minimum[2] - margin,
+        .upper_x = maximum[0] + margin,
+        .upper_y = maximum[1] + margin,
+        .upper_z = maximum[2] + margin,
+    };
 }
 
 /* --- creation --------------------------------------------------------------------------------- */
 
 static bool add_mesh(trace_bvh *bvh, const scene *world, size_t number) {
     trace_mesh *mesh = &bvh->meshes[number];
-    RTCGeometry geometry = rtcNewGeometry(bvh->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(bvh->device, RTC_GEOMETRY_TYPE_USER);
     mesh->scene = world;
     mesh->mesh = &world->meshes[number];
     mesh->material = &world->materials[mesh->mesh->material];
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               world->vertices, 0, sizeof *world->vertices, world->vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, world->indices,
-                               mesh->mesh->first_index * sizeof *world->indices,
-                               3 * sizeof *world->indices, mesh->mesh->index_count / 3);
+    mesh->margin = (float)trace_lift(world);
+    rtcSetGeometryUserPrimitiveCount(geometry, mesh->mesh->index_count / 3);
     rtcSetGeometryUserData(geometry, mesh);
-    if (may_be_cut(mesh->material, TRACE_LIGHT))
-        rtcSetGeometryIntersectFilterFunction(geometry, pass_cut_out);
+    rtcSetGeometryBoundsFunction(geometry, find_bounds, NULL);
+    rtcSetGeometryIntersectFunction(geometry, intersect);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(bvh->rays, geometry, (unsigned)number);
     rtcReleaseGeometry(geometry);
@@ -152,10 +225,10 @@ static bool add_mesh(trace_bvh *bvh, const scene *world, size_t number) {
 
 static bool build(trace_bvh *bvh, const scene *world) {
     bvh->meshes = calloc(world->mesh_count + 1, sizeof *bvh->meshes);
-    bvh->device = rtcNewDevice(NULL);
+    bvh->device = rtcNewDevice(getenv("LAMPION_EMBREE"));
     if (!bvh->meshes || !bvh->device || !(bvh->rays = rtcNewScene(bvh->device)))
         return false;
-    rtcSetSceneFlags(bvh->rays, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(bvh->rays, RTC_SCENE_FLAG_ROBUST);
     for (size_t i = 0; i < world->mesh_count; i++)
         if (!add_mesh(bvh, world, i))
             return false;
@@ -201,14 +274,11 @@ void trace_destroy(trace_bvh *bvh) {
 
 /* --- rays ------------------------------------------------------------------------------------- */
 
-static void set_context(const trace_bvh *bvh, trace_kind kind, trace_context *context) {
+static void set_context(trace_kind kind, trace_context *context) {
     rtcInitIntersectContext(&context->embree);
-    context->bvh = bvh;
     context->kind = kind;
-    if (kind == TRACE_CAMERA) {
-        context->embree.filter = pass_backs;
+    if (kind != TRACE_LIGHT)
         context->embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    }
 }
 
 trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origin[3],
@@ -226,7 +296,11 @@ trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origi
                  .mask = ~0u },
         .hit = { .geomID = RTC_INVALID_GEOMETRY_ID },
     };
-    set_context(bvh, kind, &context);
+    const float *const from[3] = { &origin[0], &origin[1], &origin[2] };
+    const float *const along[3] = { &direction[0], &direction[1], &direction[2] };
+    triangle_rays_set(from, along, 1, &context.rays);
+    context.image = NULL;
+    set_context(kind, &context);
     rtcIntersect1(bvh->rays, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return (trace_hit) { .distance = INFINITY, .mesh = TRACE_NOTHING };
@@ -244,10 +318,12 @@ static void set_rays(const trace_rays *rays, struct RTCRay16 *packet, int valid[
         packet->dir_x[i] = rays->direction[0][i];
         packet->dir_y[i] = rays->direction[1][i];
         packet->dir_z[i] = rays->direction[2][i];
-        packet->tnear[i] = packet->time[i] = 0;
+        packet->tnear[i] = rays->start[i];
         packet->tfar[i] = rays->length[i];
         packet->mask[i] = ~0u;
-        packet->id[i] = packet->flags[i] = 0;
+        packet->id[i] = (unsigned)i;
+        packet->time[i] = 0;
+        packet->flags[i] = 0;
     }
 }
 
@@ -259,7 +335,11 @@ void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *ra
     set_rays(rays, &query.ray, valid);
     for (int i = 0; i < TRACE_LANES; i++)
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    set_context(bvh, kind, &context);
+    const float *const from[3] = { rays->origin[0], rays->origin[1], rays->origin[2] };
+    const float *const along[3] = { rays->direction[0], rays->direction[1], rays->direction[2] };
+    triangle_rays_set(from, along, TRACE_LANES, &context.rays);
+    context.image = rays;
+    set_context(kind, &context);
     rtcIntersect16(valid, bvh->rays, &context.embree, &query);
     for (int i = 0; i < TRACE_LANES; i++)
         hits[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID

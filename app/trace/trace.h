@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* trace.h - rays through the triangles of a scene, by Embree. What an alpha mask cuts out stops
- * none of them. */
+/* trace.h - rays through the triangles of a scene. What an alpha mask cuts out stops none of them.
+ *
+ * Embree finds the triangles that may be hit, and our own arithmetic which of them are: hits have
+ * the same bits on every instruction set, alone and side by side, and of triangles at one distance
+ * the first mesh's first counts. The environment variable LAMPION_EMBREE is Embree's configuration,
+ * for tests: "isa=sse2". */
 #ifndef LAMPION_TRACE_H
 #define LAMPION_TRACE_H
 
@@ -18,13 +22,17 @@ double trace_lift(const scene *scene);
 /* Which triangles stop a ray. */
 typedef enum trace_kind {
     TRACE_CAMERA, /* those seen from a side that is drawn */
+    TRACE_IMAGE,  /* those, but of what blends by alpha only as many samples as its alpha tells */
     TRACE_LIGHT   /* all */
 } trace_kind;
 
 /* Rays side by side; those of length < 0 are none. */
 #define TRACE_LANES 16
 typedef struct trace_rays {
-    float origin[3][TRACE_LANES], direction[3][TRACE_LANES], length[TRACE_LANES];
+    float origin[3][TRACE_LANES], direction[3][TRACE_LANES];
+    float start[TRACE_LANES], length[TRACE_LANES]; /* in lengths of the direction */
+    uint32_t pixel[TRACE_LANES]; /* of TRACE_IMAGE: a number of its own for each */
+    uint32_t sample, samples;    /* of TRACE_IMAGE: which of how many it is */
 } trace_rays;
 
 #define TRACE_NOTHING UINT32_MAX

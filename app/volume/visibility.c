@@ -64,8 +64,10 @@ static void send_rays(const volume_visibility *v, const shadow_source *source, l
     shadow_sources_draw(sources, &points, along, around, &samples);
     memcpy(rays.origin, points.of, sizeof rays.origin);
     memcpy(rays.direction, samples.direction.of, sizeof rays.direction);
-    for (int i = 0; i < TRACE_LANES; i++)
+    for (int i = 0; i < TRACE_LANES; i++) {
+        rays.start[i] = 0;
         rays.length[i] = first + i < v->rays ? fmaxf(samples.length[i] - v->lift, 0) : -1;
+    }
     trace_nearest_n(v->bvh, TRACE_LIGHT, &rays, hits);
     for (int i = 0; i < TRACE_LANES && first + i < v->rays; i++) {
         const lmp_vec3 rgb = shadow_lane(&samples.arrives, i);
