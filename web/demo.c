@@ -2,9 +2,9 @@
 /* demo.c - what the page asks of the library and of the program's scenes. It draws by WebGL itself,
  * with the program's own shaders: arrays here are laid out as these read them. */
 #include "app/animation/animation.h"
-#include "app/gpu/block.h"
-#include "app/gpu/shelves.h"
 #include "app/image/tone.h"
+#include "app/render/gl/block.h"
+#include "app/render/gl/shelves.h"
 #include "app/sandbox/sandbox.h"
 #include "app/scene/builtin.h"
 #include "app/scene/emission.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene's triangles, materials and textures by WebGL 2, as app/gpu/mesh.c has them by OpenGL.
+// A scene's triangles, materials and textures by WebGL 2, as app/render/gl/mesh.c has them by OpenGL.
 const ATTRIBUTES = [[3, 'FLOAT', 0], [3, 'FLOAT', 12], [4, 'FLOAT', 24], [4, 'FLOAT', 40], [4, 'UNSIGNED_SHORT', 56]];
 
 // A texture of one level, of numbers that shaders look up.

@@ -3,7 +3,7 @@
  */
 #include "app/bench/gpu.h"
 #include "app/bake/bake.h"
-#include "app/shade/shade.h"
+#include "app/render/shade/shade.h"
 #include "app/timing/timing.h"
 
 #include <math.h>
@@ -151,8 +151,8 @@ static int bands_max(const bench_scene *s, const bench_case *c) {
 }
 
 /* One of them, all lights taken anew; its tone curve, too. */
-static bool time_frame(bench_scene *s, const gpu_frame *frame, unsigned char *rgb8,
-                       gpu_times *times, cli_error *error) {
+static bool time_frame(bench_scene *s, const render_frame *frame, unsigned char *rgb8,
+                       render_times *times, cli_error *error) {
     const image_display display = { .exposure = 1 };
     shade_field_forget(frame->field);
     return gpu_render(s->renderer, frame, times, error) &&
@@ -161,11 +161,11 @@ static bool time_frame(bench_scene *s, const gpu_frame *frame, unsigned char *rg
 
 /* In the row's part of the time left, but one frame at least: where the library shades, which
  * compiles nothing, the first one, if that takes as long. */
-static bool time_frames(bench_scene *s, const bench_row *c, const gpu_frame *frame,
+static bool time_frames(bench_scene *s, const bench_row *c, const render_frame *frame,
                         bench_result *result, cli_error *error) {
     double shading[FRAMES], whole[FRAMES];
     int count = 0;
-    gpu_times times;
+    render_times times;
     const double start = now_ms(), end = start + (s->plan->end_ms - start) / s->plan->rows_ahead;
     unsigned char *rgb8 = malloc(3 * (size_t)c->width * (size_t)c->height);
     bool ok = (rgb8 || cli_fail(error, NULL, "out of memory")) &&
@@ -187,7 +187,7 @@ static bool time_frames(bench_scene *s, const bench_row *c, const gpu_frame *fra
 }
 
 static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, cli_error *error) {
-    gpu_frame frame = {
+    render_frame frame = {
         .width = c->width,
         .height = c->height,
         .camera = scene_default_camera(&s->world, (float)c->width / (float)c->height),

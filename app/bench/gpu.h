@@ -5,7 +5,7 @@
 
 #include "app/bench/bench.h"
 #include "app/override/override.h"
-#include "app/shade/field.h"
+#include "app/render/shade/field.h"
 
 /* What shades. */
 typedef struct bench_case {

@@ -2,7 +2,7 @@
 /* doctor.c - lampion doctor: what this machine offers, and where the program keeps things. */
 #include "app/command/command.h"
 #include "app/file/file.h"
-#include "app/gpu/gpu.h"
+#include "app/render/gl/gpu.h"
 #include "app/timing/timing.h"
 
 #include <lampion/base.h>

@@ -4,7 +4,7 @@
 #include "app/command/command.h"
 #include "app/file/file.h"
 #include "app/image/sequence.h"
-#include "app/shade/shade.h"
+#include "app/render/shade/shade.h"
 #include "app/view/view.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ static bool settle_exposure(render_job *j, cli_error *error) {
     if (!(factor > 0)) {
         move_lights(j, 0);
         image pixels;
-        gpu_frame frame = j->frame;
+        render_frame frame = j->frame;
         frame.samples = 1;
         frame.hide_backdrop = true;
         memset(frame.background, 0, sizeof frame.background);
@@ -77,7 +77,7 @@ static bool settle_exposure(render_job *j, cli_error *error) {
     return true;
 }
 
-static bool render_frame(render_job *j, int index, cli_error *error) {
+static bool draw_frame(render_job *j, int index, cli_error *error) {
     char path[PATH_SIZE];
     name_frame(j->options, index, path);
     move_lights(j, index);
@@ -101,7 +101,7 @@ static bool render_frames(render_job *j, cli_error *error) {
     bool ok = settle_exposure(j, error);
     for (int i = first; i < end && ok; i++) {
         cli_progress("rendering", (double)(i - first) / (double)(end - first));
-        ok = render_frame(j, i, error);
+        ok = draw_frame(j, i, error);
     }
     cli_progress_end();
     return ok;
@@ -171,7 +171,7 @@ static bool cast_shadows(render_job *j, cli_error *error) {
     if (!j->options->shadow.on || j->options->shadow.off)
         return true;
     j->shadow = shadow_create(&j->world, &j->around, &j->options->shadow.settings, error);
-    j->frame.shadow = (gpu_host_pass) { shadow_frame, j->shadow };
+    j->frame.shadow = (render_pass) { shadow_frame, j->shadow };
     return j->shadow != NULL;
 }
 

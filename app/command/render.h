@@ -7,8 +7,8 @@
 #include "app/animation/animation.h"
 #include "app/environment/environment.h"
 #include "app/override/override.h"
-#include "app/shade/field.h"
-#include "app/shadow/shadow.h"
+#include "app/render/shade/field.h"
+#include "app/render/shadow/shadow.h"
 #include "app/view/settings.h"
 
 #define RENDER_REPEAT_MAX 1000
@@ -38,7 +38,7 @@ typedef struct render_job {
     environment around;
     gpu_context context;
     gpu_renderer *renderer;
-    gpu_frame frame;
+    render_frame frame;
     device_kind shading;
     method_work work;              /* by which methods are estimated */
     method_kind method;            /* of these lights, on that device */

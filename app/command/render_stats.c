@@ -12,14 +12,14 @@ enum { SHADE = 2, PASSES = 6 };
 /* The median of each pass over the repetitions of one method, after a frame that warms it up. */
 static bool measure(render_job *j, method_kind method, double medians[PASSES], cli_error *error) {
     static double samples[PASSES][RENDER_REPEAT_MAX];
-    gpu_frame frame = j->frame;
+    render_frame frame = j->frame;
     frame.method = method;
     frame.samples = 1;
     unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
     bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
     ok = ok && gpu_render(j->renderer, &frame, NULL, error);
     for (int i = 0; i < j->options->repeat && ok; i++) {
-        gpu_times times;
+        render_times times;
         shade_field_forget(j->field);
         ok = gpu_render(j->renderer, &frame, &times, error) &&
              gpu_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
@@ -105,13 +105,13 @@ static void add_field(const render_job *j, cJSON *stats) {
  * nodes, and computes those that come into view. */
 static bool add_rest(render_job *j, cJSON *stats, cli_error *error) {
     static double samples[RENDER_REPEAT_MAX];
-    gpu_frame frame = j->frame;
+    render_frame frame = j->frame;
     const float step = 0.002f * (j->world.maximum[0] - j->world.minimum[0]);
     bool ok = true;
     frame.method = METHOD_FIELD;
     frame.samples = 1;
     for (int i = 0; i < j->options->repeat && ok; i++) {
-        gpu_times times;
+        render_times times;
         frame.camera.eye[0] += step;
         ok = gpu_render(j->renderer, &frame, &times, error);
         samples[i] = ok ? times.shade : 0;

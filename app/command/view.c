@@ -3,7 +3,7 @@
 #include "app/animation/animation.h"
 #include "app/command/command.h"
 #include "app/override/override.h"
-#include "app/shadow/shadow.h"
+#include "app/render/shadow/shadow.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -110,7 +110,7 @@ bool override_apply(const override_set *all, const scene *world, gpu_renderer *r
     return ok;
 }
 
-bool override_prepare(const cli_list *list, const scene *world, const gpu_frame *frame,
+bool override_prepare(const cli_list *list, const scene *world, const render_frame *frame,
                       gpu_renderer *renderer, override_set *all, cli_error *error) {
     return override_open(list, world, all, error) &&
            override_bake(all, frame->bands, frame->window, error) &&

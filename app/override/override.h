@@ -3,8 +3,8 @@
 #ifndef LAMPION_OVERRIDE_H
 #define LAMPION_OVERRIDE_H
 
-#include "app/gpu/gpu.h"
 #include "app/material/material.h"
+#include "app/render/gl/gpu.h"
 
 #define OVERRIDE_ARGUMENT "NAME=MATERIAL"
 #define OVERRIDE_OPTION_ROW(list)                                                                  \
@@ -44,7 +44,7 @@ bool override_apply(const override_set *set, const scene *scene, gpu_renderer *r
                     cli_error *error);
 
 /* All of these: what the frame's method, bands and window need, for the renderer. */
-bool override_prepare(const cli_list *list, const scene *scene, const gpu_frame *frame,
+bool override_prepare(const cli_list *list, const scene *scene, const render_frame *frame,
                       gpu_renderer *renderer, override_set *set, cli_error *error);
 
 /* After the renderer. */

@@ -92,11 +92,11 @@ static bool time_rows(paper *p, const gpu_context *context, const scene *world, 
         for (int c = 0; c < TIMED_BANDS; c++) {
             char assignment[128];
             paper_times ms;
-            const gpu_frame frame = { .width = size_of(p)[0],
-                                      .height = size_of(p)[1],
-                                      .method = METHOD_COEFFICIENTS,
-                                      .bands = band_counts[c],
-                                      .window = LMP_WINDOW_HANNING };
+            const render_frame frame = { .width = size_of(p)[0],
+                                         .height = size_of(p)[1],
+                                         .method = METHOD_COEFFICIENTS,
+                                         .bands = band_counts[c],
+                                         .window = LMP_WINDOW_HANNING };
             snprintf(assignment, sizeof assignment, "test_material=sgd:%s", materials[i].ours);
             if (!paper_time_frame(context, world, &frame, assignment, &ms, error))
                 return false;

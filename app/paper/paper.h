@@ -5,8 +5,8 @@
 #define LAMPION_PAPER_H
 
 #include "app/compare/compare.h"
-#include "app/gpu/gpu.h"
 #include "app/paper/page.h"
+#include "app/render/gl/gpu.h"
 
 /* Runs a command line of the program ("render builtin:atrium …"); returns its exit status. */
 typedef int (*paper_runner)(int argc, char **argv);
@@ -102,7 +102,7 @@ typedef struct paper_times {
 
 /* On the device of `context`, for the scene's lights, seen by its default camera. `material`
  * is NAME=MATERIAL, as `render --material` takes it; NULL: none. */
-bool paper_time_frame(const gpu_context *context, const scene *world, const gpu_frame *frame,
+bool paper_time_frame(const gpu_context *context, const scene *world, const render_frame *frame,
                       const char *material, paper_times *times, cli_error *error);
 
 /* A paragraph that names the device. */

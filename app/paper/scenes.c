@@ -59,11 +59,11 @@ static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli
     for (int i = 0; ok && f->shown[i]; i++) {
         double least = HUGE_VAL;
         for (size_t m = 0; ok && m < sizeof methods / sizeof *methods; m++) {
-            const gpu_frame frame = { .width = f->width,
-                                      .height = f->height,
-                                      .method = methods[m].method,
-                                      .bands = f->shown[i],
-                                      .window = LMP_WINDOW_HANNING };
+            const render_frame frame = { .width = f->width,
+                                         .height = f->height,
+                                         .method = methods[m].method,
+                                         .bands = f->shown[i],
+                                         .window = LMP_WINDOW_HANNING };
             paper_times ms;
             ok = paper_time_frame(context, &world, &frame, NULL, &ms, error);
             if (!ok)

@@ -6,13 +6,13 @@
 
 enum { RUNS = 5 };
 
-bool paper_time_frame(const gpu_context *context, const scene *world, const gpu_frame *frame,
+bool paper_time_frame(const gpu_context *context, const scene *world, const render_frame *frame,
                       const char *assignment, paper_times *medians, cli_error *error) {
     double totals[RUNS], shades[RUNS];
     override_set overrides = { .count = 0 };
     const cli_list list = { { assignment }, assignment ? 1 : 0 };
-    gpu_times times;
-    gpu_frame whole = *frame;
+    render_times times;
+    render_frame whole = *frame;
     whole.camera = scene_default_camera(world, (float)frame->width / (float)frame->height);
     whole.lights = world->lights;
     whole.light_count = world->light_count;

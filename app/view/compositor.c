@@ -2,9 +2,9 @@
 #include "app/view/compositor.h"
 #include "app/bake/bake.h"
 #include "app/override/override.h"
-#include "app/shade/field.h"
-#include "app/shade/shade.h"
-#include "app/shadow/shadow.h"
+#include "app/render/shade/field.h"
+#include "app/render/shade/shade.h"
+#include "app/render/shadow/shadow.h"
 #include "app/view/draft.h"
 
 #include <stdlib.h>
@@ -127,7 +127,7 @@ static const lmp_preintegrated_lobe *get_lobe(view_compositor *s, const view_sha
 
 /* One for so many bands, or NULL where the method reads none. */
 static bool settle_field(view_compositor *s, side *own, const view_shading *shading,
-                         gpu_frame *frame, cli_error *error) {
+                         render_frame *frame, cli_error *error) {
     const shade_field_options options = { .error = SHADE_FIELD_ERROR,
                                           .moves = true,
                                           .bytes_max = s->context.storage_max };
@@ -262,25 +262,25 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
     return environment_project(&s->around, bands, error);
 }
 
-static bool settle_shadows(view_compositor *s, const view_settings *settings, gpu_host_pass *pass,
+static bool settle_shadows(view_compositor *s, const view_settings *settings, render_pass *pass,
                            cli_error *error) {
     static const shadow_settings quick = { .rays = 1, .sparse = true, .apart = true };
     if (!settings->shadows)
         return true;
     if (!s->shadows)
         s->shadows = shadow_create(s->world, &s->around, &quick, error);
-    *pass = (gpu_host_pass) { shadow_frame, s->shadows };
+    *pass = (render_pass) { shadow_frame, s->shadows };
     return s->shadows;
 }
 
 /* How to draw a side: how many samples come from what samples counts. */
 static bool fill_frame(view_compositor *s, const view_settings *settings,
-                       const view_shading *shading, int divisor, gpu_frame *frame,
+                       const view_shading *shading, int divisor, render_frame *frame,
                        device_kind *device, cli_error *error) {
     const bool tables = settings->material_count > 0 && environment_shines(&s->around);
     *device =
         method_device(shading->method, DEVICE_AUTO, tables, s->context.software, shading->bands);
-    *frame = (gpu_frame) {
+    *frame = (render_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
         .camera = settings->camera,
@@ -310,8 +310,8 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
     for (int i = 0; i < sides; i++) {
         side *own = &s->sides[i];
         const view_shading *shading = &settings->shading[i];
-        gpu_frame frame;
-        gpu_times times;
+        render_frame frame;
+        render_times times;
         device_kind device;
         if (!open_side(s, own, fineness, error) ||
             !settle_materials(s, own, settings, shading, error) ||
@@ -357,7 +357,7 @@ bool view_compositor_refine(view_compositor *s, const view_settings *settings, i
 
 bool view_compositor_expose(view_compositor *s, const view_settings *settings, float *exposure,
                             cli_error *error) {
-    gpu_frame frame;
+    render_frame frame;
     device_kind device;
     image pixels;
     side *own = &s->sides[0];

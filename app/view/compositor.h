@@ -14,7 +14,7 @@ void view_compositor_destroy(view_compositor *compositor);
 
 /* Milliseconds of the passes of the image drawn last, both sides together. */
 typedef struct view_statistics {
-    gpu_times times;
+    render_times times;
     int width, height;
     device_kind device; /* of the first side */
 } view_statistics;

@@ -46,7 +46,7 @@ static bool take_back(viewer *v, const cli_error *error) {
 
 /* How coarse a draft has to be, from how long the last one took. */
 static void adapt(viewer *v, double seconds) {
-    const gpu_times *t = &v->statistics.times;
+    const render_times *t = &v->statistics.times;
     const double finer = v->divisor > 1 ? (double)v->divisor / (v->divisor - 1) : 1;
     /* the window costs the same however many pixels the draft has */
     const double of_pixels = seconds - v->show_seconds - (v->moves ? 1e-3 * t->gbuffer : 0);

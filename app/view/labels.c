@@ -57,7 +57,7 @@ static void describe_lights(const view_state *s, char *text, size_t size) {
 static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     const view_state *s = &v->state;
     const view_settings *d = v->drawn;
-    const gpu_times *t = &v->statistics.times;
+    const render_times *t = &v->statistics.times;
     char shading[96], text[96];
     int count = 0;
     add_row(rows, &count, "Lampion", "%s", "");

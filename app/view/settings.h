@@ -5,7 +5,7 @@
 #define LAMPION_VIEW_SETTINGS_H
 
 #include "app/environment/environment.h"
-#include "app/gpu/gpu.h"
+#include "app/render/gl/gpu.h"
 
 #include <stddef.h>
 

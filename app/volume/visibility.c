@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/volume/visibility.h"
 
+#include "app/render/shadow/source.h"
 #include "app/scene/vector.h"
-#include "app/shadow/source.h"
 
 #include <stdlib.h>
 #include <string.h>

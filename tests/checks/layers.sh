@@ -45,15 +45,15 @@ may_include() {
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
-    app/gpu) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/gpu shaders lookup LIBRARY ;;
-    app/shade) echo app/timing app/device app/cli app/bake app/scene app/environment app/gpu app/shade LIBRARY ;;
-    app/shadow) echo app/timing app/cli app/scene app/environment app/trace app/gpu app/shadow LIBRARY ;;
-    app/volume) echo app/cli app/sandbox app/file app/csv app/bake app/scene app/environment app/trace app/gpu app/shadow app/volume LIBRARY ;;
-    app/override) echo app/cli app/method app/scene app/material app/gpu app/override LIBRARY ;;
-    app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/gpu app/device app/method app/bake app/shade app/shadow app/override app/view LIBRARY ;;
-    app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/gpu app/image app/reference app/scene app/paper app/material LIBRARY ;;
-    app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/gpu app/bake app/shade app/override app/bench LIBRARY ;;
-    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/shade app/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard app/gpu app/device app/material app/view app/volume \
+    app/render/gl) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/render/gl shaders lookup LIBRARY ;;
+    app/render/shade) echo app/timing app/device app/cli app/bake app/scene app/environment app/render/gl app/render/shade LIBRARY ;;
+    app/render/shadow) echo app/timing app/cli app/scene app/environment app/trace app/render/gl app/render/shadow LIBRARY ;;
+    app/volume) echo app/cli app/sandbox app/file app/csv app/bake app/scene app/environment app/trace app/render/gl app/render/shadow app/volume LIBRARY ;;
+    app/override) echo app/cli app/method app/scene app/material app/render/gl app/override LIBRARY ;;
+    app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/render/gl app/device app/method app/bake app/render/shade app/render/shadow app/override app/view LIBRARY ;;
+    app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/render/gl app/image app/reference app/scene app/paper app/material LIBRARY ;;
+    app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/render/gl app/bake app/render/shade app/override app/bench LIBRARY ;;
+    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/render/shade app/render/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard app/render/gl app/device app/material app/view app/volume \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }
@@ -61,6 +61,7 @@ may_include() {
 module_of() {
     case $1 in
     src/*/* | include/lampion/*) echo "$1" | sed 's,^src/\([^/]*\)/.*,\1,; s,^include/lampion/\(.*\)\.h,\1,' ;;
+    app/render/*/*) echo "$1" | sed 's,^\(app/render/[^/]*\)/.*,\1,' ;;
     app/*/*) echo "$1" | sed 's,^\(app/[^/]*\)/.*,\1,' ;;
     ruler/*) echo ruler ;;
     esac
@@ -70,6 +71,7 @@ module_of() {
 module_included() {
     case $1 in
     '"src/'*) echo "$1" | sed 's,"src/\([^/]*\)/.*,\1,' ;;
+    '"app/render/'*/*) echo "$1" | sed 's,"\(app/render/[^/]*\)/.*,\1,' ;;
     '"app/'*) echo "$1" | sed 's,"\(app/[^/]*\)/.*,\1,' ;;
     '"shaders/preintegrated_lookup.h"') echo lookup ;;
     '"shaders/'*) echo shaders ;;
@@ -82,7 +84,7 @@ module_included() {
 # violations ROOT: prints a line for each include that breaks the order.
 violations() (
     cd "$1"
-    for file in src/*/*.[ch] include/lampion/*.h app/*/*.[ch] ruler/*.[ch]; do
+    for file in src/*/*.[ch] include/lampion/*.h app/*/*.[ch] app/render/*/*.[ch] ruler/*.[ch]; do
         [ -f "$file" ] || continue
         module=$(module_of "$file")
         allowed=$(may_include "$module")
@@ -128,7 +130,7 @@ plant ruler/planted.c '<lampion/light.h>'
 plant src/base/planted.c '<stdio.h>'
 plant src/light/planted.h '"planted.h"'
 plant include/lampion/sh.h '<lampion/light.h>'
-plant app/scene/planted.c '"app/gpu/gpu.h"'
+plant app/scene/planted.c '"app/render/gl/gpu.h"'
 plant app/reference/planted.c '<lampion/shade.h>'
 plant app/reference/planted.c '"src/kernels/kernels.h"'
 mkdir -p "$WORK/app/reference"

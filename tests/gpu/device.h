@@ -3,7 +3,7 @@
 #ifndef LAMPION_TESTS_GPU_DEVICE_H
 #define LAMPION_TESTS_GPU_DEVICE_H
 
-#include "app/gpu/gpu.h"
+#include "app/render/gl/gpu.h"
 #include "tests/oracle/check.h"
 
 #include <setjmp.h>
@@ -70,16 +70,16 @@ static inline int usual_bands(void) {
     return check_count(8, LMP_SHADE_BANDS_DEFAULT);
 }
 
-static inline gpu_frame frame_of(const scene *world, int width, int height) {
-    return (gpu_frame) { .width = width,
-                         .height = height,
-                         .camera = scene_default_camera(world, (float)width / (float)height),
-                         .bands = LMP_SHADE_BANDS_DEFAULT,
-                         .lights = world->lights,
-                         .light_count = world->light_count };
+static inline render_frame frame_of(const scene *world, int width, int height) {
+    return (render_frame) { .width = width,
+                            .height = height,
+                            .camera = scene_default_camera(world, (float)width / (float)height),
+                            .bands = LMP_SHADE_BANDS_DEFAULT,
+                            .lights = world->lights,
+                            .light_count = world->light_count };
 }
 
-static inline image render_image(gpu_renderer *renderer, const gpu_frame *frame) {
+static inline image render_image(gpu_renderer *renderer, const render_frame *frame) {
     cli_error error = { "" };
     image pixels;
     expect(gpu_render(renderer, frame, NULL, &error), &error);
@@ -87,9 +87,9 @@ static inline image render_image(gpu_renderer *renderer, const gpu_frame *frame)
     return pixels;
 }
 
-static inline gpu_pixel *render_pixels(gpu_renderer *renderer, const gpu_frame *frame) {
+static inline render_pixel *render_pixels(gpu_renderer *renderer, const render_frame *frame) {
     cli_error error = { "" };
-    gpu_pixel *pixels;
+    render_pixel *pixels;
     expect(gpu_render(renderer, frame, NULL, &error), &error);
     expect(gpu_read_pixels(renderer, &pixels, &error), &error);
     return pixels;

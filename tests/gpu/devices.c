@@ -3,8 +3,8 @@
  */
 #include "app/bake/bake.h"
 #include "app/override/override.h"
-#include "app/shade/field.h"
-#include "app/shade/shade.h"
+#include "app/render/shade/field.h"
+#include "app/render/shade/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/kinds.h"
 
@@ -22,14 +22,14 @@ static void read_pixels(gpu_renderer *renderer, unsigned char *rgb8) {
            &error);
 }
 
-static void draw(gpu_renderer *renderer, const gpu_frame *frame, unsigned char *rgb8) {
+static void draw(gpu_renderer *renderer, const render_frame *frame, unsigned char *rgb8) {
     cli_error error = { "" };
     expect(gpu_render(renderer, frame, NULL, &error), &error);
     read_pixels(renderer, rgb8);
 }
 
 /* Sets the exposure, too, that the program would choose. */
-static void draw_first(gpu_renderer *renderer, const gpu_frame *frame) {
+static void draw_first(gpu_renderer *renderer, const render_frame *frame) {
     image pixels = render_image(renderer, frame);
     exposure = image_auto_exposure(&pixels);
     image_free(&pixels);
@@ -53,7 +53,7 @@ static int beyond(int levels) {
 typedef struct fixture {
     scene world;
     gpu_renderer *renderer;
-    gpu_frame frame;
+    render_frame frame;
 } fixture;
 
 static void open_fixture(fixture *s, const char *name) {
@@ -100,7 +100,7 @@ static void check_every_method(fixture *s) {
     shade_field_destroy(field);
 }
 
-static lmp_preintegrated_lobe *lobe_of(const gpu_frame *frame) {
+static lmp_preintegrated_lobe *lobe_of(const render_frame *frame) {
     lmp_preintegrated_lobe *lobe;
     const lmp_preintegrated_lobe_desc desc = { .bands = frame->bands,
                                                .window = frame->window,

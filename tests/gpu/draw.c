@@ -11,9 +11,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static gpu_pixel pixel_at(gpu_renderer *renderer, const gpu_frame *frame, int x, int y) {
-    gpu_pixel *pixels = render_pixels(renderer, frame);
-    const gpu_pixel pixel = pixels[y * SIDE + x];
+static render_pixel pixel_at(gpu_renderer *renderer, const render_frame *frame, int x, int y) {
+    render_pixel *pixels = render_pixels(renderer, frame);
+    const render_pixel pixel = pixels[y * SIDE + x];
     free(pixels);
     return pixel;
 }
@@ -22,22 +22,22 @@ static void positions_and_sides_are_where_the_camera_says(void **state) {
     (void)state;
     const scene *world = make_sheets();
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     /* column 47 is 15.5 pixels right of the middle: x = 15.5/16; row 16 is as far above it */
-    const gpu_pixel front = pixel_at(renderer, &frame, 47, 16);
-    assert_int_equal(front.kind, GPU_KIND_SURFACE);
+    const render_pixel front = pixel_at(renderer, &frame, 47, 16);
+    assert_int_equal(front.kind, RENDER_SURFACE);
     assert_true(fabsf(front.surface.position.x - 15.5f / 16) <= 1e-5f);
     assert_true(fabsf(front.surface.position.y - 15.5f / 16) <= 1e-5f);
     assert_true(fabsf(front.surface.position.z) <= 1e-5f);
     assert_true(front.surface.normal.z >= 0.9999f);
-    assert_int_equal(pixel_at(renderer, &frame, 49, 32).kind, GPU_KIND_NONE);
+    assert_int_equal(pixel_at(renderer, &frame, 49, 32).kind, RENDER_NONE);
 
     frame = look_at(world, 0, -1);
-    const gpu_pixel back = pixel_at(renderer, &frame, 32, 32);
-    assert_int_equal(back.kind, GPU_KIND_SURFACE);
+    const render_pixel back = pixel_at(renderer, &frame, 32, 32);
+    assert_int_equal(back.kind, RENDER_SURFACE);
     assert_true(back.surface.normal.z <= -0.9999f);
     frame = look_at(world, 3, -1); /* one-sided */
-    assert_int_equal(pixel_at(renderer, &frame, 32, 32).kind, GPU_KIND_NONE);
+    assert_int_equal(pixel_at(renderer, &frame, 32, 32).kind, RENDER_NONE);
     gpu_renderer_destroy(renderer);
 }
 
@@ -49,21 +49,21 @@ static void parallel_rays_see_the_same_from_everywhere(void **state) {
         .emitter = { .position = { 0, 3, -50 }, .radius = 0.5f, .radiance = { 1, 2, 3 } }
     };
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     frame.camera.height = 8;
     frame.light_count = 1;
     for (int distance = 1; distance <= 1000; distance *= 10) {
         frame.camera.eye[2] = (float)distance;
-        const gpu_pixel corner = pixel_at(renderer, &frame, 39, 24);
-        assert_int_equal(corner.kind, GPU_KIND_SURFACE);
+        const render_pixel corner = pixel_at(renderer, &frame, 39, 24);
+        assert_int_equal(corner.kind, RENDER_SURFACE);
         assert_true(fabsf(corner.surface.position.x - 7.5f / 8) <= 1e-5f);
         assert_true(fabsf(corner.surface.position.y - 7.5f / 8) <= 1e-5f);
         assert_true(fabsf(corner.surface.position.z) <= 1e-6f * (float)distance);
         assert_true(corner.surface.view.z == 1);
-        assert_int_equal(pixel_at(renderer, &frame, 40, 32).kind, GPU_KIND_NONE);
+        assert_int_equal(pixel_at(renderer, &frame, 40, 32).kind, RENDER_NONE);
         for (int row = 0; row < SIDE / 4; row++) /* 24 pixels above the middle, 4 of radius */
             assert_int_equal(pixel_at(renderer, &frame, 32, row).kind,
-                             row >= 4 && row < 12 ? GPU_KIND_LIGHT : GPU_KIND_NONE);
+                             row >= 4 && row < 12 ? RENDER_LIGHT : RENDER_NONE);
     }
     gpu_renderer_destroy(renderer);
 }
@@ -72,13 +72,13 @@ static void masks_cut_and_normal_maps_bend(void **state) {
     (void)state;
     const scene *world = make_sheets();
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 1, 1);
-    const gpu_pixel red = pixel_at(renderer, &frame, 20, 32);
-    assert_int_equal(red.kind, GPU_KIND_SURFACE);
+    render_frame frame = look_at(world, 1, 1);
+    const render_pixel red = pixel_at(renderer, &frame, 20, 32);
+    assert_int_equal(red.kind, RENDER_SURFACE);
     assert_true(red.material.base_color.r == 1 && red.material.base_color.g == 0);
-    assert_int_equal(pixel_at(renderer, &frame, 44, 32).kind, GPU_KIND_NONE);
+    assert_int_equal(pixel_at(renderer, &frame, 44, 32).kind, RENDER_NONE);
     frame = look_at(world, 2, 1);
-    const gpu_pixel bent = pixel_at(renderer, &frame, 32, 32);
+    const render_pixel bent = pixel_at(renderer, &frame, 32, 32);
     assert_true(fabsf(bent.surface.normal.x - 0.6f) <= 0.01f);
     assert_true(fabsf(bent.surface.normal.z - 0.8f) <= 0.01f);
     gpu_renderer_destroy(renderer);
@@ -97,8 +97,8 @@ static void materials_are_those_of_the_library(void **state) {
     }
     gpu_renderer *renderer = open_renderer(world);
     for (int i = 0; i < MATERIALS; i++) {
-        const gpu_frame frame = look_at(world, i, 1);
-        const gpu_pixel p = pixel_at(renderer, &frame, 32, 32);
+        const render_frame frame = look_at(world, i, 1);
+        const render_pixel p = pixel_at(renderer, &frame, 32, 32);
         assert_int_equal(p.material.kind, LMP_MATERIAL_METALLIC_ROUGHNESS);
         assert_true(fabsf(p.material.base_color.r - 1) <= 1e-6f);
         assert_true(fabsf(p.material.base_color.b) <= 1e-6f);
@@ -112,7 +112,7 @@ static void materials_are_those_of_the_library(void **state) {
 /* --- glowing spheres -------------------------------------------------------------------------- */
 
 /* A pixel's center on the sphere, off it, or so near the outline (±0) that rounding decides. */
-static int side_of_outline(const gpu_frame *frame, const scene_light *light, int x, int y) {
+static int side_of_outline(const render_frame *frame, const scene_light *light, int x, int y) {
     const double step = 2.0 * tan(0.5 * (double)frame->camera.fov) / SIDE;
     const double ray[3] = { (x + 0.5 - SIDE / 2) * step, -(y + 0.5 - SIDE / 2) * step, -1 };
     double along = 0, length2 = 0, center2 = 0;
@@ -135,16 +135,16 @@ static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
         .emitter = { .position = { 0.2f, 0.1f, 0 }, .radius = 0.6f, .radiance = { 5, 1e9f, 1e-9f } }
     };
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
-    gpu_pixel *pixels = render_pixels(renderer, &frame);
+    render_pixel *pixels = render_pixels(renderer, &frame);
     int on = 0;
     for (int i = 0; i < PIXELS; i++) {
         const int side = side_of_outline(&frame, &sheet.lights[0], i % SIDE, i / SIDE);
         if (side == 0)
             continue;
         on += side > 0;
-        assert_int_equal(pixels[i].kind == GPU_KIND_LIGHT, side > 0);
+        assert_int_equal(pixels[i].kind == RENDER_LIGHT, side > 0);
         if (side > 0) /* the radiance itself, not what a G-buffer's format keeps of it */
             assert_true(pixels[i].emission.r == 5 && pixels[i].emission.g == 1e9f &&
                         pixels[i].emission.b == 1e-9f);
@@ -153,11 +153,11 @@ static void light_spheres_are_exact_and_hide_what_is_behind(void **state) {
     free(pixels);
 
     sheet.lights[0].emitter.position.z = -2; /* behind the sheet */
-    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_SURFACE);
+    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, RENDER_SURFACE);
     sheet.lights[0].emitter.position.z = 2;
-    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_LIGHT);
+    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, RENDER_LIGHT);
     sheet.lights[0].hidden = 1;
-    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, GPU_KIND_SURFACE);
+    assert_int_equal(pixel_at(renderer, &frame, 33, 31).kind, RENDER_SURFACE);
     gpu_renderer_destroy(renderer);
 }
 
@@ -168,11 +168,11 @@ static void a_camera_inside_a_light_sees_it_all_round(void **state) {
         .emitter = { .position = { 0, 0, 3 }, .radius = 1, .radiance = { 1, 2, 3 } }
     };
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
-    gpu_pixel *pixels = render_pixels(renderer, &frame);
+    render_pixel *pixels = render_pixels(renderer, &frame);
     for (int i = 0; i < PIXELS; i++)
-        assert_int_equal(pixels[i].kind, GPU_KIND_LIGHT);
+        assert_int_equal(pixels[i].kind, RENDER_LIGHT);
     free(pixels);
     gpu_renderer_destroy(renderer);
 }
@@ -185,7 +185,7 @@ static void samples_cover_a_pixel_in_part(void **state) {
     for (int i = 0; i < MATERIALS; i++)
         sheet.materials[i].emission[0] = 1;
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     frame.camera.eye[0] = frame.camera.target[0] = 0.5f / 16; /* the edges halve pixels */
     frame.samples = 64;
     image pixels = render_image(renderer, &frame);
@@ -205,7 +205,7 @@ static void the_device_and_the_cpu_tone_map_alike(void **state) {
         .emitter = { .position = { 0.5f, 0.5f, 1 }, .radius = 0.3f, .radiance = { 5, 40, 0.2f } }
     };
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
     image pixels = render_image(renderer, &frame);
     for (int tone = 0; image_tones[tone].name; tone++)
@@ -230,7 +230,7 @@ static void eight_bit_images_are_where_the_camera_says(void **state) {
         .emitter = { .position = { 0, 0, 50 }, .radius = 0.1f, .radiance = { 1e6f, 1e6f, 1e6f } }
     };
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     frame.light_count = 1;
     for (int m = 0; m < METHODS_TIMED; m++) {
         frame.method = (method_kind)m;
@@ -255,7 +255,7 @@ static void impossible_frames_are_refused_with_a_reason(void **state) {
     (void)state;
     const scene *world = make_sheets();
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     cli_error error = { "" };
     frame.width = GPU_SIZE_MAX + 1;
     assert_false(gpu_render(renderer, &frame, NULL, &error));
@@ -276,7 +276,7 @@ static void bands_up_to_the_limit_of_a_method_are_drawn(void **state) {
     (void)state;
     const scene *world = make_sheets();
     gpu_renderer *renderer = open_renderer(world);
-    gpu_frame frame = look_at(world, 0, 1);
+    render_frame frame = look_at(world, 0, 1);
     for (int m = 0; m < METHODS; m++) {
         cli_error error = { "" };
         if (!draws_alone(m))

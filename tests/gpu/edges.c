@@ -52,19 +52,19 @@ static void open_tiles(tiles *t, size_t count) {
 }
 
 /* Of a field of view, or of parallel rays as high. From there 1 is half the image's height. */
-static gpu_frame look_from(const scene *world, float x, float y, bool parallel) {
-    return (gpu_frame) { .width = SIDE,
-                         .height = SIDE,
-                         .camera = { .eye = { x, y, 2 },
-                                     .target = { x, y, 0 },
-                                     .up = { 0, 1, 0 },
-                                     .fov = 2 * atanf(0.5f),
-                                     .height = parallel ? 2 : 0 },
-                         .bands = 3,
-                         .lights = world->lights };
+static render_frame look_from(const scene *world, float x, float y, bool parallel) {
+    return (render_frame) { .width = SIDE,
+                            .height = SIDE,
+                            .camera = { .eye = { x, y, 2 },
+                                        .target = { x, y, 0 },
+                                        .up = { 0, 1, 0 },
+                                        .fov = 2 * atanf(0.5f),
+                                        .height = parallel ? 2 : 0 },
+                            .bands = 3,
+                            .lights = world->lights };
 }
 
-static image draw_tiles(const scene *world, const gpu_frame *frame) {
+static image draw_tiles(const scene *world, const render_frame *frame) {
     gpu_renderer *renderer = open_renderer(world);
     image pixels = render_image(renderer, frame);
     gpu_renderer_destroy(renderer);
@@ -79,7 +79,7 @@ static void meshes_are_left_out_only_where_they_are_not_seen(void **state) {
         lay_tile(&t, i, 0.6f * (float)(i % TILES) - 3.3f, 0.6f * (float)(i / TILES) - 3.3f, 0.1f);
     open_tiles(&t, MESHES);
     for (int view = 0; view < 10; view++) {
-        gpu_frame frame =
+        render_frame frame =
             look_from(&t.world, (float)(view / 2 % 3 - 1), (float)(view / 6), view % 2);
         frame.camera.target[0] += view > 5 ? 1.5f : 0;
         frame.camera.target[1] -= view > 7 ? 1.5f : 0;
@@ -111,7 +111,7 @@ static void samples_halve_pixels_on_every_side(void **state) {
     lay_tile(&t, 0, 0, 0, 16.5f * pixel);
     open_tiles(&t, 1);
     for (int parallel = 0; parallel < 2; parallel++) {
-        gpu_frame frame = look_from(&t.world, 0, 0, parallel);
+        render_frame frame = look_from(&t.world, 0, 0, parallel);
         frame.samples = 64;
         image pixels = draw_tiles(&t.world, &frame);
         const int edges[2] = { SIDE / 2 - 17, SIDE / 2 + 16 };

@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* The library's images by the field and by all lights: within a hundredth of the local peak. */
-static difference differ_from_sums(gpu_renderer *renderer, gpu_frame *frame, shade_field *field) {
+static difference differ_from_sums(gpu_renderer *renderer, render_frame *frame,
+                                   shade_field *field) {
     frame->host = shade_frame;
     image by_field = render_by(renderer, frame, METHOD_FIELD, field);
     image by_sums = render_by(renderer, frame, METHOD_ZONAL, NULL);
@@ -23,7 +24,7 @@ static void a_thousand_lights_look_as_their_sums_do(void **state) {
     open_world("builtin:atrium", 1000);
     gpu_renderer *renderer = open_renderer(&world);
     for (int i = 0; i < 2; i++) {
-        gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+        render_frame frame = frame_of(&world, WIDTH, HEIGHT);
         shade_field *field = open_field(bands[i], false);
         frame.bands = bands[i];
         const difference d = differ_from_sums(renderer, &frame, field);
@@ -39,7 +40,7 @@ static void every_kind_of_light_is_drawn(void **state) {
     (void)state;
     open_every_kind();
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *field = open_field(frame.bands, false);
     differ_from_sums(renderer, &frame, field);
     shade_field_destroy(field);
@@ -52,7 +53,7 @@ static void lights_that_move_leave_the_image_of_where_they_are(void **state) {
     (void)state;
     open_world("builtin:atrium", 100);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *moving = open_field(5, true), *fresh = open_field(5, false);
     frame.bands = 5;
     frame.host = shade_frame;
@@ -74,7 +75,7 @@ static void lights_that_move_leave_the_image_of_where_they_are(void **state) {
 
 /* --- on the device ---------------------------------------------------------------------------- */
 
-static void expect_same_image(const char *what, gpu_renderer *renderer, gpu_frame *frame) {
+static void expect_same_image(const char *what, gpu_renderer *renderer, render_frame *frame) {
     shade_field *field = open_field_within(frame->bands, false, device.storage_max);
     expect_same(what, devices_differ(renderer, frame, field));
     shade_field_destroy(field);
@@ -84,7 +85,7 @@ static void expect_same_of_bands(int bands, lmp_window window) {
     char what[32];
     open_world("builtin:atrium", 300);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = bands;
     frame.window = window;
     snprintf(what, sizeof what, "%d bands", bands);
@@ -109,7 +110,7 @@ static void shaders_draw_every_kind_of_light(void **state) {
     (void)state;
     open_every_kind();
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = usual_bands();
     expect_same_image("all kinds", renderer, &frame);
     gpu_renderer_destroy(renderer);
@@ -117,7 +118,7 @@ static void shaders_draw_every_kind_of_light(void **state) {
 }
 
 /* So many in one place are together one of their sum. */
-static void expect_all_count(gpu_renderer *renderer, gpu_frame *frame, const image *one,
+static void expect_all_count(gpu_renderer *renderer, render_frame *frame, const image *one,
                              const scene_light *light, size_t count) {
     for (size_t i = 0; i < count; i++) {
         lmp_rgb *radiance = &world.lights[i].emitter.radiance;
@@ -143,7 +144,7 @@ static void tens_of_thousands_of_lights_all_count(void **state) {
     (void)state;
     open_world("builtin:ball", 1);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, 16, 16);
+    render_frame frame = frame_of(&world, 16, 16);
     frame.bands = 3;
     image one = render_by(renderer, &frame, METHOD_ZONAL, NULL);
     const scene_light light = world.lights[0];
@@ -166,7 +167,7 @@ static void shaders_sum_every_light_outside_the_grid(void **state) {
     (void)state;
     open_world("builtin:balls", 20);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = usual_bands();
     for (int a = 0; a < 3; a++)
         world.maximum[a] = 0.5f * (world.minimum[a] + world.maximum[a]);
@@ -181,7 +182,7 @@ static void shaders_follow_lights_that_move(void **state) {
     (void)state;
     open_world("builtin:atrium", 100);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     shade_field *moving = open_field(5, true), *fresh = open_field(5, false);
     frame.bands = 5;
     for (int step = 0; step < 4; step++) {
@@ -213,7 +214,7 @@ static void fields_larger_than_a_buffer_are_refused(void **state) {
     open_world("builtin:balls", 2);
     gpu_renderer *renderer = gpu_renderer_create(&small, &world, &error);
     expect(renderer != NULL, &error);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = usual_bands();
     shade_field *large = open_field(frame.bands, false);
     shade_field *fits = open_field_within(frame.bands, false, small.storage_max);

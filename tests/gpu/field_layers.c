@@ -24,7 +24,7 @@ static void shaders_draw_coats_and_sheen(void **state) {
     }
     world.materials = cloths;
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = 5;
     expect(override_bake_fibers(&tables, &world, frame.bands, frame.window, &error) &&
                override_apply(&tables, &world, renderer, &error),
@@ -52,7 +52,8 @@ static lmp_brdf_table *table_of(lmp_brdf *brdf, int bands) {
 
 /* Devices interpolate tables differently: what is the same is by how much a field's image is off
  * from that of sums. */
-static difference deviations_differ(gpu_renderer *renderer, gpu_frame *frame, shade_field *field) {
+static difference deviations_differ(gpu_renderer *renderer, render_frame *frame,
+                                    shade_field *field) {
     image sums[2], by_field[2];
     for (int host = 0; host < 2; host++) {
         frame->host = host ? shade_frame : NULL;
@@ -76,7 +77,7 @@ static void expect_same_by_table(const char *what, lmp_brdf_table *table, int ba
     open_every_kind();
     assert_true(world.material_count <= 64);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = bands;
     frame.window = LMP_WINDOW_HANNING;
     const lmp_brdf_table *const tables[] = { table };

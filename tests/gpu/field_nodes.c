@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* Shaders compute the nodes of a field as the library does. */
-#include "app/gpu/internal.h"
-#include "app/shade/field.h"
-#include "app/shade/shade.h"
+#include "app/render/gl/internal.h"
+#include "app/render/shade/field.h"
+#include "app/render/shade/shade.h"
 #include "app/timing/timing.h"
 #include "tests/gpu/difference.h"
 #include "tests/oracle/kinds.h"
@@ -66,7 +66,7 @@ static void push_all(void) {
     push_sphere((lmp_vec3) { 60, -80, 300 }, 20, 10);
 }
 
-static const lmp_field *the_field(const gpu_frame *frame, bool nodes, uint64_t *stamp) {
+static const lmp_field *the_field(const render_frame *frame, bool nodes, uint64_t *stamp) {
     (void)frame;
     assert_false(nodes);
     *stamp = f.stamp;
@@ -77,9 +77,9 @@ static float *read_nodes(size_t bytes, double *milliseconds) {
     cli_error error = { "" };
     float *texels = malloc(bytes);
     assert_non_null(texels);
-    const gpu_frame frame = { .lights = f.lights,
-                              .light_count = f.count,
-                              .whole_field = the_field };
+    const render_frame frame = { .lights = f.lights,
+                                 .light_count = f.count,
+                                 .whole_field = the_field };
     gpu_upload_lights(f.renderer, &frame);
     expect(gpu_bind_field(f.renderer, &frame, milliseconds, &error), &error);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -260,7 +260,7 @@ static void frames_by_computed_nodes_are_those_of_the_library(void **state) {
     const shade_field_options options = { .error = SHADE_FIELD_ERROR, .moves = true };
     open_fixture("builtin:balls");
     push_all();
-    gpu_frame frame = frame_of(&f.world, 120, 68);
+    render_frame frame = frame_of(&f.world, 120, 68);
     frame.bands = 3;
     frame.method = METHOD_FIELD;
     frame.lights = f.lights;

@@ -3,8 +3,8 @@
 #ifndef LAMPION_TESTS_GPU_FIELDS_H
 #define LAMPION_TESTS_GPU_FIELDS_H
 
-#include "app/shade/field.h"
-#include "app/shade/shade.h"
+#include "app/render/shade/field.h"
+#include "app/render/shade/shade.h"
 #include "tests/gpu/difference.h"
 #include "tests/oracle/kinds.h"
 
@@ -35,7 +35,7 @@ static inline shade_field *open_field(int bands, bool moves) {
     return open_field_within(bands, moves, 0);
 }
 
-static inline image render_by(gpu_renderer *renderer, gpu_frame *frame, method_kind method,
+static inline image render_by(gpu_renderer *renderer, render_frame *frame, method_kind method,
                               shade_field *field) {
     frame->method = method;
     shade_field_attach(field, frame);
@@ -51,7 +51,7 @@ static inline void open_every_kind(void) {
 
 /* The library's image and the shader's by one field, which has but the nodes that the camera sees
  * before all of them are wanted. */
-static inline difference devices_differ(gpu_renderer *renderer, gpu_frame *frame,
+static inline difference devices_differ(gpu_renderer *renderer, render_frame *frame,
                                         shade_field *field) {
     frame->host = shade_frame;
     image on_host = render_by(renderer, frame, METHOD_FIELD, field);

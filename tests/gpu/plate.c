@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A plate of a glTF material under one sphere light: its image against glTF 2.0, appendix B,
  * integrated over the light in double precision; and how exactly its material comes through. */
-#include "app/shade/shade.h"
+#include "app/render/shade/shade.h"
 #include "app/timing/timing.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
@@ -21,7 +21,7 @@ typedef struct plate {
     scene_material material;
     scene_light light;
     scene world;
-    gpu_frame frame;
+    render_frame frame;
 } plate;
 
 static void lay_plate(plate *p, double view, double ratio) {
@@ -55,7 +55,7 @@ static void lay_plate(plate *p, double view, double ratio) {
                          .minimum = { -size, 0, -size },
                          .maximum = { size, 0, size },
                          .origin = "plate" };
-    p->frame = (gpu_frame) {
+    p->frame = (render_frame) {
         .width = WIDTH,
         .height = HEIGHT,
         .camera = { .eye = { -8 * sine, 8 * cosine, 0 }, .up = { cosine, sine, 0 }, .fov = 0.8f },
@@ -183,16 +183,16 @@ static void plates_look_as_the_specification_says(void **state) {
 static lmp_material seen_by_host;
 static lmp_rgb emitted_to_host;
 
-static bool keep_material(const gpu_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+static bool keep_material(const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
                           cli_error *error) {
     (void)error;
-    gpu_row row;
-    assert_true(gpu_row_create(frame->width, &row));
+    render_tile row;
+    assert_true(render_tile_create(frame->width, &row));
     gpu_gbuffer_row(gbuffer, frame->height / 2, &row);
     seen_by_host = row.material[frame->width / 2];
     emitted_to_host = gpu_gbuffer_emission(
         gbuffer, (size_t)(frame->height / 2) * (size_t)frame->width + (size_t)frame->width / 2);
-    gpu_row_free(&row);
+    render_tile_free(&row);
     memset(rgba, 0, 4 * sizeof *rgba * (size_t)frame->width * (size_t)frame->height);
     return true;
 }
@@ -234,7 +234,7 @@ static void materials_come_through_exactly(void **state) {
                 1e-3f * powf(1e7f, (float)((3 * i + 17 * c) % (3 * count)) / last);
         p.frame.host = keep_material;
         gpu_renderer *renderer = open_renderer(&p.world);
-        gpu_pixel *pixels = render_pixels(renderer, &p.frame);
+        render_pixel *pixels = render_pixels(renderer, &p.frame);
         check_material(&pixels[HEIGHT / 2 * WIDTH + WIDTH / 2].material, &p.material);
         check_material(&seen_by_host, &p.material);
         check_emission(pixels[HEIGHT / 2 * WIDTH + WIDTH / 2].emission, p.material.emission);
@@ -253,7 +253,7 @@ static void passes_take_no_longer_than_their_frame(void **state) {
     gpu_renderer *renderer = open_renderer(&p.world);
     cli_error error = { "" };
     for (int samples = 1; samples <= 4; samples += 3) {
-        gpu_times times = { 0 };
+        render_times times = { 0 };
         p.frame.samples = samples;
         const double began = timing_now();
         expect(gpu_render(renderer, &p.frame, &times, &error), &error);

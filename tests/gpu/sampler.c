@@ -10,9 +10,9 @@ static lmp_rgb color_at(int t, float u) {
     scene_texture_use *use = &sheet.materials[0].base_color_map;
     *use = (scene_texture_use) { .texture = t, .offset = { u, 0.5f } };
     gpu_renderer *renderer = open_renderer(&sheet.world);
-    gpu_frame frame = look_at(&sheet.world, 0, 1);
-    gpu_pixel *pixels = render_pixels(renderer, &frame);
-    const gpu_pixel center = pixels[SIDE / 2 * SIDE + SIDE / 2];
+    render_frame frame = look_at(&sheet.world, 0, 1);
+    render_pixel *pixels = render_pixels(renderer, &frame);
+    const render_pixel center = pixels[SIDE / 2 * SIDE + SIDE / 2];
     free(pixels);
     gpu_renderer_destroy(renderer);
     return center.material.base_color;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What a window shows: one image or two, the right way up, and drawings where they belong. */
-#include "app/gpu/internal.h"
+#include "app/render/gl/internal.h"
 #include "tests/gpu/device.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void open_fixture(fixture *f) {
     f->renderer = open_renderer(&f->world);
     f->screen = gpu_screen_create(&error);
     expect(f->screen != NULL, &error);
-    const gpu_frame frame = frame_of(&f->world, WIDTH, HEIGHT);
+    const render_frame frame = frame_of(&f->world, WIDTH, HEIGHT);
     expect(gpu_render(f->renderer, &frame, NULL, &error), &error);
     for (int side = 0; side < 2; side++) {
         const image_display display = { .exposure = side ? 0.5f : 1 };

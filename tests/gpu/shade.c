@@ -38,7 +38,7 @@ static double scale_of(int bands, const float *lambda) {
 /* What each light alone would reflect with every term of its series positive: the scale of
  * rounding. |R_l| <= 1 and |P_l| <= 1 make it sum_l (2l+1)/4 |lambda_l| of all lobes, times the
  * strength of the light's cap over pi, and four times what is ambient. */
-static double magnitude(const gpu_pixel *p, const gpu_frame *frame) {
+static double magnitude(const render_pixel *p, const render_frame *frame) {
     float lambda[LMP_BANDS_MAX];
     lmp_ggx_lobes ggx;
     const lmp_rgb base = p->material.base_color;
@@ -65,20 +65,20 @@ static double magnitude(const gpu_pixel *p, const gpu_frame *frame) {
     return lobes * sum;
 }
 
-static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
+static worst compare(gpu_renderer *renderer, const render_frame *frame) {
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
         lights[i] = frame->lights[i].emitter;
     image drawn = render_image(renderer, frame);
-    gpu_pixel *pixels = render_pixels(renderer, frame);
+    render_pixel *pixels = render_pixels(renderer, frame);
     worst w = { 0 };
     double peak = 0, difference = 0;
     for (size_t i = 0; i < (size_t)frame->width * (size_t)frame->height; i++) {
-        const gpu_pixel *p = &pixels[i];
+        const render_pixel *p = &pixels[i];
         lmp_rgb c = { 0, 0, 0 };
         double scale = 1;
-        if (p->kind == GPU_KIND_SURFACE) {
+        if (p->kind == RENDER_SURFACE) {
             c = lmp_shade(&settings, &p->material, &p->surface, lights, frame->light_count);
             scale = magnitude(p, frame);
             w.surfaces++;
@@ -87,7 +87,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
         for (int k = 0; k < 3; k++) {
             const double error = fabs((double)drawn.rgb[3 * i + (size_t)k] - (double)expected[k]);
             assert_true(isfinite(error));
-            if (p->kind != GPU_KIND_SURFACE) {
+            if (p->kind != RENDER_SURFACE) {
                 assert_true(error == 0);
                 continue;
             }
@@ -103,7 +103,7 @@ static worst compare(gpu_renderer *renderer, const gpu_frame *frame) {
     return w;
 }
 
-static void expect_agreement(const char *name, gpu_renderer *renderer, const gpu_frame *frame) {
+static void expect_agreement(const char *name, gpu_renderer *renderer, const render_frame *frame) {
     const worst w = compare(renderer, frame);
     print_message("%-14s %-12s %2d bands %4zu lights: %.1e of the lobes, %.1e of the peak\n", name,
                   method_table[frame->method].name, frame->bands, frame->light_count, w.relative,
@@ -128,7 +128,7 @@ static void methods_agree_on(const char *name, int random_lights, bool keep) {
     for (int m = 0; m < METHODS; m++)
         for (int b = 0; b < BAND_COUNTS && draws_alone(m) && (m == METHOD_ZONAL) == by_zonal_sums;
              b++) {
-            gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+            render_frame frame = frame_of(&world, WIDTH, HEIGHT);
             frame.method = (method_kind)m;
             frame.bands = band_counts[b];
             expect_agreement(name, renderer, &frame);
@@ -172,7 +172,7 @@ static void with_balls(void (*check)(scene *world, gpu_renderer *renderer)) {
     scene_free(&world);
 }
 
-static void check_with(const char *name, gpu_renderer *renderer, gpu_frame frame) {
+static void check_with(const char *name, gpu_renderer *renderer, render_frame frame) {
     for (int m = 0; m < METHODS; m++) {
         frame.method = (method_kind)m;
         if (draws_alone(m))
@@ -181,13 +181,13 @@ static void check_with(const char *name, gpu_renderer *renderer, gpu_frame frame
 }
 
 static void check_buried(scene *world, gpu_renderer *renderer) {
-    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
-    gpu_pixel *pixels = render_pixels(renderer, &frame);
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
+    render_pixel *pixels = render_pixels(renderer, &frame);
     /* centers exactly on surfaces, spheres that cut them, and one that holds the whole scene;
      * hidden, for their own discs would cover the surfaces */
     size_t count = 0;
     for (size_t i = 0; i < PIXELS && count < 8; i += PIXELS / 16)
-        if (pixels[i].kind == GPU_KIND_SURFACE) {
+        if (pixels[i].kind == RENDER_SURFACE) {
             const lmp_vec3 at = pixels[i].surface.position;
             world->lights[count] = (scene_light) { .emitter = { .position = { at.x, at.y, at.z },
                                                                 .radius = count % 2 ? 0.7f : 0.001f,
@@ -218,7 +218,7 @@ static void check_far(scene *world, gpu_renderer *renderer) {
     world->lights[0] = (scene_light) { .emitter = { .position = { 6e3f, 8e3f, 0 },
                                                     .radius = 1e-2f,
                                                     .radiance = { 1e12f, 2e12f, 3e12f } } };
-    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.light_count = 1;
     check_with("far", renderer, frame);
     image drawn = render_image(renderer, &frame);
@@ -235,7 +235,7 @@ static void a_light_a_million_radii_away_agrees_with_lmp_shade(void **state) {
 }
 
 static void check_kinds(scene *world, gpu_renderer *renderer) {
-    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
     for (int i = 0; i < KINDS; i++) {
         world->lights[0] = (scene_light) { .emitter = one_of_each_kind[i] };
         frame.light_count = 1;
@@ -258,7 +258,7 @@ enum { CROWD = 1500 };
 static void check_counts(scene *world, gpu_renderer *renderer) {
     cli_error error = { "" };
     const scene_lights_options most = { .random_count = CROWD, .seed = 1 };
-    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.light_count = 0;
     check_with("dark", renderer, frame);
     expect(scene_apply_lights(world, &most, &error), &error);
@@ -273,7 +273,7 @@ static void no_lights_and_a_crowd_agree_with_lmp_shade(void **state) {
 }
 
 static void check_windows(scene *world, gpu_renderer *renderer) {
-    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
     frame.bands = 8;
     frame.window = LMP_WINDOW_HANNING;
     check_with("hanning", renderer, frame);
@@ -289,7 +289,7 @@ static void windows_agree_with_lmp_shade(void **state) {
 static void check_bytes(scene *world, gpu_renderer *renderer) {
     static unsigned char first[3 * PIXELS], bytes[3 * PIXELS];
     cli_error error = { "" };
-    gpu_frame frame = frame_of(world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
     image drawn = render_image(renderer, &frame);
     const float exposure = image_auto_exposure(&drawn);
     image_free(&drawn);

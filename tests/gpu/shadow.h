@@ -3,10 +3,10 @@
 #ifndef LAMPION_TESTS_GPU_SHADOW_H
 #define LAMPION_TESTS_GPU_SHADOW_H
 
+#include "app/render/shade/shade.h"
+#include "app/render/shadow/shadow.h"
 #include "app/scene/shape.h"
 #include "app/scene/vector.h"
-#include "app/shade/shade.h"
-#include "app/shadow/shadow.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 
@@ -111,7 +111,7 @@ static const scene_camera camera = {
 typedef struct stage {
     scene world;
     gpu_renderer *renderer;
-    gpu_frame frame;
+    render_frame frame;
 } stage;
 
 static void open_scene_stage(stage *s, void (*make)(scene *world)) {
@@ -143,9 +143,9 @@ static image draw_shadows(stage *s, const environment *around, const shadow_sett
     cli_error error = { "" };
     shadow *all = shadow_create(&s->world, around, settings, &error);
     expect(all != NULL, &error);
-    s->frame.shadow = (gpu_host_pass) { shadow_frame, all };
+    s->frame.shadow = (render_pass) { shadow_frame, all };
     image pixels = render_image(s->renderer, &s->frame);
-    s->frame.shadow = (gpu_host_pass) { NULL, NULL };
+    s->frame.shadow = (render_pass) { NULL, NULL };
     shadow_destroy(all);
     return pixels;
 }

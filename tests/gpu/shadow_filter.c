@@ -267,7 +267,7 @@ static void statistics_are_of_what_was_done(void **state) {
     };
     shadow *all = shadow_create(&s.world, NULL, &settings, &error);
     expect(all != NULL, &error);
-    s.frame.shadow = (gpu_host_pass) { shadow_frame, all };
+    s.frame.shadow = (render_pass) { shadow_frame, all };
     const double start = timing_now();
     image pixels = render_image(s.renderer, &s.frame);
     const double passed = 1e3 * (timing_now() - start);

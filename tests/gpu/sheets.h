@@ -3,7 +3,7 @@
 #ifndef LAMPION_TESTS_GPU_SHEETS_H
 #define LAMPION_TESTS_GPU_SHEETS_H
 
-#include "app/gpu/gpu.h"
+#include "app/render/gl/gpu.h"
 
 #include <math.h>
 #include <string.h>
@@ -95,16 +95,16 @@ static inline scene *make_sheets(void) {
 }
 
 /* Looks at sheet i from z = ±3: it fills the middle half of the view's height. */
-static inline gpu_frame look_at(const scene *world, int i, float side) {
-    return (gpu_frame) { .width = SIDE,
-                         .height = SIDE,
-                         .camera = { .eye = { 10 * (float)i, 0, 3 * side },
-                                     .target = { 10 * (float)i, 0, 0 },
-                                     .up = { 0, 1, 0 },
-                                     .fov = 2 * atanf(2 / 3.0f) },
-                         .bands = 3,
-                         .lights = world->lights,
-                         .light_count = world->light_count };
+static inline render_frame look_at(const scene *world, int i, float side) {
+    return (render_frame) { .width = SIDE,
+                            .height = SIDE,
+                            .camera = { .eye = { 10 * (float)i, 0, 3 * side },
+                                        .target = { 10 * (float)i, 0, 0 },
+                                        .up = { 0, 1, 0 },
+                                        .fov = 2 * atanf(2 / 3.0f) },
+                            .bands = 3,
+                            .lights = world->lights,
+                            .light_count = world->light_count };
 }
 
 #endif

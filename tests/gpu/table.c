@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Materials with tables on the GPU against lmp_shade at the very same surface points. */
-#include "app/shade/shade.h"
+#include "app/render/shade/shade.h"
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 
@@ -21,18 +21,18 @@ static lmp_brdf_table *table_of(lmp_result made, lmp_brdf *brdf, int bands) {
 }
 
 /* The largest difference to lmp_shade, as a part of the largest radiance. */
-static double difference(gpu_renderer *renderer, const gpu_frame *frame, int *by_table) {
+static double difference(gpu_renderer *renderer, const render_frame *frame, int *by_table) {
     static lmp_light lights[SCENE_LIGHTS_MAX];
     for (size_t i = 0; i < frame->light_count; i++)
         lights[i] = frame->lights[i].emitter;
     image drawn = render_image(renderer, frame);
-    gpu_pixel *pixels = render_pixels(renderer, frame);
+    render_pixel *pixels = render_pixels(renderer, frame);
     const lmp_shade_settings settings = { .bands = frame->bands, .window = frame->window };
     double worst = 0, peak = 0;
     *by_table = 0;
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
-        const gpu_pixel *p = &pixels[i];
-        if (p->kind != GPU_KIND_SURFACE)
+        const render_pixel *p = &pixels[i];
+        if (p->kind != RENDER_SURFACE)
             continue;
         *by_table += p->material.kind == LMP_MATERIAL_TABLE;
         const lmp_rgb c =
@@ -64,7 +64,7 @@ static void agree_by(method_kind method, lmp_brdf_table *first, lmp_brdf_table *
         uses[i] = i == 0 ? 1 : i + 1 == world.material_count ? 0 : -1;
     const lmp_brdf_table *const tables[] = { first, second };
     expect(gpu_set_tables(renderer, tables, 2, uses, world.material_count, &error), &error);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = bands;
     frame.window = LMP_WINDOW_HANNING;
     frame.method = method;
@@ -123,7 +123,7 @@ static environment sky_of(float *sh) {
 }
 
 /* The largest difference between the devices, as a part of the largest radiance. */
-static double difference_between_devices(gpu_renderer *renderer, gpu_frame *frame) {
+static double difference_between_devices(gpu_renderer *renderer, render_frame *frame) {
     frame->host = NULL;
     image gpu = render_image(renderer, frame);
     frame->host = shade_frame;
@@ -154,7 +154,7 @@ static void tables_reflect_an_environment_as_the_library_has_it(void **state) {
     expect(scene_load("builtin:ball", &(scene_options) { .no_cache = true }, &world, &error),
            &error);
     gpu_renderer *renderer = open_renderer(&world);
-    gpu_frame frame = frame_of(&world, WIDTH / 4, HEIGHT / 4);
+    render_frame frame = frame_of(&world, WIDTH / 4, HEIGHT / 4);
     frame.bands = SKY_BANDS;
     frame.window = LMP_WINDOW_HANNING;
     frame.light_count = 0;
@@ -183,7 +183,7 @@ static void tables_of_other_bands_are_refused(void **state) {
     const lmp_brdf_table *const tables[] = { table };
     const int uses[64] = { 0 };
     expect(gpu_set_tables(renderer, tables, 1, uses, world.material_count, &error), &error);
-    gpu_frame frame = frame_of(&world, WIDTH, HEIGHT);
+    render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = BANDS + 1;
     assert_false(gpu_render(renderer, &frame, NULL, &error));
     assert_non_null(strstr(error.text, "10 bands"));

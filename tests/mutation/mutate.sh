@@ -52,14 +52,14 @@ app/reference/sheen.c reference.sheen
 app/reference/ggx.c reference.ggx reference.layers
 app/reference/*.c reference.estimator reference.texture reference.kinds reference.environment reference.ggx reference.estimate reference.render
 app/compare/*.c reference.compare
-app/shadow/around.c program.around gpu.shadow
-app/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
-app/shade/*.c gpu.table gpu.field gpu.shade gpu.draw
-app/gpu/table.c gpu.table gpu.draw
-app/gpu/environment.c gpu.devices
-app/gpu/zonal.c gpu.devices
-app/gpu/screen.c gpu.screen
-app/gpu/*.c gpu.table gpu.edges gpu.draw gpu.plate gpu.shadow gpu.shade gpu.devices
+app/render/shadow/around.c program.around gpu.shadow
+app/render/shadow/*.c program.shadow gpu.shadow gpu.shadow_filter
+app/render/shade/*.c gpu.table gpu.field gpu.shade gpu.draw
+app/render/gl/table.c gpu.table gpu.draw
+app/render/gl/environment.c gpu.devices
+app/render/gl/zonal.c gpu.devices
+app/render/gl/screen.c gpu.screen
+app/render/gl/*.c gpu.table gpu.edges gpu.draw gpu.plate gpu.shadow gpu.shade gpu.devices
 shaders/table.glsl gpu.table
 shaders/environment.glsl gpu.devices gpu.table
 shaders/field.glsl gpu.field

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Directions drawn from an environment, against the map of it that its format defines: rows of
  * equal angles from the top, columns of equal angles, their middle at the azimuth. */
-#include "app/shadow/around.h"
+#include "app/render/shadow/around.h"
 
 #include "tests/oracle/check.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Rays to lights: where they end, how they are spread, and what they bring. */
+#include "app/render/shadow/source.h"
 #include "app/scene/vector.h"
-#include "app/shadow/source.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
@@ -284,7 +284,7 @@ static const scene_camera camera = { .eye = { 4, 4, 4 } };
 static const lmp_shade_settings shading = { .bands = 20, .window = LMP_WINDOW_NONE };
 
 /* Points of the bent triangle by their weights, seen from outside, all of that material. */
-static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], gpu_row *row,
+static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], render_tile *row,
                        const lmp_material *material, shadow_points *points) {
     trace_bvh *bvh = trace_create(world);
     const shadow_view view = { .scene = world,
@@ -324,7 +324,7 @@ static const lmp_material matte = { .roughness = 1, .base_color = { 1, 1, 1 } };
 /* From triangles whose corners and normals are those of a ball, rays start on the ball, but for
  * what a surface of second degree cannot follow; from those that are hollow, on the triangle. */
 static void rays_leave_the_surface_that_normals_bend(void **state) {
-    gpu_row *row = *state;
+    render_tile *row = *state;
     for (float side = 1; side >= -1; side -= 2) {
         scene world;
         shadow_points points;
@@ -347,7 +347,7 @@ static void rays_leave_the_surface_that_normals_bend(void **state) {
 /* What the coat's lobe costs is spent where some point has one. Straight toward the eye it reflects
  * 4 % of the light, of its weight. */
 static void points_are_coated_where_their_material_is(void **state) {
-    gpu_row *row = *state;
+    render_tile *row = *state;
     scene world;
     shadow_points points;
     lmp_vec3 at[SHADOW_LANES];
@@ -367,7 +367,7 @@ static void points_are_coated_where_their_material_is(void **state) {
 /* Lobes of 20 bands, of white light: each channel as much as it reflects by its diffuse
  * lobe, pi times less than the cosine but for what the bands leave out, and nothing from below. */
 static void channels_of_series_reflect_what_is_theirs(void **state) {
-    gpu_row *row = *state;
+    render_tile *row = *state;
     scene world;
     shadow_points points;
     shadow_vectors w, k;
@@ -392,13 +392,13 @@ static void channels_of_series_reflect_what_is_theirs(void **state) {
 }
 
 static int make_row(void **state) {
-    static gpu_row row;
+    static render_tile row;
     *state = &row;
-    return gpu_row_create(SHADOW_LANES, &row) ? 0 : 1;
+    return render_tile_create(SHADOW_LANES, &row) ? 0 : 1;
 }
 
 static int free_row(void **state) {
-    gpu_row_free(*state);
+    render_tile_free(*state);
     return 0;
 }
 

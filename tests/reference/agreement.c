@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The image that the GPU shades by lobes against the ground truth of GGX in as many bands. */
-#include "app/gpu/gpu.h"
 #include "app/reference/light.h"
 #include "app/reference/reference.h"
 #include "app/reference/trace.h"
+#include "app/render/gl/gpu.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/kinds.h"
 
@@ -13,17 +13,17 @@
 enum { WIDTH = 120, HEIGHT = 80 };
 
 static image draw_by_harmonics(const scene *world, const reference_settings *settings,
-                               gpu_pixel **pixels) {
+                               render_pixel **pixels) {
     gpu_context context;
     cli_error error;
     image drawn;
-    const gpu_frame frame = { .width = WIDTH,
-                              .height = HEIGHT,
-                              .camera = settings->camera,
-                              .bands = settings->band_limit.bands,
-                              .window = settings->band_limit.window,
-                              .lights = world->lights,
-                              .light_count = world->light_count };
+    const render_frame frame = { .width = WIDTH,
+                                 .height = HEIGHT,
+                                 .camera = settings->camera,
+                                 .bands = settings->band_limit.bands,
+                                 .window = settings->band_limit.window,
+                                 .lights = world->lights,
+                                 .light_count = world->light_count };
     assert_true(gpu_context_create("software", &context, &error));
     gpu_renderer *renderer = gpu_renderer_create(&context, world, &error);
     assert_non_null(renderer);
@@ -37,28 +37,27 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
 
 /* What one pixel shows. */
 typedef struct sight {
-    gpu_kind kind;
+    render_kind kind;
     reference_vec position, normal;
 } sight;
 
 static sight seen_by_ray(const scene *world, const reference_tracer *tracer, reference_vec eye,
                          reference_vec direction) {
     const reference_hit hit = reference_tracer_see(tracer, eye, direction);
-    sight s = { isfinite(hit.distance) ? GPU_KIND_SURFACE : GPU_KIND_NONE, hit.position,
-                hit.normal };
+    sight s = { isfinite(hit.distance) ? RENDER_SURFACE : RENDER_NONE, hit.position, hit.normal };
     for (size_t i = 0; i < world->light_count; i++) {
         const scene_light *light = &world->lights[i];
         if (scene_light_is_drawn(light) && reference_light_is_hit(light, eye, direction) &&
             reference_light_distance(light, eye, direction) < hit.distance)
-            s.kind = GPU_KIND_LIGHT;
+            s.kind = RENDER_LIGHT;
     }
     return s;
 }
 
 /* Whether the rasterizer and the ray through the pixel's center found the same piece of surface:
  * along an edge either may be right. */
-static bool same_sight(const gpu_pixel *pixel, const sight *ray, reference_vec eye) {
-    if (pixel->kind != ray->kind || ray->kind != GPU_KIND_SURFACE)
+static bool same_sight(const render_pixel *pixel, const sight *ray, reference_vec eye) {
+    if (pixel->kind != ray->kind || ray->kind != RENDER_SURFACE)
         return pixel->kind == ray->kind;
     const lmp_vec3 p = pixel->surface.position, n = pixel->surface.normal;
     const reference_vec position = { (double)p.x, (double)p.y, (double)p.z };
@@ -114,7 +113,7 @@ static void check_scene(const char *name, int lights, bool kinds, float height,
     scene world;
     cli_error error;
     image truth, standard_error;
-    gpu_pixel *pixels;
+    render_pixel *pixels;
     reference_settings settings = {
         .width = WIDTH, .height = HEIGHT, .samples = 256, .seed = 1, .band_limit = *limit
     };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* Seven by seven balls, roughness by metallic, as `render` draws them and as the ground truth has
  * them. LAMPION_IMAGES=FOLDER keeps both images there. */
-#include "app/gpu/gpu.h"
 #include "app/reference/reference.h"
-#include "app/shade/shade.h"
+#include "app/render/gl/gpu.h"
+#include "app/render/shade/shade.h"
 #include "tests/oracle/check.h"
 
 #include <math.h>
@@ -88,13 +88,13 @@ static image draw(const scene_camera *camera) {
     gpu_context context;
     cli_error error;
     image drawn;
-    const gpu_frame frame = { .width = SIZE,
-                              .height = SIZE,
-                              .camera = *camera,
-                              .bands = LMP_BANDS_MAX,
-                              .lights = balls.lights,
-                              .light_count = 3,
-                              .host = shade_frame };
+    const render_frame frame = { .width = SIZE,
+                                 .height = SIZE,
+                                 .camera = *camera,
+                                 .bands = LMP_BANDS_MAX,
+                                 .lights = balls.lights,
+                                 .light_count = 3,
+                                 .host = shade_frame };
     assert_true(gpu_context_create("software", &context, &error));
     gpu_renderer *renderer = gpu_renderer_create(&context, &balls.world, &error);
     assert_non_null(renderer);

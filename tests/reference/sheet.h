@@ -6,7 +6,7 @@
 
 #include "app/environment/environment.h"
 #include "app/reference/reference.h"
-#include "app/shade/shade.h"
+#include "app/render/shade/shade.h"
 #include "tests/program/folder.h"
 
 #include <stdio.h>
@@ -94,13 +94,13 @@ static inline void sheet_close(sheet *s) {
 static inline void sheet_draw(sheet *s, bool under_sky, int samples, image images[SHEET_IMAGES],
                               image *standard_error) {
     cli_error error = { "" };
-    gpu_frame frame = { .width = SHEET_SIDE,
-                        .height = SHEET_SIDE,
-                        .camera = s->world.cameras[0],
-                        .bands = LMP_SHADE_BANDS_DEFAULT,
-                        .lights = s->world.lights,
-                        .light_count = s->world.light_count,
-                        .samples = samples };
+    render_frame frame = { .width = SHEET_SIDE,
+                           .height = SHEET_SIDE,
+                           .camera = s->world.cameras[0],
+                           .bands = LMP_SHADE_BANDS_DEFAULT,
+                           .lights = s->world.lights,
+                           .light_count = s->world.light_count,
+                           .samples = samples };
     gpu_set_environment(s->renderer, under_sky ? &s->sky : NULL);
     for (int device = SHEET_GPU; device <= SHEET_CPU; device++) {
         frame.host = device == SHEET_CPU ? shade_frame : NULL;

@@ -3,7 +3,7 @@
  *   inputs FILE         writes lights, surfaces and the texels of GGX
  *   run SPIRV           runs what the HLSL was compiled to on the OpenGL device, and compares
  *   check FILE          compares what the Metal variant has computed */
-#include "app/gpu/gpu.h"
+#include "app/render/gl/gpu.h"
 #include "tests/oracle/check.h"
 
 #include <lampion/lobe.h>

@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/* Preintegrated BRDFs for shaders/preintegrated_brdf.glsl: all slices in one texture, all numbers
+ * in one buffer. */
+#include "app/render/gl/internal.h"
+#include "app/render/gl/shelves.h"
+
+#include "shaders/preintegrated_lookup.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ATLAS_WIDTH = 4096 };
+
+bool gpu_has_preintegrated_brdf(const gpu_renderer *r) {
+    for (int t = 0; t < r->table_count; t++)
+        if (r->brdfs[t])
+            return true;
+    return false;
+}
+
+void gpu_set_preintegrated_brdfs(gpu_renderer *r, const lmp_preintegrated_brdf *const *brdfs) {
+    for (int t = 0; t < GPU_TABLES_MAX; t++)
+        r->brdfs[t] = brdfs && t < r->table_count ? brdfs[t] : NULL;
+    glDeleteBuffers(1, &r->brdf_block);
+    glDeleteTextures(1, &r->brdf_texels);
+    glDeleteBuffers(1, &r->tables_buffer);
+    r->brdf_block = r->brdf_texels = r->tables_buffer = 0;
+}
+
+/* --- the texture ------------------------------------------------------------------------------ */
+
+/* A slice and where its first texel lies. */
+typedef struct placement {
+    const lmp_preintegrated_brdf_slice *slice;
+    const int16_t *texels;
+    gpu_corner corner;
+    size_t number; /* of its numbers in the buffer */
+} placement;
+
+static int taller_first(const void *a, const void *b) {
+    const placement *p = a, *q = b;
+    if (p->slice->rows != q->slice->rows)
+        return p->slice->rows < q->slice->rows ? 1 : -1;
+    return p->number > q->number ? 1 : -1;
+}
+
+/* On shelves of slices about as tall; returns the height. */
+static GLsizei lay_out(placement *placements, size_t count) {
+    gpu_shelves shelves = { .width = ATLAS_WIDTH };
+    qsort(placements, count, sizeof *placements, taller_first);
+    for (size_t i = 0; i < count; i++)
+        placements[i].corner = gpu_shelves_put(&shelves, (int)placements[i].slice->columns,
+                                               (int)placements[i].slice->rows);
+    return shelves.bottom;
+}
+
+/* --- numbers ---------------------------------------------------------------------------------- */
+
+static size_t slice_count(const lmp_preintegrated_brdf_info *info) {
+    return (size_t)info->view_count * info->cap_count;
+}
+
+static size_t number_count(const lmp_preintegrated_brdf_info *info) {
+    return LMP_LOOKUP_HEADER + info->view_steps + 1 + info->cap_steps + 1 +
+           3 * (size_t)info->view_count + LMP_LOOKUP_SLICE * slice_count(info);
+}
+
+static float *append(float *to, const float *values, size_t count) {
+    memcpy(to, values, count * sizeof *to);
+    return to + count;
+}
+
+/* All numbers but the slices'; returns the index of those. */
+static float *write_header(const lmp_preintegrated_brdf_info *info, float *to) {
+    const float header[] = { [LMP_LOOKUP_VIEW_COUNT] = (float)info->view_count,
+                             [LMP_LOOKUP_CAP_COUNT] = (float)info->cap_count,
+                             [LMP_LOOKUP_VIEW_STEPS] = (float)info->view_steps,
+                             [LMP_LOOKUP_CAP_STEPS] = (float)info->cap_steps,
+                             [LMP_LOOKUP_WIDTH] = info->width,
+                             [LMP_LOOKUP_RADIUS] = info->radius,
+                             [LMP_LOOKUP_REACH] = info->reach,
+                             [LMP_LOOKUP_SLOPE] = info->slope,
+                             [LMP_LOOKUP_LOBE_ANGLE] = info->lobe_angle,
+                             [LMP_LOOKUP_MIRRORED] = info->mirrored };
+    static_assert(sizeof header == LMP_LOOKUP_HEADER * sizeof(float), "the header is complete");
+    to = append(to, header, LMP_LOOKUP_HEADER);
+    to = append(to, info->view_remap, info->view_steps + 1);
+    to = append(to, info->cap_remap, info->cap_steps + 1);
+    return append(to, &info->ambient->r, 3 * (size_t)info->view_count);
+}
+
+static void write_slices(const placement *placements, size_t count, float *numbers) {
+    for (size_t i = 0; i < count; i++) {
+        const lmp_preintegrated_brdf_slice *s = placements[i].slice;
+        const float values[] = { [LMP_LOOKUP_CORNER_X] = (float)placements[i].corner.x,
+                                 [LMP_LOOKUP_CORNER_Y] = (float)placements[i].corner.y,
+                                 [LMP_LOOKUP_ROWS] = (float)s->rows,
+                                 [LMP_LOOKUP_COLUMNS] = (float)s->columns,
+                                 [LMP_LOOKUP_ROW_DENSITY] = s->row_density,
+                                 [LMP_LOOKUP_ROW_ORIGIN] = s->row_origin,
+                                 [LMP_LOOKUP_COLUMN_DENSITY] = s->column_density,
+                                 [LMP_LOOKUP_VALUE_MAX] = s->unit * 32767 };
+        static_assert(sizeof values == LMP_LOOKUP_SLICE * sizeof(float), "a slice is complete");
+        append(numbers + placements[i].number, values, LMP_LOOKUP_SLICE);
+    }
+}
+
+/* --- upload ----------------------------------------------------------------------------------- */
+
+static bool upload_texels(gpu_renderer *r, const placement *placements, size_t count,
+                          GLsizei height, cli_error *error) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (height > largest)
+        return cli_fail(error, NULL,
+                        "the preintegrated materials are too large for the GPU "
+                        "(fewer --bands, or --method coefficients)");
+    glCreateTextures(GL_TEXTURE_2D, 1, &r->brdf_texels);
+    glTextureStorage2D(r->brdf_texels, 1, GL_RGBA16_SNORM, ATLAS_WIDTH, height);
+    glTextureParameteri(r->brdf_texels, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(r->brdf_texels, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (size_t i = 0; i < count; i++)
+        glTextureSubImage2D(r->brdf_texels, 0, placements[i].corner.x, placements[i].corner.y,
+                            (GLsizei)placements[i].slice->columns,
+                            (GLsizei)placements[i].slice->rows, GL_RGB, GL_SHORT,
+                            placements[i].texels);
+    return true;
+}
+
+/* Every BRDF's numbers, and the slices that are to be placed. */
+static void list_slices(const gpu_renderer *r, placement *placements, float *numbers) {
+    float *to = numbers + GPU_TABLES_MAX;
+    for (int t = 0; t < r->table_count; t++) {
+        if (!r->brdfs[t])
+            continue;
+        const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->brdfs[t]);
+        numbers[t] = (float)(to - numbers);
+        to = write_header(&info, to);
+        for (size_t i = 0; i < slice_count(&info); i++, to += LMP_LOOKUP_SLICE)
+            *placements++ = (placement) { .slice = &info.slices[i],
+                                          .texels = info.texels + 3 * (size_t)info.slices[i].first,
+                                          .number = (size_t)(to - numbers) };
+    }
+}
+
+static bool upload(gpu_renderer *r, cli_error *error) {
+    size_t slices = 0, count = GPU_TABLES_MAX;
+    for (int t = 0; t < r->table_count; t++)
+        if (r->brdfs[t]) {
+            const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->brdfs[t]);
+            slices += slice_count(&info);
+            count += number_count(&info);
+        }
+    placement *placements = malloc(slices * sizeof *placements);
+    float *numbers = calloc(count, sizeof *numbers);
+    bool ok = placements && numbers;
+    if (ok) {
+        list_slices(r, placements, numbers);
+        const GLsizei height = lay_out(placements, slices);
+        write_slices(placements, slices, numbers);
+        ok = upload_texels(r, placements, slices, height, error);
+    } else
+        cli_fail(error, NULL, "out of memory");
+    if (ok) {
+        glCreateBuffers(1, &r->brdf_block);
+        glNamedBufferStorage(r->brdf_block, (GLsizeiptr)(count * sizeof *numbers), numbers, 0);
+    }
+    free(placements);
+    free(numbers);
+    return ok;
+}
+
+bool gpu_bind_preintegrated_brdf(gpu_renderer *r, cli_error *error) {
+    if (!gpu_has_preintegrated_brdf(r))
+        return true;
+    if (!r->brdf_block && !upload(r, error))
+        return false;
+    glBindTextureUnit(SHARED_PREINTEGRATED_BRDF_TEXELS, r->brdf_texels);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_PREINTEGRATED_BRDF, r->brdf_block);
+    return true;
+}

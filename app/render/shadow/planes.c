@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/shadow/planes.h"
+
+#include <stdlib.h>
+
+void shadow_planes_free(shadow_planes *p) {
+    free(p->memory);
+    *p = (shadow_planes) { .memory = NULL };
+}
+
+bool shadow_planes_resize(shadow_planes *p, int width, int height) {
+    const size_t count = (size_t)width * (size_t)height;
+    if (p->memory && p->width == width && p->height == height)
+        return true;
+    shadow_planes_free(p);
+    float *next = p->memory = malloc((7 + 2 * SHADOW_VALUES) * count * sizeof *next);
+    if (!next)
+        return false;
+    p->width = width;
+    p->height = height;
+    for (int c = 0; c < 3; c++, next += 2 * count) {
+        p->position[c] = next;
+        p->normal[c] = next + count;
+    }
+    p->footprint = next;
+    next += count;
+    for (int i = 0; i < SHADOW_VALUES; i++, next += 2 * count) {
+        p->values[i] = next;
+        p->scratch[i] = next + count;
+    }
+    return true;
+}

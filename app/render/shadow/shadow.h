@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT */
+/* shadow.h - shadows by the ratio estimator (Heitz, Hill and McGuire 2018): what surfaces reflect
+ * has no noise; it is multiplied by the part of it that arrives, which a few rays a pixel and a
+ * filter find. docs/shadows.md tells how. */
+#ifndef LAMPION_SHADOW_H
+#define LAMPION_SHADOW_H
+
+#include "app/render/gl/gpu.h"
+
+typedef struct shadow_settings {
+    int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
+    uint32_t seed; /* of the noise: the same seed gives the same bits on any number of threads */
+    bool raw;      /* without the filter */
+    bool sparse;   /* of two neighbors one sends rays, and of three samples of a pixel */
+    bool apart;    /* samples know nothing of those before: all of them send rays */
+} shadow_settings;
+#define SHADOW_RAYS_MAX     1024
+#define SHADOW_RAYS_DEFAULT 2
+
+/* What a command line says of shadows; the settings begin as SHADOW_DEFAULTS. */
+typedef struct shadow_options {
+    bool on, off; /* off counts more */
+    shadow_settings settings;
+} shadow_options;
+#define SHADOW_DEFAULTS                                                                            \
+    {                                                                                              \
+        .settings = {.rays = SHADOW_RAYS_DEFAULT }                                                 \
+    }
+#define SHADOW_SWITCH_ROWS(variable)                                                               \
+    { .name = "shadows",                                                                           \
+      .kind = CLI_FLAG,                                                                            \
+      .target = &(variable).on,                                                                    \
+      .help = "let surfaces hide lights, by rays on the CPU whatever the device" },                \
+    {                                                                                              \
+        .name = "no-shadows", .kind = CLI_FLAG, .target = &(variable).off,                         \
+        .help = "let no surface hide a light, which is the default"                                \
+    }
+#define SHADOW_OPTION_ROWS(variable)                                                               \
+    SHADOW_SWITCH_ROWS(variable),                                                                  \
+        { .name = "no-shadow-filter",                                                              \
+          .kind = CLI_FLAG,                                                                        \
+          .target = &(variable).settings.raw,                                                      \
+          .help = "leave the noise of --shadows, whose mean over many samples is exact" },         \
+        { .name = "shadow-sparse",                                                                 \
+          .kind = CLI_FLAG,                                                                        \
+          .target = &(variable).settings.sparse,                                                   \
+          .help = "rays of --shadows from one of two neighbors and of three samples: a "           \
+                  "quarter of the time" },                                                         \
+    {                                                                                              \
+        .name = "shadow-rays", .kind = CLI_INT, .target = &(variable).settings.rays,               \
+        .argument = "N", .help = "rays of --shadows for each sample of a pixel", .minimum = 1,     \
+        .maximum = SHADOW_RAYS_MAX                                                                 \
+    }
+
+/* Of the last sample that sent rays. */
+typedef struct shadow_statistics {
+    size_t rays; /* toward lights */
+    double rays_milliseconds, filter_milliseconds;
+} shadow_statistics;
+
+typedef struct shadow shadow;
+
+/* Scene and environment, which may be NULL, must outlive it. NULL on failure. */
+shadow *shadow_create(const scene *scene, const environment *surroundings,
+                      const shadow_settings *settings, cli_error *error);
+void shadow_destroy(shadow *shadow);
+
+/* Another environment, or NULL. False without memory: then there is none. */
+bool shadow_surround(shadow *shadow, const environment *surroundings, cli_error *error);
+
+/* render_frame.shadow, `user` a shadow. */
+bool shadow_frame(void *user, const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+                  cli_error *error);
+
+shadow_statistics shadow_describe(const shadow *shadow);
+
+#endif

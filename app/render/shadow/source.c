@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/shadow/source.h"
+
+#include "app/scene/vector.h"
+#include "app/trace/wide.h"
+
+/* --- the sources ------------------------------------------------------------------------------ */
+
+static shadow_source source_of(shadow_kind kind, const lmp_light *light, lmp_rgb color) {
+    return (shadow_source) { .kind = kind,
+                             .light = light,
+                             .color = color,
+                             .brightness = (color.r + color.g + color.b) / 3 };
+}
+
+static shadow_source far_source(const lmp_light *light, lmp_vec3 axis, float one_minus_cos,
+                                lmp_rgb color) {
+    shadow_source source = source_of(SHADOW_FAR, light, color);
+    source.axis = axis;
+    source.one_minus_cos = one_minus_cos;
+    return source;
+}
+
+static size_t add_light(const lmp_light *light, shadow_source *sources) {
+    const float half = sinf(light->angle / 2);
+    switch (light->kind) {
+    case LMP_LIGHT_SPHERE:
+        sources[0] = source_of(SHADOW_SPHERE, light, light->radiance);
+        return 1;
+    case LMP_LIGHT_POINT:
+    case LMP_LIGHT_SPOT:
+        sources[0] = source_of(SHADOW_POINT, light, light->intensity);
+        return 1;
+    case LMP_LIGHT_DIRECTIONAL:
+        sources[0] = far_source(light, light->direction, 0, light->irradiance);
+        return 1;
+    case LMP_LIGHT_CAP:
+        sources[0] = far_source(light, light->direction, 2 * half * half, light->radiance);
+        return 1;
+    case LMP_LIGHT_HEMISPHERE:
+        sources[0] = far_source(light, light->direction, 1, light->radiance);
+        sources[1] = far_source(light, vec_scale(light->direction, -1), 1, light->ground);
+        return 2;
+    }
+    return 0;
+}
+
+size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow_around *around,
+                           shadow_source *sources) {
+    size_t made = 0;
+    for (size_t i = 0; i < count; i++)
+        made += add_light(&lights[i].emitter, sources + made);
+    if (around) {
+        sources[made] = source_of(SHADOW_AROUND, NULL, around->mean);
+        sources[made++].around = around;
+    }
+    return made;
+}
+
+/* --- from a point ----------------------------------------------------------------------------- */
+
+/* As of KHR_lights_punctual, whose difference of cosines is held to 1e-3. */
+static float spot_falloff(const lmp_light *light, lmp_vec3 axis) {
+    if (light->kind != LMP_LIGHT_SPOT)
+        return 1;
+    const float outer = cosf(light->outer), inner = cosf(light->inner);
+    const float cosine = -vec_dot(light->direction, axis);
+    const float t = fminf(fmaxf((cosine - outer) / fmaxf(inner - outer, 1e-3f), 0), 1);
+    return t * t;
+}
+
+static float sine_of(float one_minus_cos) {
+    return one_minus_cos < 1 ? sqrtf(one_minus_cos * (2 - one_minus_cos)) : 1;
+}
+
+/* Without a branch, so that loops become vectors. */
+static float larger(float a, float b) {
+    return 0.5f * (a + b + fabsf(a - b));
+}
+
+/* Caps beside each other, and the irradiance across them over pi. */
+typedef struct cap_lanes {
+    shadow_vectors axis;
+    shadow_lanes sine, power;
+} cap_lanes;
+
+static void see_sphere(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+    const lmp_light *light = source->light;
+    const lmp_vec3 center = light->position;
+    const float r = light->radius, least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float x = center.x - p->position.of[0][i], y = center.y - p->position.of[1][i];
+        const float z = center.z - p->position.of[2][i];
+        const float scale = 1 / sqrtf(larger(x * x + y * y + z * z, least));
+        const float sine = 1 - larger(1 - r * scale, 0);
+        caps->axis.of[0][i] = x * scale;
+        caps->axis.of[1][i] = y * scale;
+        caps->axis.of[2][i] = z * scale;
+        caps->sine[i] = sine;
+        caps->power[i] = source->brightness * sine * sine; /* inside up to four times as much */
+    }
+}
+
+static void see_point(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
+    const lmp_vec3 center = source->light->position;
+    const float least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const lmp_vec3 to =
+            vec_sub(center, vec(p->position.of[0][i], p->position.of[1][i], p->position.of[2][i]));
+        const float d2 = fmaxf(vec_dot(to, to), least);
+        const lmp_vec3 axis = vec_scale(to, 1 / sqrtf(d2));
+        caps->axis.of[0][i] = axis.x;
+        caps->axis.of[1][i] = axis.y;
+        caps->axis.of[2][i] = axis.z;
+        caps->sine[i] = 0;
+        caps->power[i] = source->brightness / (PI * d2) * spot_falloff(source->light, axis);
+    }
+}
+
+static void see_far(const shadow_source *source, cap_lanes *caps) {
+    const float solid_angle = 2 * PI * source->one_minus_cos;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        caps->axis.of[0][i] = source->axis.x;
+        caps->axis.of[1][i] = source->axis.y;
+        caps->axis.of[2][i] = source->axis.z;
+        caps->sine[i] = sine_of(source->one_minus_cos);
+        caps->power[i] = source->brightness / PI * (solid_angle > 0 ? solid_angle : 1);
+    }
+}
+
+/* A cap's part above the horizon, about (cos + sine) / (1 + sine), and a lobe that it widens. */
+static void weigh_caps(const cap_lanes *caps, const shadow_points *p, float *weights) {
+    const shadow_lanes *n = p->normal.of, *m = p->mirror.of, *axis = caps->axis.of;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
+        const float mirrored = m[0][i] * axis[0][i] + m[1][i] * axis[1][i] + m[2][i] * axis[2][i];
+        const float s = caps->sine[i], a2 = p->alpha2[i] + 0.25f * s * s;
+        const float off = a2 + larger(0.5f - 0.5f * mirrored, 0);
+        const float facing = larger(along + s, 0) * (1 - 0.5f * s);
+        const float specular = p->shine[i] * a2 / (4 * off * off);
+        const float weight = caps->power[i] * (p->albedo[i] * facing + specular);
+        weights[i] = facing > 0 ? weight : 0;
+    }
+}
+
+/* Adds what coats reflect. */
+static void weigh_coats(const cap_lanes *caps, const shadow_points *p, float *weights) {
+    const shadow_lanes *n = p->coat_normal.of, *m = p->coat_mirror.of, *axis = caps->axis.of;
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float along = n[0][i] * axis[0][i] + n[1][i] * axis[1][i] + n[2][i] * axis[2][i];
+        const float mirrored = m[0][i] * axis[0][i] + m[1][i] * axis[1][i] + m[2][i] * axis[2][i];
+        const float s = caps->sine[i], a2 = p->coat_alpha2[i] + 0.25f * s * s;
+        const float off = a2 + larger(0.5f - 0.5f * mirrored, 0);
+        const float weight = caps->power[i] * p->coat[i] * a2 / (4 * off * off);
+        weights[i] += p->coat[i] > 0 && along + s > 0 ? weight : 0;
+    }
+}
+
+static void weigh(const shadow_source *source, const shadow_points *p, float *weights) {
+    cap_lanes caps;
+    if (source->kind == SHADOW_AROUND) {
+        for (int i = 0; i < SHADOW_LANES; i++)
+            weights[i] = source->brightness * PI * (p->albedo[i] + p->shine[i] + p->coat[i]);
+        return;
+    }
+    if (source->kind == SHADOW_SPHERE)
+        see_sphere(source, p, &caps);
+    else if (source->kind == SHADOW_POINT)
+        see_point(source, p, &caps);
+    else
+        see_far(source, &caps);
+    weigh_caps(&caps, p, weights);
+    if (p->coated)
+        weigh_coats(&caps, p, weights);
+}
+
+TRACE_WIDE void shadow_sources_weigh(const shadow_source *sources, size_t count,
+                                     const shadow_points *points, shadow_lanes *sums) {
+    static const shadow_lanes none = { 0 };
+    for (size_t s = 0; s < count; s++) {
+        const float *before = s > 0 ? sums[s - 1] : none;
+        shadow_lanes weights;
+        weigh(&sources[s], points, weights);
+#pragma omp simd
+        for (int i = 0; i < SHADOW_LANES; i++)
+            sums[s][i] = before[i] + (weights[i] > 0 ? weights[i] : 0);
+    }
+}
+
+/* --- directions ------------------------------------------------------------------------------- */
+
+/* The sources, beside each other. */
+typedef struct source_lanes {
+    shadow_vectors at, color; /* the center of what is near, the axis of what is far */
+    shadow_lanes radius;
+    shadow_lanes far; /* one_minus_cos of what is far, -1 of what is near */
+} source_lanes;
+
+/* The caps that points see of them. */
+typedef struct seen_lanes {
+    shadow_vectors axis;
+    shadow_lanes distance, one_minus_cos;
+} seen_lanes;
+
+static void collect(const shadow_source *const sources[SHADOW_LANES], source_lanes *lanes) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const shadow_source *s = sources[i];
+        const bool near = s->kind == SHADOW_SPHERE || s->kind == SHADOW_POINT;
+        const lmp_vec3 at = near ? s->light->position : s->axis;
+        lanes->at.of[0][i] = at.x;
+        lanes->at.of[1][i] = at.y;
+        lanes->at.of[2][i] = at.z;
+        lanes->color.of[0][i] = s->color.r;
+        lanes->color.of[1][i] = s->color.g;
+        lanes->color.of[2][i] = s->color.b;
+        lanes->radius[i] = s->kind == SHADOW_SPHERE ? s->light->radius : 0;
+        lanes->far[i] = near ? -1 : s->one_minus_cos;
+    }
+}
+
+/* Inside a sphere the cap goes on growing, as in <lampion/light.h>. */
+static void see(const source_lanes *lanes, const shadow_vectors *positions, seen_lanes *seen) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float x = lanes->at.of[0][i] - positions->of[0][i];
+        const float y = lanes->at.of[1][i] - positions->of[1][i];
+        const float z = lanes->at.of[2][i] - positions->of[2][i];
+        const float r = lanes->radius[i], far = lanes->far[i];
+        const float distance = sqrtf(x * x + y * y + z * z);
+        const float less = distance < r ? distance : r, more = distance < r ? r : distance;
+        const float s = less / (more > 0 ? more : 1), root = sqrtf((1 - s) * (1 + s));
+        const float inside = 1 + root, outside = s * s / (1 + root);
+        const float near = distance < r ? inside : outside;
+        const float scale = 1 / (distance > 0 ? distance : 1),
+                    upward = distance > 0 ? z * scale : 1;
+        seen->axis.of[0][i] = far < 0 ? x * scale : lanes->at.of[0][i];
+        seen->axis.of[1][i] = far < 0 ? y * scale : lanes->at.of[1][i];
+        seen->axis.of[2][i] = far < 0 ? upward : lanes->at.of[2][i];
+        seen->one_minus_cos[i] = far < 0 ? near : far;
+        seen->distance[i] = distance;
+    }
+}
+
+/* Of an angle in parts of a circle, 0 … 1, within 4e-7: by their series in the eighth of a circle
+ * on either side of the nearest quarter. */
+static void sine_cosine(float part, float *sine, float *cosine) {
+    const int quarter = (int)(4 * part + 0.5f);
+    const float x = (4 * part - (float)quarter) * (PI / 2), x2 = x * x;
+    const float s = x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42)));
+    const float c = 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56)));
+    const float up = quarter & 1 ? c : s, right = quarter & 1 ? s : c;
+    *sine = quarter & 2 ? -up : up;
+    *cosine = (quarter + 1) & 2 ? -right : right;
+}
+
+/* Off the axis by the part u of the cap, the part v of a turn around it: in an orthonormal basis
+ * without branches at the poles (Duff et al. 2017). */
+static void leave_axis(const seen_lanes *seen, const shadow_lanes u, const shadow_lanes v,
+                       shadow_vectors *direction) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float t = u[i] * seen->one_minus_cos[i], off = sqrtf(t * (2 - t));
+        const float x = seen->axis.of[0][i], y = seen->axis.of[1][i], z = seen->axis.of[2][i];
+        const float sign = copysignf(1, z), a = -1 / (sign + z), b = x * y * a;
+        float sine, cosine;
+        sine_cosine(v[i], &sine, &cosine);
+        const float across = off * cosine, along = off * sine;
+        direction->of[0][i] = x * (1 - t) + (1 + sign * x * x * a) * across + b * along;
+        direction->of[1][i] = y * (1 - t) + sign * b * across + (sign + y * y * a) * along;
+        direction->of[2][i] = z * (1 - t) - sign * x * across - y * along;
+    }
+}
+
+/* To the near side of a sphere, from inside it to the far one. */
+static void end_rays(const source_lanes *lanes, const seen_lanes *seen, const shadow_lanes u,
+                     float *length) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float distance = seen->distance[i], r = lanes->radius[i];
+        const float t = u[i] * seen->one_minus_cos[i], along = distance * (1 - t);
+        const float off = distance * sqrtf(t * (2 - t));
+        const float half = sqrtf(larger((r - off) * (r + off), 0));
+        const float near = larger(distance < r ? along + half : along - half, 0);
+        length[i] = lanes->far[i] < 0 ? near : INFINITY;
+    }
+}
+
+static void bring_light(const source_lanes *lanes, const seen_lanes *seen,
+                        shadow_samples *samples) {
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        const float t = seen->one_minus_cos[i];
+        const float solid_angle = lanes->far[i] == 0 ? 1 : 2 * PI * t;
+        samples->size[i] = sine_of(t);
+        for (int c = 0; c < 3; c++)
+            samples->arrives.of[c][i] = lanes->color.of[c][i] * solid_angle;
+    }
+}
+
+static TRACE_WIDE void draw_caps(const source_lanes *lanes, const shadow_vectors *positions,
+                                 const float *u, const float *v, seen_lanes *seen,
+                                 shadow_samples *samples) {
+    see(lanes, positions, seen);
+    leave_axis(seen, u, v, &samples->direction);
+    end_rays(lanes, seen, u, samples->length);
+    bring_light(lanes, seen, samples);
+}
+
+/* A point's cap is a single direction. */
+static void draw_point(const shadow_source *source, const seen_lanes *seen, int lane,
+                       shadow_samples *samples) {
+    const float held = fmaxf(seen->distance[lane], LMP_POINT_DISTANCE_MIN);
+    const float falloff = spot_falloff(source->light, shadow_lane(&seen->axis, lane));
+    const lmp_rgb arrives = rgb_scale(source->color, falloff / (held * held));
+    shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
+}
+
+static void draw_around(const shadow_source *source, float u, float v, int lane,
+                        shadow_samples *samples) {
+    lmp_rgb arrives;
+    shadow_set_lane(&samples->direction, lane, shadow_around_draw(source->around, u, v, &arrives));
+    shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
+    samples->length[lane] = INFINITY;
+    samples->size[lane] = 1;
+}
+
+void shadow_sources_draw(const shadow_source *const sources[SHADOW_LANES],
+                         const shadow_vectors *positions, const shadow_lanes u,
+                         const shadow_lanes v, shadow_samples *samples) {
+    source_lanes lanes;
+    seen_lanes seen;
+    collect(sources, &lanes);
+    draw_caps(&lanes, positions, u, v, &seen, samples);
+    for (int i = 0; i < SHADOW_LANES; i++) {
+        if (sources[i]->kind == SHADOW_POINT)
+            draw_point(sources[i], &seen, i, samples);
+        if (sources[i]->kind == SHADOW_AROUND)
+            draw_around(sources[i], u[i], v[i], i, samples);
+    }
+}
