@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/sheen.h"
 
-#define GRAZING 1e-4 /* least cosine of a view */
+#define GRAZING 1e-4 /* least cosine of light or view */
 
-enum { NODES = REFERENCE_SHEEN_NODES };
+enum { ROWS = REFERENCE_SHEEN_ROUGHNESSES, COLUMNS = REFERENCE_SHEEN_COSINES };
 
 /* The fit of the masking's logarithm, as the specification writes it. */
 static double masking_log(double x, double alpha) {
@@ -19,11 +19,12 @@ static double masking(double cosine, double alpha) {
                         : exp(2 * masking_log(0.5, alpha) - masking_log(1 - cosine, alpha));
 }
 
-/* f_r cos(theta) of white fibers, by the cosines of light, view and half vector. */
-static double fibers(double alpha, double light, double view, double half) {
+/* f_r cos(theta) of white fibers, by the cosines of view and half vector and the sum of the
+ * maskings of light and view. */
+static double fibers(double alpha, double masked, double view, double half) {
     const double sine2 = fmax(1 - half * half, 0);
     const double d = (2 + 1 / alpha) * pow(sine2, 0.5 / alpha) / (2 * REFERENCE_PI);
-    return d / ((1 + masking(light, alpha) + masking(view, alpha)) * 4 * view);
+    return d / ((1 + masked) * 4 * view);
 }
 
 static double half_cosine(reference_vec light, reference_vec view, reference_vec normal) {
@@ -31,43 +32,64 @@ static double half_cosine(reference_vec light, reference_vec view, reference_vec
     return fmin(fabs(reference_dot(h, normal)) / reference_length(h), 1);
 }
 
-/* --- what they leave -------------------------------------------------------------------------- */
+/* --- what they reflect ------------------------------------------------------------------------ */
 
-/* Midpoints, dense at the horizon and behind the view, where fibers shine. */
-static double albedo(double alpha, double cosine) {
+static double cosine_of(int column) {
+    const double root = (double)column / (COLUMNS - 1);
+    return fmax(root * root, GRAZING);
+}
+
+static double along_row(const double row[COLUMNS], double cosine) {
+    const double x = sqrt(fmin(cosine, 1)) * (COLUMNS - 1);
+    const int c = x < COLUMNS - 2 ? (int)x : COLUMNS - 2;
+    return row[c] + (row[c + 1] - row[c]) * (x - c);
+}
+
+/* What fibers reflect of a sky, divided by their gain. Midpoints, dense at the horizon and behind
+ * the view, where fibers shine. */
+static double albedo(double alpha, const double gain[COLUMNS], double cosine) {
     enum { RINGS = 64, AZIMUTHS = 32 };
     const reference_vec up = { 0, 0, 1 }, view = { sqrt(1 - cosine * cosine), 0, cosine };
+    const double own = masking(cosine, alpha), most = along_row(gain, cosine);
     double sum = 0;
-    for (int i = 0; i < RINGS; i++)
+    for (int i = 0; i < RINGS; i++) {
+        const double u = (i + 0.5) / RINGS, z = u * u, s = sqrt(1 - z * z);
+        const double masked = own + masking(z, alpha);
+        double ring = 0;
         for (int k = 0; k < AZIMUTHS; k++) {
-            const double u = (i + 0.5) / RINGS, z = u * u, s = sqrt(1 - z * z);
             const double across = (k + 0.5) / AZIMUTHS, phi = REFERENCE_PI * across * across;
             const reference_vec light = { s * cos(phi), s * sin(phi), z };
-            const double solid = 2 * u / RINGS * 4 * REFERENCE_PI * across / AZIMUTHS;
-            sum += solid * fibers(alpha, z, cosine, half_cosine(light, view, up));
+            ring += across * fibers(alpha, masked, cosine, half_cosine(light, view, up));
         }
-    return sum;
+        sum += u * ring / fmax(fmax(most, along_row(gain, z)), 1);
+    }
+    return sum * 2 / RINGS * 4 * REFERENCE_PI / AZIMUTHS;
+}
+
+/* First what the specification's formulas reflect, and with it how much of that is too much. */
+static void fill_row(reference_sheen_albedos *albedos, int r) {
+    const double roughness = pow(REFERENCE_SHEEN_ROUGHNESS_MIN, 1 - (double)r / (ROWS - 1));
+    double *gain = albedos->gain[r], raw[COLUMNS];
+    for (int c = 0; c < COLUMNS; c++)
+        gain[c] = 0;
+    for (int c = 0; c < COLUMNS; c++)
+        raw[c] = albedo(roughness * roughness, gain, cosine_of(c));
+    for (int c = 0; c < COLUMNS; c++)
+        gain[c] = REFERENCE_SHEEN_MARGIN * raw[c];
+    for (int c = 0; c < COLUMNS; c++)
+        albedos->at[r][c] = albedo(roughness * roughness, gain, cosine_of(c));
 }
 
 void reference_sheen_albedos_fill(reference_sheen_albedos *albedos) {
-    const double least = REFERENCE_SHEEN_ROUGHNESS_MIN;
 #pragma omp parallel for schedule(dynamic)
-    for (int r = 0; r < NODES; r++)
-        for (int v = 0; v < NODES; v++) {
-            const double rough = least + (1 - least) * r / (NODES - 1);
-            const double root = (double)v / (NODES - 1);
-            albedos->at[r][v] = albedo(rough * rough, fmax(root * root, GRAZING));
-        }
+    for (int r = 0; r < ROWS; r++)
+        fill_row(albedos, r);
 }
 
-static double albedo_at(const reference_sheen_albedos *albedos, double roughness, double cosine) {
-    const double least = REFERENCE_SHEEN_ROUGHNESS_MIN;
-    const double y = (roughness - least) / (1 - least) * (NODES - 1);
-    const double x = sqrt(fmin(cosine, 1)) * (NODES - 1);
-    const int r = y < NODES - 2 ? (int)y : NODES - 2, v = x < NODES - 2 ? (int)x : NODES - 2;
-    const double *low = albedos->at[r] + v, *high = albedos->at[r + 1] + v;
-    const double a = low[0] + (low[1] - low[0]) * (x - v);
-    const double b = high[0] + (high[1] - high[0]) * (x - v);
+static double in_table(const double table[ROWS][COLUMNS], double roughness, double cosine) {
+    const double y = (1 - log(roughness) / log(REFERENCE_SHEEN_ROUGHNESS_MIN)) * (ROWS - 1);
+    const int r = y < ROWS - 2 ? (int)y : ROWS - 2;
+    const double a = along_row(table[r], cosine), b = along_row(table[r + 1], cosine);
     return a + (b - a) * (y - r);
 }
 
@@ -79,18 +101,26 @@ void reference_sheen_set(reference_sheen *sheen, const reference_sheen_albedos *
     const double rough = fmin(fmax(roughness, REFERENCE_SHEEN_ROUGHNESS_MIN), 1);
     const double cosine = fmax(reference_dot(normal, view), GRAZING);
     const double most = fmax(color[0], fmax(color[1], color[2]));
-    *sheen = (reference_sheen) { .color = { color[0], color[1], color[2] },
-                                 .alpha = rough * rough,
-                                 .under = fmax(1 - most * albedo_at(albedos, rough, cosine), 0),
+    *sheen = (reference_sheen) { .albedos = albedos,
+                                 .color = { color[0], color[1], color[2] },
+                                 .roughness = rough,
+                                 .gain = in_table(albedos->gain, rough, cosine),
+                                 .under = fmax(1 - most * in_table(albedos->at, rough, cosine), 0),
                                  .normal = normal,
                                  .view = view };
 }
 
 void reference_sheen_at(const reference_sheen *sheen, reference_vec w, double rgb[3]) {
-    const double light = reference_dot(w, sheen->normal);
-    const double view = fmax(reference_dot(sheen->view, sheen->normal), GRAZING);
-    const double half = half_cosine(w, sheen->view, sheen->normal);
-    const double white = light > 0 ? fibers(sheen->alpha, fmin(light, 1), fmin(view, 1), half) : 0;
+    const double alpha = sheen->roughness * sheen->roughness;
+    const double light = fmin(reference_dot(w, sheen->normal), 1);
+    const double view = fmin(fmax(reference_dot(sheen->view, sheen->normal), GRAZING), 1);
+    double white = 0;
+    if (light > 0) {
+        const double masked = masking(fmax(light, GRAZING), alpha) + masking(view, alpha);
+        const double half = half_cosine(w, sheen->view, sheen->normal);
+        const double gain = in_table(sheen->albedos->gain, sheen->roughness, light);
+        white = fibers(alpha, masked, view, half) / fmax(fmax(sheen->gain, gain), 1);
+    }
     for (int c = 0; c < 3; c++)
         rgb[c] = sheen->color[c] * white;
 }

@@ -92,7 +92,8 @@ LMP_API lmp_result lmp_brdf_create_ggx(const lmp_host *host, const lmp_ggx *ggx,
 
 /* Cloth, as KHR_materials_sheen has it with the distribution and the visibility that it calls
  * Charlie: fibers over a diffuse base, which has what they leave, 1 - max(color) E, E their albedo
- * toward the light or the view, whichever is more. */
+ * toward the light or the view, whichever is more. Where those formulas reflect more than arrives,
+ * at grazing angles of roughnesses below 0.3, they are divided by the larger excess of the two. */
 typedef struct lmp_sheen {
     float roughness; /* 0.07 … 1: how much the fibers diverge from the normal */
     lmp_rgb color;   /* of the fibers, 0 … 1 */

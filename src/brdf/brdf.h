@@ -20,10 +20,12 @@ typedef struct brdf_ggx {
     double alpha_x, alpha_y, f0[3], diffuse[3];
 } brdf_ggx;
 
-/* Of white fibers: what they reflect of a uniform sky, by the angle of the view, 0 to pi/2. */
+/* Of white fibers, by the root of the view's cosine, 0 to 1: how many times more than arrives of a
+ * uniform sky the specification has them reflect (below 1 it does not count), and what they do
+ * reflect. */
 #define BRDF_SHEEN_ALBEDOS 129
 typedef struct brdf_sheen {
-    double alpha, color[3], diffuse[3], albedo[BRDF_SHEEN_ALBEDOS];
+    double alpha, color[3], diffuse[3], gain[BRDF_SHEEN_ALBEDOS], albedo[BRDF_SHEEN_ALBEDOS];
 } brdf_sheen;
 
 typedef struct brdf_merl {

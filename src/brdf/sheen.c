@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* sheen.c - cloth as KHR_materials_sheen has it: fibers that stand on a diffuse base, by the
- * distribution and the masking of Conty Estevez and Kulla (2017), and what they leave of the base.
- */
+ * distribution and the masking of Conty Estevez and Kulla (2017), held to what arrives, and what
+ * they leave of the base. */
 #include "src/brdf/brdf.h"
 #include "src/sh/quadrature.h"
 
@@ -26,47 +26,92 @@ static double masking(double cosine, double alpha) {
     return exp(2 * masking_log(0.5, alpha) - masking_log(fmax(1 - cosine, 0), alpha));
 }
 
-/* f_r of white fibers, times a cosine a.z, with which it is finite at a's horizon. */
-static double fibers_cosine(double alpha, const double a[3], const double b[3]) {
+/* Nearer to the horizon the fit of the masking ends, and the quotient by the cosine grows without
+ * bound. */
+static double held_cosine(double cosine) {
+    return fmax(cosine, 1e-4);
+}
+
+/* f_r of white fibers as the specification has it, times a cosine a.z, with which it is finite at
+ * a's horizon; `masked` is the sum of the masking of both. */
+static double fibers_cosine(double alpha, double masked, const double a[3], const double b[3]) {
     double h[3];
     lmp_brdf_half(a, b, h);
     const double square = fmax(1 - h[2] * h[2], 0);
     const double distribution = (2 + 1 / alpha) * pow(square, 0.5 / alpha) / (2 * BRDF_PI);
-    return distribution / ((1 + masking(a[2], alpha) + masking(b[2], alpha)) * 4 * b[2]);
+    return distribution / ((1 + masked) * 4 * held_cosine(b[2]));
 }
 
-/* --- the base --------------------------------------------------------------------------------- */
+/* --- what they reflect ------------------------------------------------------------------------ */
 
-/* What white fibers reflect of a uniform sky. Light on the far side of the view and on its own
- * counts alike; nodes are dense toward the horizon, where they shine. */
-static double fibers_albedo(double alpha, double theta) {
-    enum { NODES = 48 };
-    const double view[3] = { sin(theta), 0, cos(theta) };
-    double node[NODES], weight[NODES], sum = 0;
-    for (int i = 0; i < NODES; i++)
-        lmp_gauss_legendre(NODES, i, &node[i], &weight[i]);
-    for (int i = 0; i < NODES; i++)
-        for (int k = 0; k < NODES; k++) {
-            const double up = (1 + node[i]) / 2, z = up * up, s = sqrt(1 - z * z);
+enum { NODES = BRDF_SHEEN_ALBEDOS };
+
+/* Nodes lie evenly in the root of the cosine: toward the horizon fibers change fastest. */
+static double between_nodes(const double values[NODES], double cosine) {
+    const double at = sqrt(fmin(cosine, 1)) * (NODES - 1);
+    const int i = at < NODES - 2 ? (int)at : NODES - 2;
+    return values[i] + (values[i + 1] - values[i]) * (at - i);
+}
+
+static double gain_of(const brdf_sheen *sheen, double a, double b) {
+    return fmax(fmax(between_nodes(sheen->gain, a), between_nodes(sheen->gain, b)), 1);
+}
+
+/* What white fibers reflect of a uniform sky, divided by their gain. Light on the far side of the
+ * view and on its own counts alike; nodes are dense toward the horizon, where they shine. */
+static double fibers_albedo(const brdf_sheen *sheen, double cosine) {
+    enum { RINGS = 48 };
+    const double view[3] = { sqrt(1 - cosine * cosine), 0, cosine };
+    const double masked = masking(held_cosine(cosine), sheen->alpha);
+    double node[RINGS], weight[RINGS], sum = 0;
+    for (int i = 0; i < RINGS; i++)
+        lmp_gauss_legendre(RINGS, i, &node[i], &weight[i]);
+    for (int i = 0; i < RINGS; i++) {
+        const double up = (1 + node[i]) / 2, z = up * up, s = sqrt(1 - z * z);
+        const double both = masked + masking(held_cosine(z), sheen->alpha);
+        double ring = 0;
+        for (int k = 0; k < RINGS; k++) {
             const double across = (1 + node[k]) / 2, phi = BRDF_PI * across * across;
             const double light[3] = { s * cos(phi), s * sin(phi), z };
-            const double solid = weight[i] * up * weight[k] * across * 2 * BRDF_PI;
-            sum += solid * fibers_cosine(alpha, light, view);
+            ring += weight[k] * across * fibers_cosine(sheen->alpha, both, light, view);
         }
+        sum += weight[i] * up * ring * 2 * BRDF_PI / gain_of(sheen, z, cosine);
+    }
     return sum;
 }
 
-/* Between the nodes of brdf_sheen's table. */
-static double albedo_at(const brdf_sheen *sheen, double cosine) {
-    const double at = acos(fmin(cosine, 1)) / (0.5 * BRDF_PI) * (BRDF_SHEEN_ALBEDOS - 1);
-    const int i = at < BRDF_SHEEN_ALBEDOS - 2 ? (int)at : BRDF_SHEEN_ALBEDOS - 2;
-    return sheen->albedo[i] + (sheen->albedo[i + 1] - sheen->albedo[i]) * (at - i);
+static void fill_albedos(brdf_sheen *sheen) {
+    for (int i = 0; i < NODES; i++) {
+        const double root = (double)i / (NODES - 1);
+        sheen->albedo[i] = fibers_albedo(sheen, root * root);
+    }
+}
+
+/* Smooth fibers reflect up to three times what arrives, by the specification's masking. Divided by
+ * the larger of the albedos toward a and b, where it exceeds 1, they reflect no more than arrives,
+ * and remain reciprocal. */
+static void limit_gain(brdf_sheen *sheen) {
+    const double between = 1.003; /* that of what lies between two nodes is larger by less */
+    double largest = 0;
+    memset(sheen->gain, 0, sizeof sheen->gain);
+    fill_albedos(sheen);
+    for (int i = 0; i < NODES; i++)
+        largest = fmax(largest, between * sheen->albedo[i]);
+    if (!(largest > 1))
+        return;
+    for (int i = 0; i < NODES; i++)
+        sheen->gain[i] = between * sheen->albedo[i];
+    fill_albedos(sheen);
 }
 
 static void eval_sheen(const lmp_brdf *brdf, const double a[3], const double b[3], double rgb[3]) {
     const brdf_sheen *sheen = &brdf->sheen;
-    const double fibers = fibers_cosine(sheen->alpha, a, b) / a[2];
-    const double held = fmax(albedo_at(sheen, a[2]), albedo_at(sheen, b[2]));
+    const double la = held_cosine(a[2]), lb = held_cosine(b[2]);
+    const double masked = masking(la, sheen->alpha) + masking(lb, sheen->alpha);
+    const double fibers =
+        fibers_cosine(sheen->alpha, masked, a, b) / (la * gain_of(sheen, a[2], b[2]));
+    const double held =
+        fmax(between_nodes(sheen->albedo, a[2]), between_nodes(sheen->albedo, b[2]));
     const double most = fmax(sheen->color[0], fmax(sheen->color[1], sheen->color[2]));
     const double passed = fmax(1 - most * held, 0);
     for (int c = 0; c < 3; c++)
@@ -94,9 +139,7 @@ lmp_result lmp_brdf_create_sheen(const lmp_host *host, const lmp_sheen *sheen, l
     const lmp_result result = lmp_brdf_new(host, LMP_BRDF_SHEEN, 0, brdf);
     if (result != LMP_OK)
         return result;
-    for (int i = 0; i < BRDF_SHEEN_ALBEDOS; i++) /* at the last node just before the horizon */
-        own.albedo[i] =
-            fibers_albedo(own.alpha, fmin(0.5 * BRDF_PI * i / (BRDF_SHEEN_ALBEDOS - 1), 1.5707));
+    limit_gain(&own);
     (*brdf)->sheen = own;
     (*brdf)->info.mirrored = true;
     (*brdf)->eval = eval_sheen;

@@ -1,9 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* sheen.h - white fibers as KHR_materials_sheen writes them down, in double precision: nothing of
- * the library. The normal is z; light and view are unit and above the horizon. */
+ * the library. The normal is z; light and view are unit and above the horizon; cosines below 1e-4
+ * are taken as 1e-4. */
 #ifndef LAMPION_ORACLE_SHEEN_H
 #define LAMPION_ORACLE_SHEEN_H
 
+/* By the specification's formulas, whose smooth fibers reflect more than arrives. */
+double oracle_sheen_unlimited(double roughness, const double light[3], const double view[3]);
+
+/* What a sky gives by them to a view of some cosine, within 0.1 %. */
+double oracle_sheen_gain(double roughness, double cosine);
+
+/* The formulas, divided by the larger of the gains toward light and view where it exceeds 1. */
 double oracle_sheen(double roughness, const double light[3], const double view[3]);
 
 /* E, what a whole sky gives to a view at an angle from the normal. */

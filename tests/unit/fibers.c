@@ -101,6 +101,31 @@ static void what_is_under_fibers_has_the_rest(void **state) {
         }
 }
 
+/* From everywhere comes 1; of the roughness of a table, or between two. */
+static void fibers_reflect_no_more_than_arrives(void **state) {
+    (void)state;
+    static const double cosines[] = { 0.1, 0.05, 0.03, 0.02, 0.01, 0.005, 0.002, 0.001, 1e-4 };
+    const lmp_light everywhere = { .kind = LMP_LIGHT_CAP,
+                                   .direction = { 0, 0, 1 },
+                                   .angle = (float)ORACLE_PI,
+                                   .radiance = { 1, 1, 1 } };
+    for (double table = 0; table < 5; table += 0.25) {
+        const float rough = roughness_of(table);
+        const lmp_material fibers = { .fibers = fibers_of(rough, (lmp_rgb) { 1, 0.6f, 1 }) };
+        const lmp_material cloth = { .diffuse = { 1, 1, 1 },
+                                     .fibers = fibers_of(rough, (lmp_rgb) { 1, 0.6f, 1 }) };
+        for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) {
+            const lmp_surface surface = seen_from(acos(cosines[k]));
+            const lmp_rgb over = lmp_shade(NULL, &fibers, &surface, &everywhere, 1);
+            const lmp_rgb all = lmp_shade(NULL, &cloth, &surface, &everywhere, 1);
+            CHECK_WITHIN((double)over.r, 1);
+            CHECK_WITHIN((double)over.g, 0.6);
+            CHECK_WITHIN((double)all.r, 1 + 1e-6);
+            CHECK_WITHIN((double)all.g, 1 + 1e-6);
+        }
+    }
+}
+
 /* --- many ------------------------------------------------------------------------------------- */
 
 /* Every third without fibers, every fifth under a coat. */
@@ -133,6 +158,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fibers_of_any_roughness_are_those_of_the_specification),
         cmocka_unit_test(what_is_under_fibers_has_the_rest),
+        cmocka_unit_test(fibers_reflect_no_more_than_arrives),
         cmocka_unit_test(many_cloths_are_shaded_as_each_of_them),
         cmocka_unit_test(all_methods_shade_fibers_alike),
     };
