@@ -247,6 +247,8 @@ static bool may_be_required(const char *name) {
     static const char *const known[] = { "KHR_texture_transform",
                                          "KHR_mesh_quantization",
                                          "EXT_mesh_gpu_instancing",
+                                         "EXT_texture_webp",
+                                         "KHR_texture_basisu",
                                          "KHR_lights_punctual",
                                          "KHR_materials_emissive_strength",
                                          "KHR_materials_unlit",

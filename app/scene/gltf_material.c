@@ -168,7 +168,8 @@ static bool read_map(texture_pool *pool, const cJSON *info, bool srgb, const lon
     if (!info)
         return true;
     const cJSON *entry = gltf_item(document, GLTF_TEXTURES, (size_t)gltf_index(info, "index"));
-    const long image = gltf_index(entry, "source");
+    const cJSON *webp = gltf_extension(entry, "EXT_texture_webp");
+    const long image = gltf_index(webp ? webp : entry, "source");
     /* An image that only an extension names, which is then among what is left out. */
     if (image < 0)
         return true;

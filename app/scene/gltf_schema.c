@@ -98,11 +98,16 @@ static const gltf_object sampler = {
                            END },
     NULL,
 };
+static const gltf_object texture_webp = {
+    "texture",
+    (const gltf_field[]) { { "source", REFERENCE(GLTF_IMAGES), .required = true }, END },
+    NULL,
+};
 static const gltf_object texture = {
     "texture",
     (const gltf_field[]) {
         { "sampler", REFERENCE(GLTF_SAMPLERS) }, { "source", REFERENCE(GLTF_IMAGES) }, NAME, END },
-    NULL,
+    (const gltf_field[]) { { "EXT_texture_webp", OBJECT(texture_webp) }, END },
 };
 
 static const gltf_object texture_transform = {

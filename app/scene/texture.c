@@ -1,65 +1,85 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/texture.h"
 
-#include <limits.h>
-#include <stb_image.h>
+#include "app/image/texels.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-/* What the first bytes say; the decoder would take more formats than the documented ones. */
-static texture_format format_of(const unsigned char *bytes, size_t size) {
-    if (size >= 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0)
-        return TEXTURE_PNG;
-    if (size >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0)
-        return TEXTURE_JPEG;
-    if (size >= 2 && memcmp(bytes, "BM", 2) == 0)
-        return TEXTURE_BMP;
-    /* TGA begins without a mark: an identifier's length, a color map or none, a kind of image. */
-    const unsigned kind = size >= 18 ? bytes[2] : 0;
-    const bool mapped = kind == 1 || kind == 9, plain = (kind & 7) == 2 || (kind & 7) == 3;
-    return (mapped && bytes[1] == 1) || (plain && kind <= 11 && bytes[1] <= 1) ? TEXTURE_TGA
-                                                                               : (texture_format)0;
+/* A format, and the most pixels that honest files of it have: so many for each byte, and so many
+ * besides. A bit each under deflate, a bit for each block of 64, runs of 128, a bit each; WebP
+ * describes a flat image of any size by some thirty bytes. The decoders make up what a file of
+ * fewer bytes lacks. */
+typedef struct format_row {
+    texture_format format;
+    const texels_decoder *decoder;
+    size_t pixels_a_byte, pixels_besides;
+} format_row;
+
+static const format_row *format_of(const unsigned char *bytes, size_t size,
+                                   texture_format formats) {
+    /* TGA is last, for it begins without a mark. */
+    static const format_row rows[] = { { TEXTURE_PNG, &texels_png, 8 * 1032, 0 },
+                                       { TEXTURE_JPEG, &texels_jpeg, 512, 0 },
+                                       { TEXTURE_WEBP, &texels_webp, 8 * 1032, 4096 * 4096 },
+                                       { TEXTURE_BMP, &texels_bmp, 8, 0 },
+                                       { TEXTURE_TGA, &texels_tga, 128, 0 } };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if ((rows[i].format & formats) && rows[i].decoder->begins(bytes, size))
+            return &rows[i];
+    return NULL;
 }
 
-/* The most pixels that a byte of a file holds: one bit each under deflate, a bit for each block of
- * 64, runs of 128, one bit each. The decoder makes up what a file of fewer bytes lacks. */
-static size_t pixels_a_byte(texture_format format) {
-    return format == TEXTURE_PNG    ? 8 * 1032
-           : format == TEXTURE_JPEG ? 512
-           : format == TEXTURE_TGA  ? 128
-                                    : 8;
+static bool fail_decoding(const char *subject, const char *name, const texels_reason *reason,
+                          cli_error *error) {
+    return cli_fail(error, subject, "has a texture \"%.200s\" that cannot be decoded: %s", name,
+                    reason->text);
+}
+
+static bool check_size(const format_row *format, size_t size, int width, int height,
+                       const char *subject, const char *name, cli_error *error) {
+    if (width < 1 || height < 1 || width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX)
+        return cli_fail(error, subject,
+                        "has a texture \"%.200s\" of %d x %d pixels (at most %d x %d)", name, width,
+                        height, TEXTURE_SIDE_MAX, TEXTURE_SIDE_MAX);
+    if ((size_t)width * (size_t)height > size * format->pixels_a_byte + format->pixels_besides)
+        return cli_fail(
+            error, subject,
+            "has a texture \"%.200s\" of %d x %d pixels in %zu bytes (is it truncated?)", name,
+            width, height, size);
+    return true;
 }
 
 bool texture_decode(scene_builder *builder, const void *data, size_t size, texture_format formats,
                     const char *subject, const char *name, scene_texture *texture,
                     cli_error *error) {
-    int width, height, channels;
-    if (size > INT_MAX || !(format_of(data, size) & formats) ||
-        !stbi_info_from_memory(data, (int)size, &width, &height, &channels))
+    const format_row *const format = format_of(data, size, formats);
+    texels_reason reason;
+    int width, height;
+    if (!format)
         return cli_fail(error, subject, "has a texture \"%.200s\" that is no %s", name,
-                        formats == TEXTURE_GLTF ? "PNG or JPEG" : "PNG, JPEG, TGA or BMP");
-    if (width < 1 || height < 1 || width > TEXTURE_SIDE_MAX || height > TEXTURE_SIDE_MAX)
-        return cli_fail(error, subject,
-                        "has a texture \"%.200s\" of %d x %d pixels (at most %d x %d)", name, width,
-                        height, TEXTURE_SIDE_MAX, TEXTURE_SIDE_MAX);
-    if ((size_t)width * (size_t)height > size * pixels_a_byte(format_of(data, size)))
-        return cli_fail(
-            error, subject,
-            "has a texture \"%.200s\" of %d x %d pixels in %zu bytes (is it truncated?)", name,
-            width, height, size);
-    unsigned char *pixels = stbi_load_from_memory(data, (int)size, &width, &height, &channels, 4);
-    if (!pixels)
-        return cli_fail(error, subject, "has a texture \"%.200s\" that cannot be decoded: %s", name,
-                        stbi_failure_reason());
+                        formats == TEXTURE_GLTF ? "PNG, JPEG or WebP"
+                                                : "PNG, JPEG, WebP, TGA or BMP");
+    if (!format->decoder->measure(data, size, &width, &height, &reason))
+        return fail_decoding(subject, name, &reason, error);
+    if (!check_size(format, size, width, height, subject, name, error))
+        return false;
     const size_t bytes = 4 * (size_t)width * (size_t)height;
-    texture->first_byte = builder_count(builder, BLOB_TEXELS);
-    texture->width = (uint32_t)width;
-    texture->height = (uint32_t)height;
-    unsigned char *texels = builder_append(builder, BLOB_TEXELS, bytes);
-    if (texels)
-        memcpy(texels, pixels, bytes);
-    stbi_image_free(pixels);
-    return texels || cli_fail(error, subject, "has textures that do not fit into memory");
+    unsigned char *const pixels = malloc(bytes);
+    bool ok = pixels || cli_fail(error, subject, "has textures that do not fit into memory");
+    if (ok && !format->decoder->decode(data, size, width, height, pixels, &reason))
+        ok = fail_decoding(subject, name, &reason, error);
+    if (ok) {
+        texture->first_byte = builder_count(builder, BLOB_TEXELS);
+        texture->width = (uint32_t)width;
+        texture->height = (uint32_t)height;
+        unsigned char *const texels = builder_append(builder, BLOB_TEXELS, bytes);
+        if (texels)
+            memcpy(texels, pixels, bytes);
+        ok = texels || cli_fail(error, subject, "has textures that do not fit into memory");
+    }
+    free(pixels);
+    return ok;
 }
 
 struct texture_image {

@@ -188,11 +188,11 @@ static const change changes[] = {
     { "\"alphaCutoff\":0.5", "\"alphaCutoff\":2", NULL },
     { "\"source\":0,", "", NULL },
     { "\"bufferView\":9,", "\"bufferView\":9,\"uri\":\"a.png\",", "one of uri and bufferView" },
-    { "\"bufferView\":9,", "\"bufferView\":6,", "no PNG or JPEG" },
+    { "\"bufferView\":9,", "\"bufferView\":6,", "no PNG, JPEG or WebP" },
     { "\"bufferView\":9,", "\"uri\":\"data:image/png;base64,!!!!\",", "image 0" },
     { "\"bufferView\":9,",
       "\"uri\":\"data:image/gif;base64,R0lGODdhAQABAIAAAP///////ywAAAAAAQABAAACAkQBADs=\",",
-      "no PNG or JPEG" },
+      "no PNG, JPEG or WebP" },
     /* accessors and views */
     { "\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"",
       "\"componentType\":5120,\"count\":4,\"type\":\"VEC3\"", "mesh 0 has attributes" },

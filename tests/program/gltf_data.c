@@ -222,8 +222,8 @@ static void what_is_left_out_is_named(void **state) {
         { "\"source\":0,", "\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}},",
           "KHR_texture_basisu (1 texture)" },
         { "\"mode\":4", "\"mode\":1", "points and lines (1 primitive)" },
-        { "\"source\":0,", "\"extensions\":{\"EXT_texture_webp\":{\"source\":0}},",
-          "EXT_texture_webp (1 texture)" },
+        { "\"source\":0,", "\"extensions\":{\"EXT_texture_avif\":{\"source\":0}},",
+          "EXT_texture_avif (1 texture)" },
         { "\"intensity\":4", "\"intensity\":5", "range (1 light)" },
         { "\"path\":\"translation\"", "\"path\":\"translation\"", NULL },
     };

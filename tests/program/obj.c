@@ -101,7 +101,7 @@ static void a_library_s_statements_are_read(void **state) {
         { "newmtl a\nNs\n", 0, "line 2 has no number" },
         { "newmtl a\nmap_Kd\n", 0, "line 2 names no file" },
         { "newmtl a\nmap_Kd ../gone.png\n", 0, "outside its folder" },
-        { "newmtl a\nmap_Kd a.mtl\n", 0, "no PNG, JPEG, TGA or BMP" },
+        { "newmtl a\nmap_Kd a.mtl\n", 0, "no PNG, JPEG, WebP, TGA or BMP" },
     };
     for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++) {
         verdict with = verdicts[i];

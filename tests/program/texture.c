@@ -6,6 +6,8 @@
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
 
+#include <webp/encode.h>
+
 /* A PNG of one white pixel. */
 static const unsigned char pixel_png[] = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
@@ -61,6 +63,45 @@ static void an_obj_stores_an_image_once(void **state) {
     scene_free(&world);
 }
 
+/* The image that EXT_texture_webp names takes the place of the plain one. What only
+ * KHR_texture_basisu names is left out, and said, also where the file requires it. */
+static void a_webp_of_a_gltf_is_its_base_color(void **state) {
+    (void)state;
+    static const unsigned char color[4] = { 10, 20, 30, 255 };
+    unsigned char *webp;
+    const size_t size = WebPEncodeLosslessRGBA(color, 1, 1, 4, &webp);
+    folder_write("b.webp", webp, size);
+    WebPFree(webp);
+    folder_write_text(
+        "webp.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"extensionsUsed\":[\"EXT_texture_webp\",\"KHR_texture_basisu\"],"
+        "\"extensionsRequired\":[\"EXT_texture_webp\",\"KHR_texture_basisu\"],"
+        "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.webp\",\"mimeType\":\"image/webp\"}],"
+        "\"textures\":[{\"source\":0,\"extensions\":{\"EXT_texture_webp\":{\"source\":1}}},"
+        "{\"source\":0,\"extensions\":{\"KHR_texture_basisu\":{\"source\":1}}},"
+        "{\"extensions\":{\"KHR_texture_basisu\":{\"source\":1}}}],"
+        "\"materials\":["
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":1}}},"
+        "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":2}}}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
+    scene world = load(in_folder("webp.gltf"));
+    assert_int_equal(world.texture_count, 2);
+    assert_memory_equal(world.texels + world.textures[0].first_byte, color, 4);
+    assert_memory_equal(world.texels + world.textures[1].first_byte, "\xff\xff\xff\xff", 4);
+    static const int expected[] = { 0, 1, -1 };
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(world.materials[i].base_color_map.texture, expected[i]);
+    assert_in_range(world.left_out_count, 1, 2); /* and that the triangle has no coordinates */
+    assert_string_equal(world.left_out[0].what, "KHR_texture_basisu");
+    scene_free(&world);
+}
+
 static int make_folder(void **state) {
     (void)state;
     if (!mkdtemp(folder))
@@ -92,8 +133,8 @@ static void formats_that_no_page_names_are_refused(void **state) {
         cli_error error;
         assert_false(texture_decode(&builder, images[i].bytes, images[i].size, TEXTURE_ANY, "scene",
                                     "image", &texture, &error));
-        assert_string_equal(error.text,
-                            "scene: has a texture \"image\" that is no PNG, JPEG, TGA or BMP");
+        assert_string_equal(
+            error.text, "scene: has a texture \"image\" that is no PNG, JPEG, WebP, TGA or BMP");
         assert_int_equal(builder_count(&builder, BLOB_TEXELS), 0);
         builder_free(&builder);
     }
@@ -143,6 +184,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_gltf_stores_an_image_once),
         cmocka_unit_test(an_obj_stores_an_image_once),
+        cmocka_unit_test(a_webp_of_a_gltf_is_its_base_color),
         cmocka_unit_test(formats_that_no_page_names_are_refused),
         cmocka_unit_test(few_bytes_are_not_many_pixels),
     };

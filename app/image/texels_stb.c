@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* texels_stb.c - what has no library of its own, by stb_image: TGA and BMP. */
+#include "app/image/texels.h"
+
+#include <limits.h>
+#include <stb_image.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool begins_bmp(const unsigned char *data, size_t size) {
+    return size >= 2 && memcmp(data, "BM", 2) == 0;
+}
+
+/* TGA begins without a mark: an identifier's length, a color map or none, a kind of image. */
+static bool begins_tga(const unsigned char *data, size_t size) {
+    const unsigned kind = size >= 18 ? data[2] : 0;
+    const bool mapped = kind == 1 || kind == 9, plain = (kind & 7) == 2 || (kind & 7) == 3;
+    return (mapped && data[1] == 1) || (plain && kind <= 11 && data[1] <= 1);
+}
+
+static bool fail(texels_reason *reason) {
+    snprintf(reason->text, sizeof reason->text, "%s", stbi_failure_reason());
+    return false;
+}
+
+static bool measure(const unsigned char *data, size_t size, int *width, int *height,
+                    texels_reason *reason) {
+    int channels;
+    return (size <= INT_MAX && stbi_info_from_memory(data, (int)size, width, height, &channels)) ||
+           fail(reason);
+}
+
+static bool decode(const unsigned char *data, size_t size, int width, int height,
+                   unsigned char *rgba, texels_reason *reason) {
+    int w, h, channels;
+    unsigned char *const pixels = stbi_load_from_memory(data, (int)size, &w, &h, &channels, 4);
+    const bool ok = pixels && w == width && h == height;
+    if (ok)
+        memcpy(rgba, pixels, 4 * (size_t)width * (size_t)height);
+    stbi_image_free(pixels);
+    return ok || fail(reason);
+}
+
+const texels_decoder texels_tga = { begins_tga, measure, decode };
+const texels_decoder texels_bmp = { begins_bmp, measure, decode };
