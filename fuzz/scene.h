@@ -4,6 +4,7 @@
 #define LAMPION_FUZZ_SCENE_H
 
 #include "app/scene/builder.h"
+#include "app/scene/instance.h"
 #include "fuzz/file.h"
 
 #include <stdlib.h>
@@ -19,6 +20,11 @@ static inline void fuzz_scene_check(const scene_builder *builder) {
             abort();
     for (size_t i = 0; i < builder_count(builder, BLOB_MESHES); i++)
         if (meshes[i].material >= builder_count(builder, BLOB_MATERIALS))
+            abort();
+    const scene_instance *instances = builder_items(builder, BLOB_INSTANCES);
+    for (size_t i = 0; i < builder_count(builder, BLOB_INSTANCES); i++)
+        if (instances[i].mesh >= builder_count(builder, BLOB_MESHES) ||
+            !scene_instance_fits(&instances[i]))
             abort();
 }
 

@@ -41,6 +41,7 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_SHEEN              13
 #define SHARED_OCCLUSION          10 /* of materials, from here on one after another */
 #define SHARED_MAPS               12
+#define SHARED_INSTANCE_MOVES     0x80000000u /* a mesh's instance: its matrix is not the identity */
 #define SHARED_HDR                5
 
 /* Maps by their index in the block: as scene_material has them. */

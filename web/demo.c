@@ -8,6 +8,7 @@
 #include "app/sandbox/sandbox.h"
 #include "app/scene/builtin.h"
 #include "app/scene/emission.h"
+#include "app/scene/flatten.h"
 #include "app/scene/gltf.h"
 
 #include <emscripten/emscripten.h>
@@ -68,6 +69,7 @@ static bool take(scene_builder *builder, const char *name) {
     void *block = NULL;
     size_t size = 0;
     scene world;
+    builder_flatten(builder);
     if (!builder_pack(builder, &block, &size))
         return cli_fail(&demo.error, name, "does not fit into memory");
     if (!blob_validate(block, size, false, name, &demo.error) ||
@@ -113,12 +115,12 @@ typedef struct demo_draw {
 } demo_draw;
 
 EXPORT size_t demo_draw_count(void) {
-    return demo.world.mesh_count;
+    return demo.world.instance_count;
 }
 
 EXPORT const demo_draw *demo_draw_at(size_t i) {
     static demo_draw draw;
-    const scene_mesh *mesh = &demo.world.meshes[i];
+    const scene_mesh *mesh = &demo.world.meshes[demo.world.instances[i].mesh];
     const scene_material *m = &demo.world.materials[mesh->material];
     draw = (demo_draw) { .first_index = mesh->first_index,
                          .index_count = mesh->index_count,

@@ -3,7 +3,7 @@
 #include "app/command/info.h"
 #include "app/cli/printable.h"
 #include "app/file/file.h"
-#include "app/scene/scene.h"
+#include "app/scene/instance.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -36,8 +36,9 @@ static cJSON *describe(const scene *s) {
     cJSON *root = cJSON_CreateObject();
     cJSON_AddStringToObject(root, "scene", s->origin);
     cJSON_AddBoolToObject(root, "cached", s->cached);
-    cJSON_AddNumberToObject(root, "triangles", (double)(s->index_count / 3));
+    cJSON_AddNumberToObject(root, "triangles", (double)scene_triangle_count(s));
     cJSON_AddNumberToObject(root, "vertices", (double)s->vertex_count);
+    cJSON_AddNumberToObject(root, "instances", (double)s->instance_count);
     file_json_add_floats(root, "minimum", s->minimum, 3);
     file_json_add_floats(root, "maximum", s->maximum, 3);
     cJSON_AddNumberToObject(root, "area", s->area);
@@ -118,13 +119,14 @@ static void print_lights(const scene *s) {
 static void print_text(const scene *s) {
     cli_print_name(s->origin);
     puts(s->cached ? " (from the cache)" : "");
-    printf("%-10s %zu\n", "triangles", s->index_count / 3);
+    printf("%-10s %zu\n", "triangles", scene_triangle_count(s));
     printf("%-10s %zu\n", "vertices", s->vertex_count);
     printf("%-10s %.6g %.6g %.6g … %.6g %.6g %.6g\n", "bounds", (double)s->minimum[0],
            (double)s->minimum[1], (double)s->minimum[2], (double)s->maximum[0],
            (double)s->maximum[1], (double)s->maximum[2]);
     printf("%-10s %.6g\n", "area", s->area);
     print_names("meshes", s->meshes->name, sizeof *s->meshes, s->mesh_count);
+    printf("%-10s %zu\n", "instances", s->instance_count);
     print_names("materials", s->materials->name, sizeof *s->materials, s->material_count);
     print_names("textures", s->textures->name, sizeof *s->textures, s->texture_count);
     print_names("cameras", s->cameras->name, sizeof *s->cameras, s->camera_count);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/command/render.h"
 #include "app/file/file.h"
+#include "app/scene/instance.h"
 #include "app/timing/timing.h"
 
 #include <cjson/cJSON.h>
@@ -127,7 +128,7 @@ bool render_print_stats(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     cJSON *stats = cJSON_CreateObject();
     cJSON_AddStringToObject(stats, "scene", j->world.origin);
-    cJSON_AddNumberToObject(stats, "triangles", (double)(j->world.index_count / 3));
+    cJSON_AddNumberToObject(stats, "triangles", (double)scene_triangle_count(&j->world));
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);
     cJSON_AddStringToObject(stats, "method", method_table[j->method].name);

@@ -14,7 +14,7 @@ struct reference_tracer {
 
 /* The three vertices of a triangle and where on it a hit lies. */
 typedef struct corner_weights {
-    const scene_vertex *vertices[3];
+    scene_vertex vertices[3];
     double weights[3];
 } corner_weights;
 
@@ -22,7 +22,7 @@ typedef struct corner_weights {
 static reference_vec blend(const corner_weights *c, size_t offset) {
     reference_vec sum = { 0, 0, 0 };
     for (int i = 0; i < 3; i++) {
-        const float *v = (const float *)((const char *)c->vertices[i] + offset);
+        const float *v = (const float *)(const void *)((const char *)&c->vertices[i] + offset);
         sum = reference_add(sum, reference_scale(c->weights[i], reference_from_floats(v)));
     }
     return sum;
@@ -32,7 +32,7 @@ static void blend_uv(const corner_weights *c, double uv[4]) {
     memset(uv, 0, 4 * sizeof *uv);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 4; k++)
-            uv[k] += c->weights[i] * (double)c->vertices[i]->uv[k / 2][k % 2];
+            uv[k] += c->weights[i] * (double)c->vertices[i].uv[k / 2][k % 2];
 }
 
 static void blend_color(const corner_weights *c, const scene_material *material, double color[4]) {
@@ -40,14 +40,14 @@ static void blend_color(const corner_weights *c, const scene_material *material,
         color[k] = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
     for (int i = 0; i < 3 && (material->flags & SCENE_VERTEX_COLORS); i++)
         for (int k = 0; k < 4; k++)
-            color[k] += c->weights[i] * (double)c->vertices[i]->color[k] / 65535;
+            color[k] += c->weights[i] * (double)c->vertices[i].color[k] / 65535;
 }
 
 /* Normal of the face that is counter-clockwise to its viewer; not unit. */
 static reference_vec face_normal(const corner_weights *c) {
-    const reference_vec p = reference_from_floats(c->vertices[0]->position);
-    return reference_cross(reference_subtract(reference_from_floats(c->vertices[1]->position), p),
-                           reference_subtract(reference_from_floats(c->vertices[2]->position), p));
+    const reference_vec p = reference_from_floats(c->vertices[0].position);
+    return reference_cross(reference_subtract(reference_from_floats(c->vertices[1].position), p),
+                           reference_subtract(reference_from_floats(c->vertices[2].position), p));
 }
 
 /* How far above its triangle the surface lies that has the corners' normals, to second order: on
@@ -55,8 +55,8 @@ static reference_vec face_normal(const corner_weights *c) {
 static double bulge(const corner_weights *c, reference_vec position) {
     double height = 0;
     for (int i = 0; i < 3; i++) {
-        const reference_vec corner = reference_from_floats(c->vertices[i]->position);
-        const reference_vec normal = reference_from_floats(c->vertices[i]->normal);
+        const reference_vec corner = reference_from_floats(c->vertices[i].position);
+        const reference_vec normal = reference_from_floats(c->vertices[i].normal);
         height += c->weights[i] / 2 * reference_dot(reference_subtract(corner, position), normal);
     }
     return height;
@@ -92,11 +92,12 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
                                    reference_vec direction) {
     const trace_hit found = cast(tracer, TRACE_CAMERA, origin, direction);
     reference_hit hit = { .distance = (double)INFINITY };
-    if (found.mesh == TRACE_NOTHING)
+    if (found.instance == TRACE_NOTHING)
         return hit;
-    const uint32_t material = tracer->scene->meshes[found.mesh].material;
+    const scene *world = tracer->scene;
+    const uint32_t material = world->meshes[world->instances[found.instance].mesh].material;
     corner_weights c;
-    trace_corners(tracer->scene, &found, c.vertices, c.weights);
+    trace_corners(world, &found, c.vertices, c.weights);
     const reference_vec face = reference_normalize(face_normal(&c));
     const double side = reference_dot(face, direction) > 0 ? -1 : 1;
     hit.position = blend(&c, offsetof(scene_vertex, position));
@@ -109,9 +110,9 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
         reference_add(reference_add(hit.position, lift), reference_scale(height, hit.normal));
     hit.behind = reference_subtract(hit.position, lift);
     hit.tangent = reference_normalize(blend(&c, offsetof(scene_vertex, tangent)));
-    hit.handedness = (double)c.vertices[0]->tangent[3];
+    hit.handedness = (double)c.vertices[0].tangent[3];
     blend_uv(&c, hit.uv);
-    blend_color(&c, &tracer->scene->materials[material], hit.color);
+    blend_color(&c, &world->materials[material], hit.color);
     hit.material = material;
     return hit;
 }

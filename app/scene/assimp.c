@@ -2,6 +2,7 @@
 #include "app/scene/assimp.h"
 
 #include "app/scene/assimp_material.h"
+#include "app/scene/instance.h"
 #include "app/scene/mesh.h"
 
 #include <assimp/cfileio.h>
@@ -12,6 +13,8 @@
 #include <string.h>
 
 #define NODE_DEPTH_MAX 1024
+#define MESH_UNREAD    UINT32_MAX
+#define MESH_EMPTY     (UINT32_MAX - 1)
 
 typedef struct assimp_job {
     const char *name;
@@ -19,6 +22,7 @@ typedef struct assimp_job {
     size_t size;
     source_set *sources;
     scene_builder *builder;
+    uint32_t *shared;  /* the scene's mesh of each of Assimp's */
     cli_error refusal; /* set when a file was asked for that may not be read */
 } assimp_job;
 
@@ -206,6 +210,36 @@ static bool add_mesh(const assimp_job *job, const struct aiMesh *mesh,
     return ok;
 }
 
+/* Each mesh once, however many nodes show it; what the matrix does to it may be too much for an
+ * instance. */
+static bool place_mesh(const assimp_job *job, const struct aiScene *imported, unsigned number,
+                       const double world[16], cli_error *error) {
+    static const double same[16] = { [0] = 1, [5] = 1, [10] = 1, [15] = 1 };
+    const struct aiMesh *mesh = imported->mMeshes[number];
+    const size_t next = builder_count(job->builder, BLOB_MESHES);
+    scene_instance placed = { .mesh = 0 };
+    const bool fits = scene_instance_set(&placed, world);
+    const mesh_transform transform = mesh_transform_make(fits ? same : world);
+    if (!fits) {
+        const bool ok = add_mesh(job, mesh, &transform, error);
+        builder_instances(job->builder, next);
+        return ok;
+    }
+    if (job->shared[number] == MESH_UNREAD) {
+        if (!add_mesh(job, mesh, &transform, error))
+            return false;
+        const bool empty = builder_count(job->builder, BLOB_MESHES) == next;
+        job->shared[number] = empty ? MESH_EMPTY : (uint32_t)next;
+    }
+    placed.mesh = job->shared[number];
+    scene_instance *instance =
+        placed.mesh == MESH_EMPTY ? NULL : builder_append(job->builder, BLOB_INSTANCES, 1);
+    if (instance)
+        *instance = placed;
+    return instance || placed.mesh == MESH_EMPTY ||
+           cli_fail(error, job->sources->subject, "does not fit into memory");
+}
+
 static bool add_node(const assimp_job *job, const struct aiScene *imported,
                      const struct aiNode *node, const struct aiMatrix4x4 *parent, int depth,
                      cli_error *error) {
@@ -217,9 +251,8 @@ static bool add_node(const assimp_job *job, const struct aiScene *imported,
                                  (double)world.a2, (double)world.b2, (double)world.c2, 0.0,
                                  (double)world.a3, (double)world.b3, (double)world.c3, 0.0,
                                  (double)world.a4, (double)world.b4, (double)world.c4, 1.0 };
-    const mesh_transform transform = mesh_transform_make(columns);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
-        if (!add_mesh(job, imported->mMeshes[node->mMeshes[i]], &transform, error))
+        if (!place_mesh(job, imported, node->mMeshes[i], columns, error))
             return false;
     for (unsigned i = 0; i < node->mNumChildren; i++)
         if (!add_node(job, imported, node->mChildren[i], &world, depth + 1, error))
@@ -241,8 +274,13 @@ bool assimp_add(const char *name, const void *data, size_t size, source_set *sou
     const struct aiScene *imported = run_assimp(&job, error);
     if (!imported)
         return false;
-    const bool ok = add_node(&job, imported, imported->mRootNode, &identity, 0, error) &&
+    job.shared = malloc((imported->mNumMeshes + 1) * sizeof *job.shared);
+    for (unsigned i = 0; job.shared && i < imported->mNumMeshes; i++)
+        job.shared[i] = MESH_UNREAD;
+    const bool ok = (job.shared || cli_fail(error, sources->subject, "does not fit into memory")) &&
+                    add_node(&job, imported, imported->mRootNode, &identity, 0, error) &&
                     assimp_add_materials(imported, sources, builder, error);
+    free(job.shared);
     builder_left_out(builder, NULL, "light", imported->mNumLights);
     builder_left_out(builder, NULL, "camera", imported->mNumCameras);
     builder_left_out(builder, NULL, "animation", imported->mNumAnimations);

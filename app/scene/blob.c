@@ -1,18 +1,26 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/blob.h"
 
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 const size_t blob_item_size[BLOB_SECTIONS] = {
-    [BLOB_VERTICES] = sizeof(scene_vertex),   [BLOB_INDICES] = sizeof(uint32_t),
-    [BLOB_MESHES] = sizeof(scene_mesh),       [BLOB_MATERIALS] = sizeof(scene_material),
-    [BLOB_TEXTURES] = sizeof(scene_texture),  [BLOB_TEXELS] = 1,
-    [BLOB_CAMERAS] = sizeof(scene_camera),    [BLOB_LIGHTS] = sizeof(scene_light),
-    [BLOB_MOTIONS] = sizeof(scene_motion),    [BLOB_OFFSETS] = sizeof(lmp_vec3),
-    [BLOB_LEFT_OUT] = sizeof(scene_left_out), [BLOB_SOURCES] = sizeof(blob_source),
+    [BLOB_VERTICES] = sizeof(scene_vertex),
+    [BLOB_INDICES] = sizeof(uint32_t),
+    [BLOB_MESHES] = sizeof(scene_mesh),
+    [BLOB_INSTANCES] = sizeof(scene_instance),
+    [BLOB_MATERIALS] = sizeof(scene_material),
+    [BLOB_TEXTURES] = sizeof(scene_texture),
+    [BLOB_TEXELS] = 1,
+    [BLOB_CAMERAS] = sizeof(scene_camera),
+    [BLOB_LIGHTS] = sizeof(scene_light),
+    [BLOB_MOTIONS] = sizeof(scene_motion),
+    [BLOB_OFFSETS] = sizeof(lmp_vec3),
+    [BLOB_LEFT_OUT] = sizeof(scene_left_out),
+    [BLOB_SOURCES] = sizeof(blob_source),
 };
 
 static uint32_t digest_item_sizes(void) {
@@ -65,7 +73,8 @@ static bool header_fits(const blob_header *header, size_t size) {
     return header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
            header->sections[BLOB_SOURCES].count <= BLOB_SOURCES_MAX &&
            header->sections[BLOB_VERTICES].count < UINT32_MAX &&
-           header->sections[BLOB_INDICES].count < UINT32_MAX;
+           header->sections[BLOB_INDICES].count < UINT32_MAX &&
+           header->sections[BLOB_INSTANCES].count < UINT32_MAX;
 }
 
 static bool all_in_reach(const float *coordinates, size_t count) {
@@ -137,6 +146,24 @@ static bool geometry_fits(const blob_header *header) {
             meshes[i].material >= header->sections[BLOB_MATERIALS].count ||
             (corners += meshes[i].index_count) > index_count || !bounds_fit(header, &meshes[i]))
             return false;
+    return true;
+}
+
+/* Of all instances together there are no more triangles than 32 bits number. */
+static bool instances_fit(const blob_header *header) {
+    uint64_t corners = 0;
+    scene s;
+    blob_geometry(header, &s);
+    for (size_t i = 0; i < s.instance_count; i++) {
+        const scene_instance *instance = &s.instances[i];
+        float minimum[3], maximum[3];
+        if (instance->mesh >= s.mesh_count || !scene_instance_fits(instance) ||
+            (corners += s.meshes[instance->mesh].index_count) >= UINT32_MAX)
+            return false;
+        scene_instance_box(&s, i, minimum, maximum);
+        if (!all_in_reach(minimum, 3) || !all_in_reach(maximum, 3))
+            return false;
+    }
     return true;
 }
 
@@ -250,7 +277,7 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
                       header->sections[i].count * blob_item_size[i]);
     if (checksum && (content.low != header->content.low || content.high != header->content.high))
         return cli_fail(error, subject, "gave a scene whose checksum is wrong");
-    if (!geometry_fits(header))
+    if (!geometry_fits(header) || !instances_fit(header))
         return cli_fail(error, subject, "has vertices or triangles that make no sense");
     if (!materials_fit(header))
         return cli_fail(error, subject, "has materials or textures that make no sense");
@@ -265,28 +292,26 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
 
 /* --- opening ---------------------------------------------------------------------------------- */
 
+void blob_geometry(const void *block, scene *s) {
+    const blob_header *header = block;
+    memset(s, 0, sizeof *s);
+    s->vertices = blob_items(block, BLOB_VERTICES);
+    s->indices = blob_items(block, BLOB_INDICES);
+    s->meshes = blob_items(block, BLOB_MESHES);
+    s->instances = blob_items(block, BLOB_INSTANCES);
+    s->vertex_count = header->sections[BLOB_VERTICES].count;
+    s->index_count = header->sections[BLOB_INDICES].count;
+    s->mesh_count = header->sections[BLOB_MESHES].count;
+    s->instance_count = header->sections[BLOB_INSTANCES].count;
+}
+
 static void measure(scene *s) {
     for (int k = 0; k < 3; k++) {
-        s->minimum[k] = s->mesh_count ? s->meshes[0].minimum[k] : -0.5f;
-        s->maximum[k] = s->mesh_count ? s->meshes[0].maximum[k] : 0.5f;
-        for (size_t i = 0; i < s->mesh_count; i++) {
-            s->minimum[k] = fminf(s->minimum[k], s->meshes[i].minimum[k]);
-            s->maximum[k] = fmaxf(s->maximum[k], s->meshes[i].maximum[k]);
-        }
+        s->minimum[k] = -0.5f;
+        s->maximum[k] = 0.5f;
     }
-    for (size_t i = 0; i + 2 < s->index_count; i += 3) {
-        const float *p = s->vertices[s->indices[i]].position;
-        const float *q = s->vertices[s->indices[i + 1]].position;
-        const float *r = s->vertices[s->indices[i + 2]].position;
-        double a[3], b[3];
-        for (int k = 0; k < 3; k++) {
-            a[k] = (double)q[k] - (double)p[k];
-            b[k] = (double)r[k] - (double)p[k];
-        }
-        const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
-        const double z = a[0] * b[1] - a[1] * b[0];
-        s->area += 0.5 * sqrt(x * x + y * y + z * z);
-    }
+    scene_bounds(s, s->minimum, s->maximum);
+    s->area = scene_area(s);
 }
 
 bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_error *error) {
@@ -296,10 +321,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
         return cli_fail(error, subject, "does not fit into memory");
     memcpy(lights, blob_items(block, BLOB_LIGHTS),
            header->sections[BLOB_LIGHTS].count * sizeof *lights);
-    memset(s, 0, sizeof *s);
-    s->vertices = blob_items(block, BLOB_VERTICES);
-    s->indices = blob_items(block, BLOB_INDICES);
-    s->meshes = blob_items(block, BLOB_MESHES);
+    blob_geometry(block, s);
     s->materials = blob_items(block, BLOB_MATERIALS);
     s->textures = blob_items(block, BLOB_TEXTURES);
     s->texels = blob_items(block, BLOB_TEXELS);
@@ -307,9 +329,6 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->motions = blob_items(block, BLOB_MOTIONS);
     s->offsets = blob_items(block, BLOB_OFFSETS);
     s->left_out = blob_items(block, BLOB_LEFT_OUT);
-    s->vertex_count = header->sections[BLOB_VERTICES].count;
-    s->index_count = header->sections[BLOB_INDICES].count;
-    s->mesh_count = header->sections[BLOB_MESHES].count;
     s->material_count = header->sections[BLOB_MATERIALS].count;
     s->texture_count = header->sections[BLOB_TEXTURES].count;
     s->texel_bytes = header->sections[BLOB_TEXELS].count;

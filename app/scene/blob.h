@@ -8,12 +8,13 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 10u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 11u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
     BLOB_INDICES,
     BLOB_MESHES,
+    BLOB_INSTANCES,
     BLOB_MATERIALS,
     BLOB_TEXTURES,
     BLOB_TEXELS,
@@ -56,6 +57,9 @@ const void *blob_items(const void *block, blob_section section);
 /* The bounds of the vertices of count > 0 indices. */
 void blob_bounds(const scene_vertex *vertices, const uint32_t *indices, size_t count,
                  float minimum[3], float maximum[3]);
+
+/* Points *scene at the geometry of a block whose header has been validated; the rest is zero. */
+void blob_geometry(const void *block, scene *scene);
 
 /* Checks every offset, count, index, number, bound and name of the blob, and with `checksum` its
  * content hash. `subject` is named in the error. */

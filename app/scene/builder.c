@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/builder.h"
 
+#include "app/scene/instance.h"
 #include "app/scene/name.h"
 #include "app/scene/vector.h"
 
@@ -81,6 +82,26 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
     const uint32_t *indices = builder_items(builder, BLOB_INDICES);
     blob_bounds(builder_items(builder, BLOB_VERTICES), indices + first_index, end - first_index,
                 mesh->minimum, mesh->maximum);
+}
+
+void builder_instances(scene_builder *builder, size_t first_mesh) {
+    const size_t end = builder_count(builder, BLOB_MESHES);
+    scene_instance *instances =
+        end > first_mesh ? builder_append(builder, BLOB_INSTANCES, end - first_mesh) : NULL;
+    for (size_t i = first_mesh; instances && i < end; i++)
+        instances[i - first_mesh] = scene_instance_identity((uint32_t)i);
+}
+
+void builder_geometry(const scene_builder *builder, scene *s) {
+    memset(s, 0, sizeof *s);
+    s->vertices = builder_items(builder, BLOB_VERTICES);
+    s->indices = builder_items(builder, BLOB_INDICES);
+    s->meshes = builder_items(builder, BLOB_MESHES);
+    s->instances = builder_items(builder, BLOB_INSTANCES);
+    s->vertex_count = builder_count(builder, BLOB_VERTICES);
+    s->index_count = builder_count(builder, BLOB_INDICES);
+    s->mesh_count = builder_count(builder, BLOB_MESHES);
+    s->instance_count = builder_count(builder, BLOB_INSTANCES);
 }
 
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {

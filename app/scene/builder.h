@@ -27,9 +27,15 @@ void *builder_items(const scene_builder *builder, blob_section section);
 /* Appends a material of glTF's defaults (white, rough, opaque, no textures). */
 scene_material *builder_material(scene_builder *builder, const char *name);
 
-/* Appends the mesh of all indices from first_index on, its bounds computed; nothing if there are
- * none. */
+/* Appends the mesh of all indices from first_index on, its bounds computed, without an instance;
+ * nothing if there are none. */
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index);
+
+/* Appends an instance of every mesh from first_mesh on, where it is. */
+void builder_instances(scene_builder *builder, size_t first_mesh);
+
+/* Points *scene at what the builder holds of geometry; the rest is zero. */
+void builder_geometry(const scene_builder *builder, scene *scene);
 
 /* Appends a sphere light of that power, in watts, times the color. */
 void builder_sphere_light(scene_builder *builder, lmp_vec3 center, float radius, lmp_rgb color,

@@ -1,44 +1,55 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/emission.h"
 
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
-static double triangle_area(const scene_vertex *vertices, const uint32_t *corners) {
-    const lmp_vec3 a = vec_load(vertices[corners[0]].position);
-    const lmp_vec3 b = vec_load(vertices[corners[1]].position);
-    const lmp_vec3 c = vec_load(vertices[corners[2]].position);
+static double triangle_area(float corners[3][3]) {
+    const lmp_vec3 a = vec_load(corners[0]), b = vec_load(corners[1]), c = vec_load(corners[2]);
     return 0.5 * (double)vec_length(vec_cross(vec_sub(b, a), vec_sub(c, a)));
 }
 
-/* The sphere around the mesh's box, shrunk to its farthest vertex, and its area. */
-static float bounding_radius(const scene_builder *builder, const scene_mesh *mesh, lmp_vec3 center,
-                             double *area) {
-    const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
-    const uint32_t *indices = builder_items(builder, BLOB_INDICES);
+static lmp_vec3 middle_of(const scene *s, size_t instance) {
+    lmp_vec3 low = vec(INFINITY, INFINITY, INFINITY), high = vec_scale(low, -1.0f);
+    for (uint32_t t = 0; t < scene_instance_triangles(s, instance); t++) {
+        float corners[3][3];
+        scene_triangle_positions(s, instance, t, corners);
+        for (int i = 0; i < 3; i++) {
+            const float *p = corners[i];
+            low = vec(fminf(low.x, p[0]), fminf(low.y, p[1]), fminf(low.z, p[2]));
+            high = vec(fmaxf(high.x, p[0]), fmaxf(high.y, p[1]), fmaxf(high.z, p[2]));
+        }
+    }
+    return vec_scale(vec_add(low, high), 0.5f);
+}
+
+/* The sphere around the instance's box, shrunk to its farthest vertex, and its area. */
+static float bounding_radius(const scene *s, size_t instance, lmp_vec3 center, double *area) {
     float radius = 0.0f;
     *area = 0.0;
-    for (uint32_t i = 0; i < mesh->index_count; i++) {
-        const uint32_t *corner = indices + mesh->first_index + i;
-        radius = fmaxf(radius, vec_length(vec_sub(vec_load(vertices[*corner].position), center)));
-        if (i % 3 == 0)
-            *area += triangle_area(vertices, corner);
+    for (uint32_t t = 0; t < scene_instance_triangles(s, instance); t++) {
+        float corners[3][3];
+        scene_triangle_positions(s, instance, t, corners);
+        for (int i = 0; i < 3; i++)
+            radius = fmaxf(radius, vec_length(vec_sub(vec_load(corners[i]), center)));
+        *area += triangle_area(corners);
     }
     return radius;
 }
 
 bool emission_add_lights(scene_builder *builder, const char *subject, cli_error *error) {
-    const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
     const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
-    for (size_t i = 0; i < builder_count(builder, BLOB_MESHES); i++) {
-        const scene_material *material = &materials[meshes[i].material];
+    scene world;
+    builder_geometry(builder, &world);
+    for (size_t i = 0; i < world.instance_count; i++) {
+        const scene_material *material = &materials[world.meshes[world.instances[i].mesh].material];
         const float *emission = material->emission;
         if (material->emission_map.texture >= 0 || (material->flags & SCENE_UNLIT) ||
             !(emission[0] + emission[1] + emission[2] > 0.0f))
             continue;
         double area;
-        const lmp_vec3 center =
-            vec_scale(vec_add(vec_load(meshes[i].minimum), vec_load(meshes[i].maximum)), 0.5f);
-        const float radius = bounding_radius(builder, &meshes[i], center, &area);
+        const lmp_vec3 center = middle_of(&world, i);
+        const float radius = bounding_radius(&world, i, center, &area);
         if (!(radius > 0.0f))
             continue;
         scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);

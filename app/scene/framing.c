@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The camera of a scene that brings none: before a model, inside a building. */
-#include "app/scene/scene.h"
+#include "app/scene/instance.h"
 #include "app/scene/space.h"
 #include "app/scene/vector.h"
 
@@ -39,17 +39,49 @@ typedef struct framing {
     float radius;      /* of the model around its center */
 } framing;
 
+/* How far a point reaches past the planes, and away from the center. */
+static void reach_of(const framing *f, lmp_vec3 point, float sides[4], float *radius) {
+    const lmp_vec3 p = vec_sub(point, f->center);
+    const float x = vec_dot(f->right, p), y = vec_dot(f->up, p), z = vec_dot(f->from, p);
+    sides[0] = x + f->slope[0] * z;
+    sides[1] = -x + f->slope[0] * z;
+    sides[2] = y + f->slope[1] * z;
+    sides[3] = -y + f->slope[1] * z;
+    *radius = vec_length(p);
+}
+
+/* Whether something in the instance's box may reach farther than what has been touched. */
+static bool may_touch(const scene *s, size_t instance, const framing *f) {
+    float box[2][3], sides[4], radius;
+    scene_instance_box(s, instance, box[0], box[1]);
+    for (int i = 0; i < 8; i++) {
+        const lmp_vec3 corner = vec(box[i & 1][0], box[i >> 1 & 1][1], box[i >> 2][2]);
+        reach_of(f, corner, sides, &radius);
+        for (int k = 0; k < 4; k++)
+            if (!(sides[k] <= f->touching[k]))
+                return true;
+        if (!(radius <= f->radius))
+            return true;
+    }
+    return false;
+}
+
 static void touch(const scene *s, framing *f) {
     for (int i = 0; i < 4; i++)
         f->touching[i] = -INFINITY;
-    for (size_t i = 0; i < s->index_count; i++) {
-        const lmp_vec3 p = vec_sub(vec_load(s->vertices[s->indices[i]].position), f->center);
-        const float x = vec_dot(f->right, p), y = vec_dot(f->up, p), z = vec_dot(f->from, p);
-        const float sides[4] = { x + f->slope[0] * z, -x + f->slope[0] * z, y + f->slope[1] * z,
-                                 -y + f->slope[1] * z };
-        for (int k = 0; k < 4; k++)
-            f->touching[k] = fmaxf(f->touching[k], sides[k]);
-        f->radius = fmaxf(f->radius, vec_length(p));
+    for (size_t i = 0; i < s->instance_count; i++) {
+        if (!may_touch(s, i, f))
+            continue;
+        const scene_mesh *mesh = &s->meshes[s->instances[i].mesh];
+        for (uint32_t k = 0; k < mesh->index_count; k++) {
+            float p[3], sides[4], radius;
+            scene_instance_point(&s->instances[i],
+                                 s->vertices[s->indices[mesh->first_index + k]].position, p);
+            reach_of(f, vec_load(p), sides, &radius);
+            for (int side = 0; side < 4; side++)
+                f->touching[side] = fmaxf(f->touching[side], sides[side]);
+            f->radius = fmaxf(f->radius, radius);
+        }
     }
 }
 

@@ -49,6 +49,10 @@ bool gltf_morph(const gltf *document, const cJSON *node, const cJSON *primitive,
     return true;
 }
 
+bool gltf_deforms(const cJSON *node) {
+    return gltf_member(node, "weights") || gltf_member(node, "skin");
+}
+
 /* --- skins ------------------------------------------------------------------------------------ */
 
 typedef struct skin {

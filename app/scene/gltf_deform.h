@@ -10,6 +10,9 @@
 bool gltf_morph(const gltf *document, const cJSON *node, const cJSON *primitive, mesh_draft *draft,
                 cli_error *error);
 
+/* Whether a node deforms its mesh in a way of its own. */
+bool gltf_deforms(const cJSON *node);
+
 /* Takes the vertices into the world: by the joints of the node's skin that each one hangs on, and
  * where none holds it by `world`. */
 bool gltf_to_world(const gltf *document, const cJSON *node, const cJSON *attributes,

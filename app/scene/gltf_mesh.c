@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* gltf_mesh.c - the triangles of the scene's nodes, in world space. */
+/* gltf_mesh.c - the meshes of the scene's nodes, and where they stand. */
 #include "app/scene/gltf_deform.h"
+#include "app/scene/instance.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -135,30 +136,39 @@ static bool is_drawn(const cJSON *primitive) {
            gltf_member(gltf_member(primitive, "attributes"), "POSITION");
 }
 
-static bool add_primitive(const gltf *document, const cJSON *node, const cJSON *primitive,
-                          const char *name, const double world[16], scene_builder *builder,
-                          cli_error *error) {
+/* What the nodes share. */
+typedef struct mesh_reader {
+    const gltf *document;
+    scene_builder *builder;
+    struct {
+        bool there;
+        size_t first, count; /* of the scene's meshes */
+    } * shared;              /* of each mesh of the document */
+    cli_error *error;
+} mesh_reader;
+
+static bool add_primitive(const mesh_reader *r, const cJSON *node, const cJSON *primitive,
+                          const char *name, const double world[16]) {
     const cJSON *attributes = gltf_member(primitive, "attributes");
     const long material = gltf_index(primitive, "material");
-    mesh_draft draft = { .subject = document->subject,
+    mesh_draft draft = { .subject = r->document->subject,
                          .name = name,
-                         .material = material < 0 ? (uint32_t)gltf_count(document, GLTF_MATERIALS)
-                                                  : (uint32_t)material,
+                         .material = material < 0
+                                         ? (uint32_t)gltf_count(r->document, GLTF_MATERIALS)
+                                         : (uint32_t)material,
                          .crease_cos = MESH_CREASE_FLAT };
-    const bool ok = read_vertices(document, primitive, &draft, error) &&
-                    read_corners(document, primitive, &draft, error) &&
-                    gltf_morph(document, node, primitive, &draft, error) &&
-                    gltf_to_world(document, node, attributes, world, &draft, error) &&
-                    mesh_add(&draft, builder, error);
+    const bool ok = read_vertices(r->document, primitive, &draft, r->error) &&
+                    read_corners(r->document, primitive, &draft, r->error) &&
+                    gltf_morph(r->document, node, primitive, &draft, r->error) &&
+                    gltf_to_world(r->document, node, attributes, world, &draft, r->error) &&
+                    mesh_add(&draft, r->builder, r->error);
     mesh_free(&draft);
     return ok;
 }
 
-/* The mesh of a node, once. */
-static bool add_mesh(const gltf *document, const cJSON *node, const double world[16],
-                     scene_builder *builder, cli_error *error) {
+static bool add_primitives(const mesh_reader *r, const cJSON *node, const double world[16]) {
     const size_t mesh = (size_t)gltf_index(node, "mesh");
-    const cJSON *entry = gltf_item(document, GLTF_MESHES, mesh);
+    const cJSON *entry = gltf_item(r->document, GLTF_MESHES, mesh);
     const cJSON *primitives = gltf_member(entry, "primitives"), *primitive;
     const bool several = cJSON_GetArraySize(primitives) > 1;
     char own[SCENE_NAME_SIZE], name[2 * SCENE_NAME_SIZE];
@@ -168,8 +178,7 @@ static bool add_mesh(const gltf *document, const cJSON *node, const double world
     int number = 0;
     cJSON_ArrayForEach(primitive, primitives) {
         snprintf(name, sizeof name, several ? "%s-%d" : "%s", own, number++);
-        if (is_drawn(primitive) &&
-            !add_primitive(document, node, primitive, name, world, builder, error))
+        if (is_drawn(primitive) && !add_primitive(r, node, primitive, name, world))
             return false;
     }
     return true;
@@ -177,9 +186,43 @@ static bool add_mesh(const gltf *document, const cJSON *node, const double world
 
 /* --- instances -------------------------------------------------------------------------------- */
 
+/* The mesh of a node, where a matrix takes it. What the node deforms, or what the matrix does is
+ * too much for an instance, has meshes of its own. */
+static bool add_mesh(const mesh_reader *r, const cJSON *node, const double world[16]) {
+    static const double same[16] = { [0] = 1, [5] = 1, [10] = 1, [15] = 1 };
+    const size_t mesh = (size_t)gltf_index(node, "mesh");
+    const size_t next = builder_count(r->builder, BLOB_MESHES);
+    scene_instance placed = { .mesh = 0 };
+    if (gltf_member(node, "skin") || !scene_instance_set(&placed, world)) {
+        const bool ok = add_primitives(r, node, world);
+        builder_instances(r->builder, next);
+        return ok;
+    }
+    size_t first = next;
+    const bool own = gltf_deforms(node), known = !own && r->shared[mesh].there;
+    if (!known && !add_primitives(r, node, same))
+        return false;
+    size_t count = builder_count(r->builder, BLOB_MESHES) - next;
+    if (known) {
+        first = r->shared[mesh].first;
+        count = r->shared[mesh].count;
+    } else if (!own) {
+        r->shared[mesh].there = true;
+        r->shared[mesh].first = first;
+        r->shared[mesh].count = count;
+    }
+    scene_instance *instances = builder_append(r->builder, BLOB_INSTANCES, count);
+    for (size_t i = 0; instances && i < count; i++) {
+        placed.mesh = (uint32_t)(first + i);
+        instances[i] = placed;
+    }
+    return instances || count == 0 ||
+           cli_fail(r->error, r->document->subject, "does not fit into memory");
+}
+
 /* The mesh of a node by every transform that EXT_mesh_gpu_instancing gives it. */
-static bool add_instances(const gltf *document, const cJSON *node, const cJSON *attributes,
-                          const double world[16], scene_builder *builder, cli_error *error) {
+static bool add_instances(const mesh_reader *r, const cJSON *node, const cJSON *attributes,
+                          const double world[16]) {
     static const struct {
         const char *name;
         int width;
@@ -189,8 +232,8 @@ static bool add_instances(const gltf *document, const cJSON *node, const cJSON *
     bool ok = true;
     for (int i = 0; i < 3 && ok; i++) {
         const long accessor = gltf_index(attributes, parts[i].name);
-        count = accessor < 0 ? count : document->accessors[accessor].count;
-        ok = read_attribute(document, attributes, parts[i].name, &numbers[i], error);
+        count = accessor < 0 ? count : r->document->accessors[accessor].count;
+        ok = read_attribute(r->document, attributes, parts[i].name, &numbers[i], r->error);
     }
     for (size_t k = 0; k < count && ok; k++) {
         gltf_transform transform = { .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
@@ -201,7 +244,7 @@ static bool add_instances(const gltf *document, const cJSON *node, const cJSON *
                 to[i][c] = (double)numbers[i][k * (size_t)parts[i].width + (size_t)c];
         gltf_transform_matrix(&transform, local);
         gltf_multiply(world, local, instance);
-        ok = add_mesh(document, node, instance, builder, error);
+        ok = add_mesh(r, node, instance);
     }
     for (int i = 0; i < 3; i++)
         free(numbers[i]);
@@ -227,8 +270,8 @@ static void note_undrawn(const gltf *document, scene_builder *builder) {
     }
 }
 
-bool gltf_add_meshes(const gltf *document, scene_builder *builder, cli_error *error) {
-    note_undrawn(document, builder);
+static bool add_nodes(const mesh_reader *r) {
+    const gltf *document = r->document;
     for (size_t i = 0; i < gltf_count(document, GLTF_NODES); i++) {
         const gltf_node *drawn = &document->nodes[document->order[i]];
         const cJSON *node = gltf_item(document, GLTF_NODES, document->order[i]);
@@ -236,9 +279,20 @@ bool gltf_add_meshes(const gltf *document, scene_builder *builder, cli_error *er
             gltf_member(gltf_extension(node, "EXT_mesh_gpu_instancing"), "attributes");
         if (!drawn->shown || !gltf_member(node, "mesh"))
             continue;
-        if (!(instances ? add_instances(document, node, instances, drawn->world, builder, error)
-                        : add_mesh(document, node, drawn->world, builder, error)))
+        if (!(instances ? add_instances(r, node, instances, drawn->world)
+                        : add_mesh(r, node, drawn->world)))
             return false;
     }
     return true;
+}
+
+bool gltf_add_meshes(const gltf *document, scene_builder *builder, cli_error *error) {
+    mesh_reader r = { .document = document, .builder = builder, .error = error };
+    r.shared = calloc(gltf_count(document, GLTF_MESHES) + 1, sizeof *r.shared);
+    if (!r.shared)
+        return cli_fail(error, document->subject, "does not fit into memory");
+    note_undrawn(document, builder);
+    const bool ok = add_nodes(&r);
+    free(r.shared);
+    return ok;
 }

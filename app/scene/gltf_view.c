@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_view.c - cameras and KHR_lights_punctual. */
 #include "app/scene/gltf.h"
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <stdio.h>
@@ -11,18 +12,17 @@ typedef struct scene_box {
 } scene_box;
 
 static scene_box box_of(const scene_builder *builder) {
-    const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
-    const size_t count = builder_count(builder, BLOB_MESHES);
     scene_box box = { .diagonal = 1.0 };
     double square = 0.0;
-    for (int k = 0; k < 3 && count; k++) {
-        float lo = meshes[0].minimum[k], hi = meshes[0].maximum[k];
-        for (size_t i = 1; i < count; i++) {
-            lo = fminf(lo, meshes[i].minimum[k]);
-            hi = fmaxf(hi, meshes[i].maximum[k]);
-        }
-        box.center[k] = 0.5 * ((double)lo + (double)hi);
-        square += ((double)hi - (double)lo) * ((double)hi - (double)lo);
+    float low[3], high[3];
+    scene world;
+    builder_geometry(builder, &world);
+    if (!scene_bounds(&world, low, high))
+        return box;
+    for (int k = 0; k < 3; k++) {
+        const double lo = (double)low[k], hi = (double)high[k];
+        box.center[k] = 0.5 * (lo + hi);
+        square += (hi - lo) * (hi - lo);
     }
     if (square > 0.0)
         box.diagonal = sqrt(square);

@@ -7,6 +7,7 @@
 #include "app/scene/cache.h"
 #include "app/scene/emission.h"
 #include "app/scene/gltf.h"
+#include "app/scene/instance.h"
 #include "app/scene/obj.h"
 #include "app/scene/up.h"
 
@@ -87,6 +88,23 @@ static bool has_area(const scene_builder *builder) {
     return false;
 }
 
+static bool check_instances(const import_job *job, const scene_builder *builder, cli_error *error) {
+    scene s;
+    builder_geometry(builder, &s);
+    if (scene_triangle_count(&s) > UINT32_MAX / 3)
+        return cli_fail(error, job->path, "has more than 4 billion vertices");
+    for (size_t i = 0; i < s.instance_count; i++) {
+        float box[2][3];
+        scene_instance_box(&s, i, box[0], box[1]);
+        for (int k = 0; k < 6; k++)
+            if (!(fabsf(box[k / 3][k % 3]) <= LMP_LENGTH_MAX))
+                return cli_fail(error, job->path,
+                                "has a vertex that has no finite position (up to %g)",
+                                (double)LMP_LENGTH_MAX);
+    }
+    return true;
+}
+
 /* Clears what a valid file never has, so that the parent's validation is about damage alone. */
 static bool check_made(const import_job *job, const scene_builder *builder, cli_error *error) {
     const scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
@@ -102,6 +120,8 @@ static bool check_made(const import_job *job, const scene_builder *builder, cli_
                                 "has a vertex that has no finite position (up to %g)",
                                 (double)LMP_LENGTH_MAX);
     }
+    if (!check_instances(job, builder, error))
+        return false;
     for (size_t i = 0; i < builder_count(builder, BLOB_OFFSETS); i++)
         if (!(fabsf(offsets[i].x) <= LMP_LENGTH_MAX && fabsf(offsets[i].y) <= LMP_LENGTH_MAX &&
               fabsf(offsets[i].z) <= LMP_LENGTH_MAX))

@@ -8,7 +8,7 @@
 #define MESH_CREASE_FLAT 2.0f /* no edge is smooth */
 #define MESH_CREASE_60   0.5f
 
-/* A mesh in world space. Normals and tangents of a vertex may be zero: they are then made from its
+/* A mesh. Normals and tangents of a vertex may be zero: they are then made from its
  * triangles. */
 typedef struct mesh_draft {
     const char *subject; /* for messages */
@@ -23,7 +23,8 @@ typedef struct mesh_draft {
     float crease_cos; /* missing normals are smooth across edges flatter than this */
 } mesh_draft;
 
-/* Makes what is missing and appends the mesh to the builder; one without triangles is left out. */
+/* Makes what is missing and appends the mesh to the builder, without an instance; one without
+ * triangles is left out. */
 bool mesh_add(mesh_draft *draft, scene_builder *builder, cli_error *error);
 void mesh_free(mesh_draft *draft);
 

@@ -319,6 +319,7 @@ static bool read_all(obj_reader *r) {
         if (!add_run(r, &runs[i],
                      i + 1 < r->runs.count ? runs[i + 1].first_corner : r->corners.count))
             return false;
+    builder_instances(r->builder, 0);
     return true;
 }
 

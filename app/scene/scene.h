@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* scene.h - a scene, however it came to be: triangles in world space, materials, textures, cameras
- * and the lights it brings along. */
+/* scene.h - a scene, however it came to be: meshes and where they stand, materials, textures,
+ * cameras and the lights it brings along. */
 #ifndef LAMPION_SCENE_H
 #define LAMPION_SCENE_H
 
@@ -14,20 +14,26 @@
 
 /* 64 bytes, as the vertex shader reads them. */
 typedef struct scene_vertex {
-    float position[3]; /* world space, y up */
+    float position[3];
     float normal[3];   /* unit */
     float uv[2][2];    /* two sets; glTF convention: v down */
     float tangent[4];  /* unit; w = ±1, the sign of the bitangent */
     uint16_t color[4]; /* linear, 65535 is 1; of materials with SCENE_VERTEX_COLORS */
 } scene_vertex;
 
-/* A run of triangles with one material. */
+/* A run of triangles with one material, in a space of its own: what is seen are its instances. */
 typedef struct scene_mesh {
     char name[SCENE_NAME_SIZE];
     uint32_t first_index, index_count; /* a multiple of 3 */
     uint32_t material;
     float minimum[3], maximum[3];
 } scene_mesh;
+
+/* A mesh where it stands in the world, y up: x' = the first row · (x, y, z, 1), and so on. */
+typedef struct scene_instance {
+    float world_from_mesh[3][4];
+    uint32_t mesh;
+} scene_instance;
 
 typedef enum scene_flags {
     SCENE_DOUBLE_SIDED = 1,
@@ -118,6 +124,7 @@ typedef struct scene {
     const scene_vertex *vertices;
     const uint32_t *indices;
     const scene_mesh *meshes;
+    const scene_instance *instances; /* what is seen; app/scene/instance.h reads them */
     const scene_material *materials;
     const scene_texture *textures;
     const unsigned char *texels;
@@ -125,13 +132,14 @@ typedef struct scene {
     const scene_motion *motions; /* at most one a light */
     const lmp_vec3 *offsets;
     const scene_left_out *left_out;
-    size_t vertex_count, index_count, mesh_count, material_count, texture_count, texel_bytes;
+    size_t vertex_count, index_count, mesh_count, instance_count;
+    size_t material_count, texture_count, texel_bytes;
     size_t camera_count, motion_count, offset_count, left_out_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
     size_t light_count;
     bool lights_chosen; /* by the command line: none of them is then a wish for darkness */
-    float minimum[3], maximum[3]; /* bounds; of a scene without triangles: a unit box */
-    double area;                  /* of all triangles */
+    float minimum[3], maximum[3]; /* bounds of all instances; without one: a unit box */
+    double area;                  /* of their triangles */
     void *block;                  /* owned by the scene */
     size_t block_size;
     bool mapped;        /* the block is a mapping, not from malloc */

@@ -11,6 +11,7 @@
 #define PROFILE_MAX 128
 
 void shaper_finish(scene_shaper *shaper) {
+    const size_t first_mesh = builder_count(shaper->builder, BLOB_MESHES);
     for (uint32_t material = 0; material < SHAPE_MATERIALS_MAX; material++) {
         const builder_array *triangles = &shaper->triangles[material];
         const size_t first = builder_count(shaper->builder, BLOB_INDICES);
@@ -22,6 +23,7 @@ void shaper_finish(scene_shaper *shaper) {
         }
         free(triangles->items);
     }
+    builder_instances(shaper->builder, first_mesh);
     memset(shaper->triangles, 0, sizeof shaper->triangles);
 }
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/space.h"
+
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <stdlib.h>
@@ -8,11 +10,9 @@ typedef struct triangle {
     float corner[3][3], lo[3], hi[3];
 } triangle;
 
-static triangle triangle_at(const scene *world, size_t first) {
+static triangle triangle_at(const scene *world, size_t instance, uint32_t number) {
     triangle t;
-    for (int i = 0; i < 3; i++)
-        vec_store(vec_load(world->vertices[world->indices[first + (size_t)i]].position),
-                  t.corner[i]);
+    scene_triangle_positions(world, instance, number, t.corner);
     for (int k = 0; k < 3; k++) {
         t.lo[k] = fminf(t.corner[0][k], fminf(t.corner[1][k], t.corner[2][k]));
         t.hi[k] = fmaxf(t.corner[0][k], fmaxf(t.corner[1][k], t.corner[2][k]));
@@ -107,6 +107,29 @@ static size_t first_from(const space_ball *balls, size_t count, float x) {
     return low;
 }
 
+/* Whether a ball reaches into the box, or is above or below it. */
+static bool may_meet(const float lo[3], const float hi[3], const space_ball *ball) {
+    const float r = ball->radius;
+    return lo[0] <= ball->center.x + r && hi[0] >= ball->center.x - r &&
+           lo[2] <= ball->center.z + r && hi[2] >= ball->center.z - r;
+}
+
+static void fit_instance(const scene *world, size_t instance, float largest, space_ball *balls,
+                         size_t count) {
+    float lo[3], hi[3];
+    scene_instance_box(world, instance, lo, hi);
+    const size_t first = first_from(balls, count, lo[0] - largest);
+    bool meets_any = false;
+    for (size_t i = first; i < count && balls[i].center.x <= hi[0] + largest; i++)
+        meets_any = meets_any || may_meet(lo, hi, &balls[i]);
+    for (uint32_t n = 0; meets_any && n < scene_instance_triangles(world, instance); n++) {
+        const triangle t = triangle_at(world, instance, n);
+        for (size_t i = first_from(balls, count, t.lo[0] - largest);
+             i < count && balls[i].center.x <= t.hi[0] + largest; i++)
+            meet(&t, &balls[i]);
+    }
+}
+
 void space_fit(const scene *world, space_ball *balls, size_t count) {
     float largest = 0.0f;
     for (size_t i = 0; i < count; i++) {
@@ -116,12 +139,8 @@ void space_fit(const scene *world, space_ball *balls, size_t count) {
         balls[i].above_is_back = balls[i].below_is_back = false;
     }
     qsort(balls, count, sizeof *balls, by_x);
-    for (size_t first = 0; first + 2 < world->index_count; first += 3) {
-        const triangle t = triangle_at(world, first);
-        for (size_t i = first_from(balls, count, t.lo[0] - largest);
-             i < count && balls[i].center.x <= t.hi[0] + largest; i++)
-            meet(&t, &balls[i]);
-    }
+    for (size_t i = 0; i < world->instance_count; i++)
+        fit_instance(world, i, largest, balls, count);
     for (size_t i = 0; i < count; i++)
         balls[i].fits = balls[i].fits && !balls[i].above_is_back && !balls[i].below_is_back;
 }
@@ -130,32 +149,50 @@ void space_fit(const scene *world, space_ball *balls, size_t count) {
 
 #define BUILDING_WALLS 4 /* of six directions */
 
-bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room) {
-    struct {
+typedef struct wall {
+    float distance;
+    bool front;
+} wall;
+
+static void find_walls(const triangle *t, lmp_vec3 middle, wall next[6]) {
+    for (int axis = 0; axis < 3; axis++) {
         float distance;
         bool front;
-    } next[6];
+        if (!meets(t, middle, axis, &distance, &front))
+            continue;
+        const int way = 2 * axis + (distance > 0.0f);
+        if (fabsf(distance) < next[way].distance)
+            next[way] = (wall) { fabsf(distance), front };
+    }
+}
+
+/* Whether the box meets one of the three lines through the point. */
+static bool may_be_wall(const float lo[3], const float hi[3], lmp_vec3 point) {
+    const float p[3] = { point.x, point.y, point.z };
+    int within = 0;
+    for (int k = 0; k < 3; k++)
+        within += lo[k] <= p[k] && p[k] <= hi[k];
+    return within >= 2;
+}
+
+bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room) {
+    wall next[6];
     for (int i = 0; i < 6; i++)
-        next[i].distance = INFINITY;
-    for (size_t first = 0; first + 2 < world->index_count; first += 3) {
-        const triangle t = triangle_at(world, first);
-        for (int axis = 0; axis < 3; axis++) {
-            float distance;
-            bool front;
-            if (!meets(&t, middle, axis, &distance, &front))
-                continue;
-            const int way = 2 * axis + (distance > 0.0f);
-            if (fabsf(distance) < next[way].distance) {
-                next[way].distance = fabsf(distance);
-                next[way].front = front;
-            }
+        next[i] = (wall) { INFINITY, false };
+    for (size_t i = 0; i < world->instance_count; i++) {
+        float lo[3], hi[3];
+        scene_instance_box(world, i, lo, hi);
+        for (uint32_t n = 0; may_be_wall(lo, hi, middle) && n < scene_instance_triangles(world, i);
+             n++) {
+            const triangle t = triangle_at(world, i, n);
+            find_walls(&t, middle, next);
         }
     }
     int walls = 0;
     for (int i = 0; i < 6; i++) {
-        const bool wall = isfinite(next[i].distance) && next[i].front;
-        (i % 2 ? room->ahead : room->back)[i / 2] = wall ? next[i].distance : INFINITY;
-        walls += wall;
+        const bool is_wall = isfinite(next[i].distance) && next[i].front;
+        (i % 2 ? room->ahead : room->back)[i / 2] = is_wall ? next[i].distance : INFINITY;
+        walls += is_wall;
     }
     return walls >= BUILDING_WALLS;
 }

@@ -13,24 +13,16 @@ static void stand(float v[3]) {
     vec_store(standing(vec_load(v)), v);
 }
 
-static void stand_bounds(float minimum[3], float maximum[3]) {
-    stand(minimum);
-    stand(maximum);
-    const float nearest = maximum[2];
-    maximum[2] = minimum[2];
-    minimum[2] = nearest;
-}
-
 static void stand_geometry(scene_builder *builder) {
-    scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
-    for (size_t i = 0; i < builder_count(builder, BLOB_VERTICES); i++) {
-        stand(vertices[i].position);
-        stand(vertices[i].normal);
-        stand(vertices[i].tangent);
-    }
-    scene_mesh *meshes = builder_items(builder, BLOB_MESHES);
-    for (size_t i = 0; i < builder_count(builder, BLOB_MESHES); i++)
-        stand_bounds(meshes[i].minimum, meshes[i].maximum);
+    scene_instance *instances = builder_items(builder, BLOB_INSTANCES);
+    for (size_t i = 0; i < builder_count(builder, BLOB_INSTANCES); i++)
+        for (int column = 0; column < 4; column++) {
+            float(*m)[4] = instances[i].world_from_mesh;
+            const lmp_vec3 v = standing(vec(m[0][column], m[1][column], m[2][column]));
+            m[0][column] = v.x;
+            m[1][column] = v.y;
+            m[2][column] = v.z;
+        }
 }
 
 void up_stand(scene_builder *builder, int up) {

@@ -1,37 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/trace/trace.h"
 
-#include "app/scene/blob.h"
 #include "app/trace/blend.h"
 #include "app/trace/texture.h"
+#include "app/trace/tree.h"
 #include "app/trace/triangle.h"
 
-#include <embree3/rtcore.h>
 #include <math.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* One Embree geometry a mesh. */
-typedef struct trace_mesh {
-    const scene *scene;
-    const scene_mesh *mesh;
-    const scene_material *material;
-    float margin; /* of its triangles' bounds */
-} trace_mesh;
-
-struct trace_bvh {
-    trace_mesh *meshes;
-    RTCDevice device;
-    RTCScene rays;
-};
-
 /* Embree hands the context it was called with to the test. */
 typedef struct trace_context {
     struct RTCIntersectContext embree;
+    const trace_bvh *bvh;
     trace_kind kind;
-    triangle_rays rays;      /* Embree's, by their number */
+    triangle_rays rays;      /* Embree's, by their number, in the world */
     const trace_rays *image; /* of TRACE_IMAGE */
 } trace_context;
 
@@ -40,19 +26,16 @@ typedef struct trace_triangle {
     double weights[3];
 } trace_triangle;
 
-static void set_corners(const scene *world, const scene_mesh *mesh, uint32_t triangle, float u,
-                        float v, const scene_vertex *corners[3], double weights[3]) {
-    const uint32_t *index = world->indices + mesh->first_index + 3 * (size_t)triangle;
-    for (int i = 0; i < 3; i++)
-        corners[i] = &world->vertices[index[i]];
+static void set_weights(float u, float v, double weights[3]) {
     weights[0] = 1 - (double)u - (double)v;
     weights[1] = (double)u;
     weights[2] = (double)v;
 }
 
-void trace_corners(const scene *world, const trace_hit *hit, const scene_vertex *corners[3],
+void trace_corners(const scene *world, const trace_hit *hit, scene_vertex corners[3],
                    double weights[3]) {
-    set_corners(world, &world->meshes[hit->mesh], hit->triangle, hit->u, hit->v, corners, weights);
+    scene_triangle(world, hit->instance, hit->triangle, corners);
+    set_weights(hit->u, hit->v, weights);
 }
 
 double trace_lift(const scene *world) {
@@ -70,8 +53,8 @@ static bool may_be_cut(const scene_material *material, trace_kind kind) {
            (material->flags & SCENE_ALPHA_BLEND && kind != TRACE_CAMERA);
 }
 
-static double alpha_of(const trace_mesh *mesh, const trace_triangle *t) {
-    const scene_material *material = mesh->material;
+static double alpha_of(const scene *world, const scene_material *material,
+                       const trace_triangle *t) {
     const uint32_t set = material->base_color_map.set;
     double uv[2] = { 0, 0 }, rgba[4], alpha = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
     for (int i = 0; i < 3; i++) {
@@ -80,7 +63,7 @@ static double alpha_of(const trace_mesh *mesh, const trace_triangle *t) {
         if (material->flags & SCENE_VERTEX_COLORS)
             alpha += t->weights[i] * (double)t->corners[i]->color[3] / 65535;
     }
-    trace_texture_at(mesh->scene, &material->base_color_map, uv, rgba);
+    trace_texture_at(world, &material->base_color_map, uv, rgba);
     return rgba[3] * alpha * (double)material->base_color[3];
 }
 
@@ -94,17 +77,17 @@ enum {
     ROW_U = 15,
     ROW_V = 16,
     ROW_TRIANGLE = 17,
-    ROW_MESH = 18,
+    ROW_GEOMETRY = 18,
     ROW_INSTANCE = 19
 };
 
-/* Of some rays and a triangle of a mesh. */
+/* Of some rays and a triangle of an instance. */
 typedef struct trace_packet {
     float *rows;
     unsigned count;
-    const trace_mesh *mesh;
+    const trace_instance *instance;
     const trace_context *context;
-    uint32_t number, triangle; /* of the mesh, and in it */
+    uint32_t number, triangle; /* of the instance, and in it */
 } trace_packet;
 
 static float *value_of(const trace_packet *p, unsigned row, unsigned lane) {
@@ -121,9 +104,9 @@ static bool comes_first(const trace_packet *p, unsigned lane, float distance) {
     const float end = *value_of(p, ROW_END, lane);
     if (!(distance > *value_of(p, ROW_START, lane) && distance <= end))
         return false;
-    const uint32_t mesh = *number_of(p, ROW_MESH, lane);
-    return distance < end || p->number < mesh ||
-           (p->number == mesh && p->triangle < *number_of(p, ROW_TRIANGLE, lane));
+    const uint32_t last = *number_of(p, ROW_GEOMETRY, lane);
+    return distance < end || p->number < last ||
+           (p->number == last && p->triangle < *number_of(p, ROW_TRIANGLE, lane));
 }
 
 /* Of the ray's pixel and the triangle. */
@@ -135,16 +118,17 @@ static double threshold_of(const trace_packet *p, unsigned lane) {
 }
 
 static bool lets_pass(const trace_packet *p, unsigned lane, const triangle_hits *hits) {
-    const scene_material *material = p->mesh->material;
+    const scene_material *material = p->instance->material;
     const trace_kind kind = p->context->kind;
     if (kind != TRACE_LIGHT && !hits->front[lane] && !(material->flags & SCENE_DOUBLE_SIDED))
         return true;
     if (!may_be_cut(material, kind))
         return false;
     trace_triangle t;
-    set_corners(p->mesh->scene, p->mesh->mesh, p->triangle, hits->u[lane], hits->v[lane], t.corners,
-                t.weights);
-    const double alpha = alpha_of(p->mesh, &t);
+    const scene *world = p->context->bvh->scene;
+    scene_triangle_vertices(world, p->number, p->triangle, t.corners);
+    set_weights(hits->u[lane], hits->v[lane], t.weights);
+    const double alpha = alpha_of(world, material, &t);
     return kind == TRACE_IMAGE && material->flags & SCENE_ALPHA_BLEND
                ? alpha <= threshold_of(p, lane)
                : alpha < (double)material->alpha_cutoff;
@@ -155,7 +139,7 @@ static void keep(const trace_packet *p, unsigned lane, const triangle_hits *hits
     *value_of(p, ROW_U, lane) = hits->u[lane];
     *value_of(p, ROW_V, lane) = hits->v[lane];
     *number_of(p, ROW_TRIANGLE, lane) = p->triangle;
-    *number_of(p, ROW_MESH, lane) = p->number;
+    *number_of(p, ROW_GEOMETRY, lane) = p->number;
     *number_of(p, ROW_INSTANCE, lane) = RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -167,85 +151,43 @@ static unsigned first_ray(const trace_packet *p, const int *valid) {
     return *number_of(p, ROW_RAY, lane) - lane;
 }
 
+/* Embree has taken its rays into the space of a mesh with a tree of its own, by arithmetic that
+ * differs between instruction sets: the test is that of the rays in the world all the same. */
 static void intersect(const struct RTCIntersectFunctionNArguments *a) {
+    const trace_context *context = (const trace_context *)(const void *)a->context;
+    const unsigned outer = context->embree.instID[0];
+    const uint32_t number = outer == RTC_INVALID_GEOMETRY_ID ? a->geomID : outer;
     const trace_packet p = { .rows = (float *)a->rayhit,
                              .count = a->N,
-                             .mesh = a->geometryUserPtr,
-                             .context = (const trace_context *)(const void *)a->context,
-                             .number = a->geomID,
+                             .instance = &context->bvh->instances[number],
+                             .context = context,
+                             .number = number,
                              .triangle = a->primID };
-    const uint32_t *index =
-        p.mesh->scene->indices + p.mesh->mesh->first_index + 3 * (size_t)p.triangle;
-    const scene_vertex *vertices = p.mesh->scene->vertices;
-    const float *const corners[3] = { vertices[index[0]].position, vertices[index[1]].position,
-                                      vertices[index[2]].position };
+    const float *corners[3];
+    float moved[3][3];
     triangle_hits hits;
-    if (!triangle_test(&p.context->rays, first_ray(&p, a->valid), p.count, corners, &hits))
+    tree_corners(context->bvh, p.instance, p.triangle, moved, corners);
+    if (!triangle_test(&context->rays, first_ray(&p, a->valid), p.count, corners, &hits))
         return;
     for (unsigned i = 0; i < p.count; i++)
         if (a->valid[i] && comes_first(&p, i, hits.distance[i]) && !lets_pass(&p, i, &hits))
             keep(&p, i, &hits);
 }
 
-/* Widened, so that the tree's rounding drops no triangle that the test would hit. */
-static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
-    const trace_mesh *mesh = a->geometryUserPtr;
-    const uint32_t *index = mesh->scene->indices + mesh->mesh->first_index + 3 * (size_t)a->primID;
-    float minimum[3], maximum[3];
-    blob_bounds(mesh->scene->vertices, index, 3, minimum, maximum);
-    const float margin = mesh->margin;
-    *a->bounds_o = (struct RTCBounds) {
-        .lower_x = minimum[0] - margin,
-        .lower_y = minimum[1] - margin,
-        .lower_z = minimum[2] - margin,
-        .upper_x = maximum[0] + margin,
-        .upper_y = maximum[1] + margin,
-        .upper_z = maximum[2] + margin,
-    };
-}
-
 /* --- creation --------------------------------------------------------------------------------- */
-
-static bool add_mesh(trace_bvh *bvh, const scene *world, size_t number) {
-    trace_mesh *mesh = &bvh->meshes[number];
-    RTCGeometry geometry = rtcNewGeometry(bvh->device, RTC_GEOMETRY_TYPE_USER);
-    mesh->scene = world;
-    mesh->mesh = &world->meshes[number];
-    mesh->material = &world->materials[mesh->mesh->material];
-    mesh->margin = (float)trace_lift(world);
-    rtcSetGeometryUserPrimitiveCount(geometry, mesh->mesh->index_count / 3);
-    rtcSetGeometryUserData(geometry, mesh);
-    rtcSetGeometryBoundsFunction(geometry, find_bounds, NULL);
-    rtcSetGeometryIntersectFunction(geometry, intersect);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(bvh->rays, geometry, (unsigned)number);
-    rtcReleaseGeometry(geometry);
-    return rtcGetDeviceError(bvh->device) == RTC_ERROR_NONE;
-}
-
-static bool build(trace_bvh *bvh, const scene *world) {
-    bvh->meshes = calloc(world->mesh_count + 1, sizeof *bvh->meshes);
-    bvh->device = rtcNewDevice(getenv("LAMPION_EMBREE"));
-    if (!bvh->meshes || !bvh->device || !(bvh->rays = rtcNewScene(bvh->device)))
-        return false;
-    rtcSetSceneFlags(bvh->rays, RTC_SCENE_FLAG_ROBUST);
-    for (size_t i = 0; i < world->mesh_count; i++)
-        if (!add_mesh(bvh, world, i))
-            return false;
-    rtcCommitScene(bvh->rays);
-    return rtcGetDeviceError(bvh->device) == RTC_ERROR_NONE;
-}
 
 /* What Embree and its threads take at most, in bytes: its allocator asks for 128 MiB at once. */
 #define ROOM          ((size_t)192 << 20)
 #define ROOM_THREAD   ((size_t)16 << 20)
 #define ROOM_TRIANGLE 256
+#define ROOM_INSTANCE 2048
 
 /* Whether all of it is there where the address space is limited: Embree is C++, and its threads end
  * the program where memory is refused to them. */
 static bool has_room(const scene *world) {
     const size_t threads = (size_t)sysconf(_SC_NPROCESSORS_ONLN);
-    const size_t room = ROOM + ROOM_THREAD * threads + ROOM_TRIANGLE * (world->index_count / 3);
+    const size_t room = ROOM + ROOM_THREAD * threads + ROOM_TRIANGLE * (world->index_count / 3) +
+                        ROOM_INSTANCE * world->instance_count;
     struct rlimit space;
     if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY)
         return true;
@@ -255,7 +197,7 @@ static bool has_room(const scene *world) {
 
 trace_bvh *trace_create(const scene *world) {
     trace_bvh *bvh = calloc(1, sizeof *bvh);
-    if (bvh && has_room(world) && build(bvh, world))
+    if (bvh && has_room(world) && tree_build(bvh, world, intersect))
         return bvh;
     trace_destroy(bvh);
     return NULL;
@@ -264,18 +206,15 @@ trace_bvh *trace_create(const scene *world) {
 void trace_destroy(trace_bvh *bvh) {
     if (!bvh)
         return;
-    if (bvh->rays)
-        rtcReleaseScene(bvh->rays);
-    if (bvh->device)
-        rtcReleaseDevice(bvh->device);
-    free(bvh->meshes);
+    tree_free(bvh);
     free(bvh);
 }
 
 /* --- rays ------------------------------------------------------------------------------------- */
 
-static void set_context(trace_kind kind, trace_context *context) {
+static void set_context(const trace_bvh *bvh, trace_kind kind, trace_context *context) {
     rtcInitIntersectContext(&context->embree);
+    context->bvh = bvh;
     context->kind = kind;
     if (kind != TRACE_LIGHT)
         context->embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -300,10 +239,10 @@ trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origi
     const float *const along[3] = { &direction[0], &direction[1], &direction[2] };
     triangle_rays_set(from, along, 1, &context.rays);
     context.image = NULL;
-    set_context(kind, &context);
+    set_context(bvh, kind, &context);
     rtcIntersect1(bvh->rays, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return (trace_hit) { .distance = INFINITY, .mesh = TRACE_NOTHING };
+        return (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
     return (trace_hit) { query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u,
                          query.hit.v };
 }
@@ -339,11 +278,11 @@ void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *ra
     const float *const along[3] = { rays->direction[0], rays->direction[1], rays->direction[2] };
     triangle_rays_set(from, along, TRACE_LANES, &context.rays);
     context.image = rays;
-    set_context(kind, &context);
+    set_context(bvh, kind, &context);
     rtcIntersect16(valid, bvh->rays, &context.embree, &query);
     for (int i = 0; i < TRACE_LANES; i++)
         hits[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                      ? (trace_hit) { .distance = INFINITY, .mesh = TRACE_NOTHING }
+                      ? (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING }
                       : (trace_hit) { query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i],
                                       query.hit.u[i], query.hit.v[i] };
 }

@@ -3,8 +3,8 @@
  *
  * Embree finds the triangles that may be hit, and our own arithmetic which of them are: hits have
  * the same bits on every instruction set, alone and side by side, and of triangles at one distance
- * the first mesh's first counts. The environment variable LAMPION_EMBREE is Embree's configuration,
- * for tests: "isa=sse2". */
+ * the first instance's first counts. The environment variable LAMPION_EMBREE is Embree's
+ * configuration, for tests: "isa=sse2". */
 #ifndef LAMPION_TRACE_H
 #define LAMPION_TRACE_H
 
@@ -37,14 +37,14 @@ typedef struct trace_rays {
 
 #define TRACE_NOTHING UINT32_MAX
 typedef struct trace_hit {
-    float distance; /* in lengths of the direction; INFINITY of nothing */
-    uint32_t mesh;  /* or TRACE_NOTHING: the rest is not set */
-    uint32_t triangle;
-    float u, v; /* weights of its second and third corner */
+    float distance;    /* in lengths of the direction; INFINITY of nothing */
+    uint32_t instance; /* or TRACE_NOTHING: the rest is not set */
+    uint32_t triangle; /* of the instance */
+    float u, v;        /* weights of its second and third corner */
 } trace_hit;
 
-/* The three corners of the hit triangle and their weights. */
-void trace_corners(const scene *scene, const trace_hit *hit, const scene_vertex *corners[3],
+/* The three corners of the hit triangle, in world space, and their weights. */
+void trace_corners(const scene *scene, const trace_hit *hit, scene_vertex corners[3],
                    double weights[3]);
 
 /* The nearest triangle along a ray, from any thread. */

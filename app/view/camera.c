@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/camera.h"
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <math.h>
@@ -144,14 +145,15 @@ int view_pick_light(const view_ray *ray, const scene_light *lights, size_t count
     return nearest;
 }
 
-static bool may_hit(const view_ray *ray, const scene_mesh *mesh, float farthest) {
+static bool may_hit(const view_ray *ray, const float minimum[3], const float maximum[3],
+                    float farthest) {
     const float *from = &ray->from.x, *direction = &ray->direction.x;
     float enter = 0, leave = farthest;
     for (int k = 0; k < 3; k++) {
-        const float a = (mesh->minimum[k] - from[k]) / direction[k];
-        const float b = (mesh->maximum[k] - from[k]) / direction[k];
+        const float a = (minimum[k] - from[k]) / direction[k];
+        const float b = (maximum[k] - from[k]) / direction[k];
         if (direction[k] == 0) {
-            if (from[k] < mesh->minimum[k] || from[k] > mesh->maximum[k])
+            if (from[k] < minimum[k] || from[k] > maximum[k])
                 return false;
             continue;
         }
@@ -176,19 +178,18 @@ static float hit_triangle(const view_ray *ray, lmp_vec3 p, lmp_vec3 q, lmp_vec3 
 
 view_hit view_pick_surface(const view_ray *ray, const scene *world) {
     view_hit hit = { -1, INFINITY, { 0, 1, 0 } };
-    for (size_t m = 0; m < world->mesh_count; m++) {
-        const scene_mesh *mesh = &world->meshes[m];
-        if (!may_hit(ray, mesh, hit.distance))
+    for (size_t i = 0; i < world->instance_count; i++) {
+        float minimum[3], maximum[3], p[3][3];
+        scene_instance_box(world, i, minimum, maximum);
+        if (!may_hit(ray, minimum, maximum, hit.distance))
             continue;
-        const uint32_t *index = world->indices + mesh->first_index;
-        for (uint32_t i = 0; i < mesh->index_count; i += 3) {
+        for (uint32_t t = 0; t < scene_instance_triangles(world, i); t++) {
             lmp_vec3 normal;
+            scene_triangle_positions(world, i, t, p);
             const float distance =
-                hit_triangle(ray, vec_load(world->vertices[index[i]].position),
-                             vec_load(world->vertices[index[i + 1]].position),
-                             vec_load(world->vertices[index[i + 2]].position), &normal);
+                hit_triangle(ray, vec_load(p[0]), vec_load(p[1]), vec_load(p[2]), &normal);
             if (distance > 0 && distance < hit.distance)
-                hit = (view_hit) { (int)m, distance, normal };
+                hit = (view_hit) { (int)world->instances[i].mesh, distance, normal };
         }
     }
     hit.normal = vec_normalize(hit.normal, vec(0, 1, 0));

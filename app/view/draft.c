@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Vertex clustering (Rossignac and Borrel 1993). */
 #include "app/view/draft.h"
+#include "app/scene/instance.h"
 #include "app/scene/vector.h"
 
 #include <math.h>
@@ -17,8 +18,10 @@ typedef struct cluster {
 typedef struct clusters {
     cluster *slots; /* open addressing */
     size_t mask;
-    uint32_t *vertex_of; /* of each vertex of the scene, or NONE */
-    float minimum[3], cell;
+    uint32_t *vertex_of;  /* of each vertex of the scene, or NONE */
+    const float *minimum; /* of the mesh whose turn it is */
+    float cell;
+    float *cells; /* of each mesh, in its own space: where it is shown largest they suffice */
     scene_vertex *vertices;
     uint32_t *indices;
     scene_mesh *meshes;
@@ -63,6 +66,8 @@ static void simplify_mesh(clusters *c, const scene *world, size_t number) {
     scene_mesh *mesh = &c->meshes[number];
     const uint32_t *from = world->indices + mesh->first_index;
     const uint32_t count = mesh->index_count;
+    c->minimum = world->meshes[number].minimum;
+    c->cell = c->cells[number];
     mesh->first_index = (uint32_t)c->index_count;
     for (uint32_t i = 0; i < count; i += 3) {
         uint32_t corner[3];
@@ -80,6 +85,19 @@ static void simplify_mesh(clusters *c, const scene *world, size_t number) {
         c->vertex_of[from[i]] = NONE;
 }
 
+static void set_cells(clusters *c, const scene *world, float cell) {
+    for (size_t i = 0; i < world->mesh_count; i++)
+        c->cells[i] = 0;
+    for (size_t i = 0; i < world->instance_count; i++) {
+        const scene_instance *instance = &world->instances[i];
+        /* a scale of 1 in all directions adds to the root of 3 */
+        const float scale = scene_instance_scale(instance) / sqrtf(3);
+        c->cells[instance->mesh] = fmaxf(c->cells[instance->mesh], scale);
+    }
+    for (size_t i = 0; i < world->mesh_count; i++)
+        c->cells[i] = c->cells[i] > 0 ? fmaxf(cell / c->cells[i], 1e-30f) : INFINITY;
+}
+
 static bool allocate(clusters *c, const scene *world) {
     size_t slots = 16;
     while (slots < 2 * world->index_count)
@@ -91,7 +109,8 @@ static bool allocate(clusters *c, const scene *world) {
     c->vertices = malloc((world->index_count + 1) * sizeof *c->vertices);
     c->indices = malloc((world->index_count + 1) * sizeof *c->indices);
     c->meshes = malloc((world->mesh_count + 1) * sizeof *c->meshes);
-    if (!c->slots || !c->vertex_of || !c->vertices || !c->indices || !c->meshes)
+    c->cells = malloc((world->mesh_count + 1) * sizeof *c->cells);
+    if (!c->cells || !c->slots || !c->vertex_of || !c->vertices || !c->indices || !c->meshes)
         return false;
     memset(c->slots, 0xff, slots * sizeof *c->slots);
     memset(c->vertex_of, 0xff, world->vertex_count * sizeof *c->vertex_of);
@@ -102,14 +121,15 @@ bool view_draft_make(const scene *world, int cells, scene *draft, cli_error *err
     clusters c = { .slots = NULL };
     const float diagonal = vec_length(vec_sub(vec_load(world->maximum), vec_load(world->minimum)));
     const bool ok = allocate(&c, world);
-    memcpy(c.minimum, world->minimum, sizeof c.minimum);
-    c.cell = fmaxf(diagonal / (float)cells, 1e-30f);
+    if (ok)
+        set_cells(&c, world, diagonal / (float)cells);
     if (ok)
         memcpy(c.meshes, world->meshes, world->mesh_count * sizeof *c.meshes);
     for (size_t i = 0; i < world->mesh_count && ok; i++)
         simplify_mesh(&c, world, i);
     free(c.slots);
     free(c.vertex_of);
+    free(c.cells);
     *draft = *world;
     draft->vertices = c.vertices;
     draft->indices = c.indices;

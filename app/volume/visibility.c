@@ -73,7 +73,7 @@ static void send_rays(const volume_visibility *v, const shadow_source *source, l
         const lmp_vec3 rgb = shadow_lane(&samples.arrives, i);
         const float arrives = rgb.x + rgb.y + rgb.z;
         sum->all += (double)arrives;
-        sum->unhidden += hits[i].mesh == TRACE_NOTHING ? (double)arrives : 0;
+        sum->unhidden += hits[i].instance == TRACE_NOTHING ? (double)arrives : 0;
     }
 }
 

@@ -2,6 +2,7 @@
 /* Edges: of surfaces, which samples smooth, and of the image, beyond which meshes are left out. */
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
+#include "tests/oracle/placed.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,10 +41,12 @@ static void open_tiles(tiles *t, size_t count) {
     t->world = (scene) { .vertices = t->vertices,
                          .indices = t->indices,
                          .meshes = t->meshes,
+                         .instances = placed_meshes(count),
                          .materials = &t->material,
                          .vertex_count = 4 * count,
                          .index_count = 6 * count,
                          .mesh_count = count,
+                         .instance_count = count,
                          .material_count = 1,
                          .lights = t->lights,
                          .minimum = { -4, -4, 0 },

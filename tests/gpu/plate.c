@@ -6,6 +6,7 @@
 #include "tests/gpu/device.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
+#include "tests/oracle/placed.h"
 
 #include <math.h>
 #include <string.h>
@@ -45,10 +46,12 @@ static void lay_plate(plate *p, double view, double ratio) {
     p->world = (scene) { .vertices = p->vertices,
                          .indices = p->indices,
                          .meshes = &p->mesh,
+                         .instances = placed_meshes(1),
                          .materials = &p->material,
                          .vertex_count = 4,
                          .index_count = 6,
                          .mesh_count = 1,
+                         .instance_count = 1,
                          .material_count = 1,
                          .lights = &p->light,
                          .light_count = 1,

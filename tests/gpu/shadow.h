@@ -66,7 +66,9 @@ static void stand_screen(scene_builder *builder) {
     }
     for (uint32_t i = 0; i < 6; i++)
         indices[i] = first + (uint32_t[]) { 0, 1, 2, 0, 2, 3 }[i];
+    const size_t first_mesh = builder_count(builder, BLOB_MESHES);
     builder_mesh(builder, "screen", 2, first_index);
+    builder_instances(builder, first_mesh);
 }
 
 static void open_scene(scene_builder *builder, scene *world) {

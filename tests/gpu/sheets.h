@@ -4,6 +4,7 @@
 #define LAMPION_TESTS_GPU_SHEETS_H
 
 #include "app/render/gl/gpu.h"
+#include "tests/oracle/placed.h"
 
 #include <math.h>
 #include <string.h>
@@ -78,12 +79,14 @@ static inline scene *make_sheets(void) {
     sheet.world = (scene) { .vertices = sheet.vertices,
                             .indices = sheet.indices,
                             .meshes = sheet.meshes,
+                            .instances = placed_meshes(MATERIALS),
                             .materials = sheet.materials,
                             .textures = sheet.textures,
                             .texels = sheet.texels,
                             .vertex_count = 4 * MATERIALS,
                             .index_count = 6 * MATERIALS,
                             .mesh_count = MATERIALS,
+                            .instance_count = MATERIALS,
                             .material_count = MATERIALS,
                             .texture_count = 2,
                             .texel_bytes = sizeof sheet.texels,

@@ -237,8 +237,8 @@ static void a_chain_of_many_nodes_is_read(void **state) {
 
 static void bombs_end_quickly(void **state) {
     (void)state;
-    /* One mesh in very many nodes: gigabytes from a few. */
-    enum { COPIES = 20000, TRIANGLES = 20000 };
+    /* One mesh in very many nodes: more triangles than 32 bits number, from a few. */
+    enum { COPIES = 80000, TRIANGLES = 20000 };
     float *many = malloc(TRIANGLES * sizeof triangle);
     char *text = malloc(64 * COPIES), *end = text;
     assert_non_null(many);

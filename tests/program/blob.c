@@ -22,6 +22,7 @@ static int make_triangle(void **state) {
     }
     builder_material(&builder, "clay");
     builder_mesh(&builder, "floor", 0, 0);
+    builder_instances(&builder, 0);
     scene_light *light = builder_append(&builder, BLOB_LIGHTS, 1);
     *light = (scene_light) { .emitter = { .radius = 1, .radiance = { 1, 1, 1 } } };
     scene_motion *motion = builder_append(&builder, BLOB_MOTIONS, 1);
@@ -106,6 +107,35 @@ static void bounds_are_those_of_the_vertices(void **state) {
     assert_false(is_valid());
 }
 
+static void instances_place_meshes_that_are_there(void **state) {
+    (void)state;
+    scene_instance *instance = builder_items(&builder, BLOB_INSTANCES);
+    instance->mesh = 1;
+    assert_false(is_valid());
+    instance->mesh = 0;
+    static const float wrong[] = { NAN, INFINITY, -INFINITY, 1e30f };
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+                float *const number = &instance->world_from_mesh[row][column];
+                const float right = *number;
+                *number = wrong[w];
+                assert_false(is_valid());
+                *number = right;
+            }
+    assert_true(is_valid());
+    /* Flattened, and with that without normals. */
+    instance->world_from_mesh[1][1] = 0;
+    assert_false(is_valid());
+    instance->world_from_mesh[1][1] = -1;
+    assert_true(is_valid());
+    /* The floor's corners are 3 away at most. */
+    instance->world_from_mesh[0][3] = 0.9f * LMP_LENGTH_MAX;
+    assert_true(is_valid());
+    instance->world_from_mesh[0][3] = 1.1f * LMP_LENGTH_MAX;
+    assert_false(is_valid());
+}
+
 static void the_files_it_was_made_from_are_few(void **state) {
     (void)state;
     builder_append(&builder, BLOB_SOURCES, BLOB_SOURCES_MAX);
@@ -122,6 +152,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(normals_and_tangents_are_unit, make_triangle, free_builder),
         cmocka_unit_test_setup_teardown(motions_are_in_reach, make_triangle, free_builder),
         cmocka_unit_test_setup_teardown(bounds_are_those_of_the_vertices, make_triangle,
+                                        free_builder),
+        cmocka_unit_test_setup_teardown(instances_place_meshes_that_are_there, make_triangle,
                                         free_builder),
         cmocka_unit_test_setup_teardown(the_files_it_was_made_from_are_few, make_triangle,
                                         free_builder),

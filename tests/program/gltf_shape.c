@@ -1,19 +1,30 @@
 /* SPDX-License-Identifier: MIT */
 /* What a glTF document looks like: skins, morph targets, instances, colors and coordinates of
  * vertices, against what the specification says of them. */
+#include "app/scene/instance.h"
 #include "tests/program/gltf_document.h"
 
 #include <math.h>
+
+/* A vertex of the first mesh where an instance of it takes it. */
+static void assert_instance_position(const scene_builder *builder, size_t instance, size_t vertex,
+                                     double x, double y, double z) {
+    const double wanted[3] = { x, y, z };
+    float found[3];
+    scene s;
+    builder_geometry(builder, &s);
+    assert_true(vertex < s.vertex_count && instance < s.instance_count);
+    assert_int_equal(s.instances[instance].mesh, 0);
+    scene_instance_point(&s.instances[instance], s.vertices[vertex].position, found);
+    for (int k = 0; k < 3; k++)
+        CHECK_WITHIN(fabs((double)found[k] - wanted[k]), 1e-6);
+}
 
 /* The document's first vertex lies in the origin of its mesh, the second at x = 1. Its skin hangs
  * on node 0, at (1, 2, 3). */
 static void assert_position(const scene_builder *builder, size_t vertex, double x, double y,
                             double z) {
-    const scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
-    assert_true(vertex < builder_count(builder, BLOB_VERTICES));
-    const double wanted[3] = { x, y, z };
-    for (int k = 0; k < 3; k++)
-        CHECK_WITHIN(fabs((double)vertices[vertex].position[k] - wanted[k]), 1e-6);
+    assert_instance_position(builder, 0, vertex, x, y, z);
 }
 
 static void read_changed(const char *from, const char *to, scene_builder *builder) {
@@ -92,9 +103,11 @@ static void instances_are_meshes_each_by_its_transform(void **state) {
                  "{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":"
                  "{\"attributes\":{\"TRANSLATION\":6}}}}",
                  &builder);
-    assert_int_equal(builder_count(&builder, BLOB_MESHES), 2);
-    assert_position(&builder, 0, 1, 2, 3);
-    assert_position(&builder, builder_count(&builder, BLOB_VERTICES) / 2, 2, 3, 4);
+    /* The mesh is there once. */
+    assert_int_equal(builder_count(&builder, BLOB_MESHES), 1);
+    assert_int_equal(builder_count(&builder, BLOB_INSTANCES), 2);
+    assert_instance_position(&builder, 0, 0, 1, 2, 3);
+    assert_instance_position(&builder, 1, 0, 2, 3, 4);
     builder_free(&builder);
 }
 

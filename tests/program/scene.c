@@ -2,6 +2,7 @@
 /* Scenes: what is read is what is in the files, lights keep their power, the cache and the random
  * numbers are exact. */
 #include "app/scene/scene.h"
+#include "app/scene/instance.h"
 
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
@@ -94,10 +95,11 @@ static void a_gltf_is_read_with_lights_cameras_and_mirrored_nodes(void **state) 
     CHECK_NEAR(-4.0, s.minimum[0], 1e-6);
     CHECK_NEAR(-2.0, s.maximum[0], 1e-6);
     CHECK_NEAR(2.0, s.area, 1e-6);
-    const float *p = s.vertices[s.indices[0]].position, *q = s.vertices[s.indices[1]].position;
-    const float *r = s.vertices[s.indices[2]].position;
+    scene_vertex corners[3];
+    scene_triangle(&s, 0, 0, corners);
+    const float *p = corners[0].position, *q = corners[1].position, *r = corners[2].position;
     const float front = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-    assert_true(front * s.vertices[s.indices[0]].normal[2] > 0.0f);
+    assert_true(front * corners[0].normal[2] > 0.0f);
     const scene_material *m = &s.materials[s.meshes[0].material];
     assert_int_equal(m->flags, SCENE_DOUBLE_SIDED | SCENE_ALPHA_MASK);
     CHECK_NEAR(0.25, m->alpha_cutoff, 1e-6);
@@ -196,11 +198,16 @@ static void a_scene_whose_z_is_up_stands(void **state) {
                                &standing, &error));
         assert_int_equal(standing.cached, time);
         assert_unit_and_inside(&standing);
-        for (size_t i = 0; i < lying.vertex_count; i++) {
-            check_stands(lying.vertices[i].position, standing.vertices[i].position);
-            check_stands(lying.vertices[i].normal, standing.vertices[i].normal);
-            check_stands(lying.vertices[i].tangent, standing.vertices[i].tangent);
-            assert_true(lying.vertices[i].tangent[3] == standing.vertices[i].tangent[3]);
+        for (uint32_t t = 0; t < scene_instance_triangles(&lying, 0); t++) {
+            scene_vertex before[3], after[3];
+            scene_triangle(&lying, 0, t, before);
+            scene_triangle(&standing, 0, t, after);
+            for (int i = 0; i < 3; i++) {
+                check_stands(before[i].position, after[i].position);
+                check_stands(before[i].normal, after[i].normal);
+                check_stands(before[i].tangent, after[i].tangent);
+                assert_true(before[i].tangent[3] == after[i].tangent[3]);
+            }
         }
         assert_true(standing.minimum[1] == lying.minimum[2]);
         assert_true(standing.minimum[2] == -lying.maximum[1]);

@@ -3,6 +3,7 @@
 #include "app/render/shadow/source.h"
 #include "app/scene/vector.h"
 #include "tests/oracle/check.h"
+#include "tests/oracle/placed.h"
 
 #include <math.h>
 #include <string.h>
@@ -272,10 +273,12 @@ static void bend_triangle(float side, scene *world) {
     *world = (scene) { .vertices = corners,
                        .indices = indices,
                        .meshes = &mesh,
+                       .instances = placed_meshes(1),
                        .materials = &material,
                        .vertex_count = 3,
                        .index_count = 3,
                        .mesh_count = 1,
+                       .instance_count = 1,
                        .material_count = 1,
                        .maximum = { 1, 1, 1 } };
 }

@@ -138,8 +138,8 @@ static void find(const scene *world, trace_kind kind, bool packets, trace_hit *h
 static void compare(const trace_hit *a, const trace_hit *b) {
     for (int i = 0; i < RAYS; i++) {
         assert_memory_equal(&a[i].distance, &b[i].distance, sizeof a->distance);
-        assert_int_equal(a[i].mesh, b[i].mesh);
-        if (a[i].mesh == TRACE_NOTHING)
+        assert_int_equal(a[i].instance, b[i].instance);
+        if (a[i].instance == TRACE_NOTHING)
             continue;
         assert_int_equal(a[i].triangle, b[i].triangle);
         assert_memory_equal(&a[i].u, &b[i].u, sizeof a->u);
@@ -173,7 +173,7 @@ static void hits_do_not_depend_on_embree_or_packets(void **state) {
         unsetenv("LAMPION_EMBREE");
         find(&world, (trace_kind)kind, true, expected);
         for (int i = 0; i < RAYS; i++)
-            found += expected[i].mesh != TRACE_NOTHING;
+            found += expected[i].instance != TRACE_NOTHING;
         if (kind != TRACE_IMAGE) {
             find(&world, (trace_kind)kind, false, hits);
             compare(expected, hits);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* What the viewer reads and writes, its keys as a table, its drafts and drawings. */
+#include "app/scene/instance.h"
 #include "app/view/draft.h"
 #include "app/view/overlay.h"
 #include "app/view/script.h"
@@ -216,9 +217,11 @@ static void drafts_of_many_meshes_cost_no_more_than_their_triangles(void **unuse
     scene_vertex *vertices = calloc(VERTICES, sizeof *vertices);
     scene_mesh *meshes = calloc(MESHES, sizeof *meshes);
     uint32_t *indices = malloc(3 * MESHES * sizeof *indices);
-    assert_true(vertices && meshes && indices);
+    scene_instance *instances = calloc(MESHES, sizeof *instances);
+    assert_true(vertices && meshes && indices && instances);
     for (uint32_t i = 0; i < MESHES; i++) {
         meshes[i] = (scene_mesh) { .first_index = 3 * i, .index_count = 3, .maximum = { 1, 1, 0 } };
+        instances[i] = scene_instance_identity(i);
         for (uint32_t k = 0; k < 3; k++)
             indices[3 * i + k] = k;
     }
@@ -226,9 +229,11 @@ static void drafts_of_many_meshes_cost_no_more_than_their_triangles(void **unuse
     const scene large = { .vertices = vertices,
                           .indices = indices,
                           .meshes = meshes,
+                          .instances = instances,
                           .vertex_count = VERTICES,
                           .index_count = 3 * MESHES,
                           .mesh_count = MESHES,
+                          .instance_count = MESHES,
                           .maximum = { 1, 1, 0 } };
     scene draft;
     cli_error error;
@@ -238,6 +243,7 @@ static void drafts_of_many_meshes_cost_no_more_than_their_triangles(void **unuse
     view_draft_free(&draft);
     free(vertices);
     free(meshes);
+    free(instances);
     free(indices);
 }
 

@@ -5,6 +5,7 @@
 #include "app/render/gl/gpu.h"
 #include "app/render/shade/shade.h"
 #include "tests/oracle/check.h"
+#include "tests/oracle/placed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,10 +73,12 @@ static void lay_balls(void) {
     balls.world = (scene) { .vertices = balls.vertices,
                             .indices = balls.indices,
                             .meshes = balls.meshes,
+                            .instances = placed_meshes(BALLS),
                             .materials = balls.materials,
                             .vertex_count = BALLS * VERTICES,
                             .index_count = BALLS * INDICES,
                             .mesh_count = BALLS,
+                            .instance_count = BALLS,
                             .material_count = BALLS,
                             .lights = balls.lights,
                             .light_count = 3,

@@ -5,6 +5,7 @@
 #include "app/reference/quadrature.h"
 #include "app/trace/trace.h"
 #include "tests/oracle/check.h"
+#include "tests/oracle/placed.h"
 
 #include <lampion/shade.h>
 
@@ -152,10 +153,12 @@ static void a_wide_limit_of_addresses_leaves_room_for_rays(void **state) {
     const scene world = { .vertices = vertices,
                           .indices = indices,
                           .meshes = &mesh,
+                          .instances = placed_meshes(1),
                           .materials = &material,
                           .vertex_count = 3,
                           .index_count = 3,
                           .mesh_count = 1,
+                          .instance_count = 1,
                           .material_count = 1 };
     const pid_t child = fork();
     assert_true(child >= 0);

@@ -4,6 +4,7 @@
 #include "app/trace/trace.h"
 #include "tests/oracle/check.h"
 #include "tests/oracle/gltf.h"
+#include "tests/oracle/placed.h"
 
 #include <math.h>
 #include <string.h>
@@ -55,12 +56,14 @@ static void build(fixture *s) {
     s->world = (scene) { .vertices = s->vertices,
                          .indices = s->indices,
                          .meshes = &s->mesh,
+                         .instances = placed_meshes(1),
                          .materials = &s->material,
                          .textures = &s->texture,
                          .texels = s->texels,
                          .vertex_count = 4,
                          .index_count = 6,
                          .mesh_count = 1,
+                         .instance_count = 1,
                          .material_count = 1,
                          .texture_count = 1,
                          .texel_bytes = 16,

@@ -26,9 +26,23 @@ GLuint gpu_program(const gpu_stage *stages, int count, const char *defines, cli_
 
 /* --- mesh.c: the scene's triangles, materials and textures ------------------------------------ */
 
+/* As surface.vert reads it, once for all vertices of the instance. */
+typedef struct gpu_instance {
+    float world_from_mesh[3][4];
+    GLuint number; /* among its mesh's, + SHARED_INSTANCE_MOVES */
+} gpu_instance;
+
+/* Bounds in the world. */
+typedef struct gpu_box {
+    float minimum[3], maximum[3];
+} gpu_box;
+
+/* A mesh, by all of its instances that mirror it or all that do not. */
 typedef struct gpu_draw {
     GLuint first_index, index_count, material;
-    float minimum[3], maximum[3];
+    bool mirrors;
+    size_t first, count;     /* of instances */
+    GLuint seen, first_seen; /* how many of them the frustum may hold, and the first's place */
 } gpu_draw;
 
 typedef struct gpu_material {
@@ -42,6 +56,10 @@ typedef struct gpu_material {
 typedef struct gpu_mesh {
     GLuint vertices, indices, vertex_array, material_blocks, reflectors;
     GLsizeiptr material_stride;
+    gpu_instance *instances, *seen; /* draw by draw; those that are drawn */
+    gpu_box *boxes;                 /* of the instances */
+    size_t instance_count;
+    GLuint seen_buffer;
     gpu_draw *draws; /* opaque ones first, then by material */
     size_t draw_count;
     gpu_material *materials;

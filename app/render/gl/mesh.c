@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/gl/block.h"
 #include "app/render/gl/internal.h"
+#include "app/scene/instance.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -208,7 +209,22 @@ void gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-static GLuint create_vertex_array(GLuint vertices, GLuint indices) {
+/* The rows of the matrix, then the number. */
+static void add_instance_attributes(const gpu_mesh *mesh, GLuint array, GLuint first) {
+    glVertexArrayVertexBuffer(array, 1, mesh->seen_buffer, 0, sizeof(gpu_instance));
+    glVertexArrayBindingDivisor(array, 1, 1);
+    for (GLuint i = 0; i < 4; i++) {
+        const GLuint offset = i * (GLuint)sizeof(float[4]);
+        glEnableVertexArrayAttrib(array, first + i);
+        if (i < 3)
+            glVertexArrayAttribFormat(array, first + i, 4, GL_FLOAT, GL_FALSE, offset);
+        else
+            glVertexArrayAttribIFormat(array, first + i, 1, GL_UNSIGNED_INT, offset);
+        glVertexArrayAttribBinding(array, first + i, 1);
+    }
+}
+
+static GLuint create_vertex_array(const gpu_mesh *mesh) {
     static const struct {
         GLint size;
         GLenum type;
@@ -220,34 +236,70 @@ static GLuint create_vertex_array(GLuint vertices, GLuint indices) {
                        { 4, GL_UNSIGNED_SHORT, offsetof(scene_vertex, color) } };
     GLuint array = 0;
     glCreateVertexArrays(1, &array);
-    glVertexArrayVertexBuffer(array, 0, vertices, 0, sizeof(scene_vertex));
-    glVertexArrayElementBuffer(array, indices);
+    glVertexArrayVertexBuffer(array, 0, mesh->vertices, 0, sizeof(scene_vertex));
+    glVertexArrayElementBuffer(array, mesh->indices);
     for (GLuint i = 0; i < sizeof attributes / sizeof *attributes; i++) {
         glEnableVertexArrayAttrib(array, i);
         glVertexArrayAttribFormat(array, i, attributes[i].size, attributes[i].type, GL_TRUE,
                                   (GLuint)attributes[i].offset);
         glVertexArrayAttribBinding(array, i, 0);
     }
+    add_instance_attributes(mesh, array, sizeof attributes / sizeof *attributes);
     return array;
 }
 
-static bool create_draws(const scene *world, gpu_mesh *mesh) {
-    mesh->draws = calloc(world->mesh_count + 1, sizeof *mesh->draws);
-    if (!mesh->draws)
-        return false;
+/* Puts an instance into its draw. */
+static void place_instance(const scene *world, size_t number, gpu_draw *draw, gpu_mesh *mesh) {
+    const scene_instance *placed = &world->instances[number];
+    const size_t at = draw->first + draw->count;
+    gpu_instance *instance = &mesh->instances[at];
+    memcpy(instance->world_from_mesh, placed->world_from_mesh, sizeof instance->world_from_mesh);
+    instance->number = (GLuint)draw->count & ~SHARED_INSTANCE_MOVES;
+    if (!scene_instance_is_identity(placed))
+        instance->number |= SHARED_INSTANCE_MOVES;
+    scene_instance_box(world, number, mesh->boxes[at].minimum, mesh->boxes[at].maximum);
+    draw->count++;
+}
+
+/* Which of two draws an instance belongs to. */
+static size_t draw_of(const scene_instance *placed) {
+    return 2 * (size_t)placed->mesh + scene_instance_mirrors(placed);
+}
+
+/* Those that have instances, with room for them; `of` says where each of the possible ones is. */
+static void lay_out_draws(const scene *world, gpu_mesh *mesh, size_t *of) {
+    size_t first = 0;
     for (int masked = 0; masked < 2; masked++)
-        for (size_t i = 0; i < world->mesh_count; i++) {
-            const scene_mesh *source = &world->meshes[i];
-            if (mesh->materials[source->material].masked != (masked == 1))
+        for (size_t i = 0; i < 2 * world->mesh_count; i++) {
+            const scene_mesh *source = &world->meshes[i / 2];
+            if (of[i] == 0 || mesh->materials[source->material].masked != (masked == 1))
                 continue;
-            gpu_draw *draw = &mesh->draws[mesh->draw_count++];
-            draw->first_index = source->first_index;
-            draw->index_count = source->index_count;
-            draw->material = source->material;
-            memcpy(draw->minimum, source->minimum, sizeof draw->minimum);
-            memcpy(draw->maximum, source->maximum, sizeof draw->maximum);
+            gpu_draw *draw = &mesh->draws[mesh->draw_count];
+            *draw = (gpu_draw) { .first_index = source->first_index,
+                                 .index_count = source->index_count,
+                                 .material = source->material,
+                                 .mirrors = i % 2 == 1,
+                                 .first = first };
+            first += of[i];
+            of[i] = mesh->draw_count++;
         }
-    return true;
+}
+
+static bool create_draws(const scene *world, gpu_mesh *mesh) {
+    size_t *of = calloc(2 * world->mesh_count + 1, sizeof *of);
+    mesh->draws = calloc(2 * world->mesh_count + 1, sizeof *mesh->draws);
+    mesh->instances = malloc((world->instance_count + 1) * sizeof *mesh->instances);
+    mesh->seen = malloc((world->instance_count + 1) * sizeof *mesh->seen);
+    mesh->boxes = malloc((world->instance_count + 1) * sizeof *mesh->boxes);
+    const bool ok = of && mesh->draws && mesh->instances && mesh->seen && mesh->boxes;
+    for (size_t i = 0; ok && i < world->instance_count; i++)
+        of[draw_of(&world->instances[i])]++;
+    if (ok)
+        lay_out_draws(world, mesh, of);
+    for (size_t i = 0; ok && i < world->instance_count; i++)
+        place_instance(world, i, &mesh->draws[of[draw_of(&world->instances[i])]], mesh);
+    free(of);
+    return ok;
 }
 
 bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *mesh,
@@ -264,7 +316,8 @@ bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *m
         return cli_fail(error, world->origin, "out of memory");
     mesh->vertices = upload(world->vertices, world->vertex_count * sizeof *world->vertices);
     mesh->indices = upload(world->indices, world->index_count * sizeof *world->indices);
-    mesh->vertex_array = create_vertex_array(mesh->vertices, mesh->indices);
+    glCreateBuffers(1, &mesh->seen_buffer);
+    mesh->vertex_array = create_vertex_array(mesh);
     if (glGetError() == GL_OUT_OF_MEMORY)
         return cli_fail(error, world->origin, "the scene does not fit the memory of %s",
                         context->device);
@@ -275,6 +328,7 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     glDeleteVertexArrays(1, &mesh->vertex_array);
     glDeleteBuffers(1, &mesh->vertices);
     glDeleteBuffers(1, &mesh->indices);
+    glDeleteBuffers(1, &mesh->seen_buffer);
     glDeleteBuffers(1, &mesh->material_blocks);
     glDeleteBuffers(1, &mesh->reflectors);
     glDeleteSamplers(SCENE_WRAPS * SCENE_WRAPS, mesh->samplers);
@@ -283,6 +337,9 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
     free(mesh->textures);
     free(mesh->materials);
     free(mesh->draws);
+    free(mesh->instances);
+    free(mesh->seen);
+    free(mesh->boxes);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -290,7 +347,7 @@ void gpu_mesh_destroy(gpu_mesh *mesh) {
 
 /* False if the box is wholly outside one of the planes w ± x >= 0, w ± y >= 0, w - z >= 0 (near).
  */
-static bool may_be_seen(const mat4 m, const gpu_draw *draw) {
+static bool may_be_seen(const mat4 m, const gpu_box *box) {
     static const float planes[5][4] = {
         { 1, 0, 0, 1 }, { -1, 0, 0, 1 }, { 0, 1, 0, 1 }, { 0, -1, 0, 1 }, { 0, 0, -1, 1 }
     };
@@ -301,8 +358,8 @@ static bool may_be_seen(const mat4 m, const gpu_draw *draw) {
             for (int row = 0; row < 4; row++)
                 along += planes[p][row] * m[4 * axis + row];
             farthest += axis == 3   ? along
-                        : along > 0 ? along * draw->maximum[axis]
-                                    : along * draw->minimum[axis];
+                        : along > 0 ? along * box->maximum[axis]
+                                    : along * box->minimum[axis];
         }
         if (farthest < 0)
             return false;
@@ -325,12 +382,28 @@ static void choose_attachments(bool layered) {
         glColorMaski(i, write, write, write, write);
 }
 
+/* Collects the instances that may be seen, draw by draw. */
+static void find_seen(const gpu_mesh *mesh, const mat4 clip_from_world) {
+    size_t count = 0;
+    for (size_t i = 0; i < mesh->draw_count; i++) {
+        gpu_draw *draw = &mesh->draws[i];
+        draw->first_seen = (GLuint)count;
+        for (size_t k = draw->first; k < draw->first + draw->count; k++)
+            if (may_be_seen(clip_from_world, &mesh->boxes[k]))
+                mesh->seen[count++] = mesh->instances[k];
+        draw->seen = (GLuint)count - draw->first_seen;
+    }
+    glNamedBufferData(mesh->seen_buffer, (GLsizeiptr)((count + 1) * sizeof *mesh->seen), mesh->seen,
+                      GL_STREAM_DRAW);
+}
+
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_surfaces *programs) {
+    find_seen(mesh, clip_from_world);
     glBindVertexArray(mesh->vertex_array);
     GLuint program = 0, current = ~0u;
     for (size_t i = 0; i < mesh->draw_count; i++) {
         const gpu_draw *draw = &mesh->draws[i];
-        if (!may_be_seen(clip_from_world, draw))
+        if (draw->seen == 0)
             continue;
         const gpu_material *material = &mesh->materials[draw->material];
         if (current != draw->material) {
@@ -351,9 +424,13 @@ void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_s
             else
                 glEnable(GL_CULL_FACE);
         }
-        glDrawElements(GL_TRIANGLES, (GLsizei)draw->index_count, GL_UNSIGNED_INT,
-                       (const void *)(4 * (uintptr_t)draw->first_index));
+        glFrontFace(draw->mirrors ? GL_CCW : GL_CW); /* y runs down */
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, (GLsizei)draw->index_count,
+                                            GL_UNSIGNED_INT,
+                                            (const void *)(4 * (uintptr_t)draw->first_index),
+                                            (GLsizei)draw->seen, draw->first_seen);
     }
+    glFrontFace(GL_CW);
     choose_attachments(false);
     glBindSamplers(SHARED_BASE_COLOR, 4, NULL);
     glBindSamplers(SHARED_OCCLUSION, SHARED_MAPS - 4, NULL);

@@ -17,12 +17,12 @@ typedef struct triangle_lanes {
 
 static void set_triangle(const shadow_view *view, const trace_hit *hit, int lane,
                          triangle_lanes *t) {
-    const scene_vertex *corners[3];
+    scene_vertex corners[3];
     double weights[3];
     trace_corners(view->scene, hit, corners, weights);
     for (int i = 0; i < 3; i++) {
-        shadow_set_lane(&t->corners[i], lane, vec_load(corners[i]->position));
-        shadow_set_lane(&t->normals[i], lane, vec_load(corners[i]->normal));
+        shadow_set_lane(&t->corners[i], lane, vec_load(corners[i].position));
+        shadow_set_lane(&t->normals[i], lane, vec_load(corners[i].normal));
         t->weights[i][lane] = (float)weights[i];
     }
 }
@@ -93,11 +93,11 @@ static void find_origins(const shadow_view *view, shadow_points *p) {
         }
     trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
     for (int i = 0; i < SHADOW_LANES; i++)
-        if (p->lit[i] && hits[i].mesh != TRACE_NOTHING)
+        if (p->lit[i] && hits[i].instance != TRACE_NOTHING)
             set_triangle(view, &hits[i], i, &triangles);
     leave_triangles(&triangles, view->lift, p);
     for (int i = 0; i < SHADOW_LANES; i++)
-        if (p->lit[i] && hits[i].mesh == TRACE_NOTHING)
+        if (p->lit[i] && hits[i].instance == TRACE_NOTHING)
             leave_pixel(view, i, p);
 }
 
