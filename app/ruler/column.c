@@ -12,6 +12,7 @@ typedef struct column {
     const char *path;
     const ruler_table *table;
     bool whole;     /* lines begin with the configurations themselves */
+    bool radius;    /* a column after the values, as --truth prints it */
     int *lines;     /* of each row; 0: not seen yet */
     double *values; /* of each row */
 } column;
@@ -21,10 +22,38 @@ static int compare_ids(const void *id, const void *row) {
     return (a > b) - (a < b);
 }
 
+/* "0.25" or "0.25,1e-9", whose second number is checked and no more: values are judged by the
+ * table's own radius. */
+static bool read_value(const column *c, int number, const ruler_row *row, const char *text,
+                       double *value, cli_error *error) {
+    const size_t length = strcspn(text, ",");
+    double radius;
+    if (!cli_number(text, length, value))
+        return cli_fail(error, c->path, "line %d: row %d: \"%.*s\" is not a finite number", number,
+                        row->id, (int)length, text);
+    if (!c->radius)
+        return true;
+    const char *const last = text + length + 1;
+    return (cli_number(last, strlen(last), &radius) && radius >= 0) ||
+           cli_fail(error, c->path, "line %d: row %d: the radius \"%s\" is not a number from 0 on",
+                    number, row->id, last);
+}
+
+/* Where the columns before the value end: at the last comma, or at the one before it. */
+static size_t configuration_length(const column *c, const char *line) {
+    size_t length = strlen(line);
+    for (int columns = c->radius ? 2 : 1; columns > 0; columns--) {
+        while (length > 0 && line[length - 1] != ',')
+            length--;
+        if (length > 0)
+            length--;
+    }
+    return length;
+}
+
 /* "17,0.25" or "17,sphere,…,0.25" */
-static bool read_line(column *c, int number, const char *line, size_t length, cli_error *error) {
-    const size_t id_length = strcspn(line, ",");
-    const char *const comma = strrchr(line, ',');
+static bool read_line(column *c, int number, const char *line, cli_error *error) {
+    const size_t id_length = strcspn(line, ","), length = configuration_length(c, line);
     double id, value;
     if (!cli_number(line, id_length, &id))
         return cli_fail(error, c->path, "line %d: id: \"%.*s\" is not a number", number,
@@ -40,13 +69,12 @@ static bool read_line(column *c, int number, const char *line, size_t length, cl
         return cli_fail(error, c->path, "line %d: row %d is repeated (first on line %d)", number,
                         row->id, c->lines[index]);
     const size_t expected = c->whole ? (size_t)row->length : id_length;
-    if (!comma || (size_t)(comma - line) != expected ||
+    if (line[length] != ',' || length != expected ||
         (c->whole && memcmp(line, row->text, expected) != 0))
-        return cli_fail(error, c->path, "line %d: row %d is not \"%.*s,VALUE\"", number, row->id,
-                        (int)expected, c->whole ? row->text : line);
-    if (!cli_number(comma + 1, length - expected - 1, &value))
-        return cli_fail(error, c->path, "line %d: row %d: \"%s\" is not a finite number", number,
-                        row->id, comma + 1);
+        return cli_fail(error, c->path, "line %d: row %d is not \"%.*s,VALUE%s\"", number, row->id,
+                        (int)expected, c->whole ? row->text : line, c->radius ? ",RADIUS" : "");
+    if (!read_value(c, number, row, line + length + 1, &value, error))
+        return false;
     c->lines[index] = number;
     c->values[index] = value;
     return true;
@@ -55,8 +83,11 @@ static bool read_line(column *c, int number, const char *line, size_t length, cl
 static bool read_header(column *c, const char *line, cli_error *error) {
     const char *const header = ruler_table_header();
     const size_t length = strlen(header);
-    c->whole = strncmp(line, header, length) == 0 && strcmp(line + length, ",value") == 0;
-    return c->whole || strcmp(line, "id,value") == 0 ||
+    c->whole = strncmp(line, header, length) == 0;
+    const char *const end = line + (c->whole ? length : strcspn(line, ","));
+    c->radius = strcmp(end, ",value,radius") == 0;
+    const bool known = c->whole || strncmp(line, "id,", 3) == 0;
+    return (known && (c->radius || strcmp(end, ",value") == 0)) ||
            cli_fail(error, c->path, "the first line must be \"id,value\" or \"%s,value\"", header);
 }
 
@@ -69,8 +100,7 @@ static bool read_lines(column *c, char *text, cli_error *error) {
             length--;
         line[length] = '\0';
         number++;
-        if (!(number == 1 ? read_header(c, line, error)
-                          : read_line(c, number, line, length, error)))
+        if (!(number == 1 ? read_header(c, line, error) : read_line(c, number, line, error)))
             return false;
     }
     return number > 0 || cli_fail(error, c->path, "is empty");

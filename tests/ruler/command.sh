@@ -19,7 +19,8 @@ cut -d, -f1-10 "$WORK/all.csv" | cmp - "$WORK/plain.csv" || fail "--truth change
 cut -d, -f1-11 "$WORK/all.csv" >"$WORK/whole.csv"
 cut -d, -f1,11 "$WORK/all.csv" >"$WORK/mine.csv"
 { head -n 1 "$WORK/mine.csv"; tail -n +2 "$WORK/mine.csv" | sort -r; } | sed 's/$/\r/' >"$WORK/sorted.csv"
-for form in whole mine sorted; do
+cut -d, -f1,11,12 "$WORK/all.csv" >"$WORK/bounded.csv"
+for form in all whole mine bounded sorted; do
     "$PROGRAM" ruler --check "$WORK/$form.csv" >"$WORK/out" || fail "$form: $(cat "$WORK/out")"
     grep -q '^verdict: within the limits (rms 0 ' "$WORK/out" || fail "$form: $(tail -n 1 "$WORK/out")"
 done
@@ -53,6 +54,14 @@ refuse 'line 18: row 17 is not "17,VALUE"' 's/^17,.*/17,1,2/'
 refuse 'line 18: row 17 is not "17,VALUE"' 's/^17,.*/17/'
 refuse 'line 18: id: "x" is not a number' 's/^17,/x,/'
 refuse 'line 19: id: "" is not a number' '18G'
+mv "$WORK/mine.csv" "$WORK/plain.csv" && mv "$WORK/bounded.csv" "$WORK/mine.csv"
+refuse 'line 18: row 17 is not "17,VALUE,RADIUS"' 's/^17,.*/17,1/'
+refuse 'line 18: row 17 is not "17,VALUE,RADIUS"' 's/^17,.*/17,1,2,3/'
+refuse 'line 18: row 17: the radius "" is not a number from 0 on' 's/^17,.*/17,1,/'
+refuse 'line 18: row 17: the radius "-1" is not a number from 0 on' 's/^17,.*/17,1,-1/'
+refuse 'line 18: row 17: "" is not a finite number' 's/^17,.*/17,,1/'
+refuse 'the first line must be "id,value"' '1s/radius/error/'
+mv "$WORK/plain.csv" "$WORK/mine.csv"
 refuse 'the first line must be "id,value"' '1d'
 refuse 'is empty' d
 sed '/^17,/s/lambert/metal/' "$WORK/whole.csv" >"$WORK/bad.csv"
