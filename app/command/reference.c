@@ -33,10 +33,12 @@ typedef struct reference_arguments {
 } reference_arguments;
 
 /* A linear image carries its standard error as a second layer, a part also what merge needs. */
-static bool write_image(const reference_arguments *a, const scene *world, const image *radiance,
-                        const image *standard_error, cli_error *error) {
+static bool write_image(const reference_arguments *a, const scene *world, image *radiance,
+                        image *standard_error, cli_error *error) {
     const image_layer layers[] = { { NULL, radiance }, { "stderr", standard_error } };
     const size_t light_count = world->light_count;
+    image_make_finite(radiance, a->output);
+    image_make_finite(standard_error, a->output);
     if (a->shard_given)
         return reference_part_write(a->output, &a->settings, world, a->words, layers, error);
     if (image_format_of(a->output) == IMAGE_EXR)

@@ -27,6 +27,7 @@ static bool write_exr(const render_job *j, const char *path, cli_error *error) {
     image pixels;
     if (!gpu_read_image(j->renderer, &pixels, error))
         return false;
+    image_make_finite(&pixels, path);
     const bool ok = image_write(&pixels, path, &j->display, error);
     image_free(&pixels);
     return ok;

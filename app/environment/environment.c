@@ -13,11 +13,10 @@ static const float pi = 3.14159265f;
 /* What is below 0 is taken for 0: resampled images ring a little. */
 static bool check_radiance(image *pixels, float strength, const char *path, cli_error *error) {
     const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
-    const float most = 1e30f;
     for (size_t i = 0; i < count; i++) {
         const float value = pixels->rgb[i] * strength;
-        if (!(fabsf(value) <= most))
-            return cli_fail(error, path, "has a pixel (%d, %d) that is not finite, or above 1e30",
+        if (!(fabsf(value) <= SCENE_COLOR_MAX))
+            return cli_fail(error, path, "has a pixel (%d, %d) that is not finite, or above 1e19",
                             (int)(i / 3 % (size_t)pixels->width),
                             (int)(i / 3 / (size_t)pixels->width));
         pixels->rgb[i] = value > 0 ? value : 0;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/image/pixels.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +23,23 @@ bool image_create(image *pixels, int width, int height, cli_error *error) {
 void image_free(image *pixels) {
     free(pixels->rgb);
     memset(pixels, 0, sizeof *pixels);
+}
+
+void image_make_finite(image *pixels, const char *path) {
+    const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
+    size_t changed = 0;
+    for (size_t i = 0; i < count; i++) {
+        float *value = &pixels->rgb[i];
+        if (fabsf(*value) <= FLT_MAX)
+            continue;
+        *value = *value > 0 ? FLT_MAX : *value < 0 ? -FLT_MAX : 0;
+        changed++;
+    }
+    if (changed > 0)
+        cli_note(path,
+                 "%zu values are beyond what float32 holds, and written as the largest that it "
+                 "does, or as 0",
+                 changed);
 }
 
 bool image_create_decoded(const image_source *source, long long width, long long height,

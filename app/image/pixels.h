@@ -17,6 +17,10 @@ typedef struct image {
 bool image_create(image *image, int width, int height, cli_error *error);
 void image_free(image *image);
 
+/* Before it is written to `path`: what overflowed becomes the largest float, what is no number 0,
+ * as a .png shows them, and a note says how many. */
+void image_make_finite(image *image, const char *path);
+
 /* A foreign file in memory, to be decoded. */
 typedef struct image_source {
     const char *path; /* named in errors */

@@ -200,8 +200,8 @@ static bool materials_fit(const blob_header *header) {
         const float parts[] = { m->f90, m->occlusion, m->coat, m->coat_roughness,
                                 m->sheen_roughness };
         if (!name_fits(m->name) || !all_finite(m->base_color, 4) || !all_finite(numbers, 8) ||
-            !all_finite(m->emission, 3) || !all_parts(parts, 5) || !all_parts(m->sheen_color, 3) ||
-            !maps_fit(m, texture_count))
+            !scene_color_fits(m->emission) || !all_parts(parts, 5) ||
+            !all_parts(m->sheen_color, 3) || !maps_fit(m, texture_count))
             return false;
     }
     const scene_texture *textures = blob_items(header, BLOB_TEXTURES);

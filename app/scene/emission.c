@@ -37,9 +37,24 @@ static float bounding_radius(const scene *s, size_t instance, lmp_vec3 center, d
     return radius;
 }
 
+/* What glows too much is refused by the words of lights, whether a light stands for it or, with a
+ * texture, none does. */
+static bool check_emission(const scene_builder *builder, const char *subject, cli_error *error) {
+    const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
+    for (size_t i = 0; i < builder_count(builder, BLOB_MATERIALS); i++)
+        if (!scene_color_fits(materials[i].emission))
+            return cli_fail(error, subject,
+                            "material %zu (\"%s\"): its emission is negative, not finite or above "
+                            "1e19",
+                            i, materials[i].name);
+    return true;
+}
+
 bool emission_add_lights(scene_builder *builder, const char *subject, cli_error *error) {
     const scene_material *materials = builder_items(builder, BLOB_MATERIALS);
     scene world;
+    if (!check_emission(builder, subject, error))
+        return false;
     builder_geometry(builder, &world);
     for (size_t i = 0; i < world.instance_count; i++) {
         const scene_material *material = &materials[world.meshes[world.instances[i].mesh].material];
@@ -63,6 +78,10 @@ bool emission_add_lights(scene_builder *builder, const char *subject, cli_error 
         light->hidden = 1;
         light->emitter =
             (lmp_light) { .position = center, .radius = radius, .radiance = rgb_load(radiance) };
+        scene_light_error wrong;
+        if (!scene_light_check(light, &wrong))
+            return cli_fail(error, subject, "instance %zu of a mesh makes a light: %s", i,
+                            wrong.text);
     }
     return true;
 }

@@ -3,7 +3,6 @@
 
 #include "app/scene/vector.h"
 
-#include <float.h>
 #include <stdio.h>
 
 #define POSITION                                                                                   \
@@ -159,9 +158,9 @@ static bool is_angle(const float *v) {
     return *v >= 0.0f && *v <= PI;
 }
 
-static bool is_color(const float *v) {
-    return v[0] >= 0.0f && v[1] >= 0.0f && v[2] >= 0.0f && v[0] <= FLT_MAX && v[1] <= FLT_MAX &&
-           v[2] <= FLT_MAX;
+bool scene_color_fits(const float *rgb) {
+    return rgb[0] >= 0.0f && rgb[1] >= 0.0f && rgb[2] >= 0.0f && rgb[0] <= SCENE_COLOR_MAX &&
+           rgb[1] <= SCENE_COLOR_MAX && rgb[2] <= SCENE_COLOR_MAX;
 }
 
 static const struct {
@@ -172,7 +171,7 @@ static const struct {
     [SCENE_LIGHT_RADIUS] = { is_radius, "is not above 0, or above 1e17" },
     [SCENE_LIGHT_DIRECTION] = { is_direction, "is no direction" },
     [SCENE_LIGHT_ANGLE] = { is_angle, "is not in 0 to pi" },
-    [SCENE_LIGHT_COLOR] = { is_color, "is negative or not finite" },
+    [SCENE_LIGHT_COLOR] = { scene_color_fits, "is negative, not finite or above 1e19" },
 };
 
 bool scene_light_check_member(const lmp_light *emitter, const scene_light_member *member,

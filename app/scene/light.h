@@ -8,6 +8,11 @@
 
 #include <stdbool.h>
 
+/* No color of a light or of an emissive material is above this, whoever reads it: sums over all
+ * lights and what materials make of them stay finite, as the library promises of numbers whose
+ * squares are finite. */
+#define SCENE_COLOR_MAX 1e19f
+
 /* A light and whether it is seen: of all kinds only spheres can be. */
 typedef struct scene_light {
     lmp_light emitter;
@@ -20,7 +25,7 @@ typedef enum scene_light_type {
     SCENE_LIGHT_RADIUS,    /* above 0, up to LMP_LENGTH_MAX */
     SCENE_LIGHT_DIRECTION, /* not 0; made a unit vector */
     SCENE_LIGHT_ANGLE,     /* 0 … pi */
-    SCENE_LIGHT_COLOR      /* finite, not negative */
+    SCENE_LIGHT_COLOR      /* 0 … SCENE_COLOR_MAX */
 } scene_light_type;
 
 typedef struct scene_light_member {
@@ -60,6 +65,9 @@ bool scene_light_is_drawn(const scene_light *light);
 /* A member's floats, and how many there are: 1 or 3. */
 int scene_light_count(const scene_light_member *member);
 float *scene_light_value(lmp_light *light, const scene_light_member *member);
+
+/* Whether three numbers are such a color. */
+bool scene_color_fits(const float *rgb);
 
 /* What is wrong with a light, to follow its name: ".radius is not above 0". */
 typedef struct scene_light_error {

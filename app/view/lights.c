@@ -8,7 +8,6 @@
 
 #define SIZE_STEP      1.15f
 #define POWER_STEP     1.25f
-#define COLOR_MAX      1e30f
 #define HUE_STEP       (1.0f / 12)
 #define NEW_IRRADIANCE 0.4f /* that a new light gives the scene's bounding sphere */
 #define FRAMED_RADIUS  0.1f /* at least, of the scene's diagonal */
@@ -29,9 +28,9 @@ static void grow(scene_light *light, float by) {
     const float radius = e->radius * by;
     if (scene_light_has(light, SCENE_LIGHT_RADIUS) && radius > 1e-12f && radius < 1e12f) {
         e->radius = radius;
-        e->radiance = (lmp_rgb) { fminf(e->radiance.r / (by * by), COLOR_MAX),
-                                  fminf(e->radiance.g / (by * by), COLOR_MAX),
-                                  fminf(e->radiance.b / (by * by), COLOR_MAX) };
+        e->radiance = (lmp_rgb) { fminf(e->radiance.r / (by * by), SCENE_COLOR_MAX),
+                                  fminf(e->radiance.g / (by * by), SCENE_COLOR_MAX),
+                                  fminf(e->radiance.b / (by * by), SCENE_COLOR_MAX) };
     }
     for (const scene_light_member *m = scene_light_kinds[e->kind].members; m->name; m++)
         if (m->type == SCENE_LIGHT_ANGLE) {
@@ -61,7 +60,7 @@ static void each_color(view_state *s, void (*change)(float color[3], float by), 
 
 static void brighten(float color[3], float by) {
     for (int k = 0; k < 3; k++)
-        color[k] = fminf(color[k] * by, COLOR_MAX);
+        color[k] = fminf(color[k] * by, SCENE_COLOR_MAX);
 }
 
 static float brightest(const float color[3]) {

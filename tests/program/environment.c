@@ -142,6 +142,9 @@ static void what_is_no_environment_is_refused(void **state) {
     assert_non_null(strstr(error.text, "is 8 x 8 pixels: no panorama of 2:1"));
     assert_false(opens(&hole, 0, 1, &e, &error));
     assert_non_null(strstr(error.text, "a pixel (5, 1) that is not finite"));
+    hole.rgb[3 * (8 + 5)] = 2e19f;
+    assert_false(opens(&hole, 0, 1, &e, &error));
+    assert_non_null(strstr(error.text, "a pixel (5, 1) that is not finite, or above 1e19"));
     assert_true(opens(&negative, 0, 1, &e, &error)); /* ringing of a filter */
     expect_seen(&e, 1, 0, 0, 0);
     environment_free(&e);

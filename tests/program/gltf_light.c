@@ -105,8 +105,14 @@ static void impossible_lights_are_refused(void **state) {
     (void)state;
     static const char *const cases[][2] = {
         { "\"point\",\"extras\":{\"radius\":-1}", "light 0 makes a light: .radius is not above" },
-        { "\"point\",\"intensity\":1e300", "light 0 makes a light: .intensity is negative or" },
-        { "\"directional\",\"intensity\":1e39", ".irradiance is negative or not finite" },
+        { "\"point\",\"intensity\":1e300", "light 0 makes a light: .intensity is negative, not" },
+        { "\"directional\",\"intensity\":1e39",
+          ".irradiance is negative, not finite or above 1e19" },
+        { "\"point\",\"intensity\":1e28", "light 0 makes a light: .intensity is negative, not" },
+        { "\"directional\",\"intensity\":3e38",
+          ".irradiance is negative, not finite or above 1e19" },
+        { "\"point\",\"intensity\":1e3,\"extras\":{\"radius\":1e-9}",
+          ".radiance is negative, not" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *text = changed(SPOT, cases[i][0]);

@@ -4,6 +4,7 @@
 #include "app/file/file.h"
 #include "tests/program/folder.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -201,6 +202,21 @@ static void the_curve_keeps_black_and_gray_rises_and_ends_white(void **state) {
     image_free(&pixels);
 }
 
+static void an_image_is_made_finite_before_it_is_written(void **state) {
+    (void)state;
+    image pixels = noise();
+    pixels.rgb[0] = NAN;
+    pixels.rgb[1] = INFINITY;
+    pixels.rgb[2] = -INFINITY;
+    pixels.rgb[3] = FLT_MAX;
+    pixels.rgb[4] = -1;
+    const float kept = pixels.rgb[5];
+    image_make_finite(&pixels, "image.exr");
+    assert_true(pixels.rgb[0] == 0 && pixels.rgb[1] == FLT_MAX && pixels.rgb[2] == -FLT_MAX);
+    assert_true(pixels.rgb[3] == FLT_MAX && pixels.rgb[4] == -1 && pixels.rgb[5] == kept);
+    image_free(&pixels);
+}
+
 static void every_curve_is_chosen_by_its_name_and_the_linear_one_does_nothing(void **state) {
     (void)state;
     static unsigned char mapped[VALUES], encoded[VALUES];
@@ -227,6 +243,7 @@ int main(void) {
         cmocka_unit_test(paths_that_cannot_be_written_are_refused_at_once),
         cmocka_unit_test(exposure_puts_what_is_lit_at_middle_grey),
         cmocka_unit_test(the_curve_keeps_black_and_gray_rises_and_ends_white),
+        cmocka_unit_test(an_image_is_made_finite_before_it_is_written),
         cmocka_unit_test(every_curve_is_chosen_by_its_name_and_the_linear_one_does_nothing),
     };
     return cmocka_run_group_tests(tests, folder_make, remove_folder);

@@ -73,7 +73,7 @@ static void directions_become_unit_vectors(void **state) {
 /* Each member in turn, far out of any range. */
 static void values_out_of_range_are_named(void **state) {
     (void)state;
-    const float bad[] = { NAN, INFINITY, -1e30f };
+    const float bad[] = { NAN, INFINITY, -1e30f, 1e30f };
     for (int kind = 0; kind < LMP_LIGHT_KINDS; kind++)
         for (const scene_light_member *m = scene_light_kinds[kind].members; m->name; m++)
             for (size_t i = 0; i < sizeof bad / sizeof *bad && !m->convert; i++) {
