@@ -31,7 +31,8 @@ void csv_close(csv_reader *reader);
 typedef enum csv_result { CSV_ROW, CSV_END, CSV_ERROR } csv_result;
 
 /* Reads the numbers of the next line, which must be `count`, finite as floats. names[i] is the
- * column's, for messages. Empty lines may only end the table. */
+ * column's, for messages. Blanks around a number or a column's name do not count. Empty lines may
+ * only end the table. */
 csv_result csv_read_row(csv_reader *reader, const char *const *names, int count, float *values,
                         cli_error *error);
 

@@ -71,6 +71,19 @@ bool csv_open(csv_reader *reader, const char *path, const char *header, cli_erro
     return csv_open_stream(reader, stream, standard ? "standard input" : path, header, error);
 }
 
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+/* No name of a column has a blank in it. */
+static void drop_blanks(char *line) {
+    char *to = line;
+    for (const char *from = line; *from; from++)
+        if (!is_blank(*from))
+            *to++ = *from;
+    *to = '\0';
+}
+
 /* "a,b[,c]" is a,b or, with *more, a,b,c. */
 static bool is_header(const char *line, const char *header, bool *more) {
     const size_t first = strcspn(header, "["), length = strlen(line);
@@ -97,6 +110,7 @@ bool csv_open_stream(csv_reader *reader, FILE *stream, const char *name, const c
     if (result == CSV_ROW) {
         if (strncmp(line, BYTE_ORDER_MARK, strlen(BYTE_ORDER_MARK)) == 0)
             line += strlen(BYTE_ORDER_MARK);
+        drop_blanks(line);
         if (is_header(line, header, &reader->more))
             return true;
         csv_line_error(reader, error, "the header must be %s", header);
@@ -138,7 +152,11 @@ csv_result csv_read_row(csv_reader *reader, const char *const *names, int count,
     int column = 0;
     for (const char *field = line;; column++) {
         const char *comma = memchr(field, ',', (size_t)(line_end - field));
-        const char *const field_end = comma ? comma : line_end;
+        const char *field_end = comma ? comma : line_end;
+        while (field < field_end && is_blank(*field))
+            field++;
+        while (field < field_end && is_blank(field_end[-1]))
+            field_end--;
         double value;
         if (column < count) {
             if (!cli_number(field, (size_t)(field_end - field), &value))

@@ -84,6 +84,7 @@ static void tables_of_every_system_are_read(void **state) {
     static const char *const tables[] = {
         "a,b\n1,2\n3,-4.5e0\n",
         "a,b\n1,2\n3,-4.5",
+        "a, b\n1, 2\n 3 ,\t-4.5 \n",
         "a,b\r\n1,2\r\n3,-4.5\r\n\r\n",
         "\357\273\277a,b\n+1,2.\n3,-.45e+1\n\n\n",
     };
@@ -106,7 +107,9 @@ static void wrong_tables_are_refused_with_their_line(void **state) {
         { "a,b\n1,2,3\n", "line 2: has 3 columns, not 2" },
         { "a,b\n1,2,\n", "line 2: has 3 columns, not 2" },
         { "a,b\n1,\n", "line 2: b: \"\" is not a number" },
-        { "a,b\n1, 2\n", "line 2: b: \" 2\" is not a number" },
+        { "a,b\n1, \n", "line 2: b: \"\" is not a number" },
+        { "a,b\n1 2,3\n", "line 2: a: \"1 2\" is not a number" },
+        { "a b\n1,2\n", "line 1: the header must be a,b" },
         { "a,b\nnan,2\n", "line 2: a: \"nan\" is not a number" },
         { "a,b\n1,inf\n", "line 2: b: \"inf\" is not a number" },
         { "a,b\n1,0x10\n", "line 2: b: \"0x10\" is not a number" },
