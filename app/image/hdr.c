@@ -2,10 +2,12 @@
 #include "app/image/hdr.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LINE_SIZE = 256, PACKED_WIDTH_MIN = 8, PACKED_WIDTH_MAX = 32767, SHIFT_MAX = 24 };
+enum { PACKED_WIDTH_MIN = 8, PACKED_WIDTH_MAX = 32767, SHIFT_MAX = 24 };
 
 /* What is left of a file. */
 typedef struct rest {
@@ -24,51 +26,120 @@ static const unsigned char *take(rest *file, size_t size) {
 
 /* --- the header ------------------------------------------------------------------------------- */
 
-/* A line without its end; false if there is none, or a longer one. */
-static bool take_line(rest *file, char line[LINE_SIZE]) {
+/* A line without its end, of any length; LF and CRLF end it. */
+typedef struct line {
+    const char *text;
+    size_t length;
+} line;
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+static bool take_line(rest *file, line *l) {
     const unsigned char *end = file->size ? memchr(file->at, '\n', file->size) : NULL;
-    const size_t length = end ? (size_t)(end - file->at) : LINE_SIZE;
-    if (length >= LINE_SIZE)
+    if (!end)
         return false;
-    memcpy(line, file->at, length);
-    line[length] = '\0';
-    take(file, length + 1);
-    return strlen(line) == length;
+    *l = (line) { (const char *)file->at, (size_t)(end - file->at) };
+    take(file, l->length + 1);
+    if (l->length > 0 && l->text[l->length - 1] == '\r')
+        l->length--;
+    return true;
 }
 
-/* "-Y 512 +X 1024" */
-static bool parse_size(const char *line, long *width, long *height) {
-    char *end;
-    if (strncmp(line, "-Y ", 3) != 0)
+/* Whether the line begins so; *value is then what follows, without blanks around it. */
+static bool begins(const line *l, const char *name, line *value) {
+    const size_t length = strlen(name);
+    if (l->length < length || memcmp(l->text, name, length) != 0)
         return false;
-    *height = strtol(line + 3, &end, 10);
-    if (strncmp(end, " +X ", 4) != 0)
-        return false;
-    *width = strtol(end + 4, &end, 10);
-    return *end == '\0';
+    *value = (line) { l->text + length, l->length - length };
+    for (; value->length > 0 && is_blank(*value->text); value->length--)
+        value->text++;
+    while (value->length > 0 && is_blank(value->text[value->length - 1]))
+        value->length--;
+    return true;
 }
 
-/* *scale turns what is stored into radiance. */
-static bool read_header(rest *file, long *width, long *height, double *scale, const char *path,
-                        cli_error *error) {
-    char line[LINE_SIZE];
-    *scale = 1;
-    if (!take_line(file, line) || strncmp(line, "#?", 2) != 0)
-        return cli_fail(error, path, "no Radiance image (it does not begin with #?)");
-    while (take_line(file, line) && line[0]) {
-        if (strncmp(line, "FORMAT=", 7) == 0 && strcmp(line + 7, "32-bit_rle_rgbe") != 0)
-            return cli_fail(error, path, "of format \"%.40s\" (32-bit_rle_rgbe is read)", line + 7);
-        if (strncmp(line, "EXPOSURE=", 9) == 0) {
-            const double exposure = strtod(line + 9, NULL);
-            if (!(exposure > 1e-30 && exposure < 1e30))
-                return cli_fail(error, path, "has an exposure that makes no sense");
-            *scale /= exposure;
-        }
+static bool is(const line *l, const char *text) {
+    return l->length == strlen(text) && memcmp(l->text, text, l->length) == 0;
+}
+
+/* Reads `count` numbers between blanks, and no more. */
+static bool parse_numbers(const line *l, int count, double *numbers) {
+    char text[128];
+    snprintf(text, sizeof text, "%.*s", l->length < sizeof text ? (int)l->length : 0, l->text);
+    char *at = text;
+    for (int i = 0; i < count; i++) {
+        char *const begin = at;
+        numbers[i] = strtod(begin, &at);
+        if (at == begin)
+            return false;
     }
-    if (!(*scale > 1e-30 && *scale < 1e30))
-        return cli_fail(error, path, "has an exposure that makes no sense");
-    return (take_line(file, line) && parse_size(line, width, height)) ||
-           cli_fail(error, path, "has rows that do not run from the top and from the left");
+    return at[strspn(at, " \t")] == '\0';
+}
+
+/* What the header says. */
+typedef struct description {
+    bool xyz;
+    double scale[3];     /* from what is stored to radiance */
+    long lines, columns; /* scanlines, and the pixels of each */
+    bool upright;        /* a scanline is a column of the image */
+    bool x_falls, y_rises;
+} description;
+
+static bool scale_by(description *d, const line *l, int count) {
+    double factors[3];
+    if (!parse_numbers(l, count, factors))
+        return false;
+    for (int c = 0; c < 3; c++) {
+        const double factor = factors[count == 1 ? 0 : c];
+        if (!(factor > 1e-30 && factor < 1e30))
+            return false;
+        d->scale[c] /= factor;
+        if (!(d->scale[c] > 1e-30 && d->scale[c] < 1e30))
+            return false;
+    }
+    return true;
+}
+
+/* "-Y 512 +X 1024": rows from the top, pixels from the left. The axis of the scanlines is first. */
+static bool parse_size(const line *l, description *d) {
+    char text[64], sign[2], axis[2];
+    int end = 0;
+    snprintf(text, sizeof text, "%.*s", l->length < sizeof text ? (int)l->length : 0, l->text);
+    if (sscanf(text, "%c%c %9ld %c%c %9ld %n", &sign[0], &axis[0], &d->lines, &sign[1], &axis[1],
+               &d->columns, &end) != 6 ||
+        text[end] != '\0' || axis[0] == axis[1])
+        return false;
+    for (int i = 0; i < 2; i++)
+        if (!strchr("+-", sign[i]) || !strchr("XY", axis[i]))
+            return false;
+    d->upright = axis[0] == 'X';
+    d->x_falls = sign[axis[0] == 'X' ? 0 : 1] == '-';
+    d->y_rises = sign[axis[0] == 'Y' ? 0 : 1] == '+';
+    return true;
+}
+
+static bool read_header(rest *file, description *d, const char *path, cli_error *error) {
+    line l, value;
+    *d = (description) { .scale = { 1, 1, 1 } };
+    if (!take_line(file, &l) || !begins(&l, "#?", &value))
+        return cli_fail(error, path, "no Radiance image (it does not begin with #?)");
+    while (take_line(file, &l) && l.length > 0) {
+        if (begins(&l, "FORMAT=", &value)) {
+            d->xyz = is(&value, "32-bit_rle_xyze");
+            if (!d->xyz && !is(&value, "32-bit_rle_rgbe"))
+                return cli_fail(error, path,
+                                "of format \"%.*s\" (32-bit_rle_rgbe and 32-bit_rle_xyze are read)",
+                                (int)(value.length < 40 ? value.length : 40), value.text);
+        }
+        if (begins(&l, "EXPOSURE=", &value) && !scale_by(d, &value, 1))
+            return cli_fail(error, path, "has an exposure that makes no sense");
+        if (begins(&l, "COLORCORR=", &value) && !scale_by(d, &value, 3))
+            return cli_fail(error, path, "has a color correction that makes no sense");
+    }
+    return (take_line(file, &l) && parse_size(&l, d)) ||
+           cli_fail(error, path, "has no size as \"-Y 512 +X 1024\" after its header");
 }
 
 /* --- rows ------------------------------------------------------------------------------------- */
@@ -127,32 +198,60 @@ static bool read_row(rest *file, size_t width, unsigned char *row) {
     return true;
 }
 
-static void decode_row(const unsigned char *row, size_t width, double scale, float *rgb) {
-    for (size_t x = 0; x < width; x++) {
-        const unsigned char *pixel = row + 4 * x;
-        const double unit = pixel[3] ? ldexp(scale, pixel[3] - 136) : 0;
-        for (size_t c = 0; c < 3; c++)
-            rgb[3 * x + c] = (float)(pixel[c] * unit);
+/* CIE XYZ to linear RGB of Rec. 709's primaries and its white, D65, Y to Y: no scale changes.
+ * Colors out of reach are those on the edge. */
+static void to_rec709(double color[3]) {
+    static const double matrix[3][3] = { { 3.2409699419, -1.5373831776, -0.4986107603 },
+                                         { -0.9692436363, 1.8759675015, 0.0415550574 },
+                                         { 0.0556300797, -0.2039769589, 1.0569715142 } };
+    const double xyz[3] = { color[0], color[1], color[2] };
+    for (int c = 0; c < 3; c++)
+        color[c] = fmax(0, matrix[c][0] * xyz[0] + matrix[c][1] * xyz[1] + matrix[c][2] * xyz[2]);
+}
+
+/* Pixels of a scanline to where they belong, `step` of them apart. */
+static void decode_line(const unsigned char *packed, const description *d, float *rgb,
+                        ptrdiff_t step) {
+    for (long i = 0; i < d->columns; i++, packed += 4, rgb += 3 * step) {
+        const double unit = packed[3] ? ldexp(1, packed[3] - 136) : 0;
+        double color[3];
+        for (int c = 0; c < 3; c++)
+            color[c] = packed[c] * unit * d->scale[c];
+        if (d->xyz)
+            to_rec709(color);
+        for (int c = 0; c < 3; c++)
+            rgb[c] = (float)color[c];
     }
+}
+
+/* The pixel of the image that scanline `i` begins with; *step leads to its next. */
+static float *first_of(const image *pixels, const description *d, long i, ptrdiff_t *step) {
+    const ptrdiff_t width = pixels->width, height = pixels->height;
+    const ptrdiff_t x = d->upright ? i : 0, y = d->upright ? 0 : i;
+    const ptrdiff_t column = d->x_falls ? width - 1 - x : x, row = d->y_rises ? height - 1 - y : y;
+    *step = d->upright ? (d->y_rises ? -width : width) : (d->x_falls ? -1 : 1);
+    return pixels->rgb + 3 * (row * width + column);
 }
 
 bool image_decode_hdr(const image_source *source, image *pixels, cli_error *error) {
     rest file = { source->data, source->size };
-    long width = 0, height = 0;
-    double scale;
-    if (!read_header(&file, &width, &height, &scale, source->path, error) ||
-        !image_create_decoded(source, width, height, pixels, error))
+    description d;
+    if (!read_header(&file, &d, source->path, error) ||
+        !image_create_decoded(source, d.upright ? d.lines : d.columns,
+                              d.upright ? d.columns : d.lines, pixels, error))
         return false;
-    const size_t count = (size_t)pixels->width;
-    unsigned char *row = malloc(4 * count);
-    bool ok = row || cli_fail(error, source->path, "out of memory");
-    for (int y = 0; ok && y < pixels->height; y++) {
-        ok = read_row(&file, count, row) ||
-             cli_fail(error, source->path, "damaged Radiance image, row %d", y);
+    const size_t count = (size_t)d.columns;
+    unsigned char *packed = malloc(4 * count);
+    bool ok = packed || cli_fail(error, source->path, "out of memory");
+    for (long i = 0; ok && i < d.lines; i++) {
+        ptrdiff_t step;
+        float *const rgb = first_of(pixels, &d, i, &step);
+        ok = read_row(&file, count, packed) ||
+             cli_fail(error, source->path, "damaged Radiance image, row %ld", i);
         if (ok)
-            decode_row(row, count, scale, pixels->rgb + 3 * count * (size_t)y);
+            decode_line(packed, &d, rgb, step);
     }
-    free(row);
+    free(packed);
     if (!ok)
         image_free(pixels);
     return ok;

@@ -75,6 +75,88 @@ static void packed_rows_are_unpacked(void **state) {
     image_free(&pixels);
 }
 
+static void expect(const file *f, int width, int height, const double *rgb, double bound) {
+    image pixels;
+    cli_error error;
+    if (!decodes(f, &pixels, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(pixels.width, width);
+    assert_int_equal(pixels.height, height);
+    for (int i = 0; i < 3 * width * height; i++)
+        if (!(fabs((double)pixels.rgb[i] - rgb[i]) <= bound))
+            fail_msg("value %d: %g, not %g", i, (double)pixels.rgb[i], rgb[i]);
+    image_free(&pixels);
+}
+
+/* Six pixels of an image of 3 x 2, stored along either axis, from either end. */
+static void scanlines_run_in_eight_directions(void **state) {
+    (void)state;
+    static const struct {
+        const char *size;
+        int order[6];
+    } cases[] = {
+        { "-Y 2 +X 3", { 1, 2, 3, 4, 5, 6 } }, { "-Y 2 -X 3", { 3, 2, 1, 6, 5, 4 } },
+        { "+Y 2 +X 3", { 4, 5, 6, 1, 2, 3 } }, { "+Y 2 -X 3", { 6, 5, 4, 3, 2, 1 } },
+        { "+X 3 -Y 2", { 1, 4, 2, 5, 3, 6 } }, { "-X 3 -Y 2", { 3, 6, 2, 5, 1, 4 } },
+        { "+X 3 +Y 2", { 4, 1, 5, 2, 6, 3 } }, { "-X 3 +Y 2", { 6, 3, 5, 2, 4, 1 } },
+    };
+    double rgb[18];
+    for (int i = 0; i < 18; i++)
+        rgb[i] = 10 + i / 3;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        file f = { .size = 0 };
+        put_text(&f, HEAD "\n");
+        put_text(&f, cases[k].size);
+        put_text(&f, "\n");
+        for (int i = 0; i < 6; i++) {
+            const unsigned char n = (unsigned char)(9 + cases[k].order[i]);
+            put(&f, (unsigned char[]) { n, n, n, 136 }, 4);
+        }
+        expect(&f, 3, 2, rgb, 0);
+    }
+}
+
+/* Exposures and color corrections were multiplied in, each after the other. */
+static void color_corrections_are_undone(void **state) {
+    (void)state;
+    file f = { .size = 0 };
+    put_text(&f, HEAD "COLORCORR= 2 4 .5\nEXPOSURE= 2 \nCOLORCORR=1 1\t2\n\n-Y 1 +X 1\n");
+    put(&f, (unsigned char[]) { 8, 16, 32, 136 }, 4);
+    expect(&f, 1, 1, (const double[]) { 2, 2, 16 }, 1e-9);
+}
+
+/* The white, the red, the green and the blue of Rec. 709, as their XYZ. */
+static void xyz_becomes_rec_709(void **state) {
+    (void)state;
+    static const double xyz[4][3] = { { 95.0456, 100, 108.9058 },
+                                      { 41.2391, 21.2639, 1.9331 },
+                                      { 35.7584, 71.5169, 11.9195 },
+                                      { 18.0481, 7.2192, 95.0532 } };
+    static const double rgb[12] = { 100, 100, 100, 100, 0, 0, 0, 100, 0, 0, 0, 100 };
+    file f = { .size = 0 };
+    put_text(&f, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 4\n");
+    for (int i = 0; i < 4; i++) {
+        unsigned char pixel[4] = { 0, 0, 0, 136 };
+        for (int c = 0; c < 3; c++)
+            pixel[c] = (unsigned char)(xyz[i][c] + 0.5);
+        put(&f, pixel, 4);
+    }
+    expect(&f, 4, 1, rgb, 2.7); /* half a step of each, by the matrix */
+}
+
+static void headers_have_lines_of_any_length_and_either_end(void **state) {
+    (void)state;
+    file f = { .size = 0 };
+    char command[1200];
+    memset(command, 'x', sizeof command - 1);
+    command[sizeof command - 1] = 0;
+    put_text(&f, "#?RGBE\r\nFORMAT=32-bit_rle_rgbe\r\n");
+    put_text(&f, command);
+    put_text(&f, "\r\n\r\n-Y 1 +X 1\r\n");
+    put(&f, (unsigned char[]) { 1, 2, 3, 136 }, 4);
+    expect(&f, 1, 1, (const double[]) { 1, 2, 3 }, 0);
+}
+
 static void what_is_no_radiance_image_is_refused_by_its_reason(void **state) {
     (void)state;
     static const struct {
@@ -82,10 +164,13 @@ static void what_is_no_radiance_image_is_refused_by_its_reason(void **state) {
     } cases[] = {
         { "", "does not begin with #?" },
         { "P6\n", "does not begin with #?" },
-        { "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd",
-          "of format \"32-bit_rle_xyze\"" },
+        { "#?RADIANCE\nFORMAT=32-bit_rle_luv\n\n-Y 1 +X 1\nabcd", "of format \"32-bit_rle_luv\"" },
+        { HEAD "COLORCORR=1 0 1\n\n-Y 1 +X 1\nabcd", "a color correction that makes no sense" },
+        { HEAD "COLORCORR=1 1\n\n-Y 1 +X 1\nabcd", "a color correction that makes no sense" },
         { HEAD "EXPOSURE=0\n\n-Y 1 +X 1\nabcd", "an exposure that makes no sense" },
-        { HEAD "\n+Y 1 +X 1\nabcd", "rows that do not run" },
+        { HEAD "\n+Y 1 +Y 1\nabcd", "has no size" },
+        { HEAD "\n-Y 1 +X\nabcd", "has no size" },
+        { HEAD "\n-Y 1 +X 1 1\nabcd", "has no size" },
         { HEAD "\n-Y 1 +X 99999\n", "too large" },
         { HEAD "\n-Y 0 +X 1\n", "too large" },
         { HEAD "\n-Y 1 +X 1\nabc", "row 0" },
@@ -130,6 +215,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_are_mantissas_and_an_exponent),
         cmocka_unit_test(packed_rows_are_unpacked),
+        cmocka_unit_test(scanlines_run_in_eight_directions),
+        cmocka_unit_test(color_corrections_are_undone),
+        cmocka_unit_test(xyz_becomes_rec_709),
+        cmocka_unit_test(headers_have_lines_of_any_length_and_either_end),
         cmocka_unit_test(what_is_no_radiance_image_is_refused_by_its_reason),
         cmocka_unit_test(damage_does_no_harm),
     };
