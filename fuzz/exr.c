@@ -15,6 +15,7 @@ typedef struct exr_file {
 
 typedef struct exr_shape {
     int compression, width, height, left, top, channels, types[4], tile;
+    int chroma; /* 0: the channels are colors; else RY and BY are this many pixels apart */
 } exr_shape;
 
 /* Scan lines of a chunk by compression, none to DWAB. */
@@ -40,17 +41,20 @@ static void add_attribute(exr_file *file, const char *name, const char *type, co
 }
 
 static void add_channels(exr_file *file, const exr_shape *shape) {
-    static const char *const names[] = { "B", "G", "R", "Z" };
-    unsigned char list[4 * 18 + 1] = { 0 };
+    static const char *const names[2][4] = { { "B", "G", "R", "Z" }, { "BY", "RY", "Y", "Z" } };
+    unsigned char list[4 * 19 + 1] = { 0 };
+    size_t size = 0;
     for (int i = 0; i < shape->channels; i++) {
-        unsigned char *const at = list + 18 * i;
-        const int32_t sampling = 1;
-        at[0] = (unsigned char)names[i][0];
-        memcpy(at + 2, &shape->types[i], 4);
-        memcpy(at + 10, &sampling, 4);
-        memcpy(at + 14, &sampling, 4);
+        const char *const name = names[shape->chroma > 0][i];
+        const int32_t sampling = shape->chroma > 0 && i < 2 ? shape->chroma : 1;
+        memcpy(list + size, name, strlen(name));
+        size += strlen(name) + 1;
+        memcpy(list + size, &shape->types[i], 4);
+        memcpy(list + size + 8, &sampling, 4);
+        memcpy(list + size + 12, &sampling, 4);
+        size += 16;
     }
-    add_attribute(file, "channels", "chlist", list, 18 * (size_t)shape->channels + 1);
+    add_attribute(file, "channels", "chlist", list, size + 1);
 }
 
 static void add_header(exr_file *file, const exr_shape *shape) {
@@ -77,12 +81,17 @@ static void add_header(exr_file *file, const exr_shape *shape) {
     add(file, "", 1);
 }
 
-/* The data of a chunk of so many pixels: deflated, as they are, or fewer than there should be. */
-static void add_data(exr_file *file, fuzz_input *in, const exr_shape *shape, int pixels) {
+/* The data of a chunk of so many pixels from row y on: deflated, as they are, or fewer than there
+ * should be. */
+static void add_data(exr_file *file, fuzz_input *in, const exr_shape *shape, int wide, int tall,
+                     int y) {
     static unsigned char unpacked[UNPACKED_MAX + 64], packed[2 * UNPACKED_MAX];
     size_t size = 0;
-    for (int i = 0; i < shape->channels; i++)
-        size += (size_t)pixels * (shape->types[i] == 1 ? 2 : 4);
+    for (int i = 0; i < shape->channels; i++) {
+        const bool halved = shape->chroma == 2 && i < 2;
+        const int samples = halved ? wide / 2 * ((tall + 1 - y % 2) / 2) : wide * tall;
+        size += (size_t)samples * (shape->types[i] == 1 ? 2 : 4);
+    }
     const int way = fuzz_int(in, 0, 2);
     if (way == 2)
         size = (size_t)fuzz_int(in, 0, 255);
@@ -115,8 +124,8 @@ static void add_chunks(exr_file *file, fuzz_input *in, const exr_shape *shape) {
             } else {
                 add_number(file, shape->top + y * step_y);
             }
-            add_data(file, in, shape,
-                     (tall < step_y ? tall : step_y) * (wide < step_x ? wide : step_x));
+            add_data(file, in, shape, wide < step_x ? wide : step_x, tall < step_y ? tall : step_y,
+                     y * step_y);
         }
 }
 
@@ -126,10 +135,18 @@ static void describe(exr_file *file, fuzz_input *in) {
                         .height = fuzz_int(in, 1, SIDE_MAX),
                         .left = fuzz_int(in, -8, 8),
                         .top = fuzz_int(in, -8, 8),
-                        .channels = fuzz_int(in, 1, 4) };
+                        .channels = fuzz_int(in, 0, 11) };
+    shape.chroma = shape.channels / 4;
+    shape.channels = shape.channels % 4 + 1;
+    if (shape.chroma == 2) { /* windows are of whole samples */
+        shape.width += shape.width % 2;
+        shape.height += shape.height % 2;
+        shape.left *= 2;
+        shape.top *= 2;
+    }
     for (int i = 0; i < 4; i++)
         shape.types[i] = fuzz_int(in, 0, 2);
-    if (fuzz_int(in, 0, 3) == 3)
+    if (fuzz_int(in, 0, 3) == 3 && shape.chroma < 2)
         shape.tile = fuzz_int(in, 1, SIDE_MAX);
     add_header(file, &shape);
     add_chunks(file, in, &shape);

@@ -16,8 +16,8 @@ typedef struct image_layer {
 bool image_write_exr_layers(const char *path, const image_layer *layers, int count,
                             cli_error *error);
 
-/* Decodes the channels R, G and B of a file. Foreign files are for image_read, which does it in a
- * sandbox. */
+/* Decodes the channels R, G and B of a file; without R, those of luminance Y, in the colors of RY
+ * and BY where it has these. Foreign files are for image_read, which does it in a sandbox. */
 bool image_decode_exr(const image_source *source, image *image, cli_error *error);
 
 #endif
