@@ -5,12 +5,19 @@
 
 /* --- error and reach -------------------------------------------------------------------------- */
 
-/* error = max((joint / reach)³, (scale / reach)⁴): the third derivative of the fade jumps where the
- * fade ends, and the coefficients of many bands turn fast near a light. Bounds of the worst of
- * 20 000 points around lights of three sizes, for each of eight reaches; docs/fields.md. */
-#define JOINT 1.06f
-static const float scales[LMP_FIELD_BANDS_MAX] = { 1.1f,  1.1f, 1.1f,  1.3f,  1.62f,
-                                                   1.85f, 2.2f, 2.55f, 2.85f, 3.15f };
+/* error = max((joint / (reach + a))³, (scale / (reach + b))⁴): the third derivative of the fade
+ * jumps where the fade ends, and the coefficients of many bands growth fast near a light. Bounds of
+ * the largest errors that a search finds for reaches of 1.2 to 64 cells, on grids of one to four
+ * levels (tests/unit/field_error.c): 5 % above them at least, a third at most from 2 cells
+ * on. */
+#define JOINT      1.13f
+#define JOINT_MORE 0.25f
+static const struct {
+    float scale, more;
+} growths[LMP_FIELD_BANDS_MAX] = {
+    { 1.1f, 0.65f }, { 1.1f, 0.65f },  { 1.1f, 0.65f },  { 1.73f, 0.65f }, { 1.99f, 0.7f },
+    { 2.29f, 0.8f }, { 2.74f, 1.05f }, { 3.17f, 1.25f }, { 3.61f, 1.45f }, { 4.04f, 1.65f },
+};
 
 enum { BANDS_DEFAULT = 5, NODES_DEFAULT = 16, LIGHTS_DEFAULT = 1024 };
 #define REACH_MIN 1.0f
@@ -25,14 +32,17 @@ static float cube_root(float x) {
 }
 
 static float error_of(const lmp_field_desc *desc) {
-    const float joint = JOINT / desc->reach, scale = scales[desc->bands - 1] / desc->reach;
-    return fmaxf(joint * joint * joint, scale * scale * scale * scale);
+    const float joint = JOINT / (desc->reach + JOINT_MORE);
+    const float growth =
+        growths[desc->bands - 1].scale / (desc->reach + growths[desc->bands - 1].more);
+    return fmaxf(joint * joint * joint, growth * growth * growth * growth);
 }
 
 static float reach_of(const lmp_field_desc *desc) {
-    const float reach =
-        fmaxf(JOINT / cube_root(desc->error), scales[desc->bands - 1] / sqrtf(sqrtf(desc->error)));
-    return fmaxf(reach, REACH_MIN);
+    const float root = sqrtf(sqrtf(desc->error));
+    const float joint = JOINT / cube_root(desc->error) - JOINT_MORE;
+    const float growth = growths[desc->bands - 1].scale / root - growths[desc->bands - 1].more;
+    return fmaxf(fmaxf(joint, growth), REACH_MIN);
 }
 
 static bool resolve_error(lmp_field_desc *desc) {
@@ -140,7 +150,8 @@ static lmp_field plan_level(const lmp_host *host, const lmp_field_desc *desc, bo
     return plan;
 }
 
-/* Of a coarser field, in parts of the finest one's: what both err by is within what one would. */
+/* Of a coarser field, in parts of the finest one's: so its own errors add little to the finest's.
+ */
 #define WIDER 1.15f
 
 /* The grid of twice the cells, if it pays. It is as large as what all bricks lie in. */
@@ -172,7 +183,7 @@ static int plan_levels(const lmp_host *host, const lmp_field_desc *desc, lmp_fie
 }
 
 /* Lays the levels out in memory, or only counts its bytes where that is NULL. The lights are one
- * list, and one room for bricks is enough, for levels take turns. */
+ * list, and one room for bricks is enough, for levels take growths. */
 static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
     const size_t lights = (size_t)levels->info.desc.light_max;
     size_t used = (size_t)count * sizeof *levels;
