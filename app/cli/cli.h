@@ -20,6 +20,9 @@ typedef struct cli_error {
 bool cli_fail(cli_error *error, const char *subject, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Whether a failure is that memory ran out: such a one is never forgiven, whatever it lacks for. */
+bool cli_is_out_of_memory(const cli_error *error);
+
 /* Prints "lampion: text" to stderr and returns CLI_FAILURE. */
 int cli_report(const cli_error *error);
 

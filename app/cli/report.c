@@ -40,6 +40,17 @@ bool cli_fail(cli_error *error, const char *subject, const char *format, ...) {
     return false;
 }
 
+bool cli_is_out_of_memory(const cli_error *error) {
+    static const char *const endings[] = { " memory", " memory of this machine", " outofmem" };
+    const size_t length = strlen(error->text);
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t tail = strlen(endings[i]);
+        if (length >= tail && strcmp(error->text + length - tail, endings[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
 bool cli_fail_word(cli_error *error, const char *subject, const char *word,
                    const char *const *names) {
     char known[512] = "";

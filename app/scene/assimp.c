@@ -23,7 +23,8 @@ typedef struct assimp_job {
     source_set *sources;
     scene_builder *builder;
     uint32_t *shared;  /* the scene's mesh of each of Assimp's */
-    cli_error refusal; /* set when a file was asked for that may not be read */
+    cli_error refusal; /* why the first file was not read that Assimp asked for in vain */
+    bool out_of_memory;
 } assimp_job;
 
 /* --- files for Assimp: from memory, and only the scene's own ---------------------------------- */
@@ -76,6 +77,33 @@ static void flush_file(struct aiFile *file) {
     (void)file;
 }
 
+/* Whether it is a file by the scene's own name, as "knight.skin" beside "knight.md3", which Assimp
+ * looks for whether or not the scene has one. */
+static bool is_probed(const assimp_job *job, const char *path) {
+    const char *dot = strrchr(job->name, '.'), *slash = strrchr(path, '/');
+    const size_t length = dot ? (size_t)(dot - job->name) : strlen(job->name);
+    return strncmp(slash ? slash + 1 : path, job->name, length) == 0;
+}
+
+/* Another file that Assimp asks for; one that is not read is left out, and named if the scene may
+ * have meant it. */
+static const source *find_beside(assimp_job *job, const char *path) {
+    const source *found = NULL;
+    source_state state;
+    cli_error error;
+    if (!sources_read_optional(job->sources, path, &found, &state, &error)) {
+        job->out_of_memory = true;
+        job->refusal = error;
+    } else if (!found) {
+        if (!job->refusal.text[0])
+            cli_fail(&job->refusal, job->sources->subject, "needs \"%.200s\" (%s)", path,
+                     source_state_nouns[state]);
+        if (!(state == SOURCE_MISSING && is_probed(job, path)))
+            builder_left_out_file(job->builder, path, source_state_nouns[state]);
+    }
+    return found;
+}
+
 static struct aiFile *open_for_assimp(struct aiFileIO *io, const char *path, const char *mode) {
     assimp_job *job = (assimp_job *)(void *)io->UserData;
     while (strncmp(path, "./", 2) == 0)
@@ -85,13 +113,9 @@ static struct aiFile *open_for_assimp(struct aiFileIO *io, const char *path, con
     if (mode[0] != 'r')
         return NULL;
     if (strcmp(path, job->name) != 0) {
-        const source *found;
-        cli_error error;
-        if (!sources_read(job->sources, path, &found, &error)) {
-            if (!job->refusal.text[0])
-                job->refusal = error;
+        const source *const found = find_beside(job, path);
+        if (!found)
             return NULL;
-        }
         data = found->data;
         size = found->size;
     }
@@ -124,9 +148,11 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
     const struct aiScene *imported = aiImportFileExWithProperties(job->name, 0, &io, properties);
     aiReleasePropertyStore(properties);
-    /* A file refused is the cause of what Assimp says, or something silently left out. */
-    if (job->refusal.text[0]) {
+    /* A file that is not read is the likely cause of what Assimp says, and else is left out. */
+    if (job->refusal.text[0] && (job->out_of_memory || !imported || !imported->mRootNode)) {
         *error = job->refusal;
+        if (imported)
+            aiReleaseImport(imported);
         return NULL;
     }
     if (!imported || !imported->mRootNode) {

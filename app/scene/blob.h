@@ -8,7 +8,7 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 11u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 12u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
@@ -28,7 +28,8 @@ typedef enum blob_section {
 } blob_section;
 
 /* A file the scene was made from, for the cache; the scene file itself is not among them. */
-#define BLOB_SOURCES_MAX 4096
+#define BLOB_SOURCES_MAX   4096
+#define BLOB_SOURCE_ABSENT UINT64_MAX /* the size of one that could not be read */
 typedef struct blob_source {
     char path[512]; /* relative to the scene's folder */
     uint64_t size;

@@ -5,6 +5,7 @@
 #include "app/scene/name.h"
 #include "app/scene/vector.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,6 +124,17 @@ void builder_left_out(scene_builder *builder, const char *what, const char *noun
     }
     if (found)
         found->count += (uint32_t)count;
+}
+
+void builder_left_out_file(scene_builder *builder, const char *path, const char *noun) {
+    static const char gap[] = "...";
+    char name[SCENE_NAME_SIZE];
+    const size_t length = strlen(path), room = sizeof name - sizeof gap;
+    const char *tail = length < sizeof name ? path : path + length - room;
+    while (tail > path && (*tail & 0xc0) == 0x80) /* not amid a character */
+        tail++;
+    snprintf(name, sizeof name, "%s%s", tail > path ? gap : "", tail);
+    builder_left_out(builder, name, noun, 1);
 }
 
 void builder_header(const scene_builder *builder, bool checksum, blob_header *header) {

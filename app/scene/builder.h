@@ -43,8 +43,10 @@ void builder_sphere_light(scene_builder *builder, lmp_vec3 center, float radius,
 
 /* Notes that `count` of `noun` (in the singular) are read without something that they have, or,
  * with `what` NULL, not at all. */
-#define BUILDER_MISSING_FILE "missing file"
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count);
+
+/* Notes a file, an image or the like by its path; of a long one the end, which tells most. */
+void builder_left_out_file(scene_builder *builder, const char *path, const char *noun);
 
 /* Fills the header of the packed blob; with `checksum` its content hash too. */
 void builder_header(const scene_builder *builder, bool checksum, blob_header *header);

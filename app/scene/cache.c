@@ -53,8 +53,11 @@ static bool is_unchanged(source_set *sources, const blob_source *items, size_t i
     struct stat status;
     cli_error ignored;
     const int fd = sources_open(sources, items[i].path, &ignored);
-    if (fd < 0)
-        return false;
+    if (items[i].size == BLOB_SOURCE_ABSENT || fd < 0) {
+        if (fd >= 0)
+            close(fd);
+        return items[i].size == BLOB_SOURCE_ABSENT && fd < 0;
+    }
     bool ok = fstat(fd, &status) == 0 && (uint64_t)status.st_size == items[i].size, read = false;
     known[i] = (file_identity) { status.st_dev, status.st_ino };
     for (size_t k = 0; ok && !read && k < i; k++)

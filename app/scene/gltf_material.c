@@ -14,48 +14,65 @@
 typedef struct texture_pool {
     const gltf *document;
     scene_builder *builder;
-    scene_texture *decoded; /* of each image; width 0: not yet */
-    texture_images images;  /* those whose bytes lie in a file */
+    scene_texture *decoded; /* of each image that was tried; width 0: it is left out */
+    bool *tried;
+    texture_images images; /* those whose bytes lie in a file */
     cli_error *error;
 } texture_pool;
 
-/* The bytes of an image, and a name for messages. */
+/* The bytes of an image, and a name for messages; *lost is what is wrong with those that are not
+ * there. */
 static bool find_image(const texture_pool *pool, size_t image, gltf_bytes *bytes, char *name,
-                       size_t size) {
+                       size_t size, const char **lost) {
     const gltf *document = pool->document;
     const cJSON *entry = gltf_item(document, GLTF_IMAGES, image);
     const char *uri = gltf_text(entry, "uri"), *own = gltf_text(entry, "name");
     const bool embedded = !uri[0] || strncmp(uri, "data:", 5) == 0;
     if (own[0] || !embedded)
-        snprintf(name, size, "%s", own[0] ? own : uri);
+        snprintf(name, size, "%s", embedded ? own : uri);
     else
         snprintf(name, size, "image %zu", image);
-    if (!uri[0]) {
+    if (!uri[0] && !gltf_member(entry, "bufferView")) {
+        *lost = "image without data";
+    } else if (!uri[0]) {
         *bytes = gltf_view_bytes(document, (size_t)gltf_index(entry, "bufferView"));
     } else if (embedded) {
         if (!gltf_data_uri(uri, bytes))
-            return gltf_fail(document, GLTF_IMAGES, image, "is no valid base64", pool->error);
+            *lost = TEXTURE_UNDECODABLE;
     } else {
         const source *found;
-        if (!sources_read(document->sources, uri, &found, pool->error))
+        source_state state;
+        if (!sources_read_optional(document->sources, uri, &found, &state, pool->error))
             return false;
-        *bytes = (gltf_bytes) { .bytes = found->data, .size = found->size };
+        if (found)
+            *bytes = (gltf_bytes) { .bytes = found->data, .size = found->size };
+        else
+            *lost = source_state_nouns[state];
     }
     return true;
 }
 
+/* Decodes an image, or notes that it is left out. */
 static bool decode_image(texture_pool *pool, size_t image) {
     scene_texture *texture = &pool->decoded[image];
     gltf_bytes bytes = { 0 };
     char name[512];
-    const char *const subject = pool->document->subject;
-    bool ok = find_image(pool, image, &bytes, name, sizeof name);
-    if (ok && bytes.owned)
-        ok = texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF, subject, name,
-                            texture, pool->error);
-    else if (ok)
+    const char *const subject = pool->document->subject, *lost = NULL;
+    pool->tried[image] = true;
+    bool ok = find_image(pool, image, &bytes, name, sizeof name, &lost);
+    if (ok && !lost && bytes.owned) {
+        cli_error reason;
+        if (!texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF, subject, name,
+                            texture, &reason)) {
+            ok = !cli_is_out_of_memory(&reason) || cli_fail(pool->error, NULL, "%s", reason.text);
+            texture->width = 0;
+        }
+    } else if (ok && !lost) {
         ok = texture_decode_once(&pool->images, bytes.bytes, bytes.size, TEXTURE_GLTF, subject,
                                  name, texture, pool->error);
+    }
+    if (ok && texture->width == 0)
+        builder_left_out_file(pool->builder, name, lost ? lost : TEXTURE_UNDECODABLE);
     if (ok)
         scene_clean_name(texture->name, name);
     free(bytes.owned);
@@ -73,20 +90,22 @@ static uint32_t wrap_mode(const cJSON *sampler, const char *name) {
     }
 }
 
-/* The texture for `image` with `sampler`, made if need be; -1 on failure. */
-static int32_t find_texture(texture_pool *pool, long image, long sampler, uint32_t srgb) {
-    if (pool->decoded[image].width == 0 && !decode_image(pool, (size_t)image))
-        return -1;
+/* Finds or makes the texture for `image` with `sampler`; of an image that is left out it is -1. */
+static bool find_texture(texture_pool *pool, long image, long sampler, uint32_t srgb,
+                         int32_t *number) {
+    if (!pool->tried[image] && !decode_image(pool, (size_t)image))
+        return false;
+    if (pool->decoded[image].width == 0)
+        return true;
     const cJSON *entry =
         sampler < 0 ? NULL : gltf_item(pool->document, GLTF_SAMPLERS, (size_t)sampler);
     scene_texture texture = pool->decoded[image];
     texture.srgb = srgb;
     texture.wrap_u = wrap_mode(entry, "wrapS");
     texture.wrap_v = wrap_mode(entry, "wrapT");
-    const int32_t number = texture_use(pool->builder, &texture);
-    if (number < 0)
-        cli_fail(pool->error, pool->document->subject, "does not fit into memory");
-    return number;
+    *number = texture_use(pool->builder, &texture);
+    return *number >= 0 ||
+           cli_fail(pool->error, pool->document->subject, "does not fit into memory");
 }
 
 /* uv' = translation * rotation * scale * uv; the rotation is counter-clockwise with v down. */
@@ -180,8 +199,7 @@ static bool read_map(texture_pool *pool, const cJSON *info, bool srgb, const lon
     }
     use->set = set == sets[0] ? 0 : 1;
     read_transform(info, use);
-    use->texture = find_texture(pool, image, gltf_index(entry, "sampler"), srgb);
-    return use->texture >= 0;
+    return find_texture(pool, image, gltf_index(entry, "sampler"), srgb, &use->texture);
 }
 
 static float clamp_unit(double x) {
@@ -304,7 +322,9 @@ bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error 
         .document = document, .builder = builder, .images.builder = builder, .error = error
     };
     pool.decoded = calloc(gltf_count(document, GLTF_IMAGES) + 1, sizeof *pool.decoded);
-    bool ok = pool.decoded || cli_fail(error, document->subject, "does not fit into memory");
+    pool.tried = calloc(gltf_count(document, GLTF_IMAGES) + 1, sizeof *pool.tried);
+    bool ok = (pool.decoded && pool.tried) ||
+              cli_fail(error, document->subject, "does not fit into memory");
     for (size_t i = 0; ok && i < gltf_count(document, GLTF_MATERIALS); i++)
         ok = read_material(&pool, gltf_item(document, GLTF_MATERIALS, i));
     if (ok) {
@@ -318,6 +338,7 @@ bool gltf_add_materials(const gltf *document, scene_builder *builder, cli_error 
         note_filters(document, builder);
     }
     free(pool.decoded);
+    free(pool.tried);
     free(pool.images.items);
     return ok;
 }

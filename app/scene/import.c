@@ -58,7 +58,16 @@ static bool add_other(import_job *job, scene_builder *builder, cli_error *error)
     return assimp_add(job->name, job->data, job->size, &job->sources, builder, error);
 }
 
+/* Those that were read, and those that were not: what is made of the scene rests on both. */
 static bool add_sources(const import_job *job, scene_builder *builder) {
+    const source_set *sources = &job->sources;
+    for (size_t i = 0; i < sources->absent_count && sources->count + i < BLOB_SOURCES_MAX; i++) {
+        blob_source *item = builder_append(builder, BLOB_SOURCES, 1);
+        if (!item)
+            return false;
+        strcpy(item->path, sources->absent[i]);
+        item->size = BLOB_SOURCE_ABSENT;
+    }
     for (size_t i = 0; i < job->sources.count; i++) {
         blob_source *item = builder_append(builder, BLOB_SOURCES, 1);
         if (!item)
@@ -243,15 +252,11 @@ static bool import_fresh(import_job *job, void **block, size_t *size, cli_error 
     return false;
 }
 
-/* Whether the scene would be another one if files appeared that are not there: the cache, which
- * looks at those that are, would not notice. */
-static bool lacks_files(const void *block) {
-    const scene_left_out *items = blob_items(block, BLOB_LEFT_OUT);
+/* Whether there were so many names that some may be missing in the list, by which the cache would
+ * notice that a file has appeared. */
+static bool has_too_many_sources(const void *block) {
     const blob_header *header = block;
-    for (uint64_t i = 0; i < header->sections[BLOB_LEFT_OUT].count; i++)
-        if (strcmp(items[i].noun, BUILDER_MISSING_FILE) == 0)
-            return true;
-    return false;
+    return header->sections[BLOB_SOURCES].count >= BLOB_SOURCES_MAX;
 }
 
 bool import_scene(const char *path, const scene_options *options, scene *s, cli_error *error) {
@@ -266,7 +271,7 @@ bool import_scene(const char *path, const scene_options *options, scene *s, cli_
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
         sources_free(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);
-        if (ok && !cached && !no_cache && !lacks_files(block))
+        if (ok && !cached && !no_cache && !has_too_many_sources(block))
             cache_store(&key, block, size);
     }
     free(job.data);

@@ -5,6 +5,7 @@
 #include "app/scene/words.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -22,9 +23,12 @@ typedef struct mtl_reader {
     cli_error *error;
 } mtl_reader;
 
-static bool fail(const mtl_reader *r, const char *wrong) {
-    return cli_fail(r->error, r->files->sources->subject, "has an MTL file whose line %zu %s",
-                    r->words.line, wrong);
+/* A statement that cannot be read is none: the rest of the material stands. */
+static bool skip(const mtl_reader *r, const char *keyword) {
+    char line[SCENE_NAME_SIZE];
+    snprintf(line, sizeof line, "MTL line %zu, %.20s", r->words.line, keyword);
+    builder_left_out(r->files->images.builder, line, "unreadable statement", 1);
+    return true;
 }
 
 static scene_material *material_of(const mtl_reader *r) {
@@ -73,27 +77,33 @@ static bool new_material(mtl_reader *r) {
 /* --- factors ---------------------------------------------------------------------------------- */
 
 static bool read_number(mtl_reader *r, float *number) {
-    return words_number(words_next(&r->words), number) ||
-           fail(r, "has no number where one belongs");
+    float given;
+    if (!words_number(words_next(&r->words), &given))
+        return false;
+    *number = given;
+    return true;
 }
 
 /* One number stands for three. */
 static bool read_color(mtl_reader *r, float color[3]) {
-    if (!read_number(r, &color[0]))
+    float given[3];
+    if (!read_number(r, &given[0]))
         return false;
     for (int k = 1; k < 3; k++) {
         const char *word = words_next(&r->words);
-        color[k] = color[0];
-        if (word && !words_number(word, &color[k]))
-            return fail(r, "has no number where one belongs");
+        given[k] = given[0];
+        if (word && !words_number(word, &given[k]))
+            return false;
     }
+    memcpy(color, given, sizeof given);
     return true;
 }
 
-static bool read_factor(mtl_reader *r, const char *keyword, bool *known) {
+/* Reads a factor, if the keyword is one: then it is known, and *valid says whether it can be read.
+ */
+static bool read_factor(mtl_reader *r, const char *keyword, bool *valid) {
     float number = 0.0f;
-    bool ok = true;
-    *known = true;
+    bool ok = true, known = true;
     if (strcasecmp(keyword, "Kd") == 0) {
         ok = read_color(r, r->factors.diffuse);
     } else if (strcasecmp(keyword, "Ks") == 0) {
@@ -108,16 +118,17 @@ static bool read_factor(mtl_reader *r, const char *keyword, bool *known) {
         ok = read_number(r, &r->metallic);
     } else if (strcasecmp(keyword, "illum") == 0) {
         ok = read_number(r, &number);
-        r->illumination = number < 2.0f ? 0 : 2;
+        r->illumination = ok && number < 2.0f ? 0 : 2;
     } else if (strcasecmp(keyword, "d") == 0) {
         ok = read_number(r, &r->factors.opacity);
     } else if (strcasecmp(keyword, "Tr") == 0) {
         ok = read_number(r, &number);
-        r->factors.opacity = 1.0f - number;
+        r->factors.opacity = ok ? 1.0f - number : r->factors.opacity;
     } else {
-        *known = false;
+        known = false;
     }
-    return ok;
+    *valid = ok;
+    return known;
 }
 
 /* --- maps ------------------------------------------------------------------------------------- */
@@ -179,7 +190,7 @@ static bool read_map(mtl_reader *r, const char *keyword) {
     skip_options(r, &wrap);
     const char *path = words_rest(&r->words);
     scene_texture_use *use = (scene_texture_use *)(void *)((char *)material_of(r) + maps[i].use);
-    return !*path ? fail(r, "names no file")
+    return !*path ? skip(r, keyword)
                   : texture_file_use(r->files, path, maps[i].srgb, wrap, wrap, use, r->error);
 }
 
@@ -196,14 +207,16 @@ static bool is_ignored(const char *keyword) {
 
 static bool read_statement(mtl_reader *r) {
     const char *keyword = words_next(&r->words);
-    bool known;
+    bool valid;
     if (!keyword)
         return true;
     if (strcasecmp(keyword, "newmtl") == 0)
         return new_material(r);
     if (!r->open || is_ignored(keyword))
         return true;
-    return read_factor(r, keyword, &known) && (known || read_map(r, keyword));
+    if (!read_factor(r, keyword, &valid))
+        return read_map(r, keyword);
+    return valid || skip(r, keyword);
 }
 
 bool mtl_add(const char *text, size_t size, texture_files *files, mtl_names *names,

@@ -91,7 +91,8 @@ static bool read_vertex(obj_reader *r, list *l, int least, int most, size_t widt
 
 /* --- polygons --------------------------------------------------------------------------------- */
 
-/* A reference of a corner: from 1, or backwards from -1. An empty one is none, where it may be. */
+/* A reference of a corner: from 1, or backwards from -1. An empty one is none, where it may be, and
+ * so is one to what does not exist: false if it is none at all. */
 static bool read_reference(const char **text, size_t count, uint32_t *index) {
     char *end;
     *index = NONE;
@@ -103,19 +104,23 @@ static bool read_reference(const char **text, size_t count, uint32_t *index) {
     const long number = strtol(*text, &end, 10);
     *text = end;
     const long from_start = number > 0 ? number - 1 : (long)count + number;
-    if (errno || number == 0 || from_start < 0 || (size_t)from_start >= count)
-        return false;
-    *index = (uint32_t)from_start;
+    if (!errno && number != 0 && from_start >= 0 && (size_t)from_start < count)
+        *index = (uint32_t)from_start;
     return true;
 }
 
+/* What a corner lacks besides its position is made as if it had none. */
 static bool read_corner(const obj_reader *r, const char *word, corner *c) {
+    static const char *const lacking[3] = { NULL, "missing texture coordinates", "missing normal" };
     const size_t counts[3] = { r->positions.count, r->uvs.count, r->normals.count };
     uint32_t *const indices[3] = { &c->position, &c->uv, &c->normal };
     c->uv = c->normal = NONE;
     for (int i = 0; i < 3; i++) {
+        const char *const given = word;
         if (!read_reference(&word, counts[i], indices[i]))
             return false;
+        if (i > 0 && word != given && *indices[i] == NONE)
+            builder_left_out(r->builder, lacking[i], "corner", 1);
         if (!*word)
             return c->position != NONE;
         if (*word++ != '/')
@@ -134,7 +139,7 @@ static bool read_polygon(obj_reader *r) {
             return fail(r, "refers to a vertex that does not exist");
     }
     if (r->polygon.count < 3)
-        return fail(r, "has a face of fewer than 3 vertices");
+        builder_left_out(r->builder, "fewer than 3 vertices", "face", 1);
     for (size_t i = 2; i < r->polygon.count; i++) {
         const size_t fan[3] = { 0, i - 1, i };
         for (int k = 0; k < 3; k++) {
@@ -181,31 +186,30 @@ static bool read_material_use(obj_reader *r) {
     return next->material || cli_fail(r->error, r->sources->subject, "does not fit into memory");
 }
 
-/* Reads an MTL file; *there is false if it is not there. */
-static bool read_library(obj_reader *r, const char *name, bool *there) {
+/* Reads an MTL file; *state says if it cannot be. */
+static bool read_library(obj_reader *r, const char *name, source_state *state) {
     const source *found;
-    if (!sources_read_if_there(r->sources, name, &found, r->error))
+    if (!sources_read_optional(r->sources, name, &found, state, r->error))
         return false;
-    *there = found != NULL;
     return !found || mtl_add(found->data, found->size, &r->textures, &r->materials, r->error);
 }
 
 /* The statement names one file, perhaps with spaces in its name, or several. */
 static bool read_libraries(obj_reader *r) {
-    bool there;
+    source_state state;
     char *names = words_rest(&r->words);
     if (!*names)
         return fail(r, "names no file");
-    if (!read_library(r, names, &there))
+    if (!read_library(r, names, &state))
         return false;
-    if (there)
+    if (state == SOURCE_READ)
         return true;
     r->words.words = names;
     for (const char *name; (name = words_next(&r->words));) {
-        if (!read_library(r, name, &there))
+        if (!read_library(r, name, &state))
             return false;
-        if (!there)
-            builder_left_out(r->builder, name, BUILDER_MISSING_FILE, 1);
+        if (state != SOURCE_READ)
+            builder_left_out_file(r->builder, name, source_state_nouns[state]);
     }
     return true;
 }

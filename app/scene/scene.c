@@ -6,13 +6,19 @@
 #include <string.h>
 #include <sys/mman.h>
 
+/* The plural's ending of a noun of so many bytes: meshes, but files. */
+static const char *ending_of(const char *noun, size_t length) {
+    return length > 0 && noun[length - 1] == 'h' ? "es" : "s";
+}
+
 void scene_left_out_text(const scene_left_out *item, char *text, size_t size) {
-    const char last = item->noun[0] ? item->noun[strlen(item->noun) - 1] : 0;
-    const char *ending = item->count == 1 ? "" : last == 'h' ? "es" : "s"; /* mesh, meshes */
-    if (item->what[0])
-        snprintf(text, size, "%s (%u %s%s)", item->what, item->count, item->noun, ending);
-    else
-        snprintf(text, size, "%u %s%s", item->count, item->noun, ending);
+    const char *noun = item->noun,
+               *after = strstr(noun, " outside "); /* files outside the folder */
+    const size_t length = after ? (size_t)(after - noun) : strlen(noun);
+    char counted[SCENE_NAME_SIZE + 16];
+    snprintf(counted, sizeof counted, "%u %.*s%s%s", item->count, (int)length, noun,
+             item->count == 1 ? "" : ending_of(noun, length), noun + length);
+    snprintf(text, size, item->what[0] ? "%s (%s)" : "%s%s", item->what, counted);
 }
 
 scene_material scene_material_plain(void) {

@@ -20,19 +20,10 @@ static int hex_digit(char c) {
                                   : -1;
 }
 
-/* Whether what ends here, behind a slash or at the start, is "." or nothing, and so says nothing.
- */
-static bool ends_empty(const char *path, size_t used) {
-    const size_t before = used - (used > 0 && path[used - 1] == '.');
-    return before == 0 || path[before - 1] == '/';
-}
-
-/* Decodes percent-escapes, turns backslashes into slashes and leaves out what says nothing, so that
- * a file has few names; false if it does not fit. */
-static bool decode_uri(const char *uri, char *path, size_t size) {
+/* Decodes percent-escapes and turns backslashes into slashes; false if it does not fit. */
+static bool decode_escapes(const char *uri, char *path, size_t size) {
     size_t used = 0;
-    bool inside = false; /* behind the first byte, which may be the root's slash */
-    for (const char *c = uri; *c; c++, inside = true) {
+    for (const char *c = uri; *c; c++) {
         char byte = *c == '\\' ? '/' : *c;
         if (*c == '%' && hex_digit(c[1]) >= 0 && hex_digit(c[2]) >= 0) {
             byte = (char)(hex_digit(c[1]) * 16 + hex_digit(c[2]));
@@ -40,19 +31,36 @@ static bool decode_uri(const char *uri, char *path, size_t size) {
         }
         if (byte == 0 || used + 1 >= size)
             return false;
-        if (byte == '/' && inside && ends_empty(path, used))
-            used -= used > 0 && path[used - 1] == '.';
-        else
-            path[used++] = byte;
+        path[used++] = byte;
     }
     path[used] = 0;
     return used > 0;
 }
 
+static bool has_scheme(const char *path) {
+    const size_t length = strspn(path, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ+.-");
+    return length > 0 && path[length] == ':';
+}
+
+/* Whether a name leads out of the folder by itself: absolute, on a drive, or above. */
+static bool leads_outside(const char *path) {
+    int depth = 0;
+    if (path[0] == '/' || has_scheme(path))
+        return true;
+    while (*path && depth >= 0) {
+        const size_t length = strcspn(path, "/");
+        const bool up = length == 2 && memcmp(path, "..", 2) == 0;
+        const bool stay = length == 0 || (length == 1 && path[0] == '.');
+        depth += up ? -1 : stay ? 0 : 1;
+        path += length + (path[length] == '/');
+    }
+    return depth < 0;
+}
+
 static bool has_parent_component(const char *path) {
     for (const char *c = path; *c;) {
         const size_t length = strcspn(c, "/");
-        if (length == 2 && c[0] == '.' && c[1] == '.')
+        if (length == 2 && memcmp(c, "..", 2) == 0)
             return true;
         c += length;
         c += *c == '/';
@@ -60,9 +68,33 @@ static bool has_parent_component(const char *path) {
     return false;
 }
 
-static bool has_scheme(const char *path) {
-    const size_t length = strspn(path, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ+.-");
-    return length > 0 && path[length] == ':';
+/* Takes "." and ".." out of a name that stays inside (RFC 3986, 5.2.4), and doubled slashes, so
+ * that a file has few names. */
+static void remove_dots(char *path) {
+    char *out = path;
+    for (const char *at = path; *at;) {
+        const size_t length = strcspn(at, "/");
+        const size_t next = length + (at[length] == '/');
+        if (length == 2 && memcmp(at, "..", 2) == 0) {
+            out -= out > path;
+            while (out > path && out[-1] != '/')
+                out--;
+        } else if (length > 0 && !(length == 1 && at[0] == '.')) {
+            memmove(out, at, next);
+            out += next;
+        }
+        at += next;
+    }
+    *out = 0;
+}
+
+/* A source's path of what a scene names. */
+static bool path_of(const char *uri, char *path, size_t size) {
+    if (!decode_escapes(uri, path, size))
+        return false;
+    if (!leads_outside(path))
+        remove_dots(path);
+    return path[0] != 0;
 }
 
 /* Many absent names in large folders would take minutes: names that differ in case alone are looked
@@ -99,14 +131,18 @@ static bool fail_absent(const source_set *set, const char *name, cli_error *erro
     return cli_fail(error, set->subject, "refers to \"%.200s\", which does not exist", name);
 }
 
+static bool fail_outside(const source_set *set, const char *name, cli_error *error) {
+    return cli_fail(
+        error, set->subject,
+        "refers to \"%.200s\", which is outside its folder (only files inside are read)", name);
+}
+
 /* `full` receives where the file of that name is looked for. */
 static bool resolve(const source_set *set, const char *name, char full[PATH_MAX],
                     cli_error *error) {
-    if (name[0] == '/' || has_parent_component(name) || has_scheme(name))
-        return cli_fail(error, set->subject,
-                        "refers to \"%.200s\", which is outside its folder (only files inside are "
-                        "read)",
-                        name);
+    /* What sources_read asks for has no dots; what another reader asks for may have them. */
+    if (leads_outside(name) || has_parent_component(name))
+        return fail_outside(set, name, error);
     const int length = snprintf(full, PATH_MAX, "%s/%s", set->folder, name);
     return (length >= 0 && length < PATH_MAX) ||
            cli_fail(error, set->subject, "refers to a file by too long a name");
@@ -221,12 +257,9 @@ static bool read_source(source_set *set, source *item, cli_error *error) {
     return ok || fail_file(set, item->path, &reason, error);
 }
 
-bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error) {
-    char name[sizeof((source *)0)->path];
-    if (!decode_uri(uri, name, sizeof name))
-        return cli_fail(error, set->subject, "refers to a file by a name that is none");
+static bool read_path(source_set *set, const char *path, const source **found, cli_error *error) {
     for (size_t i = 0; i < set->count; i++)
-        if (strcmp(set->items[i].path, name) == 0) {
+        if (strcmp(set->items[i].path, path) == 0) {
             *found = &set->items[i];
             return true;
         }
@@ -235,7 +268,7 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
     if (!set->items && !(set->items = calloc(BLOB_SOURCES_MAX, sizeof *set->items)))
         return cli_fail(error, set->subject, "does not fit into memory");
     source *item = &set->items[set->count];
-    strcpy(item->path, name);
+    strcpy(item->path, path);
     if (!read_source(set, item, error))
         return false;
     set->count++;
@@ -243,38 +276,62 @@ bool sources_read(source_set *set, const char *uri, const source **found, cli_er
     return true;
 }
 
-static bool is_known_absent(const source_set *set, const char *name) {
-    for (size_t i = 0; i < set->absent_count; i++)
-        if (strcmp(set->absent[i], name) == 0)
-            return true;
-    return false;
+bool sources_read(source_set *set, const char *uri, const source **found, cli_error *error) {
+    char path[sizeof((source *)0)->path];
+    if (!path_of(uri, path, sizeof path))
+        return cli_fail(error, set->subject, "refers to a file by a name that is none");
+    /* Said here, where the name is still as somebody wrote it. */
+    return leads_outside(path) ? fail_outside(set, uri, error) : read_path(set, path, found, error);
 }
+
+/* --- files that a scene can do without -------------------------------------------------------- */
+
+const char *const source_state_nouns[SOURCE_STATES] = {
+    [SOURCE_MISSING] = "missing file",
+    [SOURCE_OUTSIDE] = "file outside the folder",
+    [SOURCE_UNREADABLE] = "unreadable file",
+};
 
 /* What is asked for again is not looked for again; without memory it is. */
-static void remember_absent(source_set *set, const char *name) {
-    if (!set->absent)
+static void remember(source_set *set, const char *path, source_state state) {
+    if (!set->absent) {
         set->absent = calloc(BLOB_SOURCES_MAX, sizeof *set->absent);
-    if (set->absent && set->absent_count < BLOB_SOURCES_MAX)
-        strcpy(set->absent[set->absent_count++], name);
+        set->absent_state = calloc(BLOB_SOURCES_MAX, sizeof *set->absent_state);
+    }
+    if (!set->absent || !set->absent_state || set->absent_count == BLOB_SOURCES_MAX)
+        return;
+    set->absent_state[set->absent_count] = state;
+    strcpy(set->absent[set->absent_count++], path);
 }
 
-bool sources_read_if_there(source_set *set, const char *uri, const source **found,
-                           cli_error *error) {
-    char name[sizeof *set->absent];
-    cli_error reason, absent;
+static source_state recall(const source_set *set, const char *path) {
+    for (size_t i = 0; i < set->absent_count; i++)
+        if (strcmp(set->absent[i], path) == 0)
+            return set->absent_state[i];
+    return SOURCE_READ;
+}
+
+bool sources_read_optional(source_set *set, const char *uri, const source **found,
+                           source_state *state, cli_error *error) {
+    char path[sizeof *set->absent];
+    cli_error reason, known;
     *found = NULL;
-    if (!decode_uri(uri, name, sizeof name))
-        name[0] = 0;
-    if (is_known_absent(set, name) || sources_read(set, uri, found, &reason))
-        return true;
-    /* In the sandbox this line is all that is known of the parent's failure. */
-    fail_absent(set, name, &absent);
-    if (strcmp(reason.text, absent.text) == 0) {
-        remember_absent(set, name);
+    if (!path_of(uri, path, sizeof path)) {
+        *state = SOURCE_UNREADABLE;
         return true;
     }
-    *error = reason;
-    return false;
+    *state = leads_outside(path) ? SOURCE_OUTSIDE : recall(set, path);
+    if (*state != SOURCE_READ || read_path(set, path, found, &reason))
+        return true;
+    if (cli_is_out_of_memory(&reason)) {
+        *error = reason;
+        return false;
+    }
+    /* In the sandbox this line is all that is known of the parent's failure. */
+    fail_absent(set, path, &known);
+    *state = strcmp(reason.text, known.text) == 0 ? SOURCE_MISSING : SOURCE_UNREADABLE;
+    remember(set, path, *state);
+    return true;
 }
 
 void sources_free(source_set *set) {
@@ -283,7 +340,9 @@ void sources_free(source_set *set) {
             free(set->items[i].data);
     free(set->items);
     free(set->absent);
+    free(set->absent_state);
     set->absent = NULL;
+    set->absent_state = NULL;
     set->absent_count = 0;
     set->items = NULL;
     set->count = 0;

@@ -104,8 +104,12 @@ bool texture_decode_once(texture_images *images, const void *data, size_t size,
     if (!items)
         return cli_fail(error, subject, "has textures that do not fit into memory");
     images->items = items;
-    if (!texture_decode(images->builder, data, size, formats, subject, name, texture, error))
-        return false;
+    cli_error reason;
+    if (!texture_decode(images->builder, data, size, formats, subject, name, texture, &reason)) {
+        if (cli_is_out_of_memory(&reason))
+            return cli_fail(error, NULL, "%s", reason.text);
+        texture->width = texture->height = 0;
+    }
     items[images->count++] = (struct texture_image) { data, size, *texture };
     return true;
 }

@@ -32,7 +32,11 @@ bool texture_decode(scene_builder *builder, const void *data, size_t size, textu
                     const char *subject, const char *name, scene_texture *texture,
                     cli_error *error);
 
-/* The same of data that stay where they are as long as `images`: decoded once, whoever asks. */
+/* The noun of what cannot be decoded, for builder_left_out. */
+#define TEXTURE_UNDECODABLE "undecodable image"
+
+/* Decodes data that stay where they are as long as `images`: once, whoever asks. Of what cannot be
+ * decoded the texture's width is 0; false without memory alone. */
 bool texture_decode_once(texture_images *images, const void *data, size_t size,
                          texture_format formats, const char *subject, const char *name,
                          scene_texture *texture, cli_error *error);

@@ -6,16 +6,21 @@ bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, sce
     scene_builder *const builder = files->images.builder;
     const char *const subject = files->sources->subject;
     const source *found;
+    source_state state;
     scene_texture texture = { .srgb = srgb, .wrap_u = wrap_u, .wrap_v = wrap_v };
-    if (!sources_read_if_there(files->sources, path, &found, error))
+    if (!sources_read_optional(files->sources, path, &found, &state, error))
         return false;
     if (!found) {
-        builder_left_out(builder, path, BUILDER_MISSING_FILE, 1);
+        builder_left_out_file(builder, path, source_state_nouns[state]);
         return true;
     }
     if (!texture_decode_once(&files->images, found->data, found->size, TEXTURE_ANY, subject,
                              found->path, &texture, error))
         return false;
+    if (texture.width == 0) {
+        builder_left_out_file(builder, path, TEXTURE_UNDECODABLE);
+        return true;
+    }
     scene_clean_name(texture.name, found->path);
     const int32_t number = texture_use(builder, &texture);
     if (number < 0)

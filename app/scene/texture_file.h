@@ -11,8 +11,8 @@ typedef struct texture_files {
     texture_images images;
 } texture_files;
 
-/* Finds or makes the texture of a file; one that is not there is noted as left out, and *use stays
- * as it is. */
+/* Finds or makes the texture of a file; one that cannot be read or decoded is noted as left out,
+ * and *use stays as it is. False without memory alone. */
 bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, scene_wrap wrap_u,
                       scene_wrap wrap_v, scene_texture_use *use, cli_error *error);
 

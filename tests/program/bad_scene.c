@@ -12,6 +12,15 @@ static void assert_refused(const char *name, const char *expected) {
     assert_int_equal(count_entries(folder), before);
 }
 
+/* A PNG of one white pixel. */
+static const unsigned char pixel_png[] = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00,
+    0x00, 0x1f, 0x15, 0xc4, 0x89, 0x00, 0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0x9c, 0x63, 0xf8, 0x0f, 0x04, 0x00, 0x09, 0xfb, 0x03, 0xfd, 0xfb, 0x5e, 0x6b, 0x2b,
+    0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82
+};
+
 /* --- a valid file to damage ------------------------------------------------------------------- */
 
 #define HEAD                                                                                       \
@@ -263,7 +272,25 @@ static void bombs_end_quickly(void **state) {
     assert_refused("bomb.gltf", "bomb.gltf: ");
 }
 
-static void textures_that_cannot_be_are_refused(void **state) {
+/* The program must read the scene of this name in the folder, say in one line what it goes without,
+ * and refuse it if it may leave out nothing. */
+static void assert_left_out(const char *name, const char *expected) {
+    char path[512], line[1200], text[4096], strict[700];
+    snprintf(path, sizeof path, "%s", in_folder(name));
+    const char *const arguments[] = { "lampion", "info", path, NULL };
+    const char *const strictly[] = { "lampion", "info", "--strict", path, NULL };
+    snprintf(line, sizeof line, "lampion: %s: left out: %s\n", path, expected);
+    snprintf(strict, sizeof strict, "left out: %s (not allowed by --strict)", expected);
+    for (int cached = 0; cached < 2; cached++) {
+        const int status = run_program(arguments);
+        read_text("stderr", text, sizeof text);
+        if (status != 0 || strcmp(text, line) != 0)
+            fail_msg("%s: status %d, \"%s\" instead of \"%s\"", name, status, text, line);
+    }
+    assert_one_line(run_program(strictly), name, strict);
+}
+
+static void a_scene_goes_without_textures_that_cannot_be(void **state) {
     (void)state;
     static const char scene_text[] = HEAD
         "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
@@ -276,18 +303,22 @@ static void textures_that_cannot_be_are_refused(void **state) {
                                            13,   'I',  'H', 'D', 'R', 0,  0,  0x3e, 0x80, 0, 0,
                                            0x3e, 0x80, 8,   6,   0,   0,  0,  0,    0,    0, 0 };
     folder_write_text("textured.gltf", scene_text);
-    assert_refused("textured.gltf", "\"t.png\"");
+    assert_left_out("textured.gltf", "t.png (1 missing file)");
     folder_write("t.png", absurd, sizeof absurd);
-    assert_refused("textured.gltf", "t.png");
+    assert_left_out("textured.gltf", "t.png (1 undecodable image)");
     folder_write("t.png", large, sizeof large);
-    assert_refused("textured.gltf", "t.png");
+    assert_left_out("textured.gltf", "t.png (1 undecodable image)");
     folder_write_text("t.png", "no image");
-    assert_refused("textured.gltf", "t.png");
+    assert_left_out("textured.gltf", "t.png (1 undecodable image)");
+    unlink(in_folder("t.png"));
+    mkdir(in_folder("t.png"), 0700);
+    assert_left_out("textured.gltf", "t.png (1 unreadable file)");
+    rmdir(in_folder("t.png"));
     folder_write_text("embedded.gltf", HEAD
                       "\"materials\":[{\"emissiveTexture\":{\"index\":0}}],"
                       "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":"
                       "\"data:image/png;base64,bm8gcGljdHVyZQ==\"}]," MESH ACCESSOR VIEW BUFFER);
-    assert_refused("embedded.gltf", "\"image 0\"");
+    assert_left_out("embedded.gltf", "image 0 (1 undecodable image)");
 }
 
 /* --- files outside ---------------------------------------------------------------------------- */
@@ -314,16 +345,37 @@ static void files_outside_the_folder_are_never_read(void **state) {
         folder_write_text("inside/outside.gltf", text);
         assert_refused("inside/outside.gltf", "folder");
     }
-    folder_write_text("inside/outside.obj",
-                      "mtllib ../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    assert_refused("inside/outside.obj", "folder");
-    folder_write_text("inside/texture.obj",
-                      "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-    folder_write_text("inside/t.mtl", "newmtl m\nmap_Kd ../../etc/passwd\n");
-    assert_refused("inside/texture.obj", "folder");
     folder_write_text("gone.gltf", HEAD MESH ACCESSOR VIEW
                       "\"buffers\":[{\"byteLength\":36,\"uri\":\"gone.bin\"}]}");
     assert_refused("gone.gltf", "\"gone.bin\", which does not exist");
+}
+
+/* What a scene can do without stays as unread: a stranger's texture, were it read, would be decoded
+ * and white; it is named as it was written. */
+static void a_scene_goes_without_files_outside_the_folder(void **state) {
+    (void)state;
+    static const char *const names[] = {
+        "../t.png",    "sub/../../t.png", "%2e%2e/t.png",         "..\\t.png",
+        "/etc/passwd", "C:\\art\\t.png",  "file:///C:/art/t.png", "http://example.com/t.png"
+    };
+    char text[1024], expected[256];
+    mkdir(in_folder("room"), 0700);
+    folder_write("t.png", pixel_png, sizeof pixel_png);
+    folder_write("room/t.png", pixel_png, sizeof pixel_png);
+    folder_write_text("room/outside.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                          "usemtl m\nf 1 2 3\n");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(text, sizeof text, "newmtl m\nKd 0.25 0.5 0.75\nmap_Kd %s\n", names[i]);
+        folder_write_text("room/m.mtl", text);
+        snprintf(expected, sizeof expected, "%s (1 file outside the folder)", names[i]);
+        assert_left_out("room/outside.obj", expected);
+    }
+    assert_int_equal(symlink("../t.png", in_folder("room/link.png")), 0);
+    folder_write_text("room/m.mtl", "newmtl m\nKd 0.25 0.5 0.75\nmap_Kd link.png\n");
+    assert_left_out("room/outside.obj", "link.png (1 unreadable file)");
+    folder_write_text("room/outside.obj", "mtllib ../secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                          "f 1 2 3\n");
+    assert_left_out("room/outside.obj", "../secret.mtl (1 file outside the folder)");
 }
 
 static int make_folder(void **state) {
@@ -344,8 +396,9 @@ int main(void) {
         cmocka_unit_test(impossible_nodes_are_refused),
         cmocka_unit_test(a_chain_of_many_nodes_is_read),
         cmocka_unit_test(bombs_end_quickly),
-        cmocka_unit_test(textures_that_cannot_be_are_refused),
+        cmocka_unit_test(a_scene_goes_without_textures_that_cannot_be),
         cmocka_unit_test(files_outside_the_folder_are_never_read),
+        cmocka_unit_test(a_scene_goes_without_files_outside_the_folder),
     };
     return cmocka_run_group_tests(tests, make_folder, folder_remove);
 }

@@ -116,8 +116,7 @@ static void what_must_be_there_is_missed(void **state) {
         "\"path\":",          "\"componentType\":", "\"count\":",
         "\"type\":\"VEC3\"",  "\"buffer\":0",       "\"byteLength\":48",
         "\"index\":0,",       "\"light\":0",        "\"lights\":[",
-        "\"byteLength\":320", "\"bufferView\":9",   "\"mimeType\":",
-        "\"spot\":{",         "\"perspective\":{"
+        "\"byteLength\":320", "\"spot\":{",         "\"perspective\":{"
     };
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
         /* Under another name it is nothing that a reader knows. */
@@ -187,12 +186,7 @@ static const change changes[] = {
     { "\"alphaMode\":\"MASK\"", "\"alphaMode\":\"OPAQUE MASK\"", "alphaMode" },
     { "\"alphaCutoff\":0.5", "\"alphaCutoff\":2", NULL },
     { "\"source\":0,", "", NULL },
-    { "\"bufferView\":9,", "\"bufferView\":9,\"uri\":\"a.png\",", "one of uri and bufferView" },
-    { "\"bufferView\":9,", "\"bufferView\":6,", "no PNG, JPEG or WebP" },
-    { "\"bufferView\":9,", "\"uri\":\"data:image/png;base64,!!!!\",", "image 0" },
-    { "\"bufferView\":9,",
-      "\"uri\":\"data:image/gif;base64,R0lGODdhAQABAIAAAP///////ywAAAAAAQABAAACAkQBADs=\",",
-      "no PNG, JPEG or WebP" },
+    { "\"bufferView\":9,", "\"bufferView\":9,\"uri\":\"a.png\",", "both a uri and a bufferView" },
     /* accessors and views */
     { "\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"",
       "\"componentType\":5120,\"count\":4,\"type\":\"VEC3\"", "mesh 0 has attributes" },
