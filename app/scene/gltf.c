@@ -19,9 +19,12 @@ bool gltf_load(gltf *document, cli_error *error) {
 void gltf_close(gltf *document) {
     for (size_t i = 0; document->buffers && i < gltf_count(document, GLTF_BUFFERS); i++)
         free(document->buffers[i].owned);
+    for (size_t i = 0; document->views && i < gltf_count(document, GLTF_VIEWS); i++)
+        free(document->views[i].owned);
     for (int kind = 0; kind < GLTF_KINDS; kind++)
         free(document->lists[kind].items);
     free(document->buffers);
+    free(document->views);
     free(document->accessors);
     free(document->nodes);
     free(document->order);

@@ -36,7 +36,7 @@ typedef struct gltf_list {
 typedef struct gltf_bytes {
     const unsigned char *bytes;
     size_t size;
-    void *owned; /* the decoded bytes of a data URI */
+    void *owned; /* bytes that were decoded, from a data URI or a compressed view */
 } gltf_bytes;
 
 typedef enum gltf_component {
@@ -77,6 +77,7 @@ typedef struct gltf {
     gltf_bytes binary; /* the BIN chunk of a GLB */
     gltf_list lists[GLTF_KINDS];
     gltf_bytes *buffers;
+    gltf_bytes *views; /* those that were compressed; without bytes, the others */
     gltf_accessor *accessors;
     gltf_node *nodes;
     size_t *order; /* of the nodes: parents first, as the scene lists them */

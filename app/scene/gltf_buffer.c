@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_buffer.c - buffers, the views into them, and the accessors of these. */
 #include "app/scene/gltf.h"
+#include "app/scene/meshopt.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,11 +48,33 @@ bool gltf_data_uri(const char *uri, gltf_bytes *bytes) {
 
 /* --- buffers ---------------------------------------------------------------------------------- */
 
+/* What either extension for meshoptimizer says of a buffer or view. */
+static const cJSON *compression_of(const cJSON *entry) {
+    const cJSON *found = gltf_extension(entry, "KHR_meshopt_compression");
+    return found ? found : gltf_extension(entry, "EXT_meshopt_compression");
+}
+
+/* A buffer that only readers without the extension need: it may be missing. */
+static bool load_fallback(gltf *document, size_t i, cli_error *error) {
+    const char *uri = gltf_text(gltf_item(document, GLTF_BUFFERS, i), "uri");
+    const source *found;
+    source_state state;
+    if (!uri[0] || strncmp(uri, "data:", 5) == 0)
+        return true;
+    if (!sources_read_optional(document->sources, uri, &found, &state, error))
+        return false;
+    if (found)
+        document->buffers[i] = (gltf_bytes) { .bytes = found->data, .size = found->size };
+    return true;
+}
+
 static bool load_buffer(gltf *document, size_t i, cli_error *error) {
     const cJSON *entry = gltf_item(document, GLTF_BUFFERS, i);
     const double length = gltf_number(entry, "byteLength", 0.0);
     const char *uri = gltf_text(entry, "uri");
     gltf_bytes *buffer = &document->buffers[i];
+    if (cJSON_IsTrue(gltf_member(compression_of(entry), "fallback")))
+        return load_fallback(document, i, error);
     if (strncmp(uri, "data:", 5) == 0) {
         if (!gltf_data_uri(uri, buffer))
             return gltf_fail(document, GLTF_BUFFERS, i, "is no valid base64", error);
@@ -71,11 +94,51 @@ static bool load_buffer(gltf *document, size_t i, cli_error *error) {
     return true;
 }
 
-static bool check_view(const gltf *document, size_t i, cli_error *error) {
+static size_t choice(const cJSON *object, const char *name, const char *const *names,
+                     size_t count) {
+    size_t i = 0;
+    while (i < count && strcmp(gltf_text(object, name), names[i]) != 0)
+        i++;
+    return i < count ? i : 0;
+}
+
+/* Decompresses a view into memory of its own. What cannot be decompressed is taken from the buffer
+ * for readers without the extension, if that is there. */
+static bool decompress_view(gltf *document, size_t i, const cJSON *packed, cli_error *error) {
+    static const char *const modes[] = { "ATTRIBUTES", "TRIANGLES", "INDICES" };
+    static const char *const filters[] = { "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL",
+                                           "COLOR" };
+    const cJSON *view = gltf_item(document, GLTF_VIEWS, i);
+    const gltf_bytes *from = &document->buffers[gltf_index(packed, "buffer")];
+    const double offset = gltf_number(packed, "byteOffset", 0.0);
+    const double length = gltf_number(packed, "byteLength", 0.0);
+    const double count = gltf_number(packed, "count", 0.0);
+    const double stride = gltf_number(packed, "byteStride", 0.0);
+    const meshopt_layout layout = { (meshopt_mode)choice(packed, "mode", modes, 3),
+                                    (meshopt_filter)choice(packed, "filter", filters, 5),
+                                    (size_t)count, (size_t)stride };
+    const char *wrong;
+    if (!(offset + length <= (double)from->size))
+        return gltf_fail(document, GLTF_VIEWS, i, "reaches outside its compressed buffer", error);
+    if (count * stride != gltf_number(view, "byteLength", 0.0))
+        return gltf_fail(document, GLTF_VIEWS, i, "has another length than its compressed data",
+                         error);
+    gltf_bytes *to = &document->views[i];
+    to->owned = meshopt_decode(&layout, from->bytes + (size_t)offset, (size_t)length, &wrong);
+    to->bytes = to->owned;
+    to->size = (size_t)(count * stride);
+    return to->owned || document->buffers[gltf_index(view, "buffer")].size > 0 ||
+           gltf_fail(document, GLTF_VIEWS, i, wrong, error);
+}
+
+static bool load_view(gltf *document, size_t i, cli_error *error) {
     const cJSON *view = gltf_item(document, GLTF_VIEWS, i);
     const size_t room = document->buffers[gltf_index(view, "buffer")].size;
     const double end = gltf_number(view, "byteOffset", 0.0) + gltf_number(view, "byteLength", 0.0);
-    if (!(end <= (double)room))
+    const cJSON *packed = compression_of(view);
+    if (packed && !decompress_view(document, i, packed, error))
+        return false;
+    if (!document->views[i].bytes && !(end <= (double)room))
         return gltf_fail(document, GLTF_VIEWS, i, "reaches outside its buffer", error);
     if ((int)gltf_number(view, "byteStride", 4.0) % 4 != 0)
         return gltf_fail(document, GLTF_VIEWS, i, "has a stride that is no multiple of 4", error);
@@ -85,6 +148,9 @@ static bool check_view(const gltf *document, size_t i, cli_error *error) {
 gltf_bytes gltf_view_bytes(const gltf *document, size_t view) {
     const cJSON *entry = gltf_item(document, GLTF_VIEWS, view);
     const gltf_bytes *buffer = &document->buffers[gltf_index(entry, "buffer")];
+    if (document->views[view].bytes)
+        return (gltf_bytes) { .bytes = document->views[view].bytes,
+                              .size = document->views[view].size };
     return (gltf_bytes) { .bytes = buffer->bytes + (size_t)gltf_number(entry, "byteOffset", 0.0),
                           .size = (size_t)gltf_number(entry, "byteLength", 0.0) };
 }
@@ -92,11 +158,13 @@ gltf_bytes gltf_view_bytes(const gltf *document, size_t view) {
 bool gltf_load_buffers(gltf *document, cli_error *error) {
     const size_t count = gltf_count(document, GLTF_BUFFERS);
     document->buffers = calloc(count + 1, sizeof *document->buffers);
-    bool ok = document->buffers || cli_fail(error, document->subject, "does not fit into memory");
+    document->views = calloc(gltf_count(document, GLTF_VIEWS) + 1, sizeof *document->views);
+    bool ok = (document->buffers && document->views) ||
+              cli_fail(error, document->subject, "does not fit into memory");
     for (size_t i = 0; i < count && ok; i++)
         ok = load_buffer(document, i, error);
     for (size_t i = 0; i < gltf_count(document, GLTF_VIEWS) && ok; i++)
-        ok = check_view(document, i, error);
+        ok = load_view(document, i, error);
     return ok;
 }
 

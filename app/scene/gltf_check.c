@@ -247,6 +247,8 @@ static bool may_be_required(const char *name) {
     static const char *const known[] = { "KHR_texture_transform",
                                          "KHR_mesh_quantization",
                                          "EXT_mesh_gpu_instancing",
+                                         "EXT_meshopt_compression",
+                                         "KHR_meshopt_compression",
                                          "EXT_texture_webp",
                                          "KHR_texture_basisu",
                                          "KHR_lights_punctual",

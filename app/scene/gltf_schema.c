@@ -23,10 +23,30 @@
 
 /* --- bytes ------------------------------------------------------------------------------------ */
 
+static const gltf_object fallback = {
+    "buffer",
+    (const gltf_field[]) { { "fallback", FLAG }, END },
+    NULL,
+};
 static const gltf_object buffer = {
     "buffer",
     (const gltf_field[]) {
         { "uri", TEXT }, { "byteLength", COUNT, .minimum = 1, .required = true }, NAME, END },
+    (const gltf_field[]) { { "EXT_meshopt_compression", OBJECT(fallback) },
+                           { "KHR_meshopt_compression", OBJECT(fallback) },
+                           END },
+};
+static const gltf_object compressed_view = {
+    "buffer view",
+    (const gltf_field[]) {
+        { "buffer", REFERENCE(GLTF_BUFFERS), .required = true },
+        { "byteOffset", COUNT },
+        { "byteLength", COUNT, .minimum = 1, .required = true },
+        { "byteStride", .type = GLTF_TYPE_INTEGER, .minimum = 2, .maximum = 256, .required = true },
+        { "count", COUNT, .minimum = 1, .required = true },
+        { "mode", TEXT, CHOICE("ATTRIBUTES TRIANGLES INDICES"), .required = true },
+        { "filter", TEXT, CHOICE("NONE OCTAHEDRAL QUATERNION EXPONENTIAL COLOR") },
+        END },
     NULL,
 };
 static const gltf_object view = {
@@ -39,7 +59,9 @@ static const gltf_object view = {
         { "target", INTEGER_CHOICE("34962 34963") },
         NAME,
         END },
-    NULL,
+    (const gltf_field[]) { { "EXT_meshopt_compression", OBJECT(compressed_view) },
+                           { "KHR_meshopt_compression", OBJECT(compressed_view) },
+                           END },
 };
 static const gltf_object sparse_indices = {
     "accessor",
