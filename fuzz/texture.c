@@ -9,8 +9,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     scene_builder builder = { 0 };
     scene_texture texture = { 0 };
     cli_error error;
-    if (texture_decode(&builder, is_png ? png.bytes : data, size, TEXTURE_ANY, "input", "image",
-                       &texture, &error) &&
+    if (texture_keep(&builder, is_png ? png.bytes : data, size, TEXTURE_ANY, "input", "image",
+                     &texture, &error) &&
+        texture_decode_all(&builder, "input", &error) &&
+        builder_count(&builder, BLOB_LEFT_OUT) == 0 &&
         builder_count(&builder, BLOB_TEXELS) != 4 * (size_t)texture.width * texture.height)
         abort();
     builder_free(&builder);

@@ -10,6 +10,7 @@
 #include "app/scene/emission.h"
 #include "app/scene/flatten.h"
 #include "app/scene/gltf.h"
+#include "app/scene/texture.h"
 
 #include <emscripten/emscripten.h>
 #include <math.h>
@@ -70,6 +71,8 @@ static bool take(scene_builder *builder, const char *name) {
     size_t size = 0;
     scene world;
     builder_flatten(builder);
+    if (!texture_decode_all(builder, name, &demo.error))
+        return false;
     if (!builder_pack(builder, &block, &size))
         return cli_fail(&demo.error, name, "does not fit into memory");
     if (!blob_validate(block, size, false, name, &demo.error) ||

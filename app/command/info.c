@@ -140,7 +140,7 @@ static void print_materials(const scene *s) {
 
 static int run(const cli_command *command, int argc, char **argv) {
     bool json = false, materials = false;
-    scene_options load = { 0 };
+    scene_options load = { .no_texels = true };
     const cli_option options[] = {
         { .name = "json", .kind = CLI_FLAG, .target = &json, .help = "print everything as JSON" },
         { .name = "materials",

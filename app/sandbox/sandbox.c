@@ -164,6 +164,17 @@ _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int outpu
     _exit(EXIT_FAILURE);
 }
 
+bool sandbox_write(int output, const void *data, size_t size) {
+    const char *bytes = data;
+    for (size_t done = 0; done < size;) {
+        const ssize_t written = write(output, bytes + done, size - done);
+        if (written == 0 || (written < 0 && errno != EINTR))
+            return false;
+        done += written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
 int sandbox_open(const char *name, int *number, cli_error *error) {
     message reply;
     int file;
@@ -315,26 +326,67 @@ static bool spawn(const sandbox_job *job, int output, guard *g, cli_error *error
     return cli_fail(error, job->subject, "cannot be read: no child process: %s", strerror(reason));
 }
 
-bool sandbox_run(const sandbox_job *job, void **block, size_t *size, cli_error *error) {
-    guard g;
-    int status = 0;
-    const int output = memfd_create("lampion-sandbox", MFD_CLOEXEC);
-    if (output < 0)
+/* A job that has been started. */
+typedef struct started_job {
+    guard guard;
+    int output;
+} started_job;
+
+static bool start(const sandbox_job *job, started_job *started, cli_error *error) {
+    started->output = memfd_create("lampion-sandbox", MFD_CLOEXEC);
+    if (started->output < 0)
         return cli_fail(error, job->subject, "cannot be read: no memory file: %s", strerror(errno));
-    bool ok = spawn(job, output, &g, error);
-    if (ok) {
-        attend(&g);
-        while (waitpid(g.child, &status, 0) < 0)
-            if (errno != EINTR) {
-                status =
-                    SIGKILL; /* somebody else has waited for it: what it wrote is not known whole */
-                break;
-            }
-        close(g.process);
-        close(g.socket);
-        ok = explain(status, g.complaint, job->subject, error) &&
-             map_output(output, job->subject, block, size, error);
+    if (spawn(job, started->output, &started->guard, error))
+        return true;
+    close(started->output);
+    return false;
+}
+
+/* Waits for its end. */
+static bool finish(started_job *started, void **block, size_t *size, cli_error *error) {
+    guard *g = &started->guard;
+    int status = 0;
+    attend(g);
+    while (waitpid(g->child, &status, 0) < 0)
+        if (errno != EINTR) {
+            /* somebody else has waited for it: what it wrote is not known whole */
+            status = SIGKILL;
+            break;
+        }
+    close(g->process);
+    close(g->socket);
+    const bool ok = explain(status, g->complaint, g->job->subject, error) &&
+                    map_output(started->output, g->job->subject, block, size, error);
+    close(started->output);
+    return ok;
+}
+
+bool sandbox_run(const sandbox_job *job, void **block, size_t *size, cli_error *error) {
+    started_job started;
+    return start(job, &started, error) && finish(&started, block, size, error);
+}
+
+bool sandbox_run_all(const sandbox_job *jobs, size_t count, void **blocks, size_t *sizes,
+                     cli_error *error) {
+    started_job *started = calloc(count, sizeof *started);
+    size_t running = 0, done = 0;
+    if (!started)
+        return cli_fail(error, jobs->subject, "does not fit into memory");
+    while (running < count && start(&jobs[running], &started[running], error))
+        running++;
+    bool ok = running == count;
+    /* After a failure the others are waited for, and their first reason stays. */
+    for (size_t i = 0; i < running; i++) {
+        cli_error later;
+        const bool fine = finish(&started[i], &blocks[i], &sizes[i], ok ? error : &later);
+        if (!fine)
+            blocks[i] = NULL;
+        ok = ok && fine;
+        done++;
     }
-    close(output);
+    for (size_t i = 0; !ok && i < done; i++)
+        if (blocks[i])
+            munmap(blocks[i], sizes[i]);
+    free(started);
     return ok;
 }

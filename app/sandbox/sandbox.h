@@ -27,6 +27,14 @@ typedef struct sandbox_job {
  * munmap. A crash, an exceeded limit or an empty result is an error like any other. */
 bool sandbox_run(const sandbox_job *job, void **block, size_t *size, cli_error *error);
 
+/* Runs several jobs side by side; *blocks and *sizes have an item for each. On failure, none is
+ * there. */
+bool sandbox_run_all(const sandbox_job *jobs, size_t count, void **blocks, size_t *sizes,
+                     cli_error *error);
+
+/* For the work: writes all of it to `output`. */
+bool sandbox_write(int output, const void *data, size_t size);
+
 /* For the work: the file of that name from the parent, which adds its size to what the limits
  * allow, once; -1 with *error. A file has the same *number by every name. */
 int sandbox_open(const char *name, int *number, cli_error *error);

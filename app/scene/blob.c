@@ -14,6 +14,8 @@ const size_t blob_item_size[BLOB_SECTIONS] = {
     [BLOB_INSTANCES] = sizeof(scene_instance),
     [BLOB_MATERIALS] = sizeof(scene_material),
     [BLOB_TEXTURES] = sizeof(scene_texture),
+    [BLOB_IMAGES] = sizeof(scene_image),
+    [BLOB_ENCODED] = 1,
     [BLOB_TEXELS] = 1,
     [BLOB_CAMERAS] = sizeof(scene_camera),
     [BLOB_LIGHTS] = sizeof(scene_light),
@@ -48,6 +50,10 @@ void blob_layout(blob_header *header, const size_t counts[BLOB_SECTIONS]) {
 const void *blob_items(const void *block, blob_section section) {
     const blob_header *header = block;
     return (const char *)block + header->sections[section].offset;
+}
+
+uint64_t blob_first_texel(uint64_t end) {
+    return (end + BLOB_PAGE - 1) / BLOB_PAGE * BLOB_PAGE;
 }
 
 /* --- validation ------------------------------------------------------------------------------- */
@@ -188,6 +194,26 @@ static bool all_parts(const float *numbers, size_t count) {
     return true;
 }
 
+/* One after another, so that none has the texels of another; and how many bytes they are. */
+static bool images_fit(const blob_header *header, uint64_t *texel_bytes) {
+    const scene_image *images = blob_items(header, BLOB_IMAGES);
+    const uint64_t count = header->sections[BLOB_IMAGES].count;
+    const uint64_t encoded = header->sections[BLOB_ENCODED].count;
+    *texel_bytes = header->sections[BLOB_TEXELS].count;
+    if (count > 0 && *texel_bytes > 0)
+        return false;
+    for (uint64_t i = 0; i < count; i++) {
+        const scene_image *image = &images[i];
+        if (!name_fits(image->name) || image->width == 0 || image->height == 0 ||
+            image->width > 65536 || image->height > 65536 || image->first_byte > encoded ||
+            image->size > encoded - image->first_byte ||
+            image->first_texel != blob_first_texel(*texel_bytes))
+            return false;
+        *texel_bytes = image->first_texel + 4 * (uint64_t)image->width * image->height;
+    }
+    return true;
+}
+
 static bool materials_fit(const blob_header *header) {
     const scene_material *materials = blob_items(header, BLOB_MATERIALS);
     const uint64_t texture_count = header->sections[BLOB_TEXTURES].count;
@@ -205,7 +231,9 @@ static bool materials_fit(const blob_header *header) {
             return false;
     }
     const scene_texture *textures = blob_items(header, BLOB_TEXTURES);
-    const uint64_t texel_bytes = header->sections[BLOB_TEXELS].count;
+    uint64_t texel_bytes;
+    if (!images_fit(header, &texel_bytes))
+        return false;
     for (uint64_t i = 0; i < texture_count; i++) {
         const uint64_t bytes = 4 * (uint64_t)textures[i].width * textures[i].height;
         if (!name_fits(textures[i].name) || textures[i].width == 0 || textures[i].height == 0 ||
@@ -324,14 +352,19 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     blob_geometry(block, s);
     s->materials = blob_items(block, BLOB_MATERIALS);
     s->textures = blob_items(block, BLOB_TEXTURES);
-    s->texels = blob_items(block, BLOB_TEXELS);
+    s->images = blob_items(block, BLOB_IMAGES);
+    s->encoded = blob_items(block, BLOB_ENCODED);
     s->cameras = blob_items(block, BLOB_CAMERAS);
     s->motions = blob_items(block, BLOB_MOTIONS);
     s->offsets = blob_items(block, BLOB_OFFSETS);
     s->left_out = blob_items(block, BLOB_LEFT_OUT);
     s->material_count = header->sections[BLOB_MATERIALS].count;
     s->texture_count = header->sections[BLOB_TEXTURES].count;
+    s->image_count = header->sections[BLOB_IMAGES].count;
+    s->encoded_bytes = header->sections[BLOB_ENCODED].count;
     s->texel_bytes = header->sections[BLOB_TEXELS].count;
+    if (s->image_count == 0)
+        s->texels = blob_items(block, BLOB_TEXELS);
     s->camera_count = header->sections[BLOB_CAMERAS].count;
     s->motion_count = header->sections[BLOB_MOTIONS].count;
     s->offset_count = header->sections[BLOB_OFFSETS].count;

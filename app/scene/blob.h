@@ -8,7 +8,7 @@
 #include "app/scene/scene.h"
 
 #define BLOB_MAGIC   "LAMPSCN"
-#define BLOB_VERSION 12u /* raise with any change of the layout or of what the importer makes */
+#define BLOB_VERSION 13u /* raise with any change of the layout or of what the importer makes */
 
 typedef enum blob_section {
     BLOB_VERTICES,
@@ -17,7 +17,9 @@ typedef enum blob_section {
     BLOB_INSTANCES,
     BLOB_MATERIALS,
     BLOB_TEXTURES,
-    BLOB_TEXELS,
+    BLOB_IMAGES,
+    BLOB_ENCODED,
+    BLOB_TEXELS, /* of scenes made in code, which have no images */
     BLOB_CAMERAS,
     BLOB_LIGHTS,
     BLOB_MOTIONS,
@@ -54,6 +56,11 @@ void blob_layout(blob_header *header, const size_t counts[BLOB_SECTIONS]);
 
 /* The array of a section of a blob whose header has been validated. */
 const void *blob_items(const void *block, blob_section section);
+
+/* Where the texels of an image begin: the one before ends at `end`. Images may then be decoded to
+ * pages of their own. */
+#define BLOB_PAGE 4096
+uint64_t blob_first_texel(uint64_t end);
 
 /* The bounds of the vertices of count > 0 indices. */
 void blob_bounds(const scene_vertex *vertices, const uint32_t *indices, size_t count,

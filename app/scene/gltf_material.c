@@ -52,8 +52,8 @@ static bool find_image(const texture_pool *pool, size_t image, gltf_bytes *bytes
     return true;
 }
 
-/* Decodes an image, or notes that it is left out. */
-static bool decode_image(texture_pool *pool, size_t image) {
+/* Keeps an image, or notes that it is left out. */
+static bool keep_image(texture_pool *pool, size_t image) {
     scene_texture *texture = &pool->decoded[image];
     gltf_bytes bytes = { 0 };
     char name[512];
@@ -62,14 +62,14 @@ static bool decode_image(texture_pool *pool, size_t image) {
     bool ok = find_image(pool, image, &bytes, name, sizeof name, &lost);
     if (ok && !lost && bytes.owned) {
         cli_error reason;
-        if (!texture_decode(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF, subject, name,
-                            texture, &reason)) {
+        if (!texture_keep(pool->builder, bytes.bytes, bytes.size, TEXTURE_GLTF, subject, name,
+                          texture, &reason)) {
             ok = !cli_is_out_of_memory(&reason) || cli_fail(pool->error, NULL, "%s", reason.text);
             texture->width = 0;
         }
     } else if (ok && !lost) {
-        ok = texture_decode_once(&pool->images, bytes.bytes, bytes.size, TEXTURE_GLTF, subject,
-                                 name, texture, pool->error);
+        ok = texture_keep_once(&pool->images, bytes.bytes, bytes.size, TEXTURE_GLTF, subject, name,
+                               texture, pool->error);
     }
     if (ok && texture->width == 0)
         builder_left_out_file(pool->builder, name, lost ? lost : TEXTURE_UNDECODABLE);
@@ -93,7 +93,7 @@ static uint32_t wrap_mode(const cJSON *sampler, const char *name) {
 /* Finds or makes the texture for `image` with `sampler`; of an image that is left out it is -1. */
 static bool find_texture(texture_pool *pool, long image, long sampler, uint32_t srgb,
                          int32_t *number) {
-    if (!pool->tried[image] && !decode_image(pool, (size_t)image))
+    if (!pool->tried[image] && !keep_image(pool, (size_t)image))
         return false;
     if (pool->decoded[image].width == 0)
         return true;

@@ -146,30 +146,16 @@ static bool check_made(const import_job *job, const scene_builder *builder, cli_
     return true;
 }
 
-static bool write_all(int fd, const void *data, size_t size) {
-    const char *bytes = data;
-    while (size > 0) {
-        const ssize_t written = write(fd, bytes, size);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
-            return false;
-        bytes += written;
-        size -= (size_t)written;
-    }
-    return true;
-}
-
 static bool write_blob(const scene_builder *builder, int output) {
     static const char zeros[16];
     blob_header header;
     builder_header(builder, true, &header);
     uint64_t at = sizeof header;
-    bool ok = write_all(output, &header, sizeof header);
+    bool ok = sandbox_write(output, &header, sizeof header);
     for (int i = 0; ok && i < BLOB_SECTIONS; i++) {
         const size_t bytes = builder_count(builder, (blob_section)i) * blob_item_size[i];
-        ok = write_all(output, zeros, header.sections[i].offset - at) &&
-             write_all(output, builder_items(builder, (blob_section)i), bytes);
+        ok = sandbox_write(output, zeros, header.sections[i].offset - at) &&
+             sandbox_write(output, builder_items(builder, (blob_section)i), bytes);
         at = header.sections[i].offset + bytes;
     }
     return ok;

@@ -2,6 +2,7 @@
 /* load.c - a scene by its name: built in, or from a file. */
 #include "app/scene/builtin.h"
 #include "app/scene/import.h"
+#include "app/scene/texels.h"
 #include "app/scene/up.h"
 
 #include <stdio.h>
@@ -71,7 +72,8 @@ bool scene_load(const char *name, const scene_options *options, scene *s, cli_er
         return load_builtin(name, chosen.up, s, error);
     if (!import_scene(name, &chosen, s, error))
         return hint_builtin(name, error);
-    if (tell_left_out(s, chosen.strict, error))
+    if ((chosen.no_texels || scene_decode_images(s, error)) &&
+        tell_left_out(s, chosen.strict, error))
         return true;
     scene_free(s);
     return false;

@@ -51,6 +51,10 @@ void scene_free(scene *s) {
         munmap(s->block, s->block_size);
     else
         free(s->block);
+    if (s->decoded)
+        munmap(s->decoded, s->decoded_size);
+    free(s->own_materials);
+    free(s->own_left_out);
     free(s->lights);
     memset(s, 0, sizeof *s);
 }

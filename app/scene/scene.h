@@ -84,13 +84,23 @@ typedef enum scene_wrap {
     SCENE_WRAPS
 } scene_wrap;
 
-/* RGBA, 8 bits a channel, rows from the top. */
+/* An image as its file has it. Its texels are RGBA, 8 bits a channel, rows from the top; they are
+ * there once it has been decoded. */
+typedef struct scene_image {
+    char name[SCENE_NAME_SIZE]; /* for messages */
+    uint32_t width, height;
+    uint32_t formats, unused;  /* of which it may be: texture_format */
+    uint64_t first_byte, size; /* among the encoded bytes */
+    uint64_t first_texel;      /* where its first is among the texels, in bytes */
+} scene_image;
+
+/* How a material shows an image. */
 typedef struct scene_texture {
     char name[SCENE_NAME_SIZE];
     uint32_t width, height;
     uint32_t srgb; /* 1: color, to be linearized */
     uint32_t wrap_u, wrap_v;
-    uint64_t first_byte; /* into texels: 4 * width * height bytes */
+    uint64_t first_byte; /* into texels: 4 * width * height bytes, those of an image */
 } scene_texture;
 
 typedef struct scene_camera {
@@ -127,13 +137,15 @@ typedef struct scene {
     const scene_instance *instances; /* what is seen; app/scene/instance.h reads them */
     const scene_material *materials;
     const scene_texture *textures;
-    const unsigned char *texels;
+    const scene_image *images;
+    const unsigned char *encoded; /* bytes of the images */
+    const unsigned char *texels;  /* NULL: not decoded */
     const scene_camera *cameras;
     const scene_motion *motions; /* at most one a light */
     const lmp_vec3 *offsets;
     const scene_left_out *left_out;
     size_t vertex_count, index_count, mesh_count, instance_count;
-    size_t material_count, texture_count, texel_bytes;
+    size_t material_count, texture_count, image_count, encoded_bytes, texel_bytes;
     size_t camera_count, motion_count, offset_count, left_out_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
     size_t light_count;
@@ -142,7 +154,11 @@ typedef struct scene {
     double area;                  /* of their triangles */
     void *block;                  /* owned by the scene */
     size_t block_size;
-    bool mapped;        /* the block is a mapping, not from malloc */
+    bool mapped;   /* the block is a mapping, not from malloc */
+    void *decoded; /* a mapping that holds the texels of the images, or NULL */
+    size_t decoded_size;
+    scene_material *own_materials; /* instead of the block's, of a scene that lacks images */
+    scene_left_out *own_left_out;
     bool cached;        /* it came from the cache */
     const char *origin; /* the name it was loaded by, for messages; the caller's string */
 } scene;
@@ -151,9 +167,10 @@ enum { SCENE_UP_Y, SCENE_UP_Z }; /* the file's axis that points up */
 extern const char *const scene_up_names[];
 
 typedef struct scene_options {
-    int up;        /* the scene is rotated so that this is y */
-    bool no_cache; /* neither read nor write the cache */
-    bool strict;   /* a file of which something is left out is an error */
+    int up;         /* the scene is rotated so that this is y */
+    bool no_cache;  /* neither read nor write the cache */
+    bool strict;    /* a file of which something is left out is an error */
+    bool no_texels; /* images are not decoded: for what shows none of them */
 } scene_options;
 
 /* The names of the built-in scenes, i = 0, 1, …; NULL past the last. */

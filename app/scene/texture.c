@@ -2,6 +2,7 @@
 #include "app/scene/texture.h"
 
 #include "app/image/texels.h"
+#include "app/scene/name.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,36 +51,94 @@ static bool check_size(const format_row *format, size_t size, int width, int hei
     return true;
 }
 
-bool texture_decode(scene_builder *builder, const void *data, size_t size, texture_format formats,
-                    const char *subject, const char *name, scene_texture *texture,
-                    cli_error *error) {
+static bool fail_format(texture_format formats, const char *subject, const char *name,
+                        cli_error *error) {
+    return cli_fail(error, subject, "has a texture \"%.200s\" that is no %s", name,
+                    formats == TEXTURE_GLTF ? "PNG, JPEG or WebP" : "PNG, JPEG, WebP, TGA or BMP");
+}
+
+bool texture_keep(scene_builder *builder, const void *data, size_t size, texture_format formats,
+                  const char *subject, const char *name, scene_texture *texture, cli_error *error) {
     const format_row *const format = format_of(data, size, formats);
     texels_reason reason;
     int width, height;
     if (!format)
-        return cli_fail(error, subject, "has a texture \"%.200s\" that is no %s", name,
-                        formats == TEXTURE_GLTF ? "PNG, JPEG or WebP"
-                                                : "PNG, JPEG, WebP, TGA or BMP");
+        return fail_format(formats, subject, name, error);
     if (!format->decoder->measure(data, size, &width, &height, &reason))
         return fail_decoding(subject, name, &reason, error);
     if (!check_size(format, size, width, height, subject, name, error))
         return false;
-    const size_t bytes = 4 * (size_t)width * (size_t)height;
-    unsigned char *const pixels = malloc(bytes);
-    bool ok = pixels || cli_fail(error, subject, "has textures that do not fit into memory");
-    if (ok && !format->decoder->decode(data, size, width, height, pixels, &reason))
-        ok = fail_decoding(subject, name, &reason, error);
-    if (ok) {
-        texture->first_byte = builder_count(builder, BLOB_TEXELS);
-        texture->width = (uint32_t)width;
-        texture->height = (uint32_t)height;
-        unsigned char *const texels = builder_append(builder, BLOB_TEXELS, bytes);
-        if (texels)
-            memcpy(texels, pixels, bytes);
-        ok = texels || cli_fail(error, subject, "has textures that do not fit into memory");
+    const size_t before = builder_count(builder, BLOB_IMAGES);
+    scene_image *image = builder_append(builder, BLOB_IMAGES, 1);
+    unsigned char *encoded = image ? builder_append(builder, BLOB_ENCODED, size) : NULL;
+    if (!encoded)
+        return cli_fail(error, subject, "has textures that do not fit into memory");
+    memcpy(encoded, data, size);
+    scene_clean_name(image->name, name);
+    image->width = (uint32_t)width;
+    image->height = (uint32_t)height;
+    image->formats = formats;
+    image->first_byte = builder_count(builder, BLOB_ENCODED) - size;
+    image->size = size;
+    image->first_texel = before ? blob_first_texel(texture_texels_end(image - 1)) : 0;
+    texture->first_byte = image->first_texel;
+    texture->width = image->width;
+    texture->height = image->height;
+    return true;
+}
+
+uint64_t texture_texels_end(const scene_image *image) {
+    return image->first_texel + 4 * (uint64_t)image->width * image->height;
+}
+
+bool texture_decode(const scene_image *image, const unsigned char *encoded, unsigned char *texels,
+                    const char *subject, cli_error *error) {
+    const unsigned char *bytes = encoded + image->first_byte;
+    const size_t size = image->size;
+    const texture_format formats = (texture_format)image->formats;
+    const format_row *const format = format_of(bytes, size, formats);
+    const int width = (int)image->width, height = (int)image->height;
+    texels_reason reason = { "its size is another one" };
+    int found[2];
+    if (!format)
+        return fail_format(formats, subject, image->name, error);
+    return (format->decoder->measure(bytes, size, &found[0], &found[1], &reason) &&
+            found[0] == width && found[1] == height &&
+            format->decoder->decode(bytes, size, width, height, texels, &reason)) ||
+           fail_decoding(subject, image->name, &reason, error);
+}
+
+void texture_forget(scene_material *materials, size_t count, const scene_texture *textures,
+                    const scene_image *image) {
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < SCENE_MAPS; k++) {
+            int32_t *texture = &materials[i].maps[k].texture;
+            if (*texture >= 0 && textures[*texture].first_byte == image->first_texel)
+                *texture = -1;
+        }
+}
+
+bool texture_decode_all(scene_builder *builder, const char *subject, cli_error *error) {
+    const scene_image *images = builder_items(builder, BLOB_IMAGES);
+    const unsigned char *encoded = builder_items(builder, BLOB_ENCODED);
+    for (size_t i = 0; i < builder_count(builder, BLOB_IMAGES); i++) {
+        const size_t before = builder_count(builder, BLOB_TEXELS);
+        const size_t more = (size_t)texture_texels_end(&images[i]) - before;
+        unsigned char *texels = builder_append(builder, BLOB_TEXELS, more);
+        if (!texels)
+            return cli_fail(error, subject, "has textures that do not fit into memory");
+        if (texture_decode(&images[i], encoded, texels + images[i].first_texel - before, subject,
+                           error))
+            continue;
+        if (cli_is_out_of_memory(error))
+            return false;
+        texture_forget(builder_items(builder, BLOB_MATERIALS),
+                       builder_count(builder, BLOB_MATERIALS),
+                       builder_items(builder, BLOB_TEXTURES), &images[i]);
+        builder_left_out(builder, images[i].name, TEXTURE_UNDECODABLE, 1);
     }
-    free(pixels);
-    return ok;
+    builder->arrays[BLOB_IMAGES].count = builder->arrays[BLOB_ENCODED].count = 0;
+    return true;
 }
 
 struct texture_image {
@@ -88,9 +147,9 @@ struct texture_image {
     scene_texture texture;
 };
 
-bool texture_decode_once(texture_images *images, const void *data, size_t size,
-                         texture_format formats, const char *subject, const char *name,
-                         scene_texture *texture, cli_error *error) {
+bool texture_keep_once(texture_images *images, const void *data, size_t size,
+                       texture_format formats, const char *subject, const char *name,
+                       scene_texture *texture, cli_error *error) {
     for (size_t i = 0; i < images->count; i++) {
         const struct texture_image *known = &images->items[i];
         if (known->data == data && known->size == size) {
@@ -105,7 +164,7 @@ bool texture_decode_once(texture_images *images, const void *data, size_t size,
         return cli_fail(error, subject, "has textures that do not fit into memory");
     images->items = items;
     cli_error reason;
-    if (!texture_decode(images->builder, data, size, formats, subject, name, texture, &reason)) {
+    if (!texture_keep(images->builder, data, size, formats, subject, name, texture, &reason)) {
         if (cli_is_out_of_memory(&reason))
             return cli_fail(error, NULL, "%s", reason.text);
         texture->width = texture->height = 0;

@@ -14,8 +14,8 @@ bool texture_file_use(texture_files *files, const char *path, uint32_t srgb, sce
         builder_left_out_file(builder, path, source_state_nouns[state]);
         return true;
     }
-    if (!texture_decode_once(&files->images, found->data, found->size, TEXTURE_ANY, subject,
-                             found->path, &texture, error))
+    if (!texture_keep_once(&files->images, found->data, found->size, TEXTURE_ANY, subject,
+                           found->path, &texture, error))
         return false;
     if (texture.width == 0) {
         builder_left_out_file(builder, path, TEXTURE_UNDECODABLE);

@@ -7,14 +7,14 @@ set -eu
 readers() {
     find include app -name '*.h' -exec sed 's,/\*.*\*/,,; /\/\*/,/\*\//d; /^#/d' {} + | tr '\n' ' ' | tr ';' '\n' |
         grep -E '(const (void|char|unsigned char|uint8_t) \*[a-z_]+, size_t [a-z_]+|const image_source \*[a-z]+)[,)]' |
-        grep -oE '[a-z0-9_]*(_read|_decode|_parse|_validate|_open|_add|_find)(_[a-z0-9_]+)? *\(' | tr -d ' (' | sort -u
+        grep -oE '[a-z0-9_]*(_read|_decode|_keep|_parse|_validate|_open|_add|_find)(_[a-z0-9_]+)? *\(' | tr -d ' (' | sort -u
 }
 
 # What glTF and OBJ lead to; and Assimp's formats, what the program itself made, what hands a file on.
-inner="texture_decode texture_decode_once gltf_parse"
+inner="texture_keep texture_keep_once gltf_parse"
 others="assimp_add bake_add_settings file_hash_add file_read file_read_descriptor file_read_json scene_read_lights"
 # and those who read text up to its end, or lines
-more="animation_open cli_number csv_read_row file_cache_map gltf_open mtl_add obj_add scene_add_lights_file sgd_file_find view_script_read"
+more="animation_open cli_number csv_read_row file_cache_map gltf_open mtl_add obj_add scene_add_lights_file sgd_file_find texture_decode_all view_script_read"
 
 readers >"$WORK/readers"
 [ "$(wc -l <"$WORK/readers")" -gt 12 ] || fail "too few readers to be all: $(cat "$WORK/readers")"

@@ -136,6 +136,35 @@ static void instances_place_meshes_that_are_there(void **state) {
     assert_false(is_valid());
 }
 
+/* Their texels follow each other, each from a page of its own on: an image that claimed those of
+ * another would be decoded over it. */
+static void images_have_bytes_and_texels_of_their_own(void **state) {
+    (void)state;
+    scene_image *images = builder_append(&builder, BLOB_IMAGES, 2);
+    builder_append(&builder, BLOB_ENCODED, 10);
+    for (uint64_t i = 0; i < 2; i++)
+        images[i] = (scene_image) {
+            .width = 40, .height = 30, .first_byte = 5 * i, .size = 5, .first_texel = 8192 * i
+        };
+    assert_true(is_valid());
+    uint64_t *const numbers[] = { &images[1].first_byte, &images[1].size, &images[1].first_texel };
+    static const uint64_t wrong[] = { 6, 6, 4096 };
+    for (size_t i = 0; i < 3; i++) {
+        const uint64_t right = *numbers[i];
+        *numbers[i] = wrong[i];
+        assert_false(is_valid());
+        *numbers[i] = UINT64_MAX;
+        assert_false(is_valid());
+        *numbers[i] = right;
+    }
+    images[1].width = 0;
+    assert_false(is_valid());
+    images[1].width = 40;
+    assert_true(is_valid());
+    builder_append(&builder, BLOB_TEXELS, 4);
+    assert_false(is_valid());
+}
+
 static void the_files_it_was_made_from_are_few(void **state) {
     (void)state;
     builder_append(&builder, BLOB_SOURCES, BLOB_SOURCES_MAX);
@@ -154,6 +183,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(bounds_are_those_of_the_vertices, make_triangle,
                                         free_builder),
         cmocka_unit_test_setup_teardown(instances_place_meshes_that_are_there, make_triangle,
+                                        free_builder),
+        cmocka_unit_test_setup_teardown(images_have_bytes_and_texels_of_their_own, make_triangle,
                                         free_builder),
         cmocka_unit_test_setup_teardown(the_files_it_was_made_from_are_few, make_triangle,
                                         free_builder),

@@ -26,8 +26,9 @@ static const unsigned char *decode(scene_builder *builder, encoded file) {
     scene_texture texture = { .width = 0 };
     *builder = (scene_builder) { .out_of_memory = false };
     error.text[0] = 0;
-    if (!texture_decode(builder, file.bytes, file.size, TEXTURE_GLTF, "scene", "image", &texture,
-                        &error))
+    if (!texture_keep(builder, file.bytes, file.size, TEXTURE_GLTF, "scene", "image", &texture,
+                      &error) ||
+        !texture_decode_all(builder, "scene", &error) || builder_count(builder, BLOB_LEFT_OUT) > 0)
         return NULL;
     assert_int_equal(texture.width, WIDTH);
     assert_int_equal(texture.height, HEIGHT);

@@ -131,11 +131,11 @@ static void formats_that_no_page_names_are_refused(void **state) {
         scene_builder builder = { .out_of_memory = false };
         scene_texture texture;
         cli_error error;
-        assert_false(texture_decode(&builder, images[i].bytes, images[i].size, TEXTURE_ANY, "scene",
-                                    "image", &texture, &error));
+        assert_false(texture_keep(&builder, images[i].bytes, images[i].size, TEXTURE_ANY, "scene",
+                                  "image", &texture, &error));
         assert_string_equal(
             error.text, "scene: has a texture \"image\" that is no PNG, JPEG, WebP, TGA or BMP");
-        assert_int_equal(builder_count(&builder, BLOB_TEXELS), 0);
+        assert_int_equal(builder_count(&builder, BLOB_IMAGES), 0);
         builder_free(&builder);
     }
 }
@@ -170,8 +170,9 @@ static void few_bytes_are_not_many_pixels(void **state) {
                 for (int k = 0; k < 2; k++) /* 10000 is 0x2710 */
                     memcpy(images[i].bytes + (k ? images[i].width : images[i].height),
                            images[i].big_endian ? "\x27\x10" : "\x10\x27", 2);
-            const bool read = texture_decode(&builder, images[i].bytes, images[i].size, TEXTURE_ANY,
-                                             "scene", "image", &texture, &error);
+            const bool read = texture_keep(&builder, images[i].bytes, images[i].size, TEXTURE_ANY,
+                                           "scene", "image", &texture, &error) &&
+                              texture_decode_all(&builder, "scene", &error);
             if (read == (large == 1))
                 fail_msg("image %zu: \"%s\"", i, error.text);
             assert_true(!large || strstr(error.text, "of 10000 x 10000 pixels in "));
@@ -180,8 +181,104 @@ static void few_bytes_are_not_many_pixels(void **state) {
         }
 }
 
+/* --- a scene of many images ------------------------------------------------------------------- */
+
+enum { IMAGES = 40, SIDE_MAX = IMAGES + 2 };
+
+/* A gray TGA of (number + 3) x 3 pixels; its last `missing` bytes are cut off. */
+static void write_gray(int number, size_t missing) {
+    unsigned char bytes[18 + 3 * 3 * SIDE_MAX] = "\0\0\2\0\0\0\0\0\0\0\0\0\0\0\3\0\x18";
+    char name[32];
+    bytes[12] = (unsigned char)(number + 3);
+    memset(bytes + 18, 5 * number, sizeof bytes - 18);
+    snprintf(name, sizeof name, "gray%d.tga", number);
+    folder_write(name, bytes, 18 + 9 * (size_t)(number + 3) - missing);
+}
+
+static void write_grays(void) {
+    char obj[IMAGES * 64] = "mtllib grays.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+    char mtl[IMAGES * 64] = "";
+    size_t at = strlen(obj), used = 0;
+    for (int i = 0; i < IMAGES; i++) {
+        write_gray(i, 0);
+        at += (size_t)snprintf(obj + at, sizeof obj - at, "usemtl m%d\nf 1/1 2/1 3/1\n", i);
+        used += (size_t)snprintf(mtl + used, sizeof mtl - used, "newmtl m%d\nmap_Kd gray%d.tga\n",
+                                 i, i);
+    }
+    folder_write_text("grays.obj", obj);
+    folder_write_text("grays.mtl", mtl);
+}
+
+static void images_are_decoded_side_by_side(void **state) {
+    (void)state;
+    write_grays();
+    scene world = load(in_folder("grays.obj"));
+    assert_int_equal(world.image_count, IMAGES);
+    assert_int_equal(world.texture_count, IMAGES);
+    for (int i = 0; i < IMAGES; i++) {
+        const scene_texture *texture = &world.textures[i];
+        const int number = (int)texture->width - 3;
+        assert_int_equal(texture->height, 3);
+        for (size_t k = 0; k < 4 * 3 * (size_t)texture->width; k++)
+            assert_int_equal(world.texels[texture->first_byte + k], k % 4 == 3 ? 255 : 5 * number);
+    }
+    scene_free(&world);
+}
+
+/* What is kept is the files' bytes, not the texels. */
+static void images_stay_as_their_files_have_them(void **state) {
+    (void)state;
+    scene world;
+    cli_error error;
+    write_grays();
+    assert_true(scene_load(in_folder("grays.obj"),
+                           &(scene_options) { .no_cache = true, .no_texels = true }, &world,
+                           &error));
+    assert_null(world.texels);
+    size_t files = 0;
+    for (int i = 0; i < IMAGES; i++)
+        files += 18 + 9 * (size_t)(i + 3);
+    assert_int_equal(world.encoded_bytes, files);
+    scene_free(&world);
+}
+
+/* Whoever needs no texels does not notice; who does is shown the rest of the scene. */
+static void an_image_that_cannot_be_decoded_is_left_out(void **state) {
+    (void)state;
+    static const unsigned char damaged[] =
+        "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x8\2\0\0\0\x90wS\xde\0\0\0\0IDAT";
+    scene_options options = { .no_cache = true, .no_texels = true };
+    scene world;
+    cli_error error = { "" };
+    write_grays();
+    folder_write("gray7.tga", damaged, sizeof damaged - 1);
+    assert_true(scene_load(in_folder("grays.obj"), &options, &world, &error));
+    assert_int_equal(world.left_out_count, 0);
+    scene_free(&world);
+    options.no_texels = false;
+    assert_true(scene_load(in_folder("grays.obj"), &options, &world, &error));
+    assert_int_equal(world.left_out_count, 1);
+    assert_string_equal(world.left_out[0].what, "gray7.tga");
+    int bare = 0;
+    for (size_t i = 0; i < world.material_count; i++) {
+        const int32_t texture = world.materials[i].base_color_map.texture;
+        bare += texture < 0;
+        assert_true((texture < 0) == (strcmp(world.materials[i].name, "m7") == 0 ||
+                                      strcmp(world.materials[i].name, "DefaultMaterial") == 0));
+    }
+    assert_int_equal(bare, 2);
+    scene_free(&world);
+    options.strict = true;
+    assert_false(scene_load(in_folder("grays.obj"), &options, &world, &error));
+    assert_non_null(strstr(error.text, "gray7.tga (1 undecodable image)"));
+    write_gray(7, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(images_are_decoded_side_by_side),
+        cmocka_unit_test(images_stay_as_their_files_have_them),
+        cmocka_unit_test(an_image_that_cannot_be_decoded_is_left_out),
         cmocka_unit_test(a_gltf_stores_an_image_once),
         cmocka_unit_test(an_obj_stores_an_image_once),
         cmocka_unit_test(a_webp_of_a_gltf_is_its_base_color),
