@@ -41,7 +41,7 @@ static inline scene throng_open(int count, bool flattened) {
     scene_builder builder = { 0 };
     void *block;
     size_t size;
-    scene world;
+    scene world = { .block = NULL };
     cli_error error = { "" };
     assert_true(builtin_make("balls", &builder, &error));
     const uint32_t meshes = (uint32_t)builder_count(&builder, BLOB_MESHES);
