@@ -194,7 +194,7 @@ SHARED_BLOCK(material_block, shared_material, SHARED_MATERIAL) {
     vec4 factors;  /* metallic, roughness, normal scale, alpha cutoff */
     vec4 maps;     /* base color, metallic-roughness, normal, emission */
     vec4 vertex;   /* x: 1 where the vertices' colors count; y: strength of the occlusion map; z: 1
-                      where alpha blends */
+                      where alpha blends; w: 1 where those colors are of what it emits */
     vec4 coat;     /* weight, roughness, normal scale */
     vec4 sheen;    /* color, roughness */
     vec4 more[2];  /* maps: those after the first four */

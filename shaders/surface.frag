@@ -158,6 +158,8 @@ void main() {
     vec3 emitted = emission.rgb;
     if (IS_SET(maps.w))
         emitted *= texture(emission_map, map_uv(SHARED_EMISSION)).rgb;
+    if (IS_SET(vertex.w))
+        emitted *= world_color.rgb;
 
     vec2 layers = vec2(1.0);
     if (has_map(SHARED_MAP_OCCLUSION))

@@ -143,7 +143,8 @@ static void describe(const frame *f, worker *own, const reference_hit *hit, refe
     sample(f, &material->emission_map, hit, glow);
     for (int c = 0; c < 3; c++) {
         base[c] = color[c] * hit->color[c] * (double)material->base_color[c];
-        emission[c] = glow[c] * (double)material->emission[c];
+        emission[c] = glow[c] * (double)material->emission[c] *
+                      (material->flags & SCENE_UNLIT ? hit->color[c] : 1);
     }
     sample(f, &material->occlusion_map, hit, shade);
     const reference_vec normal =

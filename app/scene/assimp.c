@@ -221,6 +221,7 @@ static bool add_mesh(const assimp_job *job, const struct aiMesh *mesh,
                          .vertex_count = mesh->mNumVertices,
                          .has_normals = mesh->mNormals != NULL,
                          .weld = true,
+                         .unsided = true,
                          .crease_cos = MESH_CREASE_60 };
     draft.vertices = calloc(draft.vertex_count + 1, sizeof *draft.vertices);
     bool ok = draft.vertices || cli_fail(error, draft.subject, "does not fit into memory");

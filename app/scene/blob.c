@@ -252,7 +252,10 @@ static bool views_fit(const blob_header *header) {
             !all_finite(cameras[i].target, 3) || !all_finite(cameras[i].up, 3) ||
             !(cameras[i].fov > 0.0f && cameras[i].fov < 3.1415f) ||
             !(cameras[i].height >= 0.0f && cameras[i].height < 1e17f) ||
-            !(cameras[i].aspect >= 0.0f && cameras[i].aspect < 1e6f))
+            !(cameras[i].aspect >= 0.0f && cameras[i].aspect < 1e6f) ||
+            !(cameras[i].near >= 0.0f && cameras[i].near < LMP_LENGTH_MAX) ||
+            !(cameras[i].far == 0.0f ||
+              (cameras[i].far > cameras[i].near && cameras[i].far < LMP_LENGTH_MAX)))
             return false;
     const scene_light *lights = blob_items(header, BLOB_LIGHTS);
     for (uint64_t i = 0; i < header->sections[BLOB_LIGHTS].count; i++) {

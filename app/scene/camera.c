@@ -38,8 +38,10 @@ bool scene_place_camera(const scene *world, const scene_camera_options *o, const
     *camera = scene_default_camera(world, (float)size[0] / (float)size[1]);
     if (o->name && !find_camera(world, o->name, camera, error))
         return false;
-    if (o->eye_given)
+    if (o->eye_given) { /* from elsewhere, the file's planes would cut what they never should */
         memcpy(camera->eye, o->eye, sizeof camera->eye);
+        camera->near = camera->far = 0;
+    }
     if (o->target_given)
         memcpy(camera->target, o->target, sizeof camera->target);
     if (o->fov_given && o->height_given)

@@ -70,7 +70,9 @@ bool emission_add_lights(scene_builder *builder, const char *subject, cli_error 
         scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
         if (!light)
             return cli_fail(error, subject, "does not fit into memory");
-        const double sides = material->flags & SCENE_DOUBLE_SIDED ? 2.0 : 1.0;
+        const bool both =
+            (material->flags & (SCENE_DOUBLE_SIDED | SCENE_SIDES_UNSAID)) == SCENE_DOUBLE_SIDED;
+        const double sides = both ? 2.0 : 1.0;
         float radiance[3];
         for (int k = 0; k < 3; k++)
             radiance[k] = (float)(sides * area * M_PI * (double)emission[k] /

@@ -268,7 +268,8 @@ static bool read_material(texture_pool *pool, const cJSON *entry) {
         material->emission[k] = (float)fmax(0.0, emission[k] * factor);
     material->metallic = clamp_unit(gltf_number(pbr, "metallicFactor", 1.0));
     material->roughness = clamp_unit(gltf_number(pbr, "roughnessFactor", 1.0));
-    material->alpha_cutoff = clamp_unit(gltf_number(entry, "alphaCutoff", 0.5));
+    /* Above 1 it hides the surface wholly, as the specification has it. */
+    material->alpha_cutoff = (float)fmin(gltf_number(entry, "alphaCutoff", 0.5), 2.0);
     material->normal_scale = (float)gltf_number(gltf_member(entry, "normalTexture"), "scale", 1.0);
     if (cJSON_IsTrue(gltf_member(entry, "doubleSided")))
         material->flags |= SCENE_DOUBLE_SIDED;
@@ -304,8 +305,6 @@ static void note_vertex_colors(const gltf *document, scene_builder *builder) {
                 &materials[number < 0 ? gltf_count(document, GLTF_MATERIALS) : (size_t)number];
             if (!gltf_member(gltf_member(primitive, "attributes"), "COLOR_0"))
                 continue;
-            if (material->flags & SCENE_UNLIT)
-                builder_left_out(builder, "vertex colors of an unlit material", "primitive", 1);
             material->flags |= SCENE_VERTEX_COLORS;
         }
     }

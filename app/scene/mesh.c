@@ -66,6 +66,32 @@ void mesh_flip(mesh_draft *f) {
     }
 }
 
+static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
+    const uint32_t *c = &f->corners[3 * triangle];
+    const lmp_vec3 a = vec_load(f->vertices[c[0]].position);
+    const lmp_vec3 b = vec_sub(vec_load(f->vertices[c[1]].position), a);
+    const lmp_vec3 d = vec_sub(vec_load(f->vertices[c[2]].position), a);
+    return vec_cross(b, d);
+}
+
+/* --- sides ------------------------------------------------------------------------------------ */
+
+/* Lets triangles be counter-clockwise as their normals see them: in formats that cull nothing,
+ * clockwise meshes are as good. */
+static void follow_normals(mesh_draft *f) {
+    for (size_t i = 0; i < f->corner_count; i += 3) {
+        uint32_t *c = &f->corners[i];
+        lmp_vec3 given = vec(0.0f, 0.0f, 0.0f);
+        for (int k = 0; k < 3; k++)
+            given = vec_add(given, vec_load(f->vertices[c[k]].normal));
+        if (vec_dot(given, triangle_normal(f, i / 3)) < 0.0f) {
+            const uint32_t second = c[1];
+            c[1] = c[2];
+            c[2] = second;
+        }
+    }
+}
+
 /* --- missing normals -------------------------------------------------------------------------- */
 
 /* A vertex of its own for every corner, so that faces that meet there may differ. */
@@ -81,14 +107,6 @@ static bool split_corners(mesh_draft *f, cli_error *error) {
     f->vertices = vertices;
     f->vertex_count = f->corner_count;
     return true;
-}
-
-static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
-    const uint32_t *c = &f->corners[3 * triangle];
-    const lmp_vec3 a = vec_load(f->vertices[c[0]].position);
-    const lmp_vec3 b = vec_sub(vec_load(f->vertices[c[1]].position), a);
-    const lmp_vec3 d = vec_sub(vec_load(f->vertices[c[2]].position), a);
-    return vec_cross(b, d);
 }
 
 typedef struct corner_key {
@@ -260,6 +278,8 @@ bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
     bool ok = true;
     if (f->corner_count == 0)
         return true;
+    if (f->has_normals && f->unsided)
+        follow_normals(f);
     if (!f->has_normals)
         ok = split_corners(f, error) && make_normals(f, error);
     if (ok)

@@ -20,6 +20,7 @@ typedef struct mesh_draft {
     size_t corner_count;
     bool has_normals;
     bool weld;        /* merge equal vertices: the source has them once a corner */
+    bool unsided;     /* the order of corners means nothing: it follows given normals */
     float crease_cos; /* missing normals are smooth across edges flatter than this */
 } mesh_draft;
 

@@ -42,6 +42,8 @@ static void finish_material(mtl_reader *r) {
         memset(r->factors.specular, 0, sizeof r->factors.specular);
     scene_material *material = material_of(r);
     phong_apply(&r->factors, material);
+    if (material->base_color[3] == 0.0f)
+        builder_left_out(r->files->images.builder, "invisible by d 0", "material", 1);
     if (r->roughness >= 0.0f)
         material->roughness = fminf(r->roughness, 1.0f);
     if (r->metallic >= 0.0f)

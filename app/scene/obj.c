@@ -280,6 +280,7 @@ static bool add_run(const obj_reader *r, const run *from, size_t end) {
                          .corners = malloc(count * sizeof *draft.corners),
                          .corner_count = count,
                          .weld = true,
+                         .unsided = true,
                          .crease_cos = MESH_CREASE_60 };
     bool ok = (draft.vertices && draft.corners) ||
               cli_fail(r->error, draft.subject, "does not fit into memory");
@@ -309,6 +310,7 @@ static bool read_all(obj_reader *r) {
     scene_material *fallback = builder_items(r->builder, BLOB_MATERIALS);
     for (int k = 0; k < 3; k++)
         fallback->base_color[k] = 0.6f;
+    fallback->flags |= SCENE_DOUBLE_SIDED | SCENE_SIDES_UNSAID;
     if (!begin_run(r))
         return false;
     r->error->text[0] = 0;

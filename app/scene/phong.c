@@ -23,6 +23,7 @@ void phong_apply(const phong *from, scene_material *to) {
         to->emission[k] = fmaxf(from->emission[k], 0.0f);
     }
     to->base_color[3] = clamp_unit(from->opacity);
+    to->flags |= SCENE_DOUBLE_SIDED | SCENE_SIDES_UNSAID;
     to->metallic = metal ? 1.0f : 0.0f;
     to->roughness = 1.0f;
     if (specular > 0.0f && from->exponent > 0.0f)

@@ -41,6 +41,7 @@ typedef enum scene_flags {
     SCENE_VERTEX_COLORS = 4, /* the base color is multiplied by that of the vertices */
     SCENE_UNLIT = 8,         /* its emission is what one sees, and no light to others */
     SCENE_ALPHA_BLEND = 16,  /* by alpha, it hides what is behind it */
+    SCENE_SIDES_UNSAID = 32, /* double-sided, as its format says nothing of sides; glows by one */
 } scene_flags;
 
 /* A texture and how its coordinates are made: uv' = matrix uv + offset (KHR_texture_transform). */
@@ -109,6 +110,7 @@ typedef struct scene_camera {
     float fov;    /* vertical field of view, radians */
     float height; /* of all that it sees by parallel rays (orthographic), without fov; 0: by fov */
     float aspect; /* the image it was framed for, width / height; 0: any */
+    float near, far; /* what is nearer or farther along the view is not seen; 0: all is */
 } scene_camera;
 
 /* How the scene file moves a light: its offset from where it rests at even steps of time, from 0 to

@@ -41,6 +41,23 @@ static void positions_and_sides_are_where_the_camera_says(void **state) {
     gpu_renderer_destroy(renderer);
 }
 
+/* What is unlit glows by the colors of its vertices, too. */
+static void vertices_color_what_is_unlit(void **state) {
+    (void)state;
+    const scene *world = make_sheets();
+    for (int i = 0; i < 4; i++)
+        memcpy(sheet.vertices[i].color, (const uint16_t[4]) { 65535, 32768, 0, 65535 },
+               sizeof sheet.vertices[i].color);
+    sheet.materials[0].flags |= SCENE_UNLIT | SCENE_VERTEX_COLORS;
+    for (int c = 0; c < 3; c++)
+        sheet.materials[0].emission[c] = 0.5f;
+    gpu_renderer *renderer = open_renderer(world);
+    const render_frame frame = look_at(world, 0, 1);
+    const lmp_rgb seen = pixel_at(renderer, &frame, 32, 32).emission;
+    assert_true(fabsf(seen.r - 0.5f) <= 1e-3f && fabsf(seen.g - 0.25f) <= 1e-3f && seen.b == 0);
+    gpu_renderer_destroy(renderer);
+}
+
 /* 8 pixels a unit, at any distance; a light, too. */
 static void parallel_rays_see_the_same_from_everywhere(void **state) {
     (void)state;
@@ -329,6 +346,7 @@ int main(void) {
                                             unknown_devices_are_refused_with_what_was_found) };
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(positions_and_sides_are_where_the_camera_says),
+        cmocka_unit_test(vertices_color_what_is_unlit),
         cmocka_unit_test(parallel_rays_see_the_same_from_everywhere),
         cmocka_unit_test(masks_cut_and_normal_maps_bend),
         cmocka_unit_test(materials_are_those_of_the_library),

@@ -169,6 +169,27 @@ static void a_glowing_sphere_is_its_radiance_exactly(void **state) {
     image_free(&standard_error);
 }
 
+/* What is unlit glows by the colors of its vertices, too. */
+static void vertices_color_what_is_unlit(void **state) {
+    (void)state;
+    fixture s;
+    image radiance;
+    build(&s);
+    s.world.light_count = 0;
+    s.material.flags = SCENE_UNLIT | SCENE_VERTEX_COLORS;
+    for (int c = 0; c < 3; c++)
+        s.material.emission[c] = 0.5f;
+    for (int i = 0; i < 4; i++)
+        memcpy(s.vertices[i].color, (const uint16_t[4]) { 65535, 13107, 0, 65535 },
+               sizeof s.vertices[i].color);
+    draw_plain(&s, &radiance);
+    static const double expected[3] = { 0.5, 0.1, 0 };
+    const size_t middle = 3 * (HEIGHT / 2 * WIDTH + WIDTH / 2);
+    for (size_t c = 0; c < 3; c++)
+        CHECK_WITHIN(fabs((double)radiance.rgb[middle + c] - expected[c]), 1e-6);
+    image_free(&radiance);
+}
+
 /* Rounding grows with the coordinates, and so does how far rays start off their surface: the same
  * scene in units 4096 times larger is the same. */
 static void rays_are_lifted_in_the_scenes_own_unit(void **state) {
@@ -322,6 +343,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pixel_is_what_the_specification_says),
         cmocka_unit_test(a_glowing_sphere_is_its_radiance_exactly),
+        cmocka_unit_test(vertices_color_what_is_unlit),
         cmocka_unit_test(rays_are_lifted_in_the_scenes_own_unit),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
         cmocka_unit_test(backs_of_single_sided_triangles_are_not_seen),

@@ -24,6 +24,7 @@ void gpu_fill_material(const scene_material *from, size_t number, shared_materia
     block->vertex[0] = from->flags & SCENE_VERTEX_COLORS ? 1.0f : 0.0f;
     block->vertex[1] = from->occlusion;
     block->vertex[2] = from->flags & SCENE_ALPHA_BLEND ? 1.0f : 0.0f;
+    block->vertex[3] = block->vertex[0] > 0.0f && from->flags & SCENE_UNLIT ? 1.0f : 0.0f;
     block->coat[0] = from->coat;
     block->coat[1] = from->coat_roughness;
     block->coat[2] = from->coat_normal_scale;

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT */
+/* What a file means is what is drawn: sides, opacity and light where formats leave or say little.
+ */
+#include "app/scene/scene.h"
+#include "app/trace/trace.h"
+#include "tests/program/folder.h"
+#include "tests/program/load.h"
+
+#include <math.h>
+
+#define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+/* Whether a ray along z, from this side, sees the triangle. */
+static bool is_seen(const scene *world, float from) {
+    trace_bvh *bvh = trace_create(world);
+    assert_non_null(bvh);
+    const trace_hit hit = trace_nearest(bvh, TRACE_CAMERA, (const float[3]) { 0.2f, 0.2f, from },
+                                        (const float[3]) { 0, 0, -from });
+    trace_destroy(bvh);
+    return hit.instance != TRACE_NOTHING;
+}
+
+/* The z of a triangle's normal by the order of its corners. */
+static double facing(const scene *world) {
+    const float *a = world->vertices[world->indices[0]].position;
+    const float *b = world->vertices[world->indices[1]].position;
+    const float *c = world->vertices[world->indices[2]].position;
+    return (double)((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+static void a_format_without_sides_culls_none(void **state) {
+    (void)state;
+    static const char *const files[] = { CORNERS "f 1 2 3\n", CORNERS "f 1 3 2\n",
+                                         "mtllib m.mtl\n" CORNERS "usemtl m\nf 1 3 2\n" };
+    folder_write_text("m.mtl", "newmtl m\nKd 1 1 1\n");
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        folder_write_text("m.obj", files[i]);
+        scene world = load(in_folder("m.obj"));
+        assert_true(is_seen(&world, 1) && is_seen(&world, -1));
+        scene_free(&world);
+    }
+    folder_write_text("m.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+                               "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n");
+    scene world = load(in_folder("m.stl"));
+    assert_true(is_seen(&world, 1) && is_seen(&world, -1));
+    scene_free(&world);
+}
+
+/* Both sides are lit by their own normals, so that the front must be where the given ones are. */
+static void clockwise_triangles_follow_their_normals(void **state) {
+    (void)state;
+    for (int clockwise = 0; clockwise < 2; clockwise++)
+        for (int back = 0; back < 2; back++) {
+            char text[256];
+            snprintf(text, sizeof text, CORNERS "vn 0 0 %d\nf 1//1 %s\n", back ? -1 : 1,
+                     clockwise ? "3//1 2//1" : "2//1 3//1");
+            folder_write_text("n.obj", text);
+            scene world = load(in_folder("n.obj"));
+            assert_true(world.vertices[0].normal[2] == (back ? -1 : 1));
+            assert_true(back ? facing(&world) < 0 : facing(&world) > 0);
+            scene_free(&world);
+        }
+}
+
+/* Its power is area · pi · radiance, as before, though both sides are seen. */
+static void a_lamp_of_an_obj_shines_by_one_side(void **state) {
+    (void)state;
+    folder_write_text("m.mtl", "newmtl m\nKe 3 3 3\n");
+    folder_write_text("l.obj", "mtllib m.mtl\n" CORNERS "usemtl m\nf 1 2 3\n");
+    scene world = load(in_folder("l.obj"));
+    assert_int_equal(world.light_count, 1);
+    const lmp_light *light = &world.lights[0].emitter;
+    const double power =
+        4 * M_PI * M_PI * (double)(light->radius * light->radius) * (double)light->radiance.g;
+    CHECK_WITHIN(fabs(power / (0.5 * M_PI * 3) - 1), 1e-5);
+    scene_free(&world);
+}
+
+static void a_cutoff_above_1_hides_the_surface(void **state) {
+    (void)state;
+    static const char *const cutoffs[] = { "1", "1.5", "100" };
+    for (size_t i = 0; i < sizeof cutoffs / sizeof *cutoffs; i++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{"
+                 "\"mesh\":0}],"
+                 "\"materials\":[{\"alphaMode\":\"MASK\",\"alphaCutoff\":%s}],"
+                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
+                 "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+                 "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                 "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+                 "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+                 cutoffs[i]);
+        folder_write_text("c.gltf", text);
+        scene world = load(in_folder("c.gltf"));
+        assert_int_equal(is_seen(&world, 1), i == 0);
+        scene_free(&world);
+    }
+}
+
+static void an_opacity_of_0_is_told(void **state) {
+    (void)state;
+    folder_write_text("m.mtl", "newmtl m\nKd 1 1 1\nd 0\n");
+    folder_write_text("d.obj", "mtllib m.mtl\n" CORNERS "usemtl m\nf 1 2 3\n");
+    scene world = load(in_folder("d.obj"));
+    char said[256] = "";
+    assert_int_equal(world.left_out_count, 1);
+    scene_left_out_text(world.left_out, said, sizeof said);
+    assert_string_equal(said, "invisible by d 0 (1 material)");
+    scene_free(&world);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_format_without_sides_culls_none),
+        cmocka_unit_test(clockwise_triangles_follow_their_normals),
+        cmocka_unit_test(a_lamp_of_an_obj_shines_by_one_side),
+        cmocka_unit_test(a_cutoff_above_1_hides_the_surface),
+        cmocka_unit_test(an_opacity_of_0_is_told),
+    };
+    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+}
