@@ -20,12 +20,14 @@ static int base64_digit(char c) {
                                   : -1;
 }
 
-bool gltf_data_uri(const char *uri, gltf_bytes *bytes) {
-    static const char mark[] = ";base64,";
-    const char *found = strncmp(uri, "data:", 5) == 0 ? strstr(uri, mark) : NULL;
-    if (!found)
-        return false;
-    const char *text = found + sizeof mark - 1;
+static int hex_digit(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+static bool decode_base64(const char *text, gltf_bytes *bytes) {
     size_t length = strlen(text);
     while (length > 0 && text[length - 1] == '=')
         length--;
@@ -44,6 +46,30 @@ bool gltf_data_uri(const char *uri, gltf_bytes *bytes) {
     }
     *bytes = (gltf_bytes) { .bytes = out, .size = size, .owned = out };
     return out != NULL;
+}
+
+/* Without base64 the bytes are characters, and escapes of others (RFC 2397). */
+static bool decode_escaped(const char *text, gltf_bytes *bytes) {
+    unsigned char *out = malloc(strlen(text) + 1);
+    size_t size = 0;
+    for (const char *c = text; out && *c; c++) {
+        const bool escape = *c == '%' && hex_digit(c[1]) >= 0 && hex_digit(c[2]) >= 0;
+        out[size++] =
+            (unsigned char)(escape ? hex_digit(c[1]) * 16 + hex_digit(c[2]) : (unsigned char)*c);
+        c += escape ? 2 : 0;
+    }
+    *bytes = (gltf_bytes) { .bytes = out, .size = size, .owned = out };
+    return out != NULL;
+}
+
+bool gltf_data_uri(const char *uri, gltf_bytes *bytes) {
+    static const char mark[] = ";base64";
+    const char *comma = strncmp(uri, "data:", 5) == 0 ? strchr(uri, ',') : NULL;
+    if (!comma)
+        return false;
+    const bool base64 = (size_t)(comma - uri) >= sizeof mark - 1 &&
+                        memcmp(comma - (sizeof mark - 1), mark, sizeof mark - 1) == 0;
+    return base64 ? decode_base64(comma + 1, bytes) : decode_escaped(comma + 1, bytes);
 }
 
 /* --- buffers ---------------------------------------------------------------------------------- */
@@ -77,7 +103,7 @@ static bool load_buffer(gltf *document, size_t i, cli_error *error) {
         return load_fallback(document, i, error);
     if (strncmp(uri, "data:", 5) == 0) {
         if (!gltf_data_uri(uri, buffer))
-            return gltf_fail(document, GLTF_BUFFERS, i, "is no valid base64", error);
+            return gltf_fail(document, GLTF_BUFFERS, i, "is no valid data URI", error);
     } else if (uri[0]) {
         const source *found;
         if (!sources_read(document->sources, uri, &found, error))
@@ -236,11 +262,7 @@ static bool load_accessor(const gltf *document, size_t i, gltf_accessor *a, cli_
                            .view = gltf_index(entry, "bufferView") };
     const size_t size = gltf_element_size(kind->name, a->component);
     a->stride = size;
-    for (int k = 0; k < 2; k++) {
-        const cJSON *bounds = gltf_member(entry, k ? "max" : "min");
-        if (bounds && cJSON_GetArraySize(bounds) != a->width)
-            return gltf_fail(document, GLTF_ACCESSORS, i, "has bounds of another length", error);
-    }
+    a->normalized = a->normalized && a->component != GLTF_FLOAT;
     if (a->normalized && component_size(a->component) == 4)
         return gltf_fail(document, GLTF_ACCESSORS, i, "has a type that cannot be normalized",
                          error);

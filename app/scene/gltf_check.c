@@ -12,6 +12,7 @@ typedef struct walk {
     const gltf *document;
     char path[200];
     size_t length;
+    const char *noun; /* of the object */
     cli_error *error;
 } walk;
 
@@ -33,6 +34,27 @@ static void step_back(walk *w, size_t length) {
     w->path[length] = 0;
 }
 
+/* How far past a bound a number may be that was rounded, or went through float32. */
+#define ROUNDING 1e-5
+
+/* Says what of an object is not as the specification wants it, and yet harms nothing. */
+static void note(const walk *w, const char *name, const char *what) {
+    char text[SCENE_NAME_SIZE];
+    snprintf(text, sizeof text, "%.40s %s", name, what);
+    builder_left_out(w->document->builder, text, w->noun, 1);
+}
+
+/* Brings a number into its range, as viewers do: a material's or a light's is no reason to see
+ * nothing of the scene. A bound that is none itself is up to who reads it. */
+static void clamp_number(const walk *w, const gltf_field *field, cJSON *value) {
+    const double given = value->valuedouble;
+    const double bound = fmin(fmax(given, field->minimum), field->maximum);
+    if (fabs(given - bound) > ROUNDING * fmax(1.0, fabs(bound)) ||
+        (field->above && bound == field->minimum))
+        note(w, field->name, "out of range");
+    value->valuedouble = bound;
+}
+
 static bool is_choice(const char *choices, const cJSON *value) {
     char wanted[64];
     if (cJSON_IsString(value))
@@ -42,7 +64,7 @@ static bool is_choice(const char *choices, const cJSON *value) {
     return strstr(choices, wanted) != NULL && !strchr(wanted + 1, ' ')[1];
 }
 
-static bool check_number(const walk *w, const gltf_field *field, const cJSON *value) {
+static bool check_number(const walk *w, const gltf_field *field, cJSON *value) {
     if (!cJSON_IsNumber(value))
         return fail(w, "is no number");
     const double number = value->valuedouble;
@@ -51,14 +73,16 @@ static bool check_number(const walk *w, const gltf_field *field, const cJSON *va
     if (field->type == GLTF_TYPE_INTEGER && number != floor(number))
         return fail(w, "is no whole number");
     const bool any = field->minimum == 0.0 && field->maximum == 0.0;
+    if (!any && field->type == GLTF_TYPE_NUMBER) {
+        clamp_number(w, field, value);
+        return true;
+    }
     if (!any && !(number >= field->minimum && number <= field->maximum))
-        return fail(w, "is out of range");
-    if (field->above && number == field->minimum)
         return fail(w, "is out of range");
     return true;
 }
 
-static bool check_reference(const walk *w, const gltf_field *field, const cJSON *value) {
+static bool check_reference(const walk *w, const gltf_field *field, cJSON *value) {
     const gltf_field index = { .type = GLTF_TYPE_INTEGER, .maximum = 9e15 };
     if (!check_number(w, &index, value))
         return false;
@@ -66,10 +90,10 @@ static bool check_reference(const walk *w, const gltf_field *field, const cJSON 
            fail(w, "refers to what is not there");
 }
 
-static bool check_object(walk *w, const gltf_object *object, const cJSON *value);
+static bool check_object(walk *w, const gltf_object *object, cJSON *value);
 
-static bool check_references(walk *w, const gltf_field *field, const cJSON *value) {
-    const cJSON *item;
+static bool check_references(walk *w, const gltf_field *field, cJSON *value) {
+    cJSON *item;
     if (!cJSON_IsObject(value))
         return fail(w, "is no object");
     cJSON_ArrayForEach(item, value) {
@@ -81,7 +105,7 @@ static bool check_references(walk *w, const gltf_field *field, const cJSON *valu
     return true;
 }
 
-static bool check_value(walk *w, const gltf_field *field, const cJSON *value) {
+static bool check_value(walk *w, const gltf_field *field, cJSON *value) {
     bool ok = true;
     switch (field->type) {
     case GLTF_TYPE_NUMBER:
@@ -104,7 +128,7 @@ static bool check_value(walk *w, const gltf_field *field, const cJSON *value) {
         ok = check_references(w, field, value);
         break;
     }
-    return ok && (!field->choices || is_choice(field->choices, value) ||
+    return ok && (!field->choices || field->forgiven || is_choice(field->choices, value) ||
                   fail(w, "is none of the values that glTF knows"));
 }
 
@@ -131,8 +155,8 @@ static bool check_distinct(const walk *w, const cJSON *array, size_t count) {
     return ok;
 }
 
-static bool check_array(walk *w, const gltf_field *field, const cJSON *array) {
-    const cJSON *item;
+static bool check_array(walk *w, const gltf_field *field, cJSON *array) {
+    cJSON *item;
     size_t count = 0;
     if (!cJSON_IsArray(array))
         return fail(w, "is no array");
@@ -149,9 +173,23 @@ static bool check_array(walk *w, const gltf_field *field, const cJSON *array) {
 
 /* --- objects ---------------------------------------------------------------------------------- */
 
-static bool check_fields(walk *w, const gltf_field *fields, const cJSON *value) {
+/* Takes a field out that has another than the known values, and says so. */
+static cJSON *forgive(const walk *w, const gltf_field *field, cJSON *value, cJSON *item) {
+    const bool of_its_type =
+        field->type == GLTF_TYPE_TEXT ? cJSON_IsString(item) : cJSON_IsNumber(item);
+    if (!field->forgiven || !of_its_type || is_choice(field->choices, item))
+        return item;
+    note(w, "unknown", field->name);
+    if (field->required)
+        return item;
+    cJSON_Delete(cJSON_DetachItemViaPointer(value, item));
+    return NULL;
+}
+
+static bool check_fields(walk *w, const gltf_field *fields, cJSON *value) {
     for (const gltf_field *field = fields; field->name; field++) {
-        const cJSON *item = gltf_member(value, field->name);
+        cJSON *item = cJSON_GetObjectItemCaseSensitive(value, field->name);
+        item = forgive(w, field, value, item);
         const size_t before = step(w, field->name, 0);
         if (!item && field->required)
             return fail(w, "is missing");
@@ -167,10 +205,11 @@ static bool is_metadata(const char *extension) {
     return strcmp(extension, "KHR_xmp_json_ld") == 0 || strcmp(extension, "KHR_xmp") == 0;
 }
 
-static bool check_extensions(walk *w, const gltf_object *object, const cJSON *value) {
+static bool check_extensions(walk *w, const gltf_object *object, cJSON *value) {
     static const gltf_field none = { .name = NULL };
     static const char prefix[] = "KHR_materials_";
-    const cJSON *extensions = gltf_member(value, "extensions"), *item;
+    cJSON *extensions = cJSON_GetObjectItemCaseSensitive(value, "extensions");
+    const cJSON *item;
     const gltf_field *known = object->extensions ? object->extensions : &none;
     if (!extensions)
         return true;
@@ -192,10 +231,14 @@ static bool check_extensions(walk *w, const gltf_object *object, const cJSON *va
     return true;
 }
 
-static bool check_object(walk *w, const gltf_object *object, const cJSON *value) {
+static bool check_object(walk *w, const gltf_object *object, cJSON *value) {
+    const char *const holder = w->noun;
     if (!cJSON_IsObject(value))
         return fail(w, "is no object");
-    return check_fields(w, object->fields, value) && check_extensions(w, object, value);
+    w->noun = object->noun;
+    const bool ok = check_fields(w, object->fields, value) && check_extensions(w, object, value);
+    w->noun = holder;
+    return ok;
 }
 
 bool gltf_check_schema(const gltf *document, cli_error *error) {
@@ -232,15 +275,6 @@ bool gltf_check_version(const gltf *document, cli_error *error) {
     return true;
 }
 
-static bool lists(const cJSON *array, const char *name) {
-    const cJSON *item;
-    cJSON_ArrayForEach(item, array) {
-        if (strcmp(item->valuestring, name) == 0)
-            return true;
-    }
-    return false;
-}
-
 /* Extensions that a file may require: what they say is read, or a surface without them is still
  * that surface, and they are named as left out. */
 static bool may_be_required(const char *name) {
@@ -268,16 +302,12 @@ static bool may_be_required(const char *name) {
 }
 
 bool gltf_check_extensions(const gltf *document, cli_error *error) {
-    const cJSON *used = gltf_member(document->root, "extensionsUsed"), *item;
+    const cJSON *item;
     cJSON_ArrayForEach(item, gltf_member(document->root, "extensionsRequired")) {
         if (!may_be_required(item->valuestring))
             return cli_fail(error, document->subject,
                             "requires the extension %.100s, which is not supported (export it "
                             "without)",
-                            item->valuestring);
-        if (!lists(used, item->valuestring))
-            return cli_fail(error, document->subject,
-                            "is no valid glTF: it requires %.100s, which extensionsUsed lacks",
                             item->valuestring);
     }
     return true;

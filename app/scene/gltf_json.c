@@ -59,15 +59,14 @@ static bool split_glb(gltf *document, const unsigned char *data, size_t size, gl
     if (length > size)
         return cli_fail(error, document->subject, "is truncated: %zu of %u bytes are there", size,
                         length);
-    if (length < size)
-        return cli_fail(error, document->subject, "is damaged: %zu bytes follow its end",
-                        size - length);
+    builder_left_out(document->builder, "bytes after its end", "file", length < size);
+    size = length;
     int number = 0;
     for (size_t at = GLB_HEADER, next; at < size; at = next, number++) {
         const size_t left = size - at;
         const uint32_t chunk = left < GLB_CHUNK ? 0 : little_endian(data + at);
         const uint32_t type = left < GLB_CHUNK ? 0 : little_endian(data + at + 4);
-        if (left < GLB_CHUNK || chunk > left - GLB_CHUNK || chunk % 4 != 0)
+        if (left < GLB_CHUNK || chunk > left - GLB_CHUNK)
             return cli_fail(error, document->subject, "is damaged: chunk %d has no valid length",
                             number);
         next = at + GLB_CHUNK + chunk;
@@ -139,10 +138,13 @@ bool gltf_parse(gltf *document, const void *data, size_t size, cli_error *error)
     gltf_bytes json = { .bytes = data, .size = size };
     if (size >= 4 && memcmp(data, "glTF", 4) == 0 && !split_glb(document, data, size, &json, error))
         return false;
-    if (json.size >= 3 && memcmp(json.bytes, "\xef\xbb\xbf", 3) == 0)
-        return cli_fail(error, document->subject,
-                        "is no valid glTF: it starts with a byte-order mark (save it as UTF-8 "
-                        "without one)");
+    /* A byte-order mark at the start, and NULs where a chunk's spaces belong, say nothing. */
+    if (json.size >= 3 && memcmp(json.bytes, "\xef\xbb\xbf", 3) == 0) {
+        json.bytes += 3;
+        json.size -= 3;
+    }
+    while (json.size > 0 && json.bytes[json.size - 1] == 0)
+        json.size--;
     document->root = file_parse_json(document->subject, (const char *)json.bytes, json.size, error);
     if (!document->root)
         return false;

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A rotation of this much more or less than length 1 is rounded; of more it is none. */
-#define QUATERNION_SLACK 0.01
+/* A rotation of this much more or less than length 1 is rounded; of more it is said to be none,
+ * though its direction is taken. */
+#define QUATERNION_SLACK 0.02
+#define MATRIX_SLACK     1e-6
 
 /* --- transforms ------------------------------------------------------------------------------- */
 
@@ -48,20 +50,28 @@ void gltf_multiply(const double *a, const double *b, double *product) {
         }
 }
 
+/* Whether a node has parts beside its matrix that are not those of no transform at all. */
+static bool has_parts(const cJSON *node) {
+    gltf_transform t;
+    gltf_transform_read(node, &t);
+    for (int k = 0; k < 3; k++)
+        if (t.translation[k] != 0.0 || t.scale[k] != 1.0 || t.rotation[k] != 0.0)
+            return true;
+    return false;
+}
+
 static bool check_transform(const gltf *document, size_t index, cli_error *error) {
-    static const char *const parts[] = { "translation", "rotation", "scale" };
     const cJSON *node = gltf_item(document, GLTF_NODES, index);
-    double q[4] = { 0.0, 0.0, 0.0, 1.0 }, last[16] = { [15] = 1.0 };
-    for (size_t i = 0; i < 3; i++)
-        if (gltf_member(node, "matrix") && gltf_member(node, parts[i]))
-            return gltf_fail(document, GLTF_NODES, index, "has a matrix and its parts", error);
+    double q[4] = { 0.0, 0.0, 0.0, 1.0 }, m[16] = { [15] = 1.0 };
+    if (gltf_member(node, "matrix") && has_parts(node))
+        return gltf_fail(document, GLTF_NODES, index, "has a matrix and its parts", error);
     gltf_numbers(node, "rotation", 4, q);
     const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(fabs(length - 1.0) <= QUATERNION_SLACK))
-        return gltf_fail(document, GLTF_NODES, index, "has a rotation that is not of length 1",
-                         error);
-    gltf_numbers(node, "matrix", 16, last);
-    if (last[3] != 0.0 || last[7] != 0.0 || last[11] != 0.0 || last[15] != 1.0)
+        builder_left_out(document->builder, "length of a rotation", "node", 1);
+    gltf_numbers(node, "matrix", 16, m);
+    if (!(fabs(m[3]) <= MATRIX_SLACK && fabs(m[7]) <= MATRIX_SLACK && fabs(m[11]) <= MATRIX_SLACK &&
+          fabs(m[15] - 1.0) <= MATRIX_SLACK))
         return gltf_fail(document, GLTF_NODES, index, "has a matrix whose last row is not 0 0 0 1",
                          error);
     return true;
@@ -117,7 +127,9 @@ static size_t push_all(const cJSON *list, long *stack, size_t used) {
     return used + count;
 }
 
-/* Orders the nodes of the trees on the stack, and finds their transforms to the world. */
+/* Orders the nodes of the trees on the stack, and finds their transforms to the world. A node that
+ * has been cut off as a root of the scene may not be in another tree that is shown: it would be
+ * drawn twice. */
 static bool order_nodes(const gltf *document, long *stack, size_t used, size_t *ordered,
                         cli_error *error) {
     while (used > 0) {
@@ -125,8 +137,19 @@ static bool order_nodes(const gltf *document, long *stack, size_t used, size_t *
         document->order[(*ordered)++] = node;
         if (!find_world(document, node, error))
             return false;
+        const size_t before = used;
         used =
             push_all(gltf_member(gltf_item(document, GLTF_NODES, node), "children"), stack, used);
+        size_t kept = before;
+        for (size_t i = before; i < used; i++) {
+            const long child = stack[i];
+            if (document->nodes[child].parent == (long)node)
+                stack[kept++] = child;
+            else if (document->nodes[node].shown)
+                return gltf_fail(document, GLTF_NODES, (size_t)child,
+                                 "is a root of the scene and the child of another node", error);
+        }
+        used = kept;
     }
     return true;
 }
@@ -143,9 +166,8 @@ static bool order_trees(const gltf *document, long *stack, cli_error *error) {
             gltf_member(gltf_item(document, GLTF_SCENES, number < 0 ? 0 : (size_t)number), "nodes");
     cJSON_ArrayForEach(item, roots) {
         gltf_node *root = &document->nodes[(size_t)item->valuedouble];
-        if (root->parent >= 0)
-            return gltf_fail(document, GLTF_NODES, (size_t)item->valuedouble,
-                             "is a root of the scene and the child of another node", error);
+        /* Of a parent that is not shown, a root is no child. */
+        root->parent = -1;
         root->shown = true;
     }
     if (!order_nodes(document, stack, push_all(roots, stack, 0), &ordered, error))

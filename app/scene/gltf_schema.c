@@ -19,6 +19,7 @@
 #define OBJECT(of)             .type = GLTF_TYPE_OBJECT, .object = &(of)
 #define LIST_OF(of)            .array = true, OBJECT(of)
 #define VECTOR(n)              .array = true, .least = (n), .most = (n)
+#define FORGIVEN               .forgiven = true
 #define INTEGER_CHOICE(values) .type = GLTF_TYPE_INTEGER, CHOICE(values)
 
 /* --- bytes ------------------------------------------------------------------------------------ */
@@ -56,7 +57,7 @@ static const gltf_object view = {
         { "byteOffset", COUNT },
         { "byteLength", COUNT, .minimum = 1, .required = true },
         { "byteStride", .type = GLTF_TYPE_INTEGER, .minimum = 4, .maximum = 252 },
-        { "target", INTEGER_CHOICE("34962 34963") },
+        { "target", INTEGER_CHOICE("34962 34963"), FORGIVEN },
         NAME,
         END },
     (const gltf_field[]) { { "EXT_meshopt_compression", OBJECT(compressed_view) },
@@ -112,12 +113,13 @@ static const gltf_object image = {
 };
 static const gltf_object sampler = {
     "sampler",
-    (const gltf_field[]) { { "magFilter", INTEGER_CHOICE("9728 9729") },
-                           { "minFilter", INTEGER_CHOICE("9728 9729 9984 9985 9986 9987") },
-                           { "wrapS", INTEGER_CHOICE("10497 33071 33648") },
-                           { "wrapT", INTEGER_CHOICE("10497 33071 33648") },
-                           NAME,
-                           END },
+    (const gltf_field[]) {
+        { "magFilter", INTEGER_CHOICE("9728 9729"), FORGIVEN },
+        { "minFilter", INTEGER_CHOICE("9728 9729 9984 9985 9986 9987"), FORGIVEN },
+        { "wrapS", INTEGER_CHOICE("10497 33071 33648"), FORGIVEN },
+        { "wrapT", INTEGER_CHOICE("10497 33071 33648"), FORGIVEN },
+        NAME,
+        END },
     NULL,
 };
 static const gltf_object texture_webp = {
@@ -219,8 +221,8 @@ static const gltf_object material = {
                            { "normalTexture", OBJECT(normal_texture) },
                            { "occlusionTexture", OBJECT(occlusion_texture) },
                            { "emissiveTexture", OBJECT(texture_info) },
-                           { "emissiveFactor", VECTOR(3), UNIT },
-                           { "alphaMode", TEXT, CHOICE("OPAQUE MASK BLEND") },
+                           { "emissiveFactor", VECTOR(3), NOT_NEGATIVE },
+                           { "alphaMode", TEXT, CHOICE("OPAQUE MASK BLEND"), FORGIVEN },
                            { "alphaCutoff", NOT_NEGATIVE },
                            { "doubleSided", FLAG },
                            NAME,
@@ -282,7 +284,7 @@ static const gltf_object node = {
                            { "skin", REFERENCE(GLTF_SKINS) },
                            { "matrix", VECTOR(16) },
                            { "mesh", REFERENCE(GLTF_MESHES) },
-                           { "rotation", VECTOR(4), .minimum = -1.0, .maximum = 1.0 },
+                           { "rotation", VECTOR(4) },
                            { "scale", VECTOR(3) },
                            { "translation", VECTOR(3) },
                            { "weights", .array = true },
@@ -321,29 +323,30 @@ static const gltf_object perspective = {
 };
 static const gltf_object camera = {
     "camera",
-    (const gltf_field[]) { { "orthographic", OBJECT(orthographic) },
-                           { "perspective", OBJECT(perspective) },
-                           { "type", TEXT, CHOICE("orthographic perspective"), .required = true },
-                           NAME,
-                           END },
+    (const gltf_field[]) {
+        { "orthographic", OBJECT(orthographic) },
+        { "perspective", OBJECT(perspective) },
+        { "type", TEXT, CHOICE("orthographic perspective"), FORGIVEN, .required = true },
+        NAME,
+        END },
     NULL,
 };
 static const gltf_object spot = {
     "light",
-    (const gltf_field[]) { { "innerConeAngle", .maximum = M_PI_2 },
-                           { "outerConeAngle", .maximum = M_PI_2, .above = true },
-                           END },
+    (const gltf_field[]) {
+        { "innerConeAngle", .maximum = M_PI_2 }, { "outerConeAngle", .maximum = M_PI_2 }, END },
     NULL,
 };
 static const gltf_object light = {
     "light",
-    (const gltf_field[]) { { "color", VECTOR(3), NOT_NEGATIVE },
-                           { "intensity", NOT_NEGATIVE },
-                           { "range", POSITIVE },
-                           { "spot", OBJECT(spot) },
-                           { "type", TEXT, CHOICE("directional point spot"), .required = true },
-                           NAME,
-                           END },
+    (const gltf_field[]) {
+        { "color", VECTOR(3), NOT_NEGATIVE },
+        { "intensity", NOT_NEGATIVE },
+        { "range", POSITIVE },
+        { "spot", OBJECT(spot) },
+        { "type", TEXT, CHOICE("directional point spot"), FORGIVEN, .required = true },
+        NAME,
+        END },
     NULL,
 };
 static const gltf_object lights = {
@@ -370,7 +373,7 @@ static const gltf_object channel = {
 static const gltf_object animation_sampler = {
     "animation",
     (const gltf_field[]) { { "input", REFERENCE(GLTF_ACCESSORS), .required = true },
-                           { "interpolation", TEXT, CHOICE("LINEAR STEP CUBICSPLINE") },
+                           { "interpolation", TEXT, CHOICE("LINEAR STEP CUBICSPLINE"), FORGIVEN },
                            { "output", REFERENCE(GLTF_ACCESSORS), .required = true },
                            END },
     NULL,
@@ -397,8 +400,8 @@ static const gltf_object asset = {
 };
 const gltf_object gltf_schema = {
     "file",
-    (const gltf_field[]) { { "extensionsUsed", .array = true, TEXT, .distinct = true },
-                           { "extensionsRequired", .array = true, TEXT, .distinct = true },
+    (const gltf_field[]) { { "extensionsUsed", .array = true, TEXT },
+                           { "extensionsRequired", .array = true, TEXT },
                            { "accessors", LIST_OF(accessor) },
                            { "animations", LIST_OF(animation) },
                            { "asset", OBJECT(asset), .required = true },

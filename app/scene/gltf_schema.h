@@ -26,6 +26,7 @@ typedef struct gltf_field {
     double minimum, maximum; /* of numbers and integers; both 0: any */
     bool above;              /* the minimum itself is none */
     const char *choices;     /* the only values, with a space before and after each */
+    bool forgiven;           /* another choice counts as if the field were not there */
     gltf_kind kind;
     const struct gltf_object *object;
 } gltf_field;

@@ -38,18 +38,24 @@ static lmp_vec3 axis_of(const double m[16], int column, float sign) {
     return vec((float)(a[0] * scale), (float)(a[1] * scale), (float)(a[2] * scale));
 }
 
-/* An angle, or by parallel rays half of what is seen across and up. */
+/* An angle, or by parallel rays half of what is seen across and up; false if it sees nothing. */
 static bool set_lens(const cJSON *entry, scene_camera *camera) {
-    const cJSON *parallel = gltf_member(entry, "orthographic");
-    const double across = fabs(gltf_number(parallel, "xmag", 1.0));
-    const double up = fabs(gltf_number(parallel, "ymag", 1.0));
-    const double fov = gltf_number(gltf_member(entry, "perspective"), "yfov", 0.7854);
-    camera->fov = (float)fmin(fov, 3.1);
-    if (!parallel)
-        return fov < M_PI;
+    const bool flat = strcmp(gltf_text(entry, "type"), "orthographic") == 0;
+    const cJSON *view = gltf_member(entry, flat ? "orthographic" : "perspective");
+    const double across = fabs(gltf_number(view, "xmag", 1.0));
+    const double up = fabs(gltf_number(view, "ymag", 1.0));
+    const double fov = gltf_number(view, "yfov", 0.7854);
+    const double near = gltf_number(view, "znear", 0.0), far = gltf_number(view, "zfar", 0.0);
+    camera->near = near < (double)LMP_LENGTH_MAX ? (float)near : 0.0f;
+    camera->far = far > near && far < (double)LMP_LENGTH_MAX ? (float)far : 0.0f;
+    if (!(camera->far > camera->near)) /* past float32's digits, too */
+        camera->far = 0.0f;
+    camera->fov = flat ? 0.7854f : (float)fmin(fov, 3.1);
+    if (!flat)
+        return view && fov > 1e-6 && fov < M_PI;
     camera->height = (float)(2.0 * up);
     camera->aspect = (float)(across / up);
-    return up > 1e-6 && up < 1e12 && camera->aspect > 1e-6f && camera->aspect < 1e6f;
+    return view && up > 1e-6 && up < 1e12 && camera->aspect > 1e-6f && camera->aspect < 1e6f;
 }
 
 static bool add_camera(const gltf *document, size_t node, const scene_box *box,
@@ -58,9 +64,15 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     const cJSON *holder = gltf_item(document, GLTF_NODES, node);
     const size_t index = (size_t)gltf_index(holder, "camera");
     const cJSON *entry = gltf_item(document, GLTF_CAMERAS, index);
+    scene_camera lens = { .fov = 0.0f };
+    if (!set_lens(entry, &lens)) {
+        builder_left_out(builder, "impossible field of view", "camera", 1);
+        return true;
+    }
     scene_camera *camera = builder_append(builder, BLOB_CAMERAS, 1);
     if (!camera)
         return cli_fail(error, document->subject, "does not fit into memory");
+    *camera = lens;
     const char *name = gltf_text(entry, "name");
     scene_clean_name(camera->name, name[0] ? name : gltf_text(holder, "name"));
     const lmp_vec3 eye = vec((float)m[12], (float)m[13], (float)m[14]);
@@ -72,8 +84,7 @@ static bool add_camera(const gltf *document, size_t node, const scene_box *box,
     vec_store(eye, camera->eye);
     vec_store(vec_add(eye, vec_scale(forward, reach)), camera->target);
     vec_store(up, camera->up);
-    return set_lens(entry, camera) ||
-           gltf_fail(document, GLTF_CAMERAS, index, "has an impossible field of view", error);
+    return true;
 }
 
 /* A radius in the extras of the light, or of the node that holds it, makes a point a sphere. */
@@ -95,6 +106,7 @@ static void set_emitter(const cJSON *entry, const cJSON *holder, const double m[
         emitter->direction = axis_of(m, 2, -1.0f);
         emitter->inner = (float)gltf_number(cone, "innerConeAngle", 0.0);
         emitter->outer = (float)gltf_number(cone, "outerConeAngle", M_PI_4);
+        emitter->inner = fminf(emitter->inner, emitter->outer);
     } else if (radius != 0.0) {
         emitter->radius = (float)radius;
         strength /= M_PI * radius * radius;
@@ -104,21 +116,37 @@ static void set_emitter(const cJSON *entry, const cJSON *holder, const double m[
                                     (float)(strength * color[2]) };
 }
 
+static bool is_known(const cJSON *light) {
+    const char *type = gltf_text(light, "type");
+    return strcmp(type, "directional") == 0 || strcmp(type, "spot") == 0 ||
+           strcmp(type, "point") == 0;
+}
+
+/* An inner cone as wide as the outer is one with a sharp edge; a wider one makes none. */
+static bool is_inside_out(const cJSON *light) {
+    const cJSON *cone = gltf_member(light, "spot");
+    return gltf_number(cone, "innerConeAngle", 0.0) >
+           gltf_number(cone, "outerConeAngle", M_PI_4) + 1e-5;
+}
+
 static bool add_light(const gltf *document, size_t node, const gltf_motions *motions,
                       scene_builder *builder, cli_error *error) {
     const cJSON *holder = gltf_item(document, GLTF_NODES, node);
     const size_t index = (size_t)gltf_index(gltf_extension(holder, "KHR_lights_punctual"), "light");
     const cJSON *entry = gltf_item(document, GLTF_LIGHTS, index);
-    scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
+    scene_light made = { .hidden = 0 };
     scene_light_error wrong;
+    set_emitter(entry, holder, document->nodes[node].world, &made.emitter);
+    if (!is_known(entry) || !scene_light_check(&made, &wrong)) {
+        builder_left_out(builder, "impossible value", "light", is_known(entry)); /* or said */
+        return true;
+    }
+    if (made.emitter.kind == LMP_LIGHT_SPOT && is_inside_out(entry))
+        builder_left_out(builder, "inner cone past the outer", "light", 1);
+    scene_light *light = builder_append(builder, BLOB_LIGHTS, 1);
     if (!light)
         return cli_fail(error, document->subject, "does not fit into memory");
-    set_emitter(entry, holder, document->nodes[node].world, &light->emitter);
-    if (!scene_light_check(light, &wrong)) {
-        char text[sizeof wrong.text + 16];
-        snprintf(text, sizeof text, "makes a light: %s", wrong.text);
-        return gltf_fail(document, GLTF_LIGHTS, index, text, error);
-    }
+    *light = made;
     if (gltf_member(entry, "range"))
         builder_left_out(builder, "range", "light", 1);
     if (scene_light_has(light, SCENE_LIGHT_DIRECTION) && gltf_rotates(motions, node))

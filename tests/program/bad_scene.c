@@ -60,7 +60,7 @@ static void what_is_no_scene_is_refused(void **state) {
     assert_refused("blank.gltf", "is no valid JSON");
     assert_refused("text.obj", "text.obj: ");
     assert_refused("text.gltf", "is no valid JSON");
-    assert_refused("mark.gltf", "byte-order mark");
+    assert_refused("mark.gltf", "has no triangles");
     assert_refused("wrong.txt", "is no scene");
     assert_refused("image.png", "is no scene");
     assert_refused("directory.gltf", "is a directory");

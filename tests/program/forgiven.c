@@ -20,7 +20,7 @@ static void said_of(const scene_left_out *items, size_t count, char *text, size_
 /* --- glTF: changes to a valid document -------------------------------------------------------- */
 
 /* What is said of the document as it is. */
-#define USUAL       "missing texture coordinates (1 primitive), "
+#define USUAL       "missing texture coordinates (1 primitive)"
 #define USUAL_AFTER "range (1 light)"
 
 typedef struct forgiven {
@@ -30,6 +30,41 @@ typedef struct forgiven {
 
 static const forgiven gltf_changes[] = {
     { "{\"asset\"", "{\"asset\"", NULL },
+    /* what only says something again, or to nobody */
+    { "[\"KHR_texture_transform\"]", "[\"KHR_materials_sheen\"]", NULL },
+    { "\"KHR_lights_punctual\",\"KHR", "\"KHR_texture_transform\",\"KHR", NULL },
+    { "\"max\":[1,1,0]", "\"max\":[1,1]", NULL },
+    { "\"mesh\":0,\"skin\":0", "\"mesh\":0", NULL },
+    { "{\"camera\":0,", "{\"weights\":[1],\"camera\":0,", NULL },
+    { "\"camera\":0,\"matrix\"", "\"camera\":0,\"scale\":[1,1,1],\"matrix\"", NULL },
+    { "0,0,9,1]", "0,0,9,1.0000001]", NULL },
+    { "\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"",
+      "\"componentType\":5126,\"normalized\":true,\"count\":4,\"type\":\"VEC3\"", NULL },
+    { "\"JOINTS_0\":7", "\"JOINTS_0\":7,\"OWN\":0", "OWN (1 attribute)" },
+    { "\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"",
+      "\"componentType\":5120,\"count\":4,\"type\":\"VEC3\"",
+      "undeclared KHR_mesh_quantization (1 attribute)" },
+    { "\"target\":34962", "\"target\":1", "unknown target (1 buffer view)" },
+    /* numbers: rounded, and out of range */
+    { "\"metallicFactor\":0.5", "\"metallicFactor\":1.0000001", NULL },
+    { "\"metallicFactor\":0.5", "\"metallicFactor\":1.5",
+      "metallicFactor out of range (1 material)" },
+    { "[1,1,1,1]", "[1.0000001,1,1,1]", NULL },
+    { "[1,1,1,1]", "[1,1,1,2]", "baseColorFactor out of range (1 material)" },
+    { "\"emissiveFactor\":[0,0,0]", "\"emissiveFactor\":[5,0,0]", NULL },
+    { "\"alphaMode\":\"MASK\"", "\"alphaMode\":\"mask\"", "unknown alphaMode (1 material)" },
+    { "\"wrapS\":10497", "\"wrapS\":10496", "unknown wrapS (1 sampler)" },
+    { "\"minFilter\":9987", "\"minFilter\":0", "unknown minFilter (1 sampler)" },
+    { "\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0,0.99]", NULL },
+    { "\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0,1.0000001]", NULL },
+    { "\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0,2]", "length of a rotation (1 node)" },
+    { "\"rotation\":[0,0,0,1]", "\"rotation\":[0,0,0,0]", "length of a rotation (1 node)" },
+    { "\"intensity\":4", "\"intensity\":-4", "intensity out of range (1 light)" },
+    { "\"color\":[1,0.5,0]", "\"color\":[1,-1,0]", "color out of range (1 light)" },
+    { "\"outerConeAngle\":0.5", "\"outerConeAngle\":1.5707963705062866", NULL },
+    { "\"outerConeAngle\":0.5", "\"outerConeAngle\":1.6", "outerConeAngle out of range (1 light)" },
+    { "\"innerConeAngle\":0.1", "\"innerConeAngle\":0.5", NULL },
+    { "\"zfar\":10", "\"zfar\":0.05", NULL },
     /* images */
     { "\"bufferView\":9,", "\"bufferView\":6,", "image 0 (1 undecodable image)" },
     { "\"bufferView\":9,", "\"uri\":\"data:image/png;base64,!!!!\",",
@@ -54,17 +89,17 @@ static void a_gltf_is_read_but_for_the_detail(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof gltf_changes / sizeof *gltf_changes; i++) {
         const forgiven *c = &gltf_changes[i];
-        char *text = changed(c->from, c->to), said[1024], expected[1024];
+        char *text = changed(c->from, c->to), said[1024];
         scene_builder builder;
         cli_error error;
         if (!reads(text, &builder, &error))
             fail_msg("%s: %s", c->to, error.text);
         said_of(builder_items(&builder, BLOB_LEFT_OUT), builder_count(&builder, BLOB_LEFT_OUT),
                 said, sizeof said);
-        snprintf(expected, sizeof expected, USUAL "%s%s" USUAL_AFTER, c->said ? c->said : "",
-                 c->said ? ", " : "");
-        if (strcmp(said, expected) != 0)
-            fail_msg("%s: says \"%s\" instead of \"%s\"", c->to, said, expected);
+        const size_t count = builder_count(&builder, BLOB_LEFT_OUT);
+        if (!strstr(said, USUAL) || !strstr(said, USUAL_AFTER) || count != 2 + (c->said != NULL) ||
+            (c->said && !strstr(said, c->said)))
+            fail_msg("%s: says \"%s\" instead of \"%s\"", c->to, said, c->said ? c->said : "");
         builder_free(&builder);
         free(text);
     }
@@ -108,6 +143,80 @@ static void an_image_that_appears_is_drawn(void **state) {
     }
 }
 
+/* A tail of any bytes after a GLB's end, NULs where its JSON is padded, a byte-order mark. */
+static void what_surrounds_a_document_is_passed_over(void **state) {
+    (void)state;
+    size_t size;
+    scene_builder builder;
+    cli_error error;
+    unsigned char *glb = pack_glb(document, &size);
+    unsigned char *longer = malloc(size + 1);
+    assert_non_null(longer);
+    memcpy(longer, glb, size);
+    longer[size] = '\n';
+    if (!reads_bytes(longer, size + 1, &builder, &error))
+        fail_msg("%s", error.text);
+    builder_free(&builder);
+    uint32_t json;
+    memcpy(&json, glb + 12, sizeof json);
+    for (size_t i = 20 + json - 1; glb[i] == ' '; i--)
+        glb[i] = 0;
+    if (!reads_bytes(glb, size, &builder, &error))
+        fail_msg("%s", error.text);
+    builder_free(&builder);
+    free(glb);
+    free(longer);
+    folder_write_text("mark.gltf", "\xef\xbb\xbf" HEAD "\"materials\":[{}]," TRIANGLE);
+    scene world = load(in_folder("mark.gltf"));
+    assert_int_equal(world.index_count, 3);
+    scene_free(&world);
+}
+
+/* The same triangle by characters and escapes (RFC 2397). */
+static void data_need_no_base64(void **state) {
+    (void)state;
+    char text[2048], bytes_of[3 * 36 + 1];
+    static const float corners[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+    for (size_t i = 0; i < sizeof corners; i++)
+        sprintf(bytes_of + 3 * i, "%%%02x", ((const unsigned char *)corners)[i]);
+    snprintf(text, sizeof text,
+             HEAD "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+                  "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,"
+                  "\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+                  "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:a/b,%s\"}]}",
+             bytes_of);
+    folder_write_text("plain.gltf", text);
+    scene world = load(in_folder("plain.gltf"));
+    CHECK_WITHIN(fabs(world.area - 0.5), 1e-7);
+    scene_free(&world);
+}
+
+/* A root of the scene whose parent is not in it stands where its own transform says; in a tree that
+ * is shown it would be there twice. */
+static void a_root_may_be_the_child_of_what_is_not_shown(void **state) {
+    (void)state;
+    static const char format[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[%s]}],\"materials\":[{}],"
+        "\"nodes\":[{\"translation\":[5,0,0],\"children\":[1]},"
+        "{\"mesh\":0,\"translation\":[0,2,0],\"children\":[2]},{\"translation\":[1,0,0]}],%s";
+    char text[2048];
+    scene world;
+    cli_error error;
+    snprintf(text, sizeof text, format, "1", TRIANGLE);
+    folder_write_text("root.gltf", text);
+    world = load(in_folder("root.gltf"));
+    assert_true(world.minimum[0] == 0 && world.minimum[1] == 2);
+    scene_free(&world);
+    static const char *const twice[] = { "0,1", "1,0", "0,2" };
+    for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
+        snprintf(text, sizeof text, format, twice[i], TRIANGLE);
+        folder_write_text("root.gltf", text);
+        assert_false(scene_load(in_folder("root.gltf"), &(scene_options) { .no_cache = true },
+                                &world, &error));
+        assert_non_null(strstr(error.text, "is a root of the scene and the child of another node"));
+    }
+}
+
 /* --- other formats ---------------------------------------------------------------------------- */
 
 #define MD5                                                                                        \
@@ -136,6 +245,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_gltf_is_read_but_for_the_detail),
         cmocka_unit_test(an_image_that_appears_is_drawn),
+        cmocka_unit_test(what_surrounds_a_document_is_passed_over),
+        cmocka_unit_test(data_need_no_base64),
+        cmocka_unit_test(a_root_may_be_the_child_of_what_is_not_shown),
         cmocka_unit_test(a_file_that_is_only_looked_for_may_be_missing),
     };
     fill_bytes();

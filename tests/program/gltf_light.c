@@ -101,23 +101,55 @@ static void a_direction_that_is_animated_is_left_out(void **state) {
     free(rotated);
 }
 
-static void impossible_lights_are_refused(void **state) {
+static void a_scene_goes_without_lights_that_cannot_be(void **state) {
     (void)state;
     static const char *const cases[][2] = {
-        { "\"point\",\"extras\":{\"radius\":-1}", "light 0 makes a light: .radius is not above" },
-        { "\"point\",\"intensity\":1e300", "light 0 makes a light: .intensity is negative, not" },
-        { "\"directional\",\"intensity\":1e39",
-          ".irradiance is negative, not finite or above 1e19" },
-        { "\"point\",\"intensity\":1e28", "light 0 makes a light: .intensity is negative, not" },
-        { "\"directional\",\"intensity\":3e38",
-          ".irradiance is negative, not finite or above 1e19" },
-        { "\"point\",\"intensity\":1e3,\"extras\":{\"radius\":1e-9}",
-          ".radiance is negative, not" },
+        { "\"point\",\"extras\":{\"radius\":-1}", "impossible value (1 light)" },
+        { "\"point\",\"intensity\":1e300", "impossible value (1 light)" },
+        { "\"directional\",\"intensity\":1e39", "impossible value (1 light)" },
+        { "\"area\",\"intensity\":1", "unknown type (1 light)" },
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char *text = changed(SPOT, cases[i][0]);
-        expect(text, cases[i][1], cases[i][0]);
+        char *text = changed(SPOT, cases[i][0]), said[256];
+        scene_builder builder;
+        cli_error error;
+        bool found = false;
+        if (!reads(text, &builder, &error))
+            fail_msg("%s: %s", cases[i][0], error.text);
+        const scene_left_out *items = builder_items(&builder, BLOB_LEFT_OUT);
+        for (size_t k = 0; k < builder_count(&builder, BLOB_LEFT_OUT); k++) {
+            scene_left_out_text(&items[k], said, sizeof said);
+            found = found || strcmp(said, cases[i][1]) == 0;
+        }
+        if (!found)
+            fail_msg("%s is not said to be an %s", cases[i][0], cases[i][1]);
+        assert_int_equal(builder_count(&builder, BLOB_LIGHTS), 0);
+        assert_int_equal(builder_count(&builder, BLOB_MESHES), 1);
+        builder_free(&builder);
         free(text);
+    }
+}
+
+/* The right angle as a float32 is a little more than one. An inner cone as wide as the outer has a
+ * sharp edge. */
+static void cones_up_to_a_right_angle_are_taken(void **state) {
+    (void)state;
+    static const struct {
+        const char *cone;
+        double inner, outer;
+    } cases[] = {
+        { "\"innerConeAngle\":0,\"outerConeAngle\":1.5707963705062866", 0, M_PI / 2 },
+        { "\"innerConeAngle\":0.5,\"outerConeAngle\":0.5", 0.5, 0.5 },
+        { "\"innerConeAngle\":0.7,\"outerConeAngle\":0.5", 0.5, 0.5 },
+        { "\"innerConeAngle\":0.7,\"outerConeAngle\":2", 0.7, M_PI / 2 },
+        { "\"innerConeAngle\":-1e-9,\"outerConeAngle\":0.5", 0, 0.5 },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const lmp_light light =
+            read_light("\"innerConeAngle\":0.1,\"outerConeAngle\":0.5", cases[i].cone);
+        CHECK_WITHIN(fabs((double)light.inner - cases[i].inner), 1e-6);
+        CHECK_WITHIN(fabs((double)light.outer - cases[i].outer), 1e-6);
+        assert_true(light.outer <= (float)M_PI);
     }
 }
 
@@ -172,7 +204,8 @@ int main(void) {
         cmocka_unit_test(parallel_light_is_directional),
         cmocka_unit_test(a_point_is_a_point_and_with_a_radius_a_sphere),
         cmocka_unit_test(a_direction_that_is_animated_is_left_out),
-        cmocka_unit_test(impossible_lights_are_refused),
+        cmocka_unit_test(a_scene_goes_without_lights_that_cannot_be),
+        cmocka_unit_test(cones_up_to_a_right_angle_are_taken),
         cmocka_unit_test(the_command_line_gives_points_and_parallel_light_a_size),
         cmocka_unit_test(a_size_that_no_light_can_have_is_refused),
     };
