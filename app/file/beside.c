@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* beside.c - whether a name leads out of a folder, found out without going there. */
+/* beside.c - whether a name leads out of a folder: found out without going there, and once more of
+ * what is opened by it. */
 #include "app/file/file.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
@@ -97,4 +101,64 @@ bool file_is_beside(const char *path, const char *file) {
         if (!step(&w, part))
             return false;
     return fits && is_within(w.folder, w.reached);
+}
+
+/* --- names that others gave ------------------------------------------------------------------- */
+
+/* Said before any thread starts; a program has a few of them, and keeps them. */
+typedef struct confined {
+    char *path, *folder;
+    struct confined *next;
+} confined;
+static confined *all_confined;
+
+static const char *folder_of(const char *path) {
+    for (const confined *c = all_confined; c; c = c->next)
+        if (strcmp(c->path, path) == 0)
+            return c->folder;
+    return NULL;
+}
+
+bool file_confine(const char *path, const char *file) {
+    walk w;
+    if (!file_is_beside(path, file) || !begin(&w, path, file))
+        return false;
+    const char *const known = folder_of(path);
+    if (known && strcmp(known, w.folder) == 0)
+        return true;
+    confined *const c = malloc(sizeof *c);
+    if (!c)
+        return false;
+    *c = (confined) { strdup(path), strdup(w.folder), all_confined };
+    const bool ok = c->path && c->folder;
+    if (ok) {
+        all_confined = c;
+    } else {
+        free(c->path);
+        free(c->folder);
+        free(c);
+    }
+    return ok;
+}
+
+bool file_may_lead_to(const char *path, const char *real) {
+    const char *const folder = folder_of(path);
+    return !folder || is_within(folder, real);
+}
+
+int file_open_confined(const char *path, int flags) {
+    char link[40], real[PATH_MAX];
+    if (!folder_of(path))
+        return open(path, flags);
+    const int found = open(path, O_PATH | O_CLOEXEC);
+    if (found < 0)
+        return -1;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", found);
+    const ssize_t length = readlink(link, real, sizeof real - 1);
+    real[length > 0 ? length : 0] = '\0';
+    errno = EXDEV;
+    const int fd = file_may_lead_to(path, real) ? open(link, flags) : -1, reason = errno;
+    close(found);
+    errno = reason;
+    return fd;
 }

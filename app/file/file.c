@@ -56,12 +56,14 @@ static bool is_standard_input(const struct stat *file) {
 /* Non-blocking, so that opening a FIFO by mistake does not wait for a writer. */
 int file_open_descriptor(const char *path, cli_error *error) {
     struct stat status = { 0 };
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const int fd = file_open_confined(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     const bool regular = fd >= 0 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
     if (regular && !is_standard_input(&status))
         return fd;
     if (fd < 0 && errno == ENOENT)
         cli_fail(error, path, "does not exist");
+    else if (fd < 0 && errno == EXDEV)
+        cli_fail(error, path, FILE_LEADS_OUT);
     else if (fd < 0)
         cli_fail(error, path, "cannot be opened: %s", strerror(errno));
     else if (regular)

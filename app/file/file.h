@@ -20,6 +20,19 @@ bool file_is_standard_input(const char *name);
  * nothing has that name. Beside standard input lies nothing. It looks into no folder elsewhere. */
 bool file_is_beside(const char *path, const char *file);
 
+/* From now on what a name leads to must lie there, too, whenever it is opened: file_open and
+ * file_read judge what they have opened, for links may have been swapped since the name was
+ * checked. False if it is not so now. Before other threads start. */
+bool file_confine(const char *path, const char *file);
+
+/* Whether a name that may be confined may lead to what is `real`, a path without links. */
+bool file_may_lead_to(const char *path, const char *real);
+
+#define FILE_LEADS_OUT "leads out of the folder of what names it (see --allow-paths)"
+
+/* open(2) of a name that may be confined; EXDEV where it leads out. */
+int file_open_confined(const char *path, int flags);
+
 /* Opens a regular file for reading; NULL, or -1, on failure. By whatever name, such as /dev/stdin,
  * it is not the one that is standard input: that is "-" alone. */
 FILE *file_open(const char *path, cli_error *error);

@@ -214,6 +214,9 @@ static bool prepare(const char *path, import_job *job, cli_error *error) {
                         "is no scene: a file of glTF, OBJ, PLY, STL, FBX or the like is wanted");
     if (!realpath(folder, job->folder))
         return cli_fail(error, path, "is in a folder that cannot be opened: %s", strerror(errno));
+    /* The file was inside; its folder may have been swapped since. */
+    if (!file_may_lead_to(path, job->folder))
+        return cli_fail(error, path, FILE_LEADS_OUT);
     job->sources.subject = path;
     job->sources.folder = job->folder;
     return true;

@@ -291,7 +291,7 @@ static bool check_name(const char *shot, const char *part, const char *name, siz
                        cli_error *error) {
     char path[VIEW_MATERIAL_SIZE];
     snprintf(path, sizeof path, "%.*s", (int)length, name);
-    return file_is_beside(path, shot) ||
+    return file_confine(path, shot) ||
            cli_fail(error, shot,
                     "names the %s \"%.300s\", which is outside its folder (see --allow-paths)",
                     part, path);

@@ -8,6 +8,8 @@
 #include "app/file/file.h"
 
 #include <errno.h>
+#include <signal.h>
+#include <sys/wait.h>
 
 /* An image of one pixel whose settings ask for so many. */
 static void write_shot(const char *name, int width, int height) {
@@ -244,6 +246,98 @@ static void what_is_no_file_is_not_looked_for(void **unused) {
     }
 }
 
+/* --- names whose meaning changes -------------------------------------------------------------- */
+
+/* Exchanges two names again and again, until it is killed. */
+static pid_t exchange(const char *a, const char *b) {
+    const pid_t child = fork();
+    while (child == 0)
+        if (renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE) != 0)
+            _exit(1);
+    return child;
+}
+
+static void write_panorama(const char *name, float value) {
+    image pixels;
+    cli_error error;
+    assert_true(image_create(&pixels, 8, 4, &error));
+    for (int i = 0; i < 3 * 8 * 4; i++)
+        pixels.rgb[i] = value;
+    assert_true(image_write(&pixels, in_folder(name), NULL, &error));
+    image_free(&pixels);
+}
+
+/* Whether the part that a screenshot names was opened, and whether what it is lies outside. */
+static bool open_part(const view_settings *s, int which, bool *outside) {
+    cli_error error;
+    bool ok = false;
+    if (which == 0) {
+        scene read;
+        if ((ok = scene_load(s->scene, &(scene_options) { .no_cache = true }, &read, &error))) {
+            *outside = read.material_count > 1;
+            scene_free(&read);
+        }
+    } else if (which == 1) {
+        environment read;
+        if ((ok = environment_open(&(environment_options) { .name = s->environment, .strength = 1 },
+                                   &world, &read, &error))) {
+            *outside = read.light.rgb[0] > 1;
+            environment_free(&read);
+        }
+    } else {
+        void *data;
+        size_t size;
+        if ((ok = file_read(view_material_of(s, "test_material"), 4096, &data, &size, &error))) {
+            *outside = size > 4;
+            free(data);
+        }
+    }
+    return ok;
+}
+
+/* A folder beside the screenshot, and a link that leads out, exchanged all the while: whatever the
+ * name meant when it was checked, what is read lies inside. */
+static void no_swapped_link_leads_out(void **unused) {
+    (void)unused;
+    static const char *const names[] = { "swap/room.obj", "swap/sky.exr", "swap/dull.bsdf" };
+    const int times = check_count(150, 3000);
+    char inside[64], link[64], shot[64];
+    write_files();
+    mkdir(in_folder("shots/swap"), 0700);
+    folder_write_text("shots/swap/room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder_write_text("shots2/room.obj",
+                      "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl b\nf 3 2 1\n");
+    write_panorama("shots/swap/sky.exr", 1);
+    write_panorama("shots2/sky.exr", 2);
+    folder_write_text("shots/swap/dull.bsdf", "dull");
+    folder_write_text("shots2/dull.bsdf", "secret");
+    assert_int_equal(symlink("../shots2", in_folder("shots/swapped")), 0);
+    snprintf(inside, sizeof inside, "%s/shots/swap", folder);
+    snprintf(link, sizeof link, "%s/shots/swapped", folder);
+    snprintf(shot, sizeof shot, "%s/shots/shot.png", folder);
+    for (int which = 0; which < 3; which++) {
+        int opened = 0, outside = 0;
+        write_part(&parts[which], names[which]);
+        const pid_t child = exchange(inside, link);
+        for (int i = 0; i < times; i++) {
+            static view_settings read;
+            cli_error error;
+            bool led_out = false;
+            if (!view_read_shot(shot, &(view_shot_options) { .pixels_max = 64 }, &read, &error) ||
+                !open_part(&read, which, &led_out))
+                continue;
+            opened++;
+            outside += led_out;
+        }
+        kill(child, SIGKILL);
+        waitpid(child, NULL, 0);
+        printf("tried: %d openings of a %s that changes, %d inside\n", times, parts[which].name,
+               opened);
+        assert_int_equal(outside, 0);
+        assert_true(opened > 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = { TEST(large_ones_are_refused_unless_allowed),
                                         TEST(the_viewer_refuses_the_same),
@@ -252,6 +346,7 @@ int main(void) {
                                         TEST(names_that_stay_are_opened),
                                         TEST(the_folder_is_where_the_file_lies),
                                         TEST(a_user_may_name_and_allow_any),
-                                        TEST(what_is_no_file_is_not_looked_for) };
+                                        TEST(what_is_no_file_is_not_looked_for),
+                                        TEST(no_swapped_link_leads_out) };
     return cmocka_run_group_tests(tests, make_refused_folder, folder_remove);
 }
