@@ -7,9 +7,10 @@
 #include "app/cli/cli.h"
 
 typedef enum message_kind {
-    MESSAGE_OPEN,   /* the child: open the file of this name */
-    MESSAGE_FILE,   /* the parent: here it is */
-    MESSAGE_FAILURE /* either: what went wrong */
+    MESSAGE_OPEN,     /* the child: open the file of this name */
+    MESSAGE_FILE,     /* the parent: here it is */
+    MESSAGE_PROGRESS, /* the child: this much of the work is done */
+    MESSAGE_FAILURE   /* either: what went wrong */
 } message_kind;
 
 typedef struct message {

@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -151,8 +152,12 @@ static void leave_parent(pid_t parent) {
     forget_environment();
 }
 
+/* What has been said of the work's progress, in the child; elsewhere nobody listens. */
+static double told = INFINITY;
+
 _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int output, int socket) {
     cli_error error = { 0 };
+    told = 0;
     leave_parent(parent);
     if (!arrange_descriptors(output, socket) || !leave_shared_memory())
         _exit(EXIT_FAILURE);
@@ -162,6 +167,16 @@ _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int outpu
         _exit(EXIT_SUCCESS);
     message_send(CHILD_SOCKET, MESSAGE_FAILURE, error.text, -1);
     _exit(EXIT_FAILURE);
+}
+
+void sandbox_progress(double done) {
+    enum { STEPS = 50 };
+    char text[32];
+    if (!(done >= told + 1.0 / STEPS))
+        return;
+    told = done;
+    snprintf(text, sizeof text, "%.3f", done);
+    message_send(CHILD_SOCKET, MESSAGE_PROGRESS, text, -1);
 }
 
 bool sandbox_write(int output, const void *data, size_t size) {
@@ -247,12 +262,20 @@ static void open_for_child(guard *g, const char *name) {
     close(file);
 }
 
+static void show_progress(const guard *g, const char *text) {
+    double done;
+    if (g->job->progress && cli_number(text, strlen(text), &done) && done >= 0 && done <= 1)
+        g->job->progress(g->job->context, done);
+}
+
 static bool listen_once(guard *g) {
     message m;
     if (!message_receive(g->socket, false, &m, NULL))
         return false;
     if (m.kind == MESSAGE_OPEN)
         open_for_child(g, m.text);
+    else if (m.kind == MESSAGE_PROGRESS)
+        show_progress(g, m.text);
     else
         strcpy(g->complaint, m.text);
     return true;

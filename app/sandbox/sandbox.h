@@ -21,6 +21,9 @@ typedef struct sandbox_job {
     /* In the parent, when the child asks for a file: a descriptor to read it, or -1 with *error.
      * NULL: there are no files. */
     int (*open)(void *context, const char *name, cli_error *error);
+
+    /* In the parent: how much of the work is done, 0 … 1, as the child says. NULL: nobody asks. */
+    void (*progress)(void *context, double done);
 } sandbox_job;
 
 /* Runs the job. True: *block is what the work wrote, `size` bytes of a mapping of its own, for
@@ -34,6 +37,10 @@ bool sandbox_run_all(const sandbox_job *jobs, size_t count, void **blocks, size_
 
 /* For the work: writes all of it to `output`. */
 bool sandbox_write(int output, const void *data, size_t size);
+
+/* For the work, which may call it as often as it likes: how much of it is done. Outside a sandbox
+ * it has no effect. */
+void sandbox_progress(double done);
 
 /* For the work: the file of that name from the parent, which adds its size to what the limits
  * allow, once; -1 with *error. A file has the same *number by every name. */

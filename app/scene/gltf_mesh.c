@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_mesh.c - the meshes of the scene's nodes, and where they stand. */
+#include "app/sandbox/sandbox.h"
 #include "app/scene/gltf_deform.h"
 #include "app/scene/instance.h"
 
@@ -277,6 +278,7 @@ static bool add_nodes(const mesh_reader *r) {
         const cJSON *node = gltf_item(document, GLTF_NODES, document->order[i]);
         const cJSON *instances =
             gltf_member(gltf_extension(node, "EXT_mesh_gpu_instancing"), "attributes");
+        sandbox_progress((double)i / (double)gltf_count(document, GLTF_NODES));
         if (!drawn->shown || !gltf_member(node, "mesh"))
             continue;
         if (!(instances ? add_instances(r, node, instances, drawn->world)

@@ -227,13 +227,21 @@ static int open_source(void *context, const char *name, cli_error *error) {
     return sources_open(&job->sources, name, error);
 }
 
+static void show_progress(void *context, double done) {
+    (void)context;
+    cli_progress("reading", done);
+}
+
 static bool import_fresh(import_job *job, void **block, size_t *size, cli_error *error) {
     const sandbox_job work = { .subject = job->path,
                                .input_bytes = job->size,
                                .context = job,
                                .work = import_in_child,
-                               .open = open_source };
-    if (!sandbox_run(&work, block, size, error))
+                               .open = open_source,
+                               .progress = show_progress };
+    const bool ok = sandbox_run(&work, block, size, error);
+    cli_progress_end();
+    if (!ok)
         return false;
     if (blob_validate(*block, *size, true, job->path, error))
         return true;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/obj.h"
 
+#include "app/sandbox/sandbox.h"
 #include "app/scene/mesh.h"
 #include "app/scene/mtl.h"
 #include "app/scene/vector.h"
@@ -314,9 +315,13 @@ static bool read_all(obj_reader *r) {
     if (!begin_run(r))
         return false;
     r->error->text[0] = 0;
-    while (words_next_line(&r->words, r->sources->subject, r->error))
+    const char *const text = r->words.at;
+    const double size = (double)(r->words.end - text) + 1;
+    while (words_next_line(&r->words, r->sources->subject, r->error)) {
+        sandbox_progress((double)(r->words.at - text) / size);
         if (!read_statement(r))
             return false;
+    }
     if (r->error->text[0])
         return false;
     mtl_sort(&r->materials);

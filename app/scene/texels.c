@@ -5,6 +5,7 @@
 #include "app/scene/blob.h"
 #include "app/scene/texture.h"
 
+#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@
 typedef struct image_run {
     const scene *scene;
     size_t first, end;
+    double *shown; /* of all of them: the most that one said it has done */
 } image_run;
 
 /* What comes back: the texels of each image, up to the end of its last page, and then a byte for
@@ -54,8 +56,10 @@ static bool decode_run(void *context, int output, cli_error *error) {
     const scene *s = run->scene;
     unsigned char *undecodable = calloc(run->end - run->first, 1);
     bool ok = undecodable || fail_memory(s, error);
-    for (size_t i = run->first; ok && i < run->end; i++)
+    for (size_t i = run->first; ok && i < run->end; i++) {
+        sandbox_progress((double)(i - run->first) / (double)(run->end - run->first));
         ok = decode_one(s, &s->images[i], output, &undecodable[i - run->first], error);
+    }
     ok = ok && (sandbox_write(output, undecodable, run->end - run->first) || fail_memory(s, error));
     free(undecodable);
     return ok;
@@ -95,8 +99,14 @@ static bool leave_out(scene *s, const scene_image *image, cli_error *error) {
 
 /* --- in the parent ---------------------------------------------------------------------------- */
 
+static void show_progress(void *context, double done) {
+    const image_run *run = context;
+    *run->shown = fmax(*run->shown, done);
+    cli_progress("decoding", *run->shown);
+}
+
 /* Shares the images out, to each child as many texels as to another but for one image. */
-static size_t share_out(const scene *s, image_run runs[CHILDREN_MAX],
+static size_t share_out(const scene *s, double *shown, image_run runs[CHILDREN_MAX],
                         sandbox_job jobs[CHILDREN_MAX]) {
     const size_t threads = (size_t)omp_get_max_threads();
     const size_t most = threads < CHILDREN_MAX ? threads : CHILDREN_MAX;
@@ -104,12 +114,15 @@ static size_t share_out(const scene *s, image_run runs[CHILDREN_MAX],
     size_t count = 0;
     for (size_t first = 0, end; first < s->image_count; first = end) {
         const uint64_t until = all / most * (count + 1);
-        sandbox_job job = { .subject = s->origin, .context = &runs[count], .work = decode_run };
+        sandbox_job job = { .subject = s->origin,
+                            .context = &runs[count],
+                            .work = decode_run,
+                            .progress = show_progress };
         for (end = first; end < s->image_count &&
                           (end == first || count + 1 == most || s->images[end].first_texel < until);
              end++)
             job.input_bytes += s->images[end].size;
-        runs[count] = (image_run) { s, first, end };
+        runs[count] = (image_run) { s, first, end, shown };
         jobs[count++] = job;
     }
     return count;
@@ -157,10 +170,13 @@ bool scene_decode_images(scene *s, cli_error *error) {
     sandbox_job jobs[CHILDREN_MAX];
     void *blocks[CHILDREN_MAX] = { NULL };
     size_t sizes[CHILDREN_MAX];
+    double shown = 0;
     if (s->image_count == 0)
         return true;
-    const size_t count = share_out(s, runs, jobs);
-    if (!sandbox_run_all(jobs, count, blocks, sizes, error))
+    const size_t count = share_out(s, &shown, runs, jobs);
+    const bool decoded = sandbox_run_all(jobs, count, blocks, sizes, error);
+    cli_progress_end();
+    if (!decoded)
         return false;
     const bool ok = join_runs(s, runs, count, blocks, sizes, error);
     for (size_t i = 0; i < count; i++)
