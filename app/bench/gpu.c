@@ -3,7 +3,6 @@
  */
 #include "app/bench/gpu.h"
 #include "app/bake/bake.h"
-#include "app/render/shade/shade.h"
 #include "app/timing/timing.h"
 
 #include <math.h>
@@ -110,11 +109,14 @@ static bool find_lobes(bench_scene *s, int bands, cli_error *error) {
 }
 
 /* Of the bands of the last row that read one. */
-static bool find_field(bench_scene *s, int bands, cli_error *error) {
+static bool find_field(bench_scene *s, device_kind device, int bands, cli_error *error) {
     const shade_field_options options = { .error = SHADE_FIELD_ERROR,
-                                          .bytes_max = s->context.storage_max };
-    if (s->field && shade_field_describe(s->field).info.desc.bands == bands)
+                                          .bytes_max =
+                                              render_device_field_bytes(&s->devices[device]) };
+    if (s->field && s->field_device == device &&
+        shade_field_describe(s->field).info.desc.bands == bands)
         return true;
+    s->field_device = device;
     shade_field_destroy(s->field);
     s->field = shade_field_create(&s->world, &options, bands, error);
     return s->field;
@@ -138,7 +140,9 @@ static bool find_materials(bench_scene *s, int bands, cli_error *error) {
         ok = override_preintegrate(all, error);
     s->bake_ms = baked - start;
     s->integrate_ms = now_ms() - baked;
-    return ok && override_apply(all, &s->world, s->renderer, error);
+    for (int i = DEVICE_FIRST; i < DEVICES && ok; i++)
+        ok = !s->renderers[i] || override_apply(all, &s->world, s->renderers[i], error);
+    return ok;
 }
 
 /* A shader that sums a material by its bands takes fewer. */
@@ -151,12 +155,12 @@ static int bands_max(const bench_scene *s, const bench_case *c) {
 }
 
 /* One of them, all lights taken anew; its tone curve, too. */
-static bool time_frame(bench_scene *s, const render_frame *frame, unsigned char *rgb8,
+static bool time_frame(any_renderer *renderer, const render_frame *frame, unsigned char *rgb8,
                        render_times *times, cli_error *error) {
     const image_display display = { .exposure = 1 };
     shade_field_forget(frame->field);
-    return gpu_render(s->renderer, frame, times, error) &&
-           gpu_read_rgb8(s->renderer, &display, rgb8, times, error);
+    return renderer_draw(renderer, frame, times, error) &&
+           renderer_read_rgb8(renderer, &display, rgb8, times, error);
 }
 
 /* In the row's part of the time left, but one frame at least: where the library shades, which
@@ -165,15 +169,16 @@ static bool time_frames(bench_scene *s, const bench_row *c, const render_frame *
                         bench_result *result, cli_error *error) {
     double shading[FRAMES], whole[FRAMES];
     int count = 0;
+    any_renderer *const renderer = s->renderers[c->by->device];
     render_times times;
     const double start = now_ms(), end = start + (s->plan->end_ms - start) / s->plan->rows_ahead;
     unsigned char *rgb8 = malloc(3 * (size_t)c->width * (size_t)c->height);
     bool ok = (rgb8 || cli_fail(error, NULL, "out of memory")) &&
-              time_frame(s, frame, rgb8, &times, error);
+              time_frame(renderer, frame, rgb8, &times, error);
     result->compile_ms = now_ms() - start - times.total;
     const bool enough = device_table[c->by->device].on_host && now_ms() >= end;
     while (ok && (count == 0 || (count < FRAMES && now_ms() < end))) {
-        ok = enough || time_frame(s, frame, rgb8, &times, error);
+        ok = enough || time_frame(renderer, frame, rgb8, &times, error);
         shading[count] = times.shade + times.transfer;
         whole[count++] = times.total;
     }
@@ -196,7 +201,6 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
         .window = LMP_WINDOW_HANNING,
         .lights = s->world.lights,
         .light_count = (size_t)c->lights,
-        .host = shade_on(c->by->device),
     };
     if (method_table[c->by->method].reads & METHOD_READS_PREINTEGRATED) {
         if (!find_lobes(s, c->bands, error))
@@ -204,7 +208,7 @@ static bool time_row(bench_scene *s, const bench_row *c, bench_result *result, c
         frame.lobes = s->lobes[c->bands];
     }
     if (method_table[c->by->method].reads & METHOD_READS_FIELD) {
-        if (!find_field(s, c->bands, error))
+        if (!find_field(s, c->by->device, c->bands, error))
             return false;
         shade_field_attach(s->field, &frame);
     }
@@ -300,19 +304,33 @@ static int most_lights(const bench_options *o) {
     return most;
 }
 
+/* Those of the cases. */
+static bool open_devices(bench_scene *s, cli_error *error) {
+    for (int i = 0; i < s->plan->case_count; i++) {
+        const device_kind kind = s->plan->cases[i].device;
+        if (s->renderers[kind])
+            continue;
+        if (!render_device_open(kind, s->options->gl_device, &s->world, &s->devices[kind], error) ||
+            !(s->renderers[kind] = renderer_create(&s->devices[kind], error)))
+            return false;
+    }
+    return true;
+}
+
 static bool open_scene(bench_scene *s, cli_error *error) {
     return scene_load(s->name, &(scene_options) { 0 }, &s->world, error) &&
            scene_add_random_lights(&s->world, most_lights(s->options) - (int)s->world.light_count,
                                    SEED, error) &&
            override_open(&s->options->materials, &s->world, &s->materials, error) &&
-           gpu_context_create(s->options->gl_device, &s->context, error) &&
-           (s->renderer = gpu_renderer_create(&s->context, &s->world, error));
+           open_devices(s, error);
 }
 
 static void close_scene(bench_scene *s) {
-    gpu_renderer_destroy(s->renderer);
+    for (int i = DEVICE_FIRST; i < DEVICES; i++)
+        renderer_destroy(s->renderers[i]);
     override_free(&s->materials);
-    gpu_context_destroy(&s->context);
+    for (int i = DEVICE_FIRST; i < DEVICES; i++)
+        render_device_close(&s->devices[i]);
     scene_free(&s->world);
     shade_field_destroy(s->field);
     for (int n = 0; n <= LMP_BANDS_MAX; n++)

@@ -53,13 +53,14 @@ typedef struct bench_scene {
     bench_plan *plan;
     const char *name;
     scene world;
-    gpu_context context;
-    gpu_renderer *renderer;
+    render_device devices[DEVICES]; /* those that cases run on */
+    any_renderer *renderers[DEVICES];
     lmp_preintegrated_lobe *lobes[LMP_BANDS_MAX + 1]; /* by bands, made on demand */
     double build_ms[LMP_BANDS_MAX + 1];
-    shade_field *field;     /* of the bands asked for last, or NULL */
-    override_set materials; /* of material_bands */
-    int material_bands;     /* 0: none yet */
+    shade_field *field;       /* of the bands asked for last, or NULL */
+    device_kind field_device; /* that it was made for */
+    override_set materials;   /* of material_bands */
+    int material_bands;       /* 0: none yet */
     double bake_ms, integrate_ms;
     bool first;
 } bench_scene;

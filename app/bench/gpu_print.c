@@ -94,8 +94,12 @@ void bench_print_row(bench_scene *s, const bench_row *c, const bench_result *res
 static void print_json_header(const bench_scene *s) {
     const bench_options *o = s->options;
     cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "gpu", s->context.device);
-    cJSON_AddStringToObject(root, "driver", s->context.driver);
+    for (int i = DEVICE_FIRST; i < DEVICES; i++)
+        if (s->renderers[i]) {
+            cJSON_AddStringToObject(root, device_table[i].name, s->devices[i].name);
+            cJSON_AddStringToObject(root, i == DEVICE_GPU ? "driver" : "rays",
+                                    s->devices[i].driver);
+        }
     cJSON_AddStringToObject(root, "cpu_kernels", lmp_cpu_name());
     cJSON_AddStringToObject(root, "commit", LAMPION_COMMIT);
     cJSON_AddItemToObject(
@@ -114,17 +118,21 @@ void bench_print_header(const bench_scene *s) {
         print_json_header(s);
         return;
     }
-    printf("%s (%s), CPU kernels: %s; commit %s\n", s->context.device, s->context.driver,
-           lmp_cpu_name(), LAMPION_COMMIT);
+    for (int i = DEVICE_FIRST; i < DEVICES; i++)
+        if (s->renderers[i])
+            printf("%s: %s (%s, %s); ", device_table[i].name, s->devices[i].name,
+                   s->devices[i].driver, render_device_clock(&s->devices[i]));
+    printf("CPU kernels: %s; commit %s\n", lmp_cpu_name(), LAMPION_COMMIT);
     for (int i = 0; i < o->materials.count; i++)
         printf("%s%s", i ? ", " : "materials: ", o->materials.items[i]);
-    printf("%s"
-           "ms: from G-buffer to radiance, to the CPU and back where it shades, median of the "
-           "frames (%s); whole: with the G-buffer and the tone curve; x paper: against the paper's "
-           "fragment shader in the same run; ms at the "
-           "end: making or reading the materials' tables, the lobes, preintegrating the materials' "
-           "tables\n",
-           o->materials.count ? "\n" : "", s->context.software ? "wall clock" : "timer queries");
+    printf(
+        "%s"
+        "ms: from surfaces to radiance, median of the "
+        "frames; whole: with finding the surfaces and the tone curve; x paper: against the paper's "
+        "fragment shader in the same run; ms at the "
+        "end: making or reading the materials' tables, the lobes, preintegrating the materials' "
+        "tables\n",
+        o->materials.count ? "\n" : "");
     printf("%-15s %-4s %-14s %5s %6s  %9s %10s %10s %6s %9s %9s %9s %9s %8s %8s %8s\n", "scene",
            "dev", "method", "bands", "lights", "size", "ms", "whole", "frames", "ns/pair",
            "x paper", "compile", "table KB", "table", "lobes", "preint.");

@@ -4,7 +4,6 @@
 #include "app/command/command.h"
 #include "app/file/file.h"
 #include "app/image/sequence.h"
-#include "app/render/shade/shade.h"
 #include "app/view/view.h"
 
 #include <math.h>
@@ -25,7 +24,7 @@ static void name_frame(const render_options *o, int index, char path[PATH_SIZE])
 
 static bool write_exr(const render_job *j, const char *path, cli_error *error) {
     image pixels;
-    if (!gpu_read_image(j->renderer, &pixels, error))
+    if (!renderer_read_image(j->renderer, &pixels, error))
         return false;
     image_make_finite(&pixels, path);
     const bool ok = image_write(&pixels, path, &j->display, error);
@@ -38,7 +37,7 @@ static bool write_png(const render_job *j, const char *path, cli_error *error) {
     unsigned char *rgb8 = malloc(3 * (size_t)width * (size_t)height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");
-    const bool ok = gpu_read_rgb8(j->renderer, &j->display, rgb8, NULL, error) &&
+    const bool ok = renderer_read_rgb8(j->renderer, &j->display, rgb8, NULL, error) &&
                     image_write_png8(rgb8, width, height, path, error);
     free(rgb8);
     return ok;
@@ -65,8 +64,8 @@ static bool settle_exposure(render_job *j, cli_error *error) {
         frame.samples = 1;
         frame.hide_backdrop = true;
         memset(frame.background, 0, sizeof frame.background);
-        if (!gpu_render(j->renderer, &frame, NULL, error) ||
-            !gpu_read_image(j->renderer, &pixels, error))
+        if (!renderer_draw(j->renderer, &frame, NULL, error) ||
+            !renderer_read_image(j->renderer, &pixels, error))
             return false;
         factor = image_auto_exposure(&pixels);
         image_free(&pixels);
@@ -82,7 +81,7 @@ static bool draw_frame(render_job *j, int index, cli_error *error) {
     char path[PATH_SIZE];
     name_frame(j->options, index, path);
     move_lights(j, index);
-    if (!gpu_render(j->renderer, &j->frame, NULL, error))
+    if (!renderer_draw(j->renderer, &j->frame, NULL, error))
         return false;
     return image_format_of(path) == IMAGE_EXR ? write_exr(j, path, error)
                                               : write_png(j, path, error);
@@ -123,7 +122,7 @@ static bool settle_tables(render_job *j, cli_error *error) {
         return false;
     if (reads(j, METHOD_READS_FIELD) && o->bands <= LMP_FIELD_BANDS_MAX) {
         shade_field_options options = o->field;
-        options.bytes_max = j->shading == DEVICE_CPU ? 0 : j->context.storage_max;
+        options.bytes_max = render_device_field_bytes(&j->device);
         j->field = shade_field_create(&j->world, &options, o->bands, error);
         if (!j->field)
             return false;
@@ -147,23 +146,45 @@ static void settle_method(render_job *j) {
     const bool by_lobes = o->materials.count == 0 && !is_layered(&j->world);
     j->work = (method_work) { j->world.light_count, o->bands, (double)o->size[0] * o->size[1] };
     j->method = o->method;
-    if (o->method_choice == 0 && j->shading == DEVICE_CPU && by_lobes)
+    if (o->method_choice == 0 && j->device.kind == DEVICE_CPU && by_lobes)
         j->method = method_for_lights(o->method, &j->work);
     j->frame.method = j->method;
 }
 
-/* Chooses where to shade. */
-static bool settle_shading(render_job *j, cli_error *error) {
+/* The device for a method, as far as OpenGL is `software`. Methods are compared where all of them
+ * run. */
+static device_kind choose_device(const render_job *j, bool software) {
     const render_options *o = j->options;
-    const method_kind method = o->method;
     const bool tables = o->materials.count > 0 && environment_shines(&j->around);
-    /* Methods are compared where all of them run. */
-    j->shading = method_device(method, (device_kind)o->device_kind, tables,
-                               j->context.software && !o->compare, o->bands);
-    if (o->bands > method_table[method].bands_max[j->shading])
+    return method_device(o->method, (device_kind)o->device_kind, tables, software && !o->compare,
+                         o->bands);
+}
+
+static bool runs_on_cpu(const render_options *o) {
+    return o->bands <= method_table[o->method].bands_max[DEVICE_CPU];
+}
+
+/* Opens it; without a GPU no OpenGL is loaded where the CPU draws the method. */
+static bool open_device(render_job *j, cli_error *error) {
+    const render_options *o = j->options;
+    device_kind kind = choose_device(j, !o->device && !render_finds_gpu());
+    if (render_device_open(kind, o->device, &j->world, &j->device, error)) {
+        if (kind == DEVICE_CPU || choose_device(j, j->device.gl.software) == kind)
+            return true;
+    } else if (o->device_kind != DEVICE_AUTO || o->device || !runs_on_cpu(o))
+        return false;
+    render_device_close(&j->device);
+    return render_device_open(DEVICE_CPU, NULL, &j->world, &j->device, error);
+}
+
+/* Chooses where to draw. */
+static bool settle_device(render_job *j, cli_error *error) {
+    const render_options *o = j->options;
+    if (!open_device(j, error))
+        return false;
+    if (o->bands > method_table[o->method].bands_max[j->device.kind])
         return cli_fail(error, NULL, "%d bands are too many for %s on the GPU (take --device cpu)",
-                        o->bands, method_table[method].name);
-    j->frame.host = shade_on(j->shading);
+                        o->bands, method_table[o->method].name);
     settle_method(j);
     return settle_tables(j, error);
 }
@@ -171,7 +192,8 @@ static bool settle_shading(render_job *j, cli_error *error) {
 static bool cast_shadows(render_job *j, cli_error *error) {
     if (!j->options->shadow.on || j->options->shadow.off)
         return true;
-    j->shadow = shadow_create(&j->world, &j->around, &j->options->shadow.settings, error);
+    j->shadow = shadow_create(&j->world, render_device_bvh(&j->device), &j->around,
+                              &j->options->shadow.settings, error);
     j->frame.shadow = (render_pass) { shadow_frame, j->shadow };
     return j->shadow != NULL;
 }
@@ -190,11 +212,11 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
         !environment_project(&j->around, o->bands, error) ||
         !animation_open(o->animate, &j->world, &j->path, error) ||
         !scene_place_camera(&j->world, &o->camera, o->size, &j->frame.camera, error) ||
-        !gpu_context_create(o->device, &j->context, error) || !settle_shading(j, error))
+        !settle_device(j, error))
         return false;
-    j->renderer = gpu_renderer_create(&j->context, &j->world, error);
+    j->renderer = renderer_create(&j->device, error);
     if (j->renderer)
-        gpu_set_environment(j->renderer, &j->around);
+        renderer_set_environment(j->renderer, &j->around);
     j->frame.hide_backdrop = o->background_given;
     j->moved = calloc(SCENE_LIGHTS_MAX, sizeof *j->moved);
     j->frame.width = o->size[0];
@@ -212,12 +234,12 @@ static bool open_job(const char *name, render_job *j, cli_error *error) {
 }
 
 static void close_job(render_job *j) {
-    gpu_renderer_destroy(j->renderer);
+    shadow_destroy(j->shadow);
+    renderer_destroy(j->renderer);
     override_free(&j->materials);
-    gpu_context_destroy(&j->context);
+    render_device_close(&j->device);
     environment_free(&j->around);
     scene_free(&j->world);
-    shadow_destroy(j->shadow);
     lmp_preintegrated_lobe_destroy(j->lobes);
     shade_field_destroy(j->field);
     free(j->moved);

@@ -7,6 +7,7 @@
 #include "app/animation/animation.h"
 #include "app/environment/environment.h"
 #include "app/override/override.h"
+#include "app/render/renderer.h"
 #include "app/render/shade/field.h"
 #include "app/render/shadow/shadow.h"
 #include "app/view/settings.h"
@@ -36,10 +37,9 @@ typedef struct render_job {
     const render_options *options;
     scene world;
     environment around;
-    gpu_context context;
-    gpu_renderer *renderer;
+    render_device device;
+    any_renderer *renderer;
     render_frame frame;
-    device_kind shading;
     method_work work;              /* by which methods are estimated */
     method_kind method;            /* of these lights, on that device */
     lmp_preintegrated_lobe *lobes; /* of methods that read them */

@@ -18,15 +18,15 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], c
     frame.samples = 1;
     unsigned char *rgb8 = malloc(3 * (size_t)frame.width * (size_t)frame.height);
     bool ok = rgb8 || cli_fail(error, NULL, "out of memory");
-    ok = ok && gpu_render(j->renderer, &frame, NULL, error);
+    ok = ok && renderer_draw(j->renderer, &frame, NULL, error);
     for (int i = 0; i < j->options->repeat && ok; i++) {
         render_times times;
         shade_field_forget(j->field);
-        ok = gpu_render(j->renderer, &frame, &times, error) &&
-             gpu_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
+        ok = renderer_draw(j->renderer, &frame, &times, error) &&
+             renderer_read_rgb8(j->renderer, &j->display, rgb8, &times, error);
         if (ok) {
-            const double passes[PASSES] = { times.gbuffer, times.transfer, times.shade,
-                                            times.shadow,  times.tone,     times.total };
+            const double passes[PASSES] = { times.surfaces, times.transfer, times.shade,
+                                            times.shadow,   times.tone,     times.total };
             for (int p = 0; p < PASSES; p++)
                 samples[p][i] = passes[p];
         }
@@ -41,7 +41,8 @@ static bool measure(render_job *j, method_kind method, double medians[PASSES], c
 static bool compared(const render_job *j, method_kind method) {
     if (method == j->method)
         return true;
-    return j->options->compare && method_table[method].bands_max[j->shading] >= j->options->bands;
+    return j->options->compare &&
+           method_table[method].bands_max[j->device.kind] >= j->options->bands;
 }
 
 static bool add_timings(render_job *j, cJSON *stats, cli_error *error) {
@@ -114,7 +115,7 @@ static bool add_rest(render_job *j, cJSON *stats, cli_error *error) {
     for (int i = 0; i < j->options->repeat && ok; i++) {
         render_times times;
         frame.camera.eye[0] += step;
-        ok = gpu_render(j->renderer, &frame, &times, error);
+        ok = renderer_draw(j->renderer, &frame, &times, error);
         samples[i] = ok ? times.shade : 0;
     }
     if (ok)
@@ -136,15 +137,15 @@ bool render_print_stats(render_job *j, cli_error *error) {
     cJSON_AddNumberToObject(stats, "width", o->size[0]);
     cJSON_AddNumberToObject(stats, "height", o->size[1]);
     cJSON_AddNumberToObject(stats, "exposure", (double)j->display.exposure);
-    cJSON_AddStringToObject(stats, "device", j->context.device);
-    cJSON_AddStringToObject(stats, "driver", j->context.driver);
-    cJSON_AddStringToObject(stats, "clock", j->context.software ? "wall" : "timer queries");
+    cJSON_AddStringToObject(stats, "device", j->device.name);
+    cJSON_AddStringToObject(stats, "driver", j->device.driver);
+    cJSON_AddStringToObject(stats, "clock", render_device_clock(&j->device));
     cJSON_AddNumberToObject(stats, "repeat", o->repeat);
-    cJSON_AddStringToObject(stats, "shading", device_table[j->shading].name);
+    cJSON_AddStringToObject(stats, "shading", device_table[j->device.kind].name);
     if (j->lobes)
         cJSON_AddNumberToObject(stats, "preintegrated_bytes",
                                 (double)lmp_preintegrated_lobe_describe(j->lobes).bytes);
-    if (j->shading == DEVICE_CPU)
+    if (j->device.kind == DEVICE_CPU)
         add_estimates(j, stats);
     if (!add_timings(j, stats, error)) {
         cJSON_Delete(stats);

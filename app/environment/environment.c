@@ -54,7 +54,7 @@ static bool open_studio(const environment_options *options, const scene *world, 
     const float x = camera.eye[0] - camera.target[0], z = camera.eye[2] - camera.target[2];
     if (!environment_make_studio(e, error))
         return false;
-    e->azimuth += x * x + z * z > 0 ? atan2f(z, x) : pi / 2;
+    e->azimuth += x * x + z * z > 0 ? (float)atan2((double)z, (double)x) : pi / 2;
     e->studio = true;
     return check_radiance(&e->light, options->strength, "studio", error);
 }

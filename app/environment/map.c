@@ -61,10 +61,29 @@ bool environment_project(environment *e, int bands, cli_error *error) {
     return e->sh || cli_fail(error, NULL, "out of memory");
 }
 
+/* atan2, within 1e-7, by arithmetic whose bits are the same everywhere (Abramowitz and Stegun,
+ * 4.4.49). */
+static float angle_of(float y, float x) {
+    const float a = fabsf(x), b = fabsf(y), most = fmaxf(a, b);
+    const float z = most > 0 ? fminf(a, b) / most : 0, s = z * z;
+    float angle =
+        z +
+        z * s *
+            (-0.3333314528f +
+             s * (0.1999355085f +
+                  s * (-0.1420889944f +
+                       s * (0.1065626393f + s * (-0.0752896400f +
+                                                 s * (0.0429096138f + s * (-0.0161657367f +
+                                                                           s * 0.0028662257f)))))));
+    angle = b > a ? (float)pi / 2 - angle : angle;
+    angle = x < 0 ? (float)pi - angle : angle;
+    return copysignf(angle, y);
+}
+
 lmp_rgb environment_seen(const environment *e, const float d[3]) {
     const image *map = &e->backdrop;
-    const float turns = (atan2f(d[2], d[0]) - e->azimuth) / (2 * (float)pi) + 0.5f;
-    const float polar = atan2f(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) / (float)pi;
+    const float turns = (angle_of(d[2], d[0]) - e->azimuth) / (2 * (float)pi) + 0.5f;
+    const float polar = angle_of(sqrtf(d[0] * d[0] + d[2] * d[2]), d[1]) / (float)pi;
     const float u = (turns - floorf(turns)) * (float)map->width - 0.5f;
     const float v = fminf(fmaxf(polar * (float)map->height - 0.5f, 0), (float)map->height - 1);
     const int x = (int)floorf(u), y = (int)v;

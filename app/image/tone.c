@@ -12,6 +12,20 @@
 /* Luminance in eighths of a stop, from 2^-40 to 2^40. */
 enum { BINS_A_STOP = 8, STOPS = 40, BINS = 2 * STOPS * BINS_A_STOP };
 
+/* The bin of x > 0, by its exponent and eighths of an octave: arithmetic whose bits are the same
+ * everywhere, unlike a logarithm's. */
+static int bin_of(float x) {
+    static const float eighths[BINS_A_STOP] = {
+        1, 1.09050773f, 1.18920712f, 1.29683955f, 1.41421356f, 1.54221083f, 1.68179283f, 1.83400809f
+    };
+    int exponent, eighth = 0;
+    const float mantissa = 2 * frexpf(x, &exponent);
+    while (eighth + 1 < BINS_A_STOP && mantissa >= eighths[eighth + 1])
+        eighth++;
+    const int bin = (STOPS + exponent - 1) * BINS_A_STOP + eighth;
+    return bin < 0 ? 0 : bin >= BINS ? BINS - 1 : bin;
+}
+
 static size_t fill_histogram(const image *pixels, size_t histogram[BINS]) {
     const size_t count = (size_t)pixels->width * (size_t)pixels->height;
     size_t lit = 0;
@@ -20,8 +34,7 @@ static size_t fill_histogram(const image *pixels, size_t histogram[BINS]) {
         const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
         if (!(luminance > 0) || !isfinite(luminance))
             continue;
-        const float bin = ((float)STOPS + log2f(luminance)) * (float)BINS_A_STOP;
-        histogram[bin < 0 ? 0 : bin >= (float)BINS ? BINS - 1 : (int)bin]++;
+        histogram[bin_of(luminance)]++;
         lit++;
     }
     return lit;
@@ -57,7 +70,7 @@ float image_auto_exposure(const image *pixels) {
 }
 
 float image_exposure_of_stops(float stops) {
-    return exp2f(stops);
+    return (float)exp2((double)stops);
 }
 
 /* --- tone curves ------------------------------------------------------------------------------ */
@@ -99,8 +112,39 @@ static float transfer(float radiance) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
-static unsigned char to_byte(float x) {
-    return (unsigned char)(255 * transfer(x) + 0.5f);
+/* How linear values become bytes of sRGB: by the least value of each byte, from a first guess by
+ * the value's root. The powers are taken in double and rounded, so that the bytes of an image do
+ * not depend on the machine's mathematics. */
+enum { GUESSES = 4096 };
+typedef struct byte_curve {
+    float least[257];
+    unsigned char guess[GUESSES + 1];
+} byte_curve;
+
+static void make_curve(byte_curve *curve) {
+    curve->least[0] = -1;
+    curve->least[256] = 2;
+    for (int i = 1; i < 256; i++) {
+        const double x = (i - 0.5) / 255;
+        curve->least[i] = (float)(x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
+    }
+    int byte = 0;
+    for (int i = 0; i <= GUESSES; i++) {
+        const float root = (float)i / GUESSES;
+        while (curve->least[byte + 1] <= root * root)
+            byte++;
+        curve->guess[i] = (unsigned char)byte;
+    }
+}
+
+static unsigned char to_byte(const byte_curve *curve, float linear) {
+    const float x = linear > 0 ? fminf(linear, 1) : 0;
+    int byte = curve->guess[(int)(sqrtf(x) * GUESSES)];
+    while (byte > 0 && x < curve->least[byte])
+        byte--;
+    while (x >= curve->least[byte + 1])
+        byte++;
+    return (unsigned char)byte;
 }
 
 /* Keeps the curve's squares finite, and off its pole below 0; NaN is black. */
@@ -117,12 +161,14 @@ static void map_pixel(const float *radiance, const image_display *display, float
 
 void image_tone_map(const image *pixels, const image_display *display, unsigned char *rgb8) {
     const size_t count = (size_t)pixels->width * (size_t)pixels->height;
+    byte_curve curve;
+    make_curve(&curve);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < count; i++) {
         float shown[3];
         map_pixel(pixels->rgb + 3 * i, display, shown);
         for (size_t c = 0; c < 3; c++)
-            rgb8[3 * i + c] = to_byte(shown[c]);
+            rgb8[3 * i + c] = to_byte(&curve, shown[c]);
     }
 }
 
@@ -139,6 +185,8 @@ void image_show(image *pixels, const image_display *display) {
 
 void image_encode(const image *pixels, unsigned char *rgb8) {
     const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
+    byte_curve curve;
+    make_curve(&curve);
     for (size_t i = 0; i < count; i++)
-        rgb8[i] = to_byte(pixels->rgb[i]);
+        rgb8[i] = to_byte(&curve, pixels->rgb[i]);
 }

@@ -90,7 +90,7 @@ bool override_preintegrate(override_set *all, cli_error *error) {
     return true;
 }
 
-bool override_apply(const override_set *all, const scene *world, gpu_renderer *renderer,
+bool override_apply(const override_set *all, const scene *world, any_renderer *renderer,
                     cli_error *error) {
     const size_t count = world->material_count;
     int *none = NULL;
@@ -100,18 +100,18 @@ bool override_apply(const override_set *all, const scene *world, gpu_renderer *r
             return cli_fail(error, NULL, "out of memory");
         memset(none, 0xff, (count + 1) * sizeof *none);
     }
-    const bool ok = gpu_set_tables(renderer, (const lmp_brdf_table *const *)all->tables, all->count,
-                                   all->uses ? all->uses : none, count, error);
+    const bool ok = renderer_set_tables(renderer, (const lmp_brdf_table *const *)all->tables,
+                                        all->count, all->uses ? all->uses : none, error);
     if (ok)
-        gpu_set_preintegrated_brdfs(renderer,
-                                    (const lmp_preintegrated_brdf *const *)all->preintegrated);
-    gpu_set_fibers(renderer, all->fibers[0] ? (const lmp_brdf_table *const *)all->fibers : NULL);
+        renderer_set_brdfs(renderer, (const lmp_preintegrated_brdf *const *)all->preintegrated);
+    renderer_set_fibers(renderer,
+                        all->fibers[0] ? (const lmp_brdf_table *const *)all->fibers : NULL);
     free(none);
     return ok;
 }
 
 bool override_prepare(const cli_list *list, const scene *world, const render_frame *frame,
-                      gpu_renderer *renderer, override_set *all, cli_error *error) {
+                      any_renderer *renderer, override_set *all, cli_error *error) {
     return override_open(list, world, all, error) &&
            override_bake(all, frame->bands, frame->window, error) &&
            (!(method_table[frame->method].reads & METHOD_READS_PREINTEGRATED) ||

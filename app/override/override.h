@@ -4,7 +4,7 @@
 #define LAMPION_OVERRIDE_H
 
 #include "app/material/material.h"
-#include "app/render/gl/gpu.h"
+#include "app/render/renderer.h"
 
 #define OVERRIDE_ARGUMENT "NAME=MATERIAL"
 #define OVERRIDE_OPTION_ROW(list)                                                                  \
@@ -14,9 +14,9 @@
     }
 
 typedef struct override_set {
-    material opened[GPU_TABLES_MAX];
-    lmp_brdf_table *tables[GPU_TABLES_MAX];                /* NULL before override_bake */
-    lmp_preintegrated_brdf *preintegrated[GPU_TABLES_MAX]; /* of tables; NULL unless asked for */
+    material opened[RENDER_TABLES_MAX];
+    lmp_brdf_table *tables[RENDER_TABLES_MAX];                /* NULL before override_bake */
+    lmp_preintegrated_brdf *preintegrated[RENDER_TABLES_MAX]; /* of tables; NULL unless asked for */
     lmp_brdf_table *fibers[LMP_FIBER_TABLES]; /* white ones; NULL where the scene has no sheen */
     int count;
     int *uses; /* for each of the scene's materials the entry that replaces it, or -1 */
@@ -40,12 +40,12 @@ bool override_bake_fibers(override_set *set, const scene *scene, int bands, lmp_
                           cli_error *error);
 
 /* Has the renderer of the scene shade by them; without any by the scene's own again. */
-bool override_apply(const override_set *set, const scene *scene, gpu_renderer *renderer,
+bool override_apply(const override_set *set, const scene *scene, any_renderer *renderer,
                     cli_error *error);
 
 /* All of these: what the frame's method, bands and window need, for the renderer. */
 bool override_prepare(const cli_list *list, const scene *scene, const render_frame *frame,
-                      gpu_renderer *renderer, override_set *set, cli_error *error);
+                      any_renderer *renderer, override_set *set, cli_error *error);
 
 /* After the renderer. */
 void override_free(override_set *set);

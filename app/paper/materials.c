@@ -85,8 +85,7 @@ static void claim_time(paper *p, double ns, bool software) {
                     "%.3g ns at most", ns);
 }
 
-static bool time_rows(paper *p, const gpu_context *context, const scene *world, page_table *table,
-                      cli_error *error) {
+static bool time_rows(paper *p, const render_device *device, page_table *table, cli_error *error) {
     double most = 0;
     for (int i = 0; i < MATERIALS; i++)
         for (int c = 0; c < TIMED_BANDS; c++) {
@@ -98,10 +97,10 @@ static bool time_rows(paper *p, const gpu_context *context, const scene *world, 
                                          .bands = band_counts[c],
                                          .window = LMP_WINDOW_HANNING };
             snprintf(assignment, sizeof assignment, "test_material=sgd:%s", materials[i].ours);
-            if (!paper_time_frame(context, world, &frame, assignment, &ms, error))
+            if (!paper_time_frame(device, &frame, assignment, &ms, error))
                 return false;
-            const double ns =
-                paper_nanoseconds(ms.shade, size_of(p), (int)world->light_count, band_counts[c]);
+            const double ns = paper_nanoseconds(ms.shade, size_of(p),
+                                                (int)device->scene->light_count, band_counts[c]);
             page_table_row(table, "%s|%s|%d|%.1f|%.1f|%.3g|%s", materials[i].letter,
                            materials[i].ours, band_counts[c], ms.shade, ms.total, ns,
                            band_counts[c] == 10          ? "below 3"
@@ -109,24 +108,24 @@ static bool time_rows(paper *p, const gpu_context *context, const scene *world, 
                                                          : "");
             most = band_counts[c] == 10 ? fmax(most, ns) : most;
         }
-    claim_time(p, most, context->software);
+    claim_time(p, most, device->gl.software);
     return true;
 }
 
 static bool time_materials(paper *p, cli_error *error) {
-    gpu_context context;
+    render_device device;
     scene world;
     page_table table;
     if (!scene_load("builtin:ball", &(scene_options) { .no_cache = false }, &world, error))
         return false;
-    bool ok = gpu_context_create(NULL, &context, error);
+    bool ok = render_device_open(DEVICE_GPU, NULL, &world, &device, error);
     if (ok) {
-        paper_name_device(p, &context, size_of(p)[0], size_of(p)[1]);
+        paper_name_device(p, &device, size_of(p)[0], size_of(p)[1]);
         ok = page_table_begin(&p->page, &table, "figure6-times",
                               "figure|material|bands|shading, ms|frame, ms|shading, ns|paper, ms",
                               error) &&
-             time_rows(p, &context, &world, &table, error) && page_table_end(&table, error);
-        gpu_context_destroy(&context);
+             time_rows(p, &device, &table, error) && page_table_end(&table, error);
+        render_device_close(&device);
     }
     scene_free(&world);
     return ok;

@@ -6,7 +6,7 @@
 
 #include "app/compare/compare.h"
 #include "app/paper/page.h"
-#include "app/render/gl/gpu.h"
+#include "app/render/renderer.h"
 
 /* Runs a command line of the program ("render builtin:atrium …"); returns its exit status. */
 typedef int (*paper_runner)(int argc, char **argv);
@@ -102,10 +102,10 @@ typedef struct paper_times {
 
 /* On the device of `context`, for the scene's lights, seen by its default camera. `material`
  * is NAME=MATERIAL, as `render --material` takes it; NULL: none. */
-bool paper_time_frame(const gpu_context *context, const scene *world, const render_frame *frame,
-                      const char *material, paper_times *times, cli_error *error);
+bool paper_time_frame(const render_device *device, const render_frame *frame, const char *material,
+                      paper_times *times, cli_error *error);
 
 /* A paragraph that names the device. */
-void paper_name_device(paper *p, const gpu_context *context, int width, int height);
+void paper_name_device(paper *p, const render_device *device, int width, int height);
 
 #endif

@@ -43,17 +43,12 @@ static void claim_time(paper *p, const figure *f, int shown, double ns, bool sof
                     "%.3g ns", ns);
 }
 
-static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli_error *error) {
+static bool time_rows(paper *p, const render_device *device, const figure *f, cli_error *error) {
     const int size[] = { f->width, f->height };
-    scene world;
     page_table table;
     char file[64];
-    const scene_lights_options lights = { .random_count = f->light_count, .seed = 1 };
     snprintf(file, sizeof file, "%s-times", f->name);
-    if (!scene_load(f->scene, &(scene_options) { .no_cache = false }, &world, error))
-        return false;
-    bool ok = scene_apply_lights(&world, &lights, error) &&
-              page_table_begin(&p->page, &table, file,
+    bool ok = page_table_begin(&p->page, &table, file,
                                "bands|method|shading, ms|frame, ms|shading, ns|paper, ms|paper, ns",
                                error);
     for (int i = 0; ok && f->shown[i]; i++) {
@@ -65,7 +60,7 @@ static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli
                                          .bands = f->shown[i],
                                          .window = LMP_WINDOW_HANNING };
             paper_times ms;
-            ok = paper_time_frame(context, &world, &frame, NULL, &ms, error);
+            ok = paper_time_frame(device, &frame, NULL, &ms, error);
             if (!ok)
                 break;
             const double ns = paper_nanoseconds(ms.shade, size, f->light_count, f->shown[i]);
@@ -76,19 +71,25 @@ static bool time_rows(paper *p, const gpu_context *context, const figure *f, cli
                 paper_nanoseconds(f->paper[i], f->paper_size, f->light_count, f->shown[i]));
         }
         if (ok)
-            claim_time(p, f, i, least, context->software);
+            claim_time(p, f, i, least, device->gl.software);
     }
-    scene_free(&world);
     return ok && page_table_end(&table, error);
 }
 
 static bool time_figure(paper *p, const figure *f, cli_error *error) {
-    gpu_context context;
-    if (!gpu_context_create(NULL, &context, error))
+    const scene_lights_options lights = { .random_count = f->light_count, .seed = 1 };
+    render_device device;
+    scene world;
+    if (!scene_load(f->scene, &(scene_options) { .no_cache = false }, &world, error))
         return false;
-    paper_name_device(p, &context, f->width, f->height);
-    const bool ok = time_rows(p, &context, f, error);
-    gpu_context_destroy(&context);
+    bool ok = scene_apply_lights(&world, &lights, error) &&
+              render_device_open(DEVICE_GPU, NULL, &world, &device, error);
+    if (ok) {
+        paper_name_device(p, &device, f->width, f->height);
+        ok = time_rows(p, &device, f, error);
+        render_device_close(&device);
+    }
+    scene_free(&world);
     return ok;
 }
 

@@ -106,7 +106,7 @@ static float fit(const scene *s, framing *f) {
 
 /* The model in the middle of the image, as near as fits. */
 static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect) {
-    const float slope = FRAMING_PART * tanf(0.5f * DEFAULT_FOV);
+    const float slope = FRAMING_PART * (float)tan(0.5 * (double)DEFAULT_FOV);
     framing f = { .center = center,
                   .from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f)),
                   .slope = { slope * aspect, slope },
@@ -124,7 +124,8 @@ static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect)
 }
 
 float scene_camera_height(const scene_camera *camera, float distance) {
-    return camera->height > 0.0f ? camera->height : 2.0f * distance * tanf(0.5f * camera->fov);
+    return camera->height > 0.0f ? camera->height
+                                 : 2.0f * distance * (float)tan(0.5 * (double)camera->fov);
 }
 
 /* Narrower images see more above and below. */
@@ -132,7 +133,8 @@ static void widen(scene_camera *camera, float aspect) {
     if (!(aspect > 0.0f && aspect < camera->aspect))
         return;
     camera->height *= camera->aspect / aspect;
-    camera->fov = 2.0f * atanf(tanf(0.5f * camera->fov) * camera->aspect / aspect);
+    camera->fov =
+        (float)(2.0 * atan(tan(0.5 * (double)camera->fov) * (double)(camera->aspect / aspect)));
 }
 
 scene_camera scene_default_camera(const scene *s, float aspect) {

@@ -2,6 +2,7 @@
 #include "app/trace/trace.h"
 
 #include "app/trace/blend.h"
+#include "app/trace/embree.h"
 #include "app/trace/texture.h"
 #include "app/trace/tree.h"
 #include "app/trace/triangle.h"
@@ -69,50 +70,29 @@ static double alpha_of(const scene *world, const scene_material *material,
 
 /* --- rays against a triangle ------------------------------------------------------------------ */
 
-/* Embree hands rays and hits over as rows of n values; C++ alone has names for them. */
-enum {
-    ROW_START = 3,
-    ROW_END = 8,
-    ROW_RAY = 10,
-    ROW_U = 15,
-    ROW_V = 16,
-    ROW_TRIANGLE = 17,
-    ROW_GEOMETRY = 18,
-    ROW_INSTANCE = 19
-};
-
 /* Of some rays and a triangle of an instance. */
 typedef struct trace_packet {
-    float *rows;
-    unsigned count;
+    embree_packet lanes;
     const trace_instance *instance;
     const trace_context *context;
     uint32_t number, triangle; /* of the instance, and in it */
 } trace_packet;
 
-static float *value_of(const trace_packet *p, unsigned row, unsigned lane) {
-    return &p->rows[row * p->count + lane];
-}
-
-static uint32_t *number_of(const trace_packet *p, unsigned row, unsigned lane) {
-    return (uint32_t *)(void *)value_of(p, row, lane);
-}
-
 /* The nearest triangle counts, and of those at one distance the first: so it matters neither which
  * shape the tree has nor in which order it is visited. */
 static bool comes_first(const trace_packet *p, unsigned lane, float distance) {
-    const float end = *value_of(p, ROW_END, lane);
-    if (!(distance > *value_of(p, ROW_START, lane) && distance <= end))
+    const float end = *embree_value(&p->lanes, EMBREE_END, lane);
+    if (!(distance > *embree_value(&p->lanes, EMBREE_START, lane) && distance <= end))
         return false;
-    const uint32_t last = *number_of(p, ROW_GEOMETRY, lane);
+    const uint32_t last = *embree_number(&p->lanes, EMBREE_GEOMETRY, lane);
     return distance < end || p->number < last ||
-           (p->number == last && p->triangle < *number_of(p, ROW_TRIANGLE, lane));
+           (p->number == last && p->triangle < *embree_number(&p->lanes, EMBREE_PRIMITIVE, lane));
 }
 
 /* Of the ray's pixel and the triangle. */
 static double threshold_of(const trace_packet *p, unsigned lane) {
     const trace_rays *rays = p->context->image;
-    const uint32_t pixel = rays->pixel[*number_of(p, ROW_RAY, lane)];
+    const uint32_t pixel = rays->pixel[*embree_number(&p->lanes, EMBREE_RAY, lane)];
     return (double)blend_threshold(pixel + p->number * 747796405u + p->triangle * 2891336453u,
                                    rays->sample, rays->samples);
 }
@@ -135,20 +115,20 @@ static bool lets_pass(const trace_packet *p, unsigned lane, const triangle_hits 
 }
 
 static void keep(const trace_packet *p, unsigned lane, const triangle_hits *hits) {
-    *value_of(p, ROW_END, lane) = hits->distance[lane];
-    *value_of(p, ROW_U, lane) = hits->u[lane];
-    *value_of(p, ROW_V, lane) = hits->v[lane];
-    *number_of(p, ROW_TRIANGLE, lane) = p->triangle;
-    *number_of(p, ROW_GEOMETRY, lane) = p->number;
-    *number_of(p, ROW_INSTANCE, lane) = RTC_INVALID_GEOMETRY_ID;
+    *embree_value(&p->lanes, EMBREE_END, lane) = hits->distance[lane];
+    *embree_value(&p->lanes, EMBREE_U, lane) = hits->u[lane];
+    *embree_value(&p->lanes, EMBREE_V, lane) = hits->v[lane];
+    *embree_number(&p->lanes, EMBREE_PRIMITIVE, lane) = p->triangle;
+    *embree_number(&p->lanes, EMBREE_GEOMETRY, lane) = p->number;
+    *embree_number(&p->lanes, EMBREE_INSTANCE, lane) = RTC_INVALID_GEOMETRY_ID;
 }
 
 /* The number of the packet's first ray: numbers run on, and are those of rays that take part. */
 static unsigned first_ray(const trace_packet *p, const int *valid) {
     unsigned lane = 0;
-    while (lane + 1 < p->count && !valid[lane])
+    while (lane + 1 < p->lanes.count && !valid[lane])
         lane++;
-    return *number_of(p, ROW_RAY, lane) - lane;
+    return *embree_number(&p->lanes, EMBREE_RAY, lane) - lane;
 }
 
 /* Embree has taken its rays into the space of a mesh with a tree of its own, by arithmetic that
@@ -157,8 +137,7 @@ static void intersect(const struct RTCIntersectFunctionNArguments *a) {
     const trace_context *context = (const trace_context *)(const void *)a->context;
     const unsigned outer = context->embree.instID[0];
     const uint32_t number = outer == RTC_INVALID_GEOMETRY_ID ? a->geomID : outer;
-    const trace_packet p = { .rows = (float *)a->rayhit,
-                             .count = a->N,
+    const trace_packet p = { .lanes = { (float *)a->rayhit, a->N },
                              .instance = &context->bvh->instances[number],
                              .context = context,
                              .number = number,
@@ -167,9 +146,9 @@ static void intersect(const struct RTCIntersectFunctionNArguments *a) {
     float moved[3][3];
     triangle_hits hits;
     tree_corners(context->bvh, p.instance, p.triangle, moved, corners);
-    if (!triangle_test(&context->rays, first_ray(&p, a->valid), p.count, corners, &hits))
+    if (!triangle_test(&context->rays, first_ray(&p, a->valid), p.lanes.count, corners, &hits))
         return;
-    for (unsigned i = 0; i < p.count; i++)
+    for (unsigned i = 0; i < p.lanes.count; i++)
         if (a->valid[i] && comes_first(&p, i, hits.distance[i]) && !lets_pass(&p, i, &hits))
             keep(&p, i, &hits);
 }
@@ -247,33 +226,12 @@ trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origi
                          query.hit.v };
 }
 
-/* Embree's own order of the same, and which of them are rays. */
-static void set_rays(const trace_rays *rays, struct RTCRay16 *packet, int valid[TRACE_LANES]) {
-    for (int i = 0; i < TRACE_LANES; i++) {
-        valid[i] = rays->length[i] >= 0 ? -1 : 0;
-        packet->org_x[i] = rays->origin[0][i];
-        packet->org_y[i] = rays->origin[1][i];
-        packet->org_z[i] = rays->origin[2][i];
-        packet->dir_x[i] = rays->direction[0][i];
-        packet->dir_y[i] = rays->direction[1][i];
-        packet->dir_z[i] = rays->direction[2][i];
-        packet->tnear[i] = rays->start[i];
-        packet->tfar[i] = rays->length[i];
-        packet->mask[i] = ~0u;
-        packet->id[i] = (unsigned)i;
-        packet->time[i] = 0;
-        packet->flags[i] = 0;
-    }
-}
-
 void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
                      trace_hit hits[TRACE_LANES]) {
     trace_context context;
     struct RTCRayHit16 query;
     _Alignas(64) int valid[TRACE_LANES];
-    set_rays(rays, &query.ray, valid);
-    for (int i = 0; i < TRACE_LANES; i++)
-        query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    embree_set_rays(rays, &query, valid);
     const float *const from[3] = { rays->origin[0], rays->origin[1], rays->origin[2] };
     const float *const along[3] = { rays->direction[0], rays->direction[1], rays->direction[2] };
     triangle_rays_set(from, along, TRACE_LANES, &context.rays);

@@ -16,6 +16,9 @@ typedef struct trace_bvh trace_bvh;
 trace_bvh *trace_create(const scene *scene);
 void trace_destroy(trace_bvh *bvh);
 
+/* "Embree" and the version that is loaded. */
+const char *trace_version(void);
+
 /* How far a ray that leaves a surface starts off it, against rounding. */
 double trace_lift(const scene *scene);
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/trace/tree.h"
 
+#include "app/trace/embree.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -113,7 +115,7 @@ bool tree_build(trace_bvh *bvh, const scene *world, RTCIntersectFunctionN test) 
     bvh->scene = world;
     bvh->meshes = calloc(world->mesh_count + 1, sizeof *bvh->meshes);
     bvh->instances = calloc(world->instance_count + 1, sizeof *bvh->instances);
-    bvh->device = rtcNewDevice(getenv("LAMPION_EMBREE"));
+    bvh->device = embree_device_create();
     if (!bvh->meshes || !bvh->instances || !bvh->device || !(bvh->rays = rtcNewScene(bvh->device)))
         return false;
     set_instances(bvh);

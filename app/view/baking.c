@@ -16,7 +16,7 @@ static pid_t start(view_baking *baking, const view_shading *shading) {
     enum { OPTIONS = 7 };
     static char program[] = "/proc/self/exe", name[] = "lampion", command[] = "brdf",
                 action[] = "bake", too[] = "--preintegrated", names[] = "--";
-    char bands[24], window[32], *arguments[OPTIONS + GPU_TABLES_MAX + 1];
+    char bands[24], window[32], *arguments[OPTIONS + RENDER_TABLES_MAX + 1];
     const bool preintegrated = method_table[shading->method].reads & METHOD_READS_PREINTEGRATED;
     int count = 0;
     snprintf(bands, sizeof bands, "--bands=%d", shading->bands);

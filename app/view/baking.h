@@ -13,7 +13,7 @@ typedef struct view_baking {
     pid_t process; /* of one side after the other, each on all cores; 0: none */
     int started, sides, material_count;
     view_shading shading[2];
-    char materials[GPU_TABLES_MAX][VIEW_MATERIAL_SIZE];
+    char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE];
 } view_baking;
 
 /* Makes the tables of these settings, in place of those of others. False once that has ended, well

@@ -3,8 +3,8 @@
 #include "app/bake/bake.h"
 #include "app/override/override.h"
 #include "app/render/shade/field.h"
-#include "app/render/shade/shade.h"
 #include "app/render/shadow/shadow.h"
+#include "app/view/compose.h"
 #include "app/view/draft.h"
 
 #include <stdlib.h>
@@ -26,20 +26,23 @@ typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
 
 /* One side's renderers and field, and the materials that they have been given. */
 typedef struct side {
-    gpu_renderer *renderers[QUALITIES];
+    any_renderer *renderers[QUALITIES],
+        *cpu;           /* on the GPU; on the CPU, which draws all qualities */
     shade_field *field; /* of its method, or NULL */
     override_set materials;
-    char (*names)[VIEW_MATERIAL_SIZE]; /* of them, GPU_TABLES_MAX allocated */
+    char (*names)[VIEW_MATERIAL_SIZE]; /* of them, RENDER_TABLES_MAX allocated */
     int count, bands;
     lmp_window window;
     bool preintegrated;
 } side;
 
 struct view_compositor {
-    gpu_context context;
+    render_device gpu, cpu; /* the second once something is drawn there; without OpenGL, not the
+                               first */
     const scene *world;
     scene draft; /* without vertices: the scene itself serves */
     gpu_screen *screen;
+    view_picture shown[2]; /* of the sides, without a screen */
     side sides[2];
     shadow *shadows;
     environment around;
@@ -57,8 +60,10 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
         cli_fail(error, NULL, "out of memory");
         return NULL;
     }
-    s->context = *context;
     s->world = world;
+    if (!context)
+        return s;
+    render_device_adopt(context, world, &s->gpu);
     s->screen = gpu_screen_create(error);
     if (!s->screen) {
         view_compositor_destroy(s);
@@ -69,7 +74,8 @@ view_compositor *view_compositor_create(const gpu_context *context, const scene 
 
 static void close_side(side *own) {
     for (int i = 0; i < QUALITIES; i++)
-        gpu_renderer_destroy(own->renderers[i]);
+        renderer_destroy(own->renderers[i]);
+    renderer_destroy(own->cpu);
     shade_field_destroy(own->field);
     override_free(&own->materials);
     free(own->names);
@@ -86,6 +92,10 @@ void view_compositor_destroy(view_compositor *s) {
     shadow_destroy(s->shadows);
     environment_free(&s->around);
     gpu_screen_destroy(s->screen);
+    free(s->shown[0].rgb8);
+    free(s->shown[1].rgb8);
+    render_device_close(&s->gpu);
+    render_device_close(&s->cpu);
     view_draft_free(&s->draft);
     free(s);
 }
@@ -130,7 +140,7 @@ static bool settle_field(view_compositor *s, side *own, const view_shading *shad
                          render_frame *frame, cli_error *error) {
     const shade_field_options options = { .error = SHADE_FIELD_ERROR,
                                           .moves = true,
-                                          .bytes_max = s->context.storage_max };
+                                          .bytes_max = s->screen ? s->gpu.gl.storage_max : 0 };
     const bool read = method_table[shading->method].reads & METHOD_READS_FIELD;
     if (own->field &&
         !(read && shade_field_describe(own->field).info.desc.bands == shading->bands)) {
@@ -159,13 +169,21 @@ static bool has_materials(const view_compositor *s, const side *own, const view_
                  0));
 }
 
+static bool apply_materials(view_compositor *s, side *own, const override_set *materials,
+                            cli_error *error) {
+    bool ok = !own->cpu || override_apply(materials, s->world, own->cpu, error);
+    for (int i = 0; i < QUALITIES && ok; i++)
+        ok = !own->renderers[i] || override_apply(materials, s->world, own->renderers[i], error);
+    return ok;
+}
+
 static bool settle_materials(view_compositor *s, side *own, const view_settings *settings,
                              const view_shading *shading, cli_error *error) {
     override_set fresh = { .count = 0 };
     cli_list list = { .count = settings->material_count };
     if (has_materials(s, own, settings, shading))
         return true;
-    if (!own->names && !(own->names = calloc(GPU_TABLES_MAX, sizeof *own->names)))
+    if (!own->names && !(own->names = calloc(RENDER_TABLES_MAX, sizeof *own->names)))
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
@@ -173,13 +191,10 @@ static bool settle_materials(view_compositor *s, side *own, const view_settings 
               override_bake(&fresh, shading->bands, shading->window, error) &&
               override_bake_fibers(&fresh, s->world, shading->bands, shading->window, error) &&
               (!is_preintegrated(shading) || override_preintegrate(&fresh, error));
-    for (int i = 0; i < QUALITIES && ok; i++)
-        ok = !own->renderers[i] || override_apply(&fresh, s->world, own->renderers[i], error);
+    ok = ok && apply_materials(s, own, &fresh, error);
     if (!ok) { /* as before, for what is drawn next */
         cli_error ignored;
-        for (int i = 0; i < QUALITIES; i++)
-            if (own->renderers[i])
-                override_apply(&own->materials, s->world, own->renderers[i], &ignored);
+        apply_materials(s, own, &own->materials, &ignored);
         override_free(&fresh);
         return false;
     }
@@ -210,7 +225,7 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
 /* --- drawing ---------------------------------------------------------------------------------- */
 
 static bool has_draft(const view_compositor *s) {
-    return s->context.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
+    return s->gpu.gl.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
 }
 
 /* Of a draft, by whether the view is that of the draft before. Triangles that stand for many would
@@ -221,18 +236,60 @@ static quality choose_quality(view_compositor *s, const view_settings *settings)
     return rests || settings->shadows || !has_draft(s) ? RESTING : MOVING;
 }
 
-static bool open_side(view_compositor *s, side *own, quality fineness, cli_error *error) {
-    gpu_renderer **renderer = &own->renderers[fineness];
+/* What a renderer is told that its side has been given before. */
+static bool prepare_renderer(view_compositor *s, side *own, any_renderer *renderer,
+                             cli_error *error) {
+    if (!renderer)
+        return false;
+    renderer_set_environment(renderer, &s->around);
+    return !override_is_needed(own->count, s->world) ||
+           override_apply(&own->materials, s->world, renderer, error);
+}
+
+static bool open_cpu(view_compositor *s, side *own, cli_error *error) {
+    if (own->cpu)
+        return true;
+    if (!s->cpu.cpu && !render_device_open(DEVICE_CPU, NULL, s->world, &s->cpu, error))
+        return false;
+    own->cpu = renderer_create(&s->cpu, error);
+    return prepare_renderer(s, own, own->cpu, error);
+}
+
+static bool open_gpu(view_compositor *s, side *own, quality fineness, cli_error *error) {
+    any_renderer **const renderer = &own->renderers[fineness];
+    render_device device = s->gpu;
     if (*renderer)
         return true;
     const bool simplify = fineness == MOVING;
     if (simplify && !s->draft.vertices && !view_draft_make(s->world, DRAFT_CELLS, &s->draft, error))
         return false;
-    *renderer = gpu_renderer_create(&s->context, simplify ? &s->draft : s->world, error);
-    if (*renderer)
-        gpu_set_environment(*renderer, &s->around);
-    return *renderer && (!override_is_needed(own->count, s->world) ||
-                         override_apply(&own->materials, s->world, *renderer, error));
+    if (simplify)
+        device.scene = &s->draft;
+    *renderer = renderer_create(&device, error);
+    return prepare_renderer(s, own, *renderer, error);
+}
+
+static device_kind device_of(const view_settings *settings, const view_shading *shading,
+                             bool shines, bool software) {
+    const bool tables = settings->material_count > 0 && shines;
+    return method_device(shading->method, DEVICE_AUTO, tables, software, shading->bands);
+}
+
+bool view_compositor_does_without(const view_settings *settings) {
+    const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
+    bool without = true;
+    for (int i = 0; i < sides; i++)
+        without = without && device_of(settings, &settings->shading[i], true, true) == DEVICE_CPU;
+    return without;
+}
+
+/* The renderer that draws a side, by the settings' method. */
+static any_renderer *open_side(view_compositor *s, side *own, const view_settings *settings,
+                               const view_shading *shading, quality fineness, cli_error *error) {
+    const bool shines = environment_shines(&s->around);
+    if (!s->screen || device_of(settings, shading, shines, s->gpu.gl.software) == DEVICE_CPU)
+        return open_cpu(s, own, error) ? own->cpu : NULL;
+    return open_gpu(s, own, fineness, error) ? own->renderers[fineness] : NULL;
 }
 
 /* Opens the environment of the settings, with the coefficients of both sides. */
@@ -246,9 +303,14 @@ static bool settle_environment(view_compositor *s, const view_settings *settings
                       memcmp(s->around_numbers, numbers, sizeof numbers) == 0;
     if (same && (!environment_shines(&s->around) || s->around.bands >= bands))
         return true;
-    for (int i = 0; i < 2 * QUALITIES; i++)
-        if (s->sides[i / QUALITIES].renderers[i % QUALITIES])
-            gpu_set_environment(s->sides[i / QUALITIES].renderers[i % QUALITIES], &s->around);
+    for (int i = 0; i < 2; i++) {
+        const side *own = &s->sides[i];
+        if (own->cpu)
+            renderer_set_environment(own->cpu, &s->around);
+        for (int k = 0; k < QUALITIES; k++)
+            if (own->renderers[k])
+                renderer_set_environment(own->renderers[k], &s->around);
+    }
     if (!same) {
         environment_free(&s->around);
         s->around_name[0] = '\0';
@@ -268,7 +330,8 @@ static bool settle_shadows(view_compositor *s, const view_settings *settings, re
     if (!settings->shadows)
         return true;
     if (!s->shadows)
-        s->shadows = shadow_create(s->world, &s->around, &quick, error);
+        s->shadows = shadow_create(s->world, render_device_bvh(s->cpu.cpu ? &s->cpu : &s->gpu),
+                                   &s->around, &quick, error);
     *pass = (render_pass) { shadow_frame, s->shadows };
     return s->shadows;
 }
@@ -276,10 +339,7 @@ static bool settle_shadows(view_compositor *s, const view_settings *settings, re
 /* How to draw a side: how many samples come from what samples counts. */
 static bool fill_frame(view_compositor *s, const view_settings *settings,
                        const view_shading *shading, int divisor, render_frame *frame,
-                       device_kind *device, cli_error *error) {
-    const bool tables = settings->material_count > 0 && environment_shines(&s->around);
-    *device =
-        method_device(shading->method, DEVICE_AUTO, tables, s->context.software, shading->bands);
+                       cli_error *error) {
     *frame = (render_frame) {
         .width = settings->width > divisor ? settings->width / divisor : 1,
         .height = settings->height > divisor ? settings->height / divisor : 1,
@@ -291,12 +351,26 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
         .light_count = settings->light_count,
         .samples = divisor > 1 ? 1 : settings->samples,
         .samples_exposure = settings->exposure,
-        .host = shade_on(*device),
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
     if (is_preintegrated(shading))
         frame->lobes = get_lobe(s, shading, error);
     return !is_preintegrated(shading) || frame->lobes;
+}
+
+/* Takes a side's image for the screen, or for a picture without one. */
+static bool show_side(view_compositor *s, const view_settings *settings, any_renderer *renderer,
+                      const render_frame *frame, int number, cli_error *error) {
+    const image_display display = { .exposure = settings->exposure, .tone = settings->tone };
+    view_picture *shown = &s->shown[number];
+    if (s->screen)
+        return renderer_show(renderer, s->screen, number, &display) ||
+               cli_fail(error, NULL, "out of memory");
+    free(shown->rgb8);
+    *shown = (view_picture) { frame->width, frame->height,
+                              malloc(3 * (size_t)frame->width * (size_t)frame->height) };
+    return shown->rgb8 ? renderer_read_rgb8(renderer, &display, shown->rgb8, NULL, error)
+                       : cli_fail(error, NULL, "out of memory");
 }
 
 /* Sample `index`, or with -1 all. */
@@ -312,22 +386,19 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         const view_shading *shading = &settings->shading[i];
         render_frame frame;
         render_times times;
-        device_kind device;
-        if (!open_side(s, own, fineness, error) ||
-            !settle_materials(s, own, settings, shading, error) ||
-            !fill_frame(s, settings, shading, divisor, &frame, &device, error) ||
+        any_renderer *const renderer = open_side(s, own, settings, shading, fineness, error);
+        if (!renderer || !settle_materials(s, own, settings, shading, error) ||
+            !fill_frame(s, settings, shading, divisor, &frame, error) ||
             !settle_field(s, own, shading, &frame, error) ||
             !settle_shadows(s, settings, &frame.shadow, error))
             return false;
-        gpu_renderer *renderer = own->renderers[fineness];
-        frame.keep_geometry = fineness == RESTING && s->context.software;
-        if (index < 0 ? !gpu_render(renderer, &frame, &times, error)
-                      : !gpu_refine(renderer, &frame, index, &times, error))
+        frame.keep_geometry = fineness == RESTING && s->gpu.gl.software;
+        if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
+                      : !renderer_refine(renderer, &frame, index, &times, error))
             return false;
-        gpu_screen_take(
-            s->screen, renderer, i,
-            &(image_display) { .exposure = settings->exposure, .tone = settings->tone });
-        statistics->times.gbuffer += times.gbuffer;
+        if (!show_side(s, settings, renderer, &frame, i, error))
+            return false;
+        statistics->times.surfaces += times.surfaces;
         statistics->times.shade += times.shade;
         statistics->times.transfer += times.transfer;
         statistics->times.shadow += times.shadow;
@@ -335,7 +406,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
         statistics->width = frame.width;
         statistics->height = frame.height;
         if (i == 0)
-            statistics->device = device;
+            statistics->device = renderer->cpu ? DEVICE_CPU : DEVICE_GPU;
     }
     return true;
 }
@@ -357,14 +428,16 @@ bool view_compositor_refine(view_compositor *s, const view_settings *settings, i
 
 bool view_compositor_expose(view_compositor *s, const view_settings *settings, float *exposure,
                             cli_error *error) {
+    const view_shading *shading = &settings->shading[0];
     render_frame frame;
-    device_kind device;
+    any_renderer *renderer;
     image pixels;
     side *own = &s->sides[0];
-    if (!settle_environment(s, settings, error) || !open_side(s, own, FINE, error) ||
-        !settle_materials(s, own, settings, &settings->shading[0], error) ||
-        !fill_frame(s, settings, &settings->shading[0], 1, &frame, &device, error) ||
-        !settle_field(s, own, &settings->shading[0], &frame, error))
+    if (!settle_environment(s, settings, error) ||
+        !(renderer = open_side(s, own, settings, shading, FINE, error)) ||
+        !settle_materials(s, own, settings, shading, error) ||
+        !fill_frame(s, settings, shading, 1, &frame, error) ||
+        !settle_field(s, own, shading, &frame, error))
         return false;
     *exposure = environment_exposure(&s->around, settings->light_count);
     if (*exposure > 0)
@@ -372,8 +445,8 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
     frame.samples = 1;
     frame.hide_backdrop = true;
     memset(frame.background, 0, sizeof frame.background);
-    if (!gpu_render(own->renderers[FINE], &frame, NULL, error) ||
-        !gpu_read_image(own->renderers[FINE], &pixels, error))
+    if (!renderer_draw(renderer, &frame, NULL, error) ||
+        !renderer_read_image(renderer, &pixels, error))
         return false;
     *exposure = image_auto_exposure(&pixels);
     image_free(&pixels);
@@ -396,8 +469,12 @@ bool view_compositor_write(view_compositor *s, const view_settings *settings, co
     unsigned char *rgb8 = malloc(3 * (size_t)settings->width * (size_t)settings->height);
     if (!rgb8)
         return cli_fail(error, path, "out of memory");
-    const bool ok = gpu_screen_read(s->screen, &layout, rgb8, error) &&
-                    view_write_shot(settings, rgb8, path, error);
+    bool ok = true;
+    if (s->screen)
+        ok = gpu_screen_read(s->screen, &layout, rgb8, error);
+    else
+        view_compose(s->shown, &layout, rgb8);
+    ok = ok && view_write_shot(settings, rgb8, path, error);
     free(rgb8);
     return ok;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* compositor.h - draws settings in the context that is current: one side or two, coarse or fine. */
+/* compositor.h - draws settings: one side or two, coarse or fine. */
 #ifndef LAMPION_VIEW_COMPOSITOR_H
 #define LAMPION_VIEW_COMPOSITOR_H
 
@@ -7,7 +7,12 @@
 
 typedef struct view_compositor view_compositor;
 
-/* The scene must outlive the compositor. NULL on failure. */
+/* Whether the CPU can draw all of it, and so no OpenGL is needed. */
+bool view_compositor_does_without(const view_settings *settings);
+
+/* In the context that is current, or without OpenGL for NULL: then nothing can be shown, and what
+ * does not do without it cannot be drawn. The scene must outlive the compositor. NULL on failure.
+ */
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
                                         cli_error *error);
 void view_compositor_destroy(view_compositor *compositor);
@@ -43,7 +48,7 @@ void view_compositor_show(view_compositor *compositor, const view_settings *sett
 bool view_compositor_write(view_compositor *compositor, const view_settings *settings,
                            const char *path, cli_error *error);
 
-/* For drawings over it. */
+/* For drawings over it; NULL without OpenGL. */
 gpu_screen *view_compositor_screen(view_compositor *compositor);
 
 #endif

@@ -49,7 +49,7 @@ static void adapt(viewer *v, double seconds) {
     const render_times *t = &v->statistics.times;
     const double finer = v->divisor > 1 ? (double)v->divisor / (v->divisor - 1) : 1;
     /* the window costs the same however many pixels the draft has */
-    const double of_pixels = seconds - v->show_seconds - (v->moves ? 1e-3 * t->gbuffer : 0);
+    const double of_pixels = seconds - v->show_seconds - (v->moves ? 1e-3 * t->surfaces : 0);
     const double expected = seconds + of_pixels * (finer * finer - 1);
     const int before = v->divisor;
     v->frame_seconds = v->frame_seconds > 0 ? 0.7 * v->frame_seconds + 0.3 * seconds : seconds;

@@ -11,7 +11,7 @@ typedef struct kept_light {
 
 struct view_moment {
     int material_count;
-    char materials[GPU_TABLES_MAX][VIEW_MATERIAL_SIZE];
+    char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE];
     size_t light_count;
     kept_light lights[];
 };

@@ -78,7 +78,7 @@ static int fill_panel(const viewer *v, view_row rows[PANEL_ROWS]) {
     add_row(rows, &count, "Image", "%d × %d, sample %d of %d", v->statistics.width,
             v->statistics.height, v->sample < 0 ? 1 : v->sample + 1,
             v->sample < 0 ? 1 : d->samples);
-    add_row(rows, &count, "Geometry", "%.1f ms", t->gbuffer);
+    add_row(rows, &count, "Geometry", "%.1f ms", t->surfaces);
     add_row(rows, &count, "Shading", "%.1f ms on the %s", t->shade,
             device_table[v->statistics.device].text);
     if (t->shadow > 0)

@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/compositor.h"
+#include "app/render/renderer.h"
 #include "app/view/view.h"
+
+/* Opens OpenGL where a side needs it; without it *context stays zero, and the CPU draws. */
+static bool open_context(const view_settings *settings, const char *device, gpu_context *context,
+                         cli_error *error) {
+    if (!device && !render_finds_gpu() && view_compositor_does_without(settings))
+        return true;
+    return gpu_context_create(device, context, error);
+}
 
 bool view_render(const view_settings *settings, const char *device, const char *path,
                  cli_error *error) {
@@ -11,10 +20,11 @@ bool view_render(const view_settings *settings, const char *device, const char *
     if (!image_check_path(path, error) ||
         !scene_load(settings->scene, &(scene_options) { .up = settings->up }, &world, error))
         return false;
-    const bool ok = gpu_context_create(device, &context, error) &&
-                    (compositor = view_compositor_create(&context, &world, error)) &&
-                    view_compositor_draw(compositor, settings, &statistics, error) &&
-                    view_compositor_write(compositor, settings, path, error);
+    const bool ok =
+        open_context(settings, device, &context, error) &&
+        (compositor = view_compositor_create(context.display ? &context : NULL, &world, error)) &&
+        view_compositor_draw(compositor, settings, &statistics, error) &&
+        view_compositor_write(compositor, settings, path, error);
     view_compositor_destroy(compositor);
     gpu_context_destroy(&context);
     scene_free(&world);

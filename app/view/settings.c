@@ -40,7 +40,7 @@ bool view_set_material(view_settings *s, const char *material_name, const char *
     }
     if (strchr(material_name, '=') ||
         strlen(material_name) + strlen(replacement) + 2 > sizeof s->materials[0] ||
-        (index < 0 && s->material_count == GPU_TABLES_MAX))
+        (index < 0 && s->material_count == RENDER_TABLES_MAX))
         return false;
     if (index < 0)
         index = s->material_count++;
@@ -206,7 +206,7 @@ static bool read_lights(const cJSON *root, view_settings *s) {
 
 static bool read_materials(const cJSON *root, view_settings *s) {
     const cJSON *array = file_json_member(root, "materials"), *item;
-    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > GPU_TABLES_MAX)
+    if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > RENDER_TABLES_MAX)
         return false;
     cJSON_ArrayForEach(item, array) {
         const char *text = cJSON_IsString(item) ? item->valuestring : "";

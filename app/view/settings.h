@@ -36,7 +36,7 @@ typedef struct view_settings {
     gpu_split split;
     float divider; /* a part of the width */
     int material_count;
-    char materials[GPU_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
+    char materials[RENDER_TABLES_MAX][VIEW_MATERIAL_SIZE]; /* NAME=MATERIAL */
     size_t light_count;
     scene_light lights[SCENE_LIGHTS_MAX];
 } view_settings;

@@ -121,7 +121,7 @@ bool view_write_state(viewer *v, cli_error *error) {
     cJSON_AddNumberToObject(ui, "drawn_height", v->statistics.height);
     cJSON_AddNumberToObject(ui, "moving_frame_ms", 1e3 * v->frame_seconds);
     cJSON_AddNumberToObject(ui, "show_ms", 1e3 * v->show_seconds);
-    cJSON_AddNumberToObject(ui, "gbuffer_ms", v->statistics.times.gbuffer);
+    cJSON_AddNumberToObject(ui, "gbuffer_ms", v->statistics.times.surfaces);
     cJSON_AddNumberToObject(ui, "shade_ms", v->statistics.times.shade);
     cJSON_AddNumberToObject(ui, "shadow_ms", v->statistics.times.shadow);
     cJSON_AddNumberToObject(ui, "transfer_ms", v->statistics.times.transfer);

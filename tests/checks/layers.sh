@@ -45,15 +45,18 @@ may_include() {
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
-    app/render/gl) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/render/gl shaders lookup LIBRARY ;;
-    app/render/shade) echo app/timing app/device app/cli app/bake app/scene app/environment app/render/gl app/render/shade LIBRARY ;;
-    app/render/shadow) echo app/timing app/cli app/scene app/environment app/trace app/render/gl app/render/shadow LIBRARY ;;
-    app/volume) echo app/cli app/sandbox app/file app/csv app/bake app/scene app/environment app/trace app/render/gl app/render/shadow app/volume LIBRARY ;;
-    app/override) echo app/cli app/method app/scene app/material app/render/gl app/override LIBRARY ;;
-    app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/render/gl app/device app/method app/bake app/render/shade app/render/shadow app/override app/view LIBRARY ;;
-    app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/render/gl app/image app/reference app/scene app/paper app/material LIBRARY ;;
-    app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/render/gl app/bake app/render/shade app/override app/bench LIBRARY ;;
-    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/render/shade app/render/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard app/render/gl app/device app/material app/view app/volume \
+    app/render/frame) echo app/cli app/device app/environment app/method app/scene app/render/frame LIBRARY ;;
+    app/render/shade) echo app/timing app/cli app/bake app/environment app/scene app/method app/render/frame app/render/shade LIBRARY ;;
+    app/render/gl) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/render/frame app/render/gl shaders lookup LIBRARY ;;
+    app/render/cpu) echo app/timing app/cli app/image app/environment app/method app/scene app/trace app/render/frame app/render/shade app/render/cpu LIBRARY ;;
+    app/render) echo app/timing app/cli app/device app/image app/scene app/trace app/render/frame app/render/gl app/render/cpu app/render LIBRARY ;;
+    app/render/shadow) echo app/timing app/cli app/scene app/environment app/trace app/render/frame app/render/shadow LIBRARY ;;
+    app/volume) echo app/cli app/sandbox app/file app/csv app/bake app/scene app/environment app/trace app/render app/render/frame app/render/gl app/render/shadow app/volume LIBRARY ;;
+    app/override) echo app/cli app/method app/scene app/material app/render app/render/frame app/render/gl app/override LIBRARY ;;
+    app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/render app/render/frame app/render/gl app/device app/method app/bake app/render/shade app/render/shadow app/override app/view LIBRARY ;;
+    app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/render app/render/frame app/render/gl app/image app/reference app/scene app/paper app/material LIBRARY ;;
+    app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/render app/render/frame app/render/gl app/bake app/render/shade app/override app/bench LIBRARY ;;
+    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/render/shade app/render/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard app/render app/render/frame app/render/gl app/device app/material app/view app/volume \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }

@@ -238,8 +238,7 @@ static void tabulated_materials_are_drawn_alike_by_sums_and_by_tables(void **sta
     }
     int uses[8] = { -1, 1, 0 };
     cli_error error = { "" };
-    expect(gpu_set_tables(s.renderer, (const lmp_brdf_table *const *)tables, 2, uses,
-                          s.world.material_count, &error),
+    expect(gpu_set_tables(s.renderer, (const lmp_brdf_table *const *)tables, 2, uses, &error),
            &error);
     s.frame.method = METHOD_COEFFICIENTS;
     draw_first(s.renderer, &s.frame);
@@ -299,7 +298,7 @@ static void sheen_is_drawn_alike(int first_pass, int last_pass) {
         s.frame.lobes = lobes;
         override_free(&tables);
         expect(override_bake_fibers(&tables, &s.world, fiber_bands[pass], s.frame.window, &error) &&
-                   override_apply(&tables, &s.world, s.renderer, &error),
+                   override_apply(&tables, &s.world, &(any_renderer) { .gl = s.renderer }, &error),
                &error);
         if (pass == 0)
             check_every_method(&s);

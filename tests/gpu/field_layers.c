@@ -27,7 +27,7 @@ static void shaders_draw_coats_and_sheen(void **state) {
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = 5;
     expect(override_bake_fibers(&tables, &world, frame.bands, frame.window, &error) &&
-               override_apply(&tables, &world, renderer, &error),
+               override_apply(&tables, &world, &(any_renderer) { .gl = renderer }, &error),
            &error);
     shade_field *field = open_field_within(frame.bands, false, device.storage_max);
     const difference d = devices_differ(renderer, &frame, field);
@@ -81,7 +81,7 @@ static void expect_same_by_table(const char *what, lmp_brdf_table *table, int ba
     frame.bands = bands;
     frame.window = LMP_WINDOW_HANNING;
     const lmp_brdf_table *const tables[] = { table };
-    expect(gpu_set_tables(renderer, tables, 1, uses, world.material_count, &error), &error);
+    expect(gpu_set_tables(renderer, tables, 1, uses, &error), &error);
     for (int a = 0; a < 3; a++)
         world.maximum[a] = 0.3f * world.minimum[a] + 0.7f * world.maximum[a];
     shade_field *field = open_field_within(bands, false, device.storage_max);

@@ -186,15 +186,15 @@ static void plates_look_as_the_specification_says(void **state) {
 static lmp_material seen_by_host;
 static lmp_rgb emitted_to_host;
 
-static bool keep_material(const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
+static bool keep_material(const render_frame *frame, const render_surfaces *surfaces, float *rgba,
                           cli_error *error) {
     (void)error;
     render_tile row;
     assert_true(render_tile_create(frame->width, &row));
-    gpu_gbuffer_row(gbuffer, frame->height / 2, &row);
+    render_surfaces_tile(surfaces, 0, frame->height / 2, frame->width, 1, &row);
     seen_by_host = row.material[frame->width / 2];
-    emitted_to_host = gpu_gbuffer_emission(
-        gbuffer, (size_t)(frame->height / 2) * (size_t)frame->width + (size_t)frame->width / 2);
+    emitted_to_host = render_surfaces_emission(
+        surfaces, (size_t)(frame->height / 2) * (size_t)frame->width + (size_t)frame->width / 2);
     render_tile_free(&row);
     memset(rgba, 0, 4 * sizeof *rgba * (size_t)frame->width * (size_t)frame->height);
     return true;
@@ -261,9 +261,9 @@ static void passes_take_no_longer_than_their_frame(void **state) {
         const double began = timing_now();
         expect(gpu_render(renderer, &p.frame, &times, &error), &error);
         const double all = 1000 * (timing_now() - began);
-        assert_true(times.gbuffer >= 0 && times.shade >= 0 && times.total > 0);
-        CHECK_WITHIN(times.gbuffer + times.shade, times.total * 1.001 + 0.01);
-        CHECK_WITHIN(times.gbuffer + times.shade, all + 0.01);
+        assert_true(times.surfaces >= 0 && times.shade >= 0 && times.total > 0);
+        CHECK_WITHIN(times.surfaces + times.shade, times.total * 1.001 + 0.01);
+        CHECK_WITHIN(times.surfaces + times.shade, all + 0.01);
     }
     gpu_renderer_destroy(renderer);
 }

@@ -143,12 +143,14 @@ static void close_stage(stage *s) {
 
 static image draw_shadows(stage *s, const environment *around, const shadow_settings *settings) {
     cli_error error = { "" };
-    shadow *all = shadow_create(&s->world, around, settings, &error);
+    trace_bvh *bvh = trace_create(&s->world);
+    shadow *all = shadow_create(&s->world, bvh, around, settings, &error);
     expect(all != NULL, &error);
     s->frame.shadow = (render_pass) { shadow_frame, all };
     image pixels = render_image(s->renderer, &s->frame);
     s->frame.shadow = (render_pass) { NULL, NULL };
     shadow_destroy(all);
+    trace_destroy(bvh);
     return pixels;
 }
 

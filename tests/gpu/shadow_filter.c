@@ -265,7 +265,8 @@ static void statistics_are_of_what_was_done(void **state) {
     s.frame.camera = (scene_camera) {
         .eye = { 2.3f, 1, 2.3f }, .target = { 2.3f, 0, 2.2f }, .up = { 0, 1, 0 }, .fov = 0.3f
     };
-    shadow *all = shadow_create(&s.world, NULL, &settings, &error);
+    trace_bvh *bvh = trace_create(&s.world);
+    shadow *all = shadow_create(&s.world, bvh, NULL, &settings, &error);
     expect(all != NULL, &error);
     s.frame.shadow = (render_pass) { shadow_frame, all };
     const double start = timing_now();
@@ -277,6 +278,7 @@ static void statistics_are_of_what_was_done(void **state) {
     CHECK_WITHIN(found.rays_milliseconds + found.filter_milliseconds, passed);
     image_free(&pixels);
     shadow_destroy(all);
+    trace_destroy(bvh);
     close_stage(&s);
 }
 

@@ -63,7 +63,7 @@ static void agree_by(method_kind method, lmp_brdf_table *first, lmp_brdf_table *
     for (size_t i = 0; i < world.material_count; i++)
         uses[i] = i == 0 ? 1 : i + 1 == world.material_count ? 0 : -1;
     const lmp_brdf_table *const tables[] = { first, second };
-    expect(gpu_set_tables(renderer, tables, 2, uses, world.material_count, &error), &error);
+    expect(gpu_set_tables(renderer, tables, 2, uses, &error), &error);
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = bands;
     frame.window = LMP_WINDOW_HANNING;
@@ -161,7 +161,7 @@ static void tables_reflect_an_environment_as_the_library_has_it(void **state) {
     for (int t = 0; t < 2; t++) {
         const lmp_brdf_table *const table = tables[t];
         int uses[64] = { 0 };
-        expect(gpu_set_tables(renderer, &table, 1, uses, world.material_count, &error), &error);
+        expect(gpu_set_tables(renderer, &table, 1, uses, &error), &error);
         gpu_set_environment(renderer, &sky);
         const double worst = difference_between_devices(renderer, &frame);
         print_message("%.1e of the peak\n", worst);
@@ -182,7 +182,7 @@ static void tables_of_other_bands_are_refused(void **state) {
     lmp_brdf_table *table = phong(5, BANDS);
     const lmp_brdf_table *const tables[] = { table };
     const int uses[64] = { 0 };
-    expect(gpu_set_tables(renderer, tables, 1, uses, world.material_count, &error), &error);
+    expect(gpu_set_tables(renderer, tables, 1, uses, &error), &error);
     render_frame frame = frame_of(&world, WIDTH, HEIGHT);
     frame.bands = BANDS + 1;
     assert_false(gpu_render(renderer, &frame, NULL, &error));

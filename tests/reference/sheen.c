@@ -30,7 +30,8 @@ static void draw(cloth *c, const char *json, const scene_light *light) {
     assert_int_equal(world->left_out_count, 0);
     sheet_expect(
         override_bake_fibers(&c->tables, world, LMP_SHADE_BANDS_DEFAULT, LMP_WINDOW_NONE, &error) &&
-            override_apply(&c->tables, world, c->sheet.renderer, &error),
+            override_apply(&c->tables, world, c->sheet.renderers[SHEET_GPU], &error) &&
+            override_apply(&c->tables, world, c->sheet.renderers[SHEET_CPU], &error),
         &error);
     world->light_count = light != NULL;
     if (light)

@@ -6,7 +6,7 @@
 
 #include "app/environment/environment.h"
 #include "app/reference/reference.h"
-#include "app/render/shade/shade.h"
+#include "app/render/renderer.h"
 #include "tests/program/folder.h"
 
 #include <stdio.h>
@@ -53,8 +53,8 @@ static const char sheet_gltf[] =
 
 typedef struct sheet {
     scene world;
-    gpu_context context;
-    gpu_renderer *renderer;
+    render_device devices[2]; /* SHEET_GPU, SHEET_CPU */
+    any_renderer *renderers[2];
     environment sky; /* white all around */
 } sheet;
 
@@ -77,14 +77,20 @@ static inline void sheet_open(sheet *s, const char *material) {
     for (int i = 0; i < 3 * 64 * 32; i++)
         s->sky.light.rgb[i] = 1;
     sheet_expect(environment_project(&s->sky, LMP_SHADE_BANDS_DEFAULT, &error), &error);
-    sheet_expect(gpu_context_create("software", &s->context, &error), &error);
-    s->renderer = gpu_renderer_create(&s->context, &s->world, &error);
-    sheet_expect(s->renderer, &error);
+    for (int i = SHEET_GPU; i <= SHEET_CPU; i++) {
+        const device_kind kind = i == SHEET_GPU ? DEVICE_GPU : DEVICE_CPU;
+        sheet_expect(render_device_open(kind, "software", &s->world, &s->devices[i], &error),
+                     &error);
+        s->renderers[i] = renderer_create(&s->devices[i], &error);
+        sheet_expect(s->renderers[i], &error);
+    }
 }
 
 static inline void sheet_close(sheet *s) {
-    gpu_renderer_destroy(s->renderer);
-    gpu_context_destroy(&s->context);
+    for (int i = SHEET_GPU; i <= SHEET_CPU; i++) {
+        renderer_destroy(s->renderers[i]);
+        render_device_close(&s->devices[i]);
+    }
     environment_free(&s->sky);
     scene_free(&s->world);
 }
@@ -94,18 +100,18 @@ static inline void sheet_close(sheet *s) {
 static inline void sheet_draw(sheet *s, bool under_sky, int samples, image images[SHEET_IMAGES],
                               image *standard_error) {
     cli_error error = { "" };
-    render_frame frame = { .width = SHEET_SIDE,
-                           .height = SHEET_SIDE,
-                           .camera = s->world.cameras[0],
-                           .bands = LMP_SHADE_BANDS_DEFAULT,
-                           .lights = s->world.lights,
-                           .light_count = s->world.light_count,
-                           .samples = samples };
-    gpu_set_environment(s->renderer, under_sky ? &s->sky : NULL);
+    const render_frame frame = { .width = SHEET_SIDE,
+                                 .height = SHEET_SIDE,
+                                 .camera = s->world.cameras[0],
+                                 .bands = LMP_SHADE_BANDS_DEFAULT,
+                                 .lights = s->world.lights,
+                                 .light_count = s->world.light_count,
+                                 .samples = samples };
     for (int device = SHEET_GPU; device <= SHEET_CPU; device++) {
-        frame.host = device == SHEET_CPU ? shade_frame : NULL;
-        sheet_expect(gpu_render(s->renderer, &frame, NULL, &error), &error);
-        sheet_expect(gpu_read_image(s->renderer, &images[device], &error), &error);
+        any_renderer *renderer = s->renderers[device];
+        renderer_set_environment(renderer, under_sky ? &s->sky : NULL);
+        sheet_expect(renderer_draw(renderer, &frame, NULL, &error), &error);
+        sheet_expect(renderer_read_image(renderer, &images[device], &error), &error);
     }
     const reference_settings settings = { .width = SHEET_SIDE,
                                           .height = SHEET_SIDE,

@@ -67,7 +67,7 @@ static bool upload_coefficients(gpu_renderer *r, int bands, lmp_window window, c
 /* Whether tables reflect coefficients of a field, and need the matrices. */
 static bool rotates_fields(const gpu_renderer *r, const render_frame *frame) {
     return method_table[frame->method].reads & METHOD_READS_FIELD &&
-           (r->table_count > 0 || r->fibers);
+           (r->materials.table_count > 0 || r->materials.fibers);
 }
 
 bool gpu_bind_environment(gpu_renderer *r, const render_frame *frame, cli_error *error) {
@@ -100,8 +100,4 @@ void gpu_describe_environment(const gpu_renderer *r, const render_frame *frame, 
     surroundings[1] = e->azimuth;
     surroundings[2] = e->backdrop.rgb && !frame->hide_backdrop;
     surroundings[3] = (float)LMP_SH_COUNT(e->bands);
-}
-
-const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer) {
-    return environment_shines(gbuffer->environment) ? gbuffer->environment : NULL;
 }

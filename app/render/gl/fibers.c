@@ -11,14 +11,14 @@ enum { ROWS = 256 };
 static_assert(SHARED_FIBER_TABLES == LMP_FIBER_TABLES, "shared.h has the numbers of lmp_fibers");
 
 void gpu_set_fibers(gpu_renderer *r, const lmp_brdf_table *const *white) {
-    r->fibers = white;
+    r->materials.fibers = white;
     glDeleteBuffers(1, &r->fibers_buffer);
     r->fibers_buffer = 0;
 }
 
 bool gpu_shades_fibers(const gpu_renderer *r, const render_frame *frame) {
-    return r->fibers && !frame->host && !method_table[frame->method].fragment &&
-           gpu_mesh_sheens(&r->mesh) > 0;
+    return r->materials.fibers && !frame->host && !method_table[frame->method].fragment &&
+           render_materials_sheens(&r->materials) > 0;
 }
 
 /* One vector a table, then their values. */
@@ -32,7 +32,7 @@ static bool upload(gpu_renderer *r, int bands, cli_error *error) {
         values[t][0] = (float)first;
         values[t][1] = ROWS;
         values[t][2] = 1;
-        ok = gpu_table_fill(r->fibers[t], (gpu_table_shape) { ROWS, 1 }, false, stride,
+        ok = gpu_table_fill(r->materials.fibers[t], (gpu_table_shape) { ROWS, 1 }, false, stride,
                             values + first);
     }
     if (ok) {
@@ -47,7 +47,7 @@ bool gpu_prepare_fibers(gpu_renderer *r, const render_frame *frame, cli_error *e
     if (!gpu_shades_fibers(r, frame))
         return true;
     const gpu_stage compute = { GL_COMPUTE_SHADER, "fibers.comp" };
-    const int bands = lmp_brdf_table_describe(r->fibers[0]).bands;
+    const int bands = lmp_brdf_table_describe(r->materials.fibers[0]).bands;
     const int environment_bands = gpu_reflected_bands(r, bands);
     const bool by_field =
         method_table[frame->method].reads & METHOD_READS_FIELD && bands == frame->bands;

@@ -6,48 +6,18 @@
 #include <math.h>
 #include <string.h>
 
-static void subtract(const float a[3], const float b[3], float difference[3]) {
-    for (int i = 0; i < 3; i++)
-        difference[i] = a[i] - b[i];
-}
-
-static void cross(const float a[3], const float b[3], float product[3]) {
-    product[0] = a[1] * b[2] - a[2] * b[1];
-    product[1] = a[2] * b[0] - a[0] * b[2];
-    product[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static float dot(const float a[3], const float b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static bool scale_to(float v[3], float length) {
-    const float current = sqrtf(dot(v, v));
-    if (!(current > 0))
-        return false;
-    for (int i = 0; i < 3; i++)
-        v[i] *= length / current;
-    return true;
-}
-
-/* Sample `index` of `count` in its pixel, -0.5 … 0.5, by the two-dimensional golden ratio (Roberts
- * 2018). */
-static void sample_offset(int index, int count, float offset[2]) {
-    static const double steps[2] = { 0.7548776662466927, 0.5698402909980532 };
-    for (int i = 0; i < 2; i++) {
-        const double at = count > 1 ? 0.5 + steps[i] * index : 0.5;
-        offset[i] = (float)(at - floor(at) - 0.5);
-    }
-}
-
-/* Of the farthest triangle along the view; above 0. */
-static float farthest(const gpu_renderer *r, const shared_frame *block) {
-    float reach = r->near;
-    for (int corner = 0; corner < 8; corner++) {
+/* Of parallel rays the depth of the farthest triangle, which is above 0. */
+float gpu_depth_reach(const gpu_renderer *r, const render_camera *camera) {
+    float reach = camera->near;
+    for (int corner = 0; camera->parallel && corner < 8; corner++) {
         float at[3];
         for (int i = 0; i < 3; i++)
-            at[i] = (corner >> i & 1 ? r->maximum : r->minimum)[i] - block->eye[i];
-        reach = fmaxf(reach, dot(at, block->forward));
+            at[i] = (corner >> i & 1 ? r->bounds.maximum : r->bounds.minimum)[i] - camera->eye[i];
+        reach = fmaxf(reach, dot(at, camera->forward));
     }
     return reach;
 }
@@ -72,38 +42,27 @@ static void fill_clip(shared_frame *b, float half_width, float half_height) {
     }
 }
 
-bool gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, int index,
-                    shared_frame *block, cli_error *error) {
-    float offset[2];
-    sample_offset(index, frame->samples, offset);
-    const scene_camera *camera = &frame->camera;
-    const float half_height = 0.5f * scene_camera_height(camera, 1);
+void gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, const render_camera *camera,
+                    shared_frame *block) {
+    const float half_height = 0.5f * scene_camera_height(&frame->camera, 1);
     const float half_width = half_height * (float)frame->width / (float)frame->height;
     memset(block, 0, sizeof *block);
     memcpy(block->eye, camera->eye, sizeof camera->eye);
-    block->eye[3] = r->near;
-    subtract(camera->target, camera->eye, block->forward);
-    cross(block->forward, camera->up, block->right);
-    cross(block->forward, block->right, block->down);
-    if (!scale_to(block->forward, 1) || !scale_to(block->right, half_width) ||
-        !scale_to(block->down, half_height))
-        return cli_fail(error, "camera", "it looks along its up direction, or at itself");
-    if (camera->height > 0) {
-        block->eye[3] = farthest(r, block);
-        block->forward[3] = 1;
-    }
+    memcpy(block->forward, camera->forward, sizeof camera->forward);
+    memcpy(block->right, camera->right, sizeof camera->right);
+    memcpy(block->down, camera->down, sizeof camera->down);
+    block->eye[3] = gpu_depth_reach(r, camera);
+    block->forward[3] = camera->parallel ? 1 : 0;
     memcpy(block->background, frame->background, sizeof frame->background);
     gpu_describe_environment(r, frame, block->surroundings);
     block->size_lights[0] = (float)frame->width;
     block->size_lights[1] = (float)frame->height;
     block->size_lights[2] = (float)r->shaded_lights;
-
-    block->jitter[0] = 2 * offset[0] / (float)frame->width;
-    block->jitter[1] = 2 * offset[1] / (float)frame->height;
-    block->jitter[2] = (float)index;
-    block->jitter[3] = (float)(frame->samples > 1 ? frame->samples : 1);
+    block->jitter[0] = camera->jitter[0];
+    block->jitter[1] = camera->jitter[1];
+    block->jitter[2] = (float)camera->sample;
+    block->jitter[3] = (float)camera->samples;
     fill_clip(block, half_width, half_height);
-    return true;
 }
 
 void gpu_upload_lights(gpu_renderer *r, const render_frame *frame) {

@@ -7,11 +7,9 @@
 #ifndef LAMPION_GPU_H
 #define LAMPION_GPU_H
 
-#include "app/environment/environment.h"
 #include "app/file/embedded.h"
 #include "app/image/image.h"
-#include "app/method/method.h"
-#include "app/scene/scene.h"
+#include "app/render/frame/surfaces.h"
 
 #include <lampion/field.h>
 
@@ -45,60 +43,11 @@ bool gpu_context_adopt(gpu_context *context, cli_error *error);
 
 /* --- a scene on the device -------------------------------------------------------------------- */
 
-struct render_frame;
-typedef struct shade_field shade_field; /* app/render/shade/field.h */
-typedef struct gpu_gbuffer gpu_gbuffer;
-
-/* Shades on the host: rgba receives the radiance of width * height pixels, rows from the top; the
- * fourth value is not used. */
-typedef bool (*render_shader)(const struct render_frame *frame, const gpu_gbuffer *gbuffer,
-                              float *rgba, cli_error *error);
-
-/* Changes rgba on the host, whichever device has shaded it. */
-typedef struct render_pass {
-    bool (*run)(void *user, const struct render_frame *frame, const gpu_gbuffer *gbuffer,
-                float *rgba, cli_error *error);
-    void *user;
-} render_pass;
-
-/* A frame's field for shaders: its lists and, if `nodes`, all its nodes are those of the frame's
- * lights. *stamp: above 0, and another one whenever it has changed. NULL on failure. */
-typedef const lmp_field *(*gpu_whole_field)(const struct render_frame *frame, bool nodes,
-                                            uint64_t *stamp);
-
-/* What to draw. */
-typedef struct render_frame {
-    int width, height;
-    scene_camera camera;
-    method_kind method;
-    int bands; /* 1 … those of the method on its device */
-    lmp_window window;
-    const scene_light *lights;
-    size_t light_count;                  /* <= gpu_lights_max */
-    float background[3];                 /* its radiance, where there is no backdrop */
-    bool hide_backdrop;                  /* of the environment, which shines all the same */
-    int samples;                         /* a pixel, spread over it; 0 means 1, in its middle */
-    const lmp_preintegrated_lobe *lobes; /* of these bands and window, if the method reads them */
-    shade_field *field;                  /* of these bands, if the method reads one */
-    gpu_whole_field whole_field;         /* of it, where a shader does */
-    render_shader host;                  /* instead of the compute pass, or NULL */
-    render_pass shadow;                  /* after shading; zero: none */
-    bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
-    float samples_exposure; /* the mean suits an image of this exposure; 0: the plain mean */
-} render_frame;
-
 /* Bytes of the table of METHOD_READS_TABULATED_Z. */
 size_t gpu_zonal_bytes(int bands);
 
 /* How many lights a frame may have: where shaders sum them on software, fewer. */
 size_t gpu_lights_max(const gpu_context *context, const render_frame *frame);
-
-/* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on software. */
-typedef struct render_times {
-    double gbuffer, shade, tone, total;
-    double transfer; /* pixels to the host and back, part of the total */
-    double shadow;   /* render_frame.shadow */
-} render_times;
 
 typedef struct gpu_renderer gpu_renderer;
 
@@ -106,13 +55,10 @@ typedef struct gpu_renderer gpu_renderer;
 gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *scene, cli_error *error);
 void gpu_renderer_destroy(gpu_renderer *renderer);
 
-/* Shades materials of the scene by tables instead: uses[i] is the table of material i, or -1. The
- * tables must outlive the renderer; all have the bands of the frames to come. They are shaded by
- * the method of coefficients whatever the frame's is, unless gpu_set_preintegrated_brdfs says more.
- */
-#define GPU_TABLES_MAX 64
+/* As render_materials_set_tables. They are shaded by the method of coefficients whatever the
+ * frame's is, unless gpu_set_preintegrated_brdfs says more. */
 bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables, int count,
-                    const int *uses, size_t material_count, cli_error *error);
+                    const int *uses, cli_error *error);
 
 /* After gpu_set_tables: brdfs[i] of table i, or NULL, for methods that read them.
  * They must outlive the renderer. */
@@ -160,6 +106,9 @@ void gpu_screen_destroy(gpu_screen *screen);
 void gpu_screen_take(gpu_screen *screen, gpu_renderer *renderer, int side,
                      const image_display *display);
 
+/* Copies 8-bit RGB, rows from the top, as the screen's `side`. */
+void gpu_screen_put(gpu_screen *screen, int side, int width, int height, const unsigned char *rgb8);
+
 typedef enum gpu_split {
     GPU_SPLIT_NONE,
     GPU_SPLIT_DIVIDED,
@@ -192,8 +141,6 @@ bool gpu_context_lost(void);
 
 /* --- what the shaders see --------------------------------------------------------------------- */
 
-typedef enum render_kind { RENDER_NONE, RENDER_LIGHT, RENDER_SURFACE } render_kind;
-
 /* A pixel: radiance = emission + what lmp_shade gives for surface and material (kind SURFACE), or
  * emission alone. */
 typedef struct render_pixel {
@@ -209,38 +156,6 @@ typedef struct render_pixel {
  *
  * *pixels receives width * height entries, rows from the top; free() it. */
 bool gpu_read_pixels(gpu_renderer *renderer, render_pixel **pixels, cli_error *error);
-
-/* The same for a host shader, as arrays of a row's or tile's pixels. Only emission, and kind, mean
- * something where the kind is not SURFACE. */
-typedef struct render_tile {
-    unsigned char *kind; /* render_kind */
-    float *position[3], *normal[3], *view[3];
-    float *coat_normal[3]; /* where the G-buffer is layered */
-    float *emission[3], *ambient;
-    lmp_material *material;
-} render_tile;
-bool render_tile_create(int pixels, render_tile *row);
-void render_tile_free(render_tile *row);
-
-/* From any thread, each with a row of its own. */
-void gpu_gbuffer_row(const gpu_gbuffer *gbuffer, int y, render_tile *row);
-void gpu_gbuffer_tile(const gpu_gbuffer *gbuffer, int x, int y, int width, int height,
-                      render_tile *row);
-
-/* The positions of a row's surfaces alone, one after another; returns how many there are. */
-size_t gpu_gbuffer_surfaces(const gpu_gbuffer *gbuffer, int y, render_tile *row);
-
-/* What the surface of a pixel emits; the pixels are in rows. */
-lmp_rgb gpu_gbuffer_emission(const gpu_gbuffer *gbuffer, size_t pixel);
-
-/* Whether some materials of the scene have a coat. */
-bool gpu_gbuffer_is_layered(const gpu_gbuffer *gbuffer);
-
-/* Which of the frame's samples it is, from 0. */
-int gpu_gbuffer_sample(const gpu_gbuffer *gbuffer);
-
-/* The environment that shines on its surfaces; NULL: none. */
-const environment *gpu_gbuffer_environment(const gpu_gbuffer *gbuffer);
 
 /* --- sources ---------------------------------------------------------------------------------- */
 

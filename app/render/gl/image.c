@@ -31,7 +31,7 @@ bool gpu_read_rgb8(gpu_renderer *r, const image_display *display, unsigned char 
         gpu_mark(r, 4);
         times->tone = gpu_marked(r, 4) - gpu_marked(r, 3);
         times->total =
-            times->gbuffer + times->shade + times->shadow + times->transfer + times->tone;
+            times->surfaces + times->shade + times->shadow + times->transfer + times->tone;
     }
     const size_t size = 3 * (size_t)r->width * (size_t)r->height;
     if (size > INT32_MAX)

@@ -47,10 +47,8 @@ typedef struct gpu_draw {
 
 typedef struct gpu_material {
     GLuint maps[SHARED_MAPS], samplers[SHARED_MAPS]; /* of OpenGL; map 0 = none */
-    bool double_sided, masked, layered, sheen;
-    bool plain;       /* none of these but the first, no maps and no colors of vertices */
-    float f0[3], f90; /* as in scene_material */
-    int table;        /* of gpu_set_tables, instead of all that, or -1 */
+    bool double_sided, masked, layered;
+    bool plain; /* none of these but the first, no maps and no colors of vertices */
 } gpu_material;
 
 typedef struct gpu_mesh {
@@ -81,18 +79,6 @@ void gpu_mesh_destroy(gpu_mesh *mesh);
 
 /* Has a material shaded by a table, or with -1 by itself. */
 void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table);
-
-/* What the renderer is told of a pixel of material number `kind` - SHARED_KIND_SURFACE, by factors
- * on its dielectric's reflection and F0; the rest of it is the pixel's own. */
-void gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
-                       const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
-                       lmp_rgb tint, lmp_material *material);
-
-/* Whether such a pixel has more in the attachments of layers. */
-bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind);
-
-/* How many materials have a sheen of their own. */
-unsigned gpu_mesh_sheens(const gpu_mesh *mesh);
 
 /* Draws what the frustum of clip_from_world may hold. */
 void gpu_mesh_draw(const gpu_mesh *mesh, const mat4 clip_from_world, const gpu_surfaces *programs);
@@ -224,9 +210,9 @@ typedef struct gpu_coat16 {
     uint16_t u, v, weight, roughness;
 } gpu_coat16;
 
-/* The attachments as they are stored (shared.h), and what decoding them needs. */
-struct gpu_gbuffer {
-    int width, height, sample;
+/* The attachments as they are stored (shared.h). */
+typedef struct gpu_gbuffer {
+    int width, height;
     float *depth;
     gpu_base16 *base_metallic;
     gpu_pair16 *normal, *roughness_kind;
@@ -234,18 +220,12 @@ struct gpu_gbuffer {
     gpu_pair8 *layers;
     gpu_coat16 *coat; /* and those after it: NULL where no material is layered */
     uint8_t (*tint)[4], (*sheen)[4];
-    const gpu_mesh *mesh;
-    vec4 *rgba; /* for what the host makes of it */
-    shared_frame block;
-    const render_frame *frame;
-    const lmp_brdf_table *const *tables;
-    const lmp_preintegrated_brdf *const *brdfs;
-    const lmp_brdf_table *const *fibers;
-    const environment *environment;
-};
+    vec4 *rgba;               /* for what the host makes of it */
+    render_surfaces surfaces; /* what they hold */
+} gpu_gbuffer;
 
-/* Allocates at the first frame of a size. */
-bool gpu_gbuffer_read(const gpu_renderer *renderer, const shared_frame *block,
+/* Reads and decodes a sample; allocates at the first frame of a size. */
+bool gpu_gbuffer_read(const gpu_renderer *renderer, const render_camera *camera,
                       const render_frame *frame, gpu_gbuffer *gbuffer, cli_error *error);
 void gpu_gbuffer_free(gpu_gbuffer *gbuffer);
 
@@ -275,26 +255,21 @@ struct gpu_renderer {
     GLuint kept[GPU_ATTACHMENTS + 1];        /* attachments and depth without lights, or 0 */
     mat4 kept_view;
     GLuint attachments[GPU_ATTACHMENTS], depth, hdr, sums, framebuffer, ldr, ldr_framebuffer;
-    GLuint timestamps[GPU_TIMESTAMPS];            /* hardware */
-    double marks[GPU_TIMESTAMPS];                 /* software, milliseconds */
-    const lmp_brdf_table *tables[GPU_TABLES_MAX]; /* not owned */
-    int table_count, table_bands;
-    GLuint tables_buffer;                                /* of the tables summed by bands, or 0 */
-    method_kind tables_method;                           /* that it was made for */
-    const lmp_preintegrated_brdf *brdfs[GPU_TABLES_MAX]; /* of the tables, or NULL; not owned */
-    const lmp_brdf_table *const *fibers;                 /* or NULL; not owned */
-    GLuint fibers_buffer, fibers_program;                /* of those; or 0 */
-    int fibers_bands, fibers_environment_bands;          /* that the program was made for */
+    GLuint timestamps[GPU_TIMESTAMPS]; /* hardware */
+    double marks[GPU_TIMESTAMPS];      /* software, milliseconds */
+    render_materials materials;
+    GLuint tables_buffer;                       /* of the tables summed by bands, or 0 */
+    method_kind tables_method;                  /* that it was made for */
+    GLuint fibers_buffer, fibers_program;       /* of those; or 0 */
+    int fibers_bands, fibers_environment_bands; /* that the program was made for */
     bool fibers_by_field;
-    bool sheen_noted;                   /* that it is left out */
     GLuint brdf_texels, brdf_block;     /* texture, buffer; or 0 */
     const environment *environment;     /* or NULL; not owned */
     GLuint backdrop, environment_block; /* texture, buffer; or 0 */
     int environment_bands;              /* that the block was made for */
     lmp_window environment_window;
-    float near;                   /* distance of the near plane */
-    float minimum[3], maximum[3]; /* of the scene */
-    gpu_gbuffer gbuffer;          /* of host shaders */
+    scene bounds;        /* of the scene its bounds alone */
+    gpu_gbuffer gbuffer; /* of host shaders */
 };
 
 /* --- targets.c -------------------------------------------------------------------------------- */
@@ -315,9 +290,12 @@ void gpu_forget_geometry(gpu_renderer *renderer);
 
 /* --- frame.c ---------------------------------------------------------------------------------- */
 
+/* What depths are made from (camera.glsl): the near plane's, of parallel rays the farthest. */
+float gpu_depth_reach(const gpu_renderer *renderer, const render_camera *camera);
+
 /* For one sample. */
-bool gpu_fill_frame(const gpu_renderer *renderer, const render_frame *frame, int index,
-                    shared_frame *block, cli_error *error);
+void gpu_fill_frame(const gpu_renderer *renderer, const render_frame *frame,
+                    const render_camera *camera, shared_frame *block);
 void gpu_upload_lights(gpu_renderer *renderer, const render_frame *frame);
 
 /* --- variant.c -------------------------------------------------------------------------------- */

@@ -115,11 +115,7 @@ static void fill_material(const scene *world, size_t number, const gpu_mesh *mes
         material->maps[i] = mesh->textures[map];
         material->samplers[i] = mesh->samplers[texture->wrap_u + SCENE_WRAPS * texture->wrap_v];
     }
-    memcpy(material->f0, source->f0, sizeof material->f0);
-    material->f90 = source->f90;
     material->layered = scene_is_layered(source);
-    material->sheen = scene_has_sheen(source);
-    material->table = -1;
     material->double_sided = source->flags & SCENE_DOUBLE_SIDED;
     material->masked = source->flags & (SCENE_ALPHA_MASK | SCENE_ALPHA_BLEND);
     material->plain = is_plain(source);
@@ -166,45 +162,10 @@ static bool create_reflectors(const scene *world, gpu_mesh *mesh) {
 
 void gpu_mesh_set_table(const gpu_mesh *mesh, size_t material, int table) {
     const float value = (float)table;
-    mesh->materials[material].table = table;
     glNamedBufferSubData(
         mesh->reflectors,
         (GLintptr)(material * sizeof(shared_reflector) + offsetof(shared_reflector, table)),
         sizeof value, &value);
-}
-
-unsigned gpu_mesh_sheens(const gpu_mesh *mesh) {
-    unsigned count = 0;
-    for (size_t i = 0; i < mesh->material_count; i++)
-        count += mesh->materials[i].sheen && mesh->materials[i].table < 0;
-    return count;
-}
-
-bool gpu_mesh_is_layered(const gpu_mesh *mesh, int kind) {
-    const gpu_material *material = &mesh->materials[kind - SHARED_KIND_SURFACE];
-    return material->layered && material->table < 0;
-}
-
-static float at_most_one(float x) {
-    return x < 1 ? x : 1;
-}
-
-void gpu_mesh_material(const gpu_mesh *mesh, const lmp_brdf_table *const *tables,
-                       const lmp_preintegrated_brdf *const *brdfs, int kind, float specular,
-                       lmp_rgb tint, lmp_material *material) {
-    const gpu_material *from = &mesh->materials[kind - SHARED_KIND_SURFACE];
-    const float weight = from->f90 * specular;
-    if (from->table >= 0)
-        *material = (lmp_material) { .kind = LMP_MATERIAL_TABLE,
-                                     .table = tables[from->table],
-                                     .preintegrated = brdfs[from->table] };
-    else
-        *material = (lmp_material) { .kind = LMP_MATERIAL_METALLIC_ROUGHNESS,
-                                     .dielectric = { true,
-                                                     { at_most_one(from->f0[0] * tint.r) * weight,
-                                                       at_most_one(from->f0[1] * tint.g) * weight,
-                                                       at_most_one(from->f0[2] * tint.b) * weight },
-                                                     weight } };
 }
 
 /* --- triangles -------------------------------------------------------------------------------- */

@@ -12,15 +12,15 @@
 enum { ATLAS_WIDTH = 4096 };
 
 bool gpu_has_preintegrated_brdf(const gpu_renderer *r) {
-    for (int t = 0; t < r->table_count; t++)
-        if (r->brdfs[t])
+    for (int t = 0; t < r->materials.table_count; t++)
+        if (r->materials.brdfs[t])
             return true;
     return false;
 }
 
 void gpu_set_preintegrated_brdfs(gpu_renderer *r, const lmp_preintegrated_brdf *const *brdfs) {
-    for (int t = 0; t < GPU_TABLES_MAX; t++)
-        r->brdfs[t] = brdfs && t < r->table_count ? brdfs[t] : NULL;
+    for (int t = 0; t < RENDER_TABLES_MAX; t++)
+        r->materials.brdfs[t] = brdfs && t < r->materials.table_count ? brdfs[t] : NULL;
     glDeleteBuffers(1, &r->brdf_block);
     glDeleteTextures(1, &r->brdf_texels);
     glDeleteBuffers(1, &r->tables_buffer);
@@ -130,11 +130,12 @@ static bool upload_texels(gpu_renderer *r, const placement *placements, size_t c
 
 /* Every BRDF's numbers, and the slices that are to be placed. */
 static void list_slices(const gpu_renderer *r, placement *placements, float *numbers) {
-    float *to = numbers + GPU_TABLES_MAX;
-    for (int t = 0; t < r->table_count; t++) {
-        if (!r->brdfs[t])
+    float *to = numbers + RENDER_TABLES_MAX;
+    for (int t = 0; t < r->materials.table_count; t++) {
+        if (!r->materials.brdfs[t])
             continue;
-        const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->brdfs[t]);
+        const lmp_preintegrated_brdf_info info =
+            lmp_preintegrated_brdf_describe(r->materials.brdfs[t]);
         numbers[t] = (float)(to - numbers);
         to = write_header(&info, to);
         for (size_t i = 0; i < slice_count(&info); i++, to += LMP_LOOKUP_SLICE)
@@ -145,10 +146,11 @@ static void list_slices(const gpu_renderer *r, placement *placements, float *num
 }
 
 static bool upload(gpu_renderer *r, cli_error *error) {
-    size_t slices = 0, count = GPU_TABLES_MAX;
-    for (int t = 0; t < r->table_count; t++)
-        if (r->brdfs[t]) {
-            const lmp_preintegrated_brdf_info info = lmp_preintegrated_brdf_describe(r->brdfs[t]);
+    size_t slices = 0, count = RENDER_TABLES_MAX;
+    for (int t = 0; t < r->materials.table_count; t++)
+        if (r->materials.brdfs[t]) {
+            const lmp_preintegrated_brdf_info info =
+                lmp_preintegrated_brdf_describe(r->materials.brdfs[t]);
             slices += slice_count(&info);
             count += number_count(&info);
         }

@@ -7,10 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The near plane's distance as a part of the scene's extent. Depth is reversed and in float32, so
- * that a small one costs no precision; there is no far plane. */
-static const float near_of_extent = 1e-4f;
-
 /* --- creation --------------------------------------------------------------------------------- */
 
 static bool create_tones(gpu_renderer *r, cli_error *error) {
@@ -71,6 +67,11 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
         return NULL;
     }
     r->context = *context;
+    if (!render_materials_create(world, &r->materials)) {
+        gpu_renderer_destroy(r);
+        cli_fail(error, world->origin, "out of memory");
+        return NULL;
+    }
     if (!gpu_mesh_create(context, world, &r->mesh, error) || !create_programs(r, error)) {
         gpu_renderer_destroy(r);
         return NULL;
@@ -83,12 +84,8 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
                          GL_DYNAMIC_STORAGE_BIT);
     r->ggx_block = create_ggx_block();
     glCreateQueries(GL_TIMESTAMP, GPU_TIMESTAMPS, r->timestamps);
-    memcpy(r->minimum, world->minimum, sizeof r->minimum);
-    memcpy(r->maximum, world->maximum, sizeof r->maximum);
-    float extent = 0;
-    for (int i = 0; i < 3; i++)
-        extent = fmaxf(extent, world->maximum[i] - world->minimum[i]);
-    r->near = near_of_extent * (extent > 0 ? extent : 1);
+    memcpy(r->bounds.minimum, world->minimum, sizeof world->minimum);
+    memcpy(r->bounds.maximum, world->maximum, sizeof world->maximum);
     return r;
 }
 
@@ -97,6 +94,7 @@ void gpu_renderer_destroy(gpu_renderer *r) {
         return;
     gpu_targets_delete(r);
     gpu_mesh_destroy(&r->mesh);
+    render_materials_free(&r->materials);
     for (int i = 0; i < r->variant_count; i++)
         glDeleteProgram(r->variants[i].program);
     const GLuint programs[] = {
@@ -130,23 +128,21 @@ void gpu_renderer_destroy(gpu_renderer *r) {
 /* --- a frame ---------------------------------------------------------------------------------- */
 
 /* The G-buffer goes to the host and comes back as radiance. */
-static bool shade_host(gpu_renderer *r, const render_frame *frame, const shared_frame *block,
-                       int index, render_times *times, cli_error *error) {
-    float *rgba;
+static bool shade_host(gpu_renderer *r, const render_frame *frame, const render_camera *camera,
+                       render_times *times, cli_error *error) {
     const double start = 1e3 * timing_now();
-    if (!gpu_gbuffer_read(r, block, frame, &r->gbuffer, error))
+    if (!gpu_gbuffer_read(r, camera, frame, &r->gbuffer, error))
         return false;
-    r->gbuffer.sample = index;
-    rgba = &r->gbuffer.rgba[0][0];
+    float *const rgba = &r->gbuffer.rgba[0][0];
     if (!frame->host)
         glGetTextureImage(r->hdr, 0, GL_RGBA, GL_FLOAT,
                           (GLsizei)((size_t)r->width * (size_t)r->height * sizeof(vec4)), rgba);
     const double read = 1e3 * timing_now();
-    if (frame->host && !frame->host(frame, &r->gbuffer, rgba, error))
+    if (frame->host && !frame->host(frame, &r->gbuffer.surfaces, rgba, error))
         return false;
     const double shaded = 1e3 * timing_now();
     if (frame->shadow.run &&
-        !frame->shadow.run(frame->shadow.user, frame, &r->gbuffer, rgba, error))
+        !frame->shadow.run(frame->shadow.user, frame, &r->gbuffer.surfaces, rgba, error))
         return false;
     const double shadowed = 1e3 * timing_now();
     glTextureSubImage2D(r->hdr, 0, 0, 0, r->width, r->height, GL_RGBA, GL_FLOAT, rgba);
@@ -163,8 +159,10 @@ static bool shade_host(gpu_renderer *r, const render_frame *frame, const shared_
 static bool render_sample(gpu_renderer *r, const render_frame *frame, int index, GLuint program,
                           render_times *times, cli_error *error) {
     shared_frame block;
-    if (!gpu_fill_frame(r, frame, index, &block, error))
+    render_camera camera;
+    if (!render_camera_set(&r->bounds, frame, index, &camera, error))
         return false;
+    gpu_fill_frame(r, frame, &camera, &block);
     glNamedBufferSubData(r->frame_block, 0, sizeof block, &block);
     if (times)
         gpu_mark(r, 0);
@@ -175,23 +173,10 @@ static bool render_sample(gpu_renderer *r, const render_frame *frame, int index,
         gpu_shade(r, frame, program);
     if (times) {
         gpu_mark(r, 2);
-        times->gbuffer += gpu_marked(r, 1) - gpu_marked(r, 0);
+        times->surfaces += gpu_marked(r, 1) - gpu_marked(r, 0);
         times->shade += frame->host ? 0 : gpu_marked(r, 2) - gpu_marked(r, 1);
     }
-    return (!frame->host && !frame->shadow.run) ||
-           shade_host(r, frame, &block, index, times, error);
-}
-
-/* Says once that sheen is not drawn: without its tables, and by the paper's method. */
-static void note_sheen(gpu_renderer *r, const render_frame *frame) {
-    char text[64];
-    const scene_left_out sheen = { "sheen", "material", gpu_mesh_sheens(&r->mesh) };
-    const bool drawn = r->fibers && (frame->host || gpu_shades_fibers(r, frame));
-    if (sheen.count == 0 || r->sheen_noted || drawn)
-        return;
-    scene_left_out_text(&sheen, text, sizeof text);
-    cli_note(NULL, "left out: %s", text);
-    r->sheen_noted = true;
+    return (!frame->host && !frame->shadow.run) || shade_host(r, frame, &camera, times, error);
 }
 
 size_t gpu_lights_max(const gpu_context *context, const render_frame *frame) {
@@ -219,7 +204,8 @@ static bool render_samples(gpu_renderer *r, const render_frame *frame, int first
         return false;
     if (!gpu_bind_environment(r, frame, error))
         return false;
-    note_sheen(r, frame);
+    render_materials_note_sheen(&r->materials, r->materials.fibers &&
+                                                   (frame->host || gpu_shades_fibers(r, frame)));
     if (times)
         *times = (render_times) { .shade = before };
     for (int i = first; i <= last; i++) {
@@ -229,7 +215,7 @@ static bool render_samples(gpu_renderer *r, const render_frame *frame, int first
             gpu_resolve(r, frame, i, show);
     }
     if (times)
-        times->total = times->gbuffer + times->shade + times->shadow + times->transfer;
+        times->total = times->surfaces + times->shade + times->shadow + times->transfer;
     return true;
 }
 

@@ -83,6 +83,13 @@ void gpu_screen_take(gpu_screen *s, gpu_renderer *renderer, int side,
     gpu_present(renderer, s->sides[side].framebuffer, display, true);
 }
 
+void gpu_screen_put(gpu_screen *s, int side, int width, int height, const unsigned char *rgb8) {
+    size_side(&s->sides[side], width, height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(s->sides[side].texture, 0, 0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE,
+                        rgb8);
+}
+
 static void compose(gpu_screen *s, const gpu_layout *layout, GLuint framebuffer, bool flip) {
     const bool two = layout->split != GPU_SPLIT_NONE && s->sides[1].texture;
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);

@@ -44,7 +44,7 @@ bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, bool ful
 
 /* Whether frames of a method sum table t by its bands: under lights, or under an environment. */
 static bool by_bands(const gpu_renderer *r, method_kind method, int t) {
-    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->brdfs[t] ||
+    return !(method_table[method].reads & METHOD_READS_PREINTEGRATED) || !r->materials.brdfs[t] ||
            environment_shines(r->environment);
 }
 
@@ -55,9 +55,9 @@ void gpu_forget_tables(gpu_renderer *r) {
 
 int gpu_tables_by_bands(const gpu_renderer *r, method_kind method) {
     int tables = 0;
-    for (int t = 0; t < r->table_count; t++)
+    for (int t = 0; t < r->materials.table_count; t++)
         if (by_bands(r, method, t)) {
-            const int one = lmp_brdf_table_describe(r->tables[t]).mirrored ? 1 : 2;
+            const int one = lmp_brdf_table_describe(r->materials.tables[t]).mirrored ? 1 : 2;
             tables = one > tables ? one : tables;
         }
     return tables;
@@ -65,9 +65,9 @@ int gpu_tables_by_bands(const gpu_renderer *r, method_kind method) {
 
 /* Vectors of the buffer: one a table, then the values of those summed by bands. */
 static size_t count_values(const gpu_renderer *r, method_kind method, size_t stride) {
-    size_t total = (size_t)r->table_count;
-    for (int t = 0; t < r->table_count; t++) {
-        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
+    size_t total = (size_t)r->materials.table_count;
+    for (int t = 0; t < r->materials.table_count; t++) {
+        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->materials.tables[t]);
         const gpu_table_shape shape = shape_of(&info);
         total += by_bands(r, method, t) ? shape.rows * shape.columns * stride : 0;
     }
@@ -76,16 +76,16 @@ static size_t count_values(const gpu_renderer *r, method_kind method, size_t str
 
 static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, size_t stride,
                         vec4 *values) {
-    size_t first = (size_t)r->table_count;
-    for (int t = 0; t < r->table_count; t++) {
-        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->tables[t]);
+    size_t first = (size_t)r->materials.table_count;
+    for (int t = 0; t < r->materials.table_count; t++) {
+        const lmp_brdf_table_info info = lmp_brdf_table_describe(r->materials.tables[t]);
         const gpu_table_shape shape = shape_of(&info);
         if (!by_bands(r, method, t))
             continue;
         values[t][0] = (float)first;
         values[t][1] = (float)shape.rows;
         values[t][2] = (float)shape.columns;
-        if (!gpu_table_fill(r->tables[t], shape, full, stride, values + first))
+        if (!gpu_table_fill(r->materials.tables[t], shape, full, stride, values + first))
             return false;
         first += shape.rows * shape.columns * stride;
     }
@@ -95,7 +95,7 @@ static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, si
 bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
     const int tables = gpu_tables_by_bands(r, method);
     if (!r->tables_buffer || r->tables_method != method) {
-        const int bands = r->table_bands;
+        const int bands = r->materials.table_bands;
         const size_t stride = tables == 2 ? LMP_SH_COUNT(bands) : LMP_SH_HALF_COUNT(bands);
         const size_t total = count_values(r, method, stride);
         vec4 *values = total < (size_t)1 << 23 ? calloc(total + 1, sizeof *values) : NULL;
@@ -116,23 +116,11 @@ bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
 }
 
 bool gpu_set_tables(gpu_renderer *r, const lmp_brdf_table *const *tables, int count,
-                    const int *uses, size_t material_count, cli_error *error) {
-    if (count > GPU_TABLES_MAX)
-        return cli_fail(error, NULL, "%d materials with tables: the shaders take %d", count,
-                        GPU_TABLES_MAX);
-    for (int t = 1; t < count; t++) {
-        const int first = lmp_brdf_table_describe(tables[0]).bands,
-                  bands = lmp_brdf_table_describe(tables[t]).bands;
-        if (bands != first)
-            return cli_fail(error, NULL, "tables of %d and of %d bands in one image", first, bands);
-    }
-    r->table_count = count;
-    for (int t = 0; t < count; t++) {
-        r->tables[t] = tables[t];
-        r->table_bands = lmp_brdf_table_describe(tables[t]).bands;
-    }
+                    const int *uses, cli_error *error) {
+    if (!render_materials_set_tables(&r->materials, tables, count, uses, error))
+        return false;
     gpu_set_preintegrated_brdfs(r, NULL);
-    for (size_t i = 0; i < material_count; i++)
+    for (size_t i = 0; i < r->materials.count; i++)
         gpu_mesh_set_table(&r->mesh, i, uses[i]);
     return true;
 }

@@ -58,9 +58,9 @@ static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *err
 GLuint gpu_variant_find(gpu_renderer *r, const render_frame *frame, cli_error *error) {
     gpu_variant wanted = variant_of(r, frame);
     const int bands_max = variant_bands_max(&wanted);
-    if (r->table_count && r->table_bands != frame->bands) {
+    if (r->materials.table_count && r->materials.table_bands != frame->bands) {
         cli_fail(error, NULL, "the tables of the materials have %d bands, the image %d",
-                 r->table_bands, frame->bands);
+                 r->materials.table_bands, frame->bands);
         return 0;
     }
     if (frame->bands < 1 || frame->bands > bands_max) {

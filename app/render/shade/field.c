@@ -14,7 +14,7 @@ struct shade_field {
     lmp_light *to; /* what they have become */
     bool moves, forgotten;
     bool whole;     /* every node is computed */
-    uint64_t stamp; /* of gpu_whole_field, or 0: it has changed since */
+    uint64_t stamp; /* of render_whole_field, or 0: it has changed since */
     shade_field_statistics last;
 };
 
@@ -152,17 +152,17 @@ static void follow_lights(shade_field *field, const lmp_host *host, const lmp_li
         lmp_field_move(host, field->nodes, field->moved, field->to, moved);
 }
 
-static bool want_surfaces(lmp_field *nodes, const gpu_gbuffer *gbuffer, int width, int height) {
+static bool want_surfaces(lmp_field *nodes, const render_surfaces *surfaces) {
     bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
         render_tile row;
-        const bool mine = render_tile_create(width, &row);
+        const bool mine = render_tile_create(surfaces->width, &row);
 #pragma omp for schedule(dynamic, 16)
-        for (int y = 0; y < height; y++) {
+        for (int y = 0; y < surfaces->height; y++) {
             if (!mine)
                 continue;
-            const size_t count = gpu_gbuffer_surfaces(gbuffer, y, &row);
+            const size_t count = render_surfaces_positions(surfaces, y, &row);
             const lmp_vec3_array points = { row.position[0], row.position[1], row.position[2],
                                             sizeof(float) };
             lmp_field_want(nodes, points, count);
@@ -175,14 +175,13 @@ static bool want_surfaces(lmp_field *nodes, const gpu_gbuffer *gbuffer, int widt
 }
 
 const lmp_field *shade_field_follow(shade_field *field, const lmp_light *lights, size_t count,
-                                    const gpu_gbuffer *gbuffer, int width, int height) {
+                                    const render_surfaces *surfaces) {
     const double start = timing_now();
     const char *what = "lighting the field";
     lmp_host host = bake_host(&what);
     host.progress = NULL;
     follow_lights(field, &host, lights, count);
-    if (!want_surfaces(field->nodes, gbuffer, width, height) ||
-        lmp_field_compute(&host, field->nodes) != LMP_OK)
+    if (!want_surfaces(field->nodes, surfaces) || lmp_field_compute(&host, field->nodes) != LMP_OK)
         return NULL;
     field->last.update_milliseconds = 1e3 * (timing_now() - start);
     return field->nodes;

@@ -4,7 +4,7 @@
 #ifndef LAMPION_SHADE_FIELD_H
 #define LAMPION_SHADE_FIELD_H
 
-#include "app/render/gl/gpu.h"
+#include "app/render/frame/surfaces.h"
 
 typedef struct shade_field_options {
     int grid[3]; /* nodes along x, y, z */
@@ -64,7 +64,7 @@ shade_field_statistics shade_field_describe(const shade_field *field);
 
 /* Has the field's lights be these, and its nodes computed wherever the G-buffer has surfaces. */
 const lmp_field *shade_field_follow(shade_field *field, const lmp_light *lights, size_t count,
-                                    const gpu_gbuffer *gbuffer, int width, int height);
+                                    const render_surfaces *surfaces);
 
 /* How long the surfaces took. */
 void shade_field_note(shade_field *field, double milliseconds);

@@ -4,18 +4,16 @@
 #include "app/render/shade/lights.h"
 #include "app/timing/timing.h"
 
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-/* What every pixel of a frame is shaded by. */
-typedef struct shading {
+struct shade_job {
+    const render_frame *frame;
     lmp_shade_settings settings;
-    const lmp_light *lights;
-    size_t light_count;
-    const lmp_field *field;         /* of these lights, or NULL */
-    const environment *environment; /* or NULL */
-    bool layered;
-} shading;
+    lmp_light *lights;
+    const lmp_field *field; /* of these lights, or NULL */
+    double start;
+};
 
 static lmp_vec3_array from(const lmp_vec3_array *planes, size_t first) {
     return (lmp_vec3_array) { planes->x + first, planes->y + first, planes->z + first,
@@ -30,9 +28,10 @@ static lmp_vec3_array vectors(float *const planes[3], size_t first) {
 enum { RUN = 64 };
 
 /* By how much of it comes to each. */
-static void add_environment(const shading *s, const lmp_surfaces *all, const float *ambient,
-                            size_t count, float *rgba) {
-    const lmp_environment light = { s->environment->sh, s->environment->bands };
+static void add_environment(const shade_job *job, const environment *around,
+                            const lmp_surfaces *all, const float *ambient, size_t count,
+                            float *rgba) {
+    const lmp_environment light = { around->sh, around->bands };
     for (size_t first = 0; first < count; first += RUN) {
         const size_t some = count - first < RUN ? count - first : RUN;
         lmp_surfaces run = {
@@ -41,10 +40,10 @@ static void add_environment(const shading *s, const lmp_surfaces *all, const flo
             .material = all->material + first,
             .material_stride = all->material_stride,
         };
-        if (s->layered)
+        if (all->coat_normal.x)
             run.coat_normal = from(&all->coat_normal, first);
         lmp_rgb reflected[RUN];
-        lmp_shade_environment_n(&s->settings, &run, some, &light, 0, &reflected->r);
+        lmp_shade_environment_n(&job->settings, &run, some, &light, 0, &reflected->r);
         for (size_t i = 0; i < some; i++) {
             float *pixel = rgba + 4 * (first + i);
             pixel[0] += reflected[i].r * ambient[first + i];
@@ -54,109 +53,192 @@ static void add_environment(const shading *s, const lmp_surfaces *all, const flo
     }
 }
 
-/* Neighbors in a tile, from `first` on. */
-static void shade_run(const shading *s, const render_tile *row, size_t first, size_t count,
-                      float *rgba) {
+/* Surfaces side by side, from `first` on; rgba receives what they reflect. */
+static void reflect(const shade_job *job, const render_surfaces *planes, const render_tile *tile,
+                    size_t count, float *rgba) {
     lmp_surfaces surfaces = {
-        .position = vectors(row->position, first),
-        .normal = vectors(row->normal, first),
-        .view = vectors(row->view, first),
-        .material = row->material + first,
-        .material_stride = sizeof *row->material,
+        .position = vectors(tile->position, 0),
+        .normal = vectors(tile->normal, 0),
+        .view = vectors(tile->view, 0),
+        .material = tile->material,
+        .material_stride = sizeof *tile->material,
     };
-    if (s->layered)
-        surfaces.coat_normal = vectors(row->coat_normal, first);
-    if (s->field)
-        lmp_field_shade_n(&s->settings, s->field, &surfaces, count, 4 * sizeof(float), rgba);
+    if (planes->layered)
+        surfaces.coat_normal = vectors(tile->coat_normal, 0);
+    if (job->field)
+        lmp_field_shade_n(&job->settings, job->field, &surfaces, count, 4 * sizeof(float), rgba);
     else
-        lmp_shade_n(&s->settings, &surfaces, count, s->lights, s->light_count, 4 * sizeof(float),
-                    rgba);
-    if (s->environment)
-        add_environment(s, &surfaces, row->ambient + first, count, rgba);
+        lmp_shade_n(&job->settings, &surfaces, count, job->lights, job->frame->light_count,
+                    4 * sizeof(float), rgba);
+    if (environment_shines(planes->environment))
+        add_environment(job, planes->environment, &surfaces, tile->ambient, count, rgba);
 }
 
-/* Runs of surfaces are shaded together; what lies between them shows what it emits. */
-static void shade_pixels(const shading *s, const render_tile *row, size_t count, float *rgba) {
-    for (size_t i = 0; i < count;) {
-        size_t end = i;
-        while (end < count && row->kind[end] == RENDER_SURFACE)
-            end++;
-        if (end > i)
-            shade_run(s, row, i, end - i, rgba + 4 * i);
-        for (; i < end; i++)
-            for (size_t c = 0; c < 3; c++)
-                rgba[4 * i + c] += row->emission[c][i];
-        for (; i < count && row->kind[i] != RENDER_SURFACE; i++)
-            for (size_t c = 0; c < 3; c++)
-                rgba[4 * i + c] = row->emission[c][i];
+/* --- what another sample has found ------------------------------------------------------------ */
+
+/* How much values of 0 … 1 may differ, and normals, and positions in widths of a pixel, for what is
+ * lit to count as lit alike. */
+static const float value_step = 1 / 256.0f, normal_step = 1 / 64.0f, pixel_steps = 4;
+
+static float distance2(float *const a[3], float *const b[3], size_t pixel) {
+    float sum = 0;
+    for (int c = 0; c < 3; c++) {
+        const float d = a[c][pixel] - b[c][pixel];
+        sum += d * d;
     }
+    return sum;
 }
 
-/* Pixels of a tile lie close to each other: near the same lights, in few cells of a field. */
-enum { TILE = 32 };
+static bool are_near(float a, float b, float step) {
+    return fabsf(a - b) <= step;
+}
 
-static void shade_tile(const shading *s, const gpu_gbuffer *gbuffer, const int at[2],
-                       const int size[2], render_tile *row, float *rgba) {
-    float pixels[4 * TILE * TILE] = { 0 };
-    const int width = size[0] - at[0] < TILE ? size[0] - at[0] : TILE;
-    const int height = size[1] - at[1] < TILE ? size[1] - at[1] : TILE;
-    gpu_gbuffer_tile(gbuffer, at[0], at[1], width, height, row);
-    shade_pixels(s, row, (size_t)(width * height), pixels);
-    for (int y = 0; y < height; y++) {
-        float *to = rgba + 4 * ((size_t)(at[1] + y) * (size_t)size[0] + (size_t)at[0]);
-        memcpy(to, pixels + 4 * y * width, 4 * (size_t)width * sizeof *to);
+static bool are_near3(float *const a[3], float *const b[3], size_t pixel, float step) {
+    return are_near(a[0][pixel], b[0][pixel], step) && are_near(a[1][pixel], b[1][pixel], step) &&
+           are_near(a[2][pixel], b[2][pixel], step);
+}
+
+/* The width of a pixel there, squared. */
+static float width2_at(const render_surfaces *s, size_t pixel) {
+    const render_camera *c = &s->camera;
+    float down2 = 0, far2 = 0;
+    for (int i = 0; i < 3; i++) {
+        const float d = s->position[i][pixel] - c->eye[i];
+        down2 += c->down[i] * c->down[i];
+        far2 += d * d;
     }
+    return 4 * down2 * (c->parallel ? 1 : far2) / ((float)c->height * (float)c->height);
 }
 
-static bool shade_tiles(const shading *s, const gpu_gbuffer *gbuffer, int width, int height,
-                        float *rgba) {
-    const int columns = (width + TILE - 1) / TILE, rows = (height + TILE - 1) / TILE;
-    const int size[2] = { width, height };
+static bool have_alike_layers(const render_surfaces *a, const render_surfaces *b, size_t i) {
+    return are_near(a->coat[i], b->coat[i], value_step) &&
+           are_near(a->coat_roughness[i], b->coat_roughness[i], value_step) &&
+           are_near(a->sheen_roughness[i], b->sheen_roughness[i], value_step) &&
+           are_near3(a->sheen, b->sheen, i, value_step) &&
+           are_near3(a->tint, b->tint, i, value_step) &&
+           distance2(a->coat_normal, b->coat_normal, i) <= normal_step * normal_step;
+}
+
+/* Whether two samples of a pixel see one surface, nearby. */
+static bool see_alike(const render_surfaces *a, const render_surfaces *b, size_t i) {
+    return a->seen[i] == b->seen[i] &&
+           distance2(a->normal, b->normal, i) <= normal_step * normal_step &&
+           distance2(a->position, b->position, i) <= pixel_steps * pixel_steps * width2_at(b, i) &&
+           are_near3(a->base, b->base, i, value_step) &&
+           are_near3(a->emission, b->emission, i, value_step) &&
+           are_near(a->metallic[i], b->metallic[i], value_step) &&
+           are_near(a->roughness[i], b->roughness[i], value_step) &&
+           are_near(a->specular[i], b->specular[i], value_step) &&
+           are_near(a->ambient[i], b->ambient[i], value_step) &&
+           (!a->layered || !render_material_is_layered(a->materials, a->seen[i]) ||
+            have_alike_layers(a, b, i));
+}
+
+/* --- tiles ------------------------------------------------------------------------------------ */
+
+static void set_pixel(float *pixel, lmp_rgb color) {
+    pixel[0] = color.r;
+    pixel[1] = color.g;
+    pixel[2] = color.b;
+}
+
+/* Lists the pixels that are to be shaded, by their indices; the others receive what they show. */
+static size_t list_pixels(const render_surfaces *s, const shade_sample *before, int x, int y,
+                          int width, int height, uint32_t *list, float *rgba) {
+    size_t count = 0;
+    for (int j = y; j < y + height; j++)
+        for (int i = x; i < x + width; i++) {
+            const size_t pixel = render_surfaces_at(s, i, j);
+            float *const to = rgba + 4 * pixel;
+            if (s->seen[pixel] >= RENDER_SEES_LIGHT)
+                set_pixel(to, render_surfaces_beyond(s, i, j));
+            else if (before && see_alike(before->surfaces, s, pixel))
+                set_pixel(to, (lmp_rgb) { before->rgba[4 * pixel], before->rgba[4 * pixel + 1],
+                                          before->rgba[4 * pixel + 2] });
+            else
+                list[count++] = (uint32_t)pixel;
+        }
+    return count;
+}
+
+void shade_tile(const shade_job *job, const render_surfaces *s, const shade_sample *before, int x,
+                int y, int width, int height, render_tile *tile, float *rgba) {
+    uint32_t list[SHADE_TILE * SHADE_TILE];
+    float reflected[4 * SHADE_TILE * SHADE_TILE];
+    const size_t count = list_pixels(s, before, x, y, width, height, list, rgba);
+    if (count == 0)
+        return;
+    render_surfaces_gather(s, list, count, tile);
+    reflect(job, s, tile, count, reflected);
+    for (size_t i = 0; i < count; i++)
+        set_pixel(rgba + 4 * (size_t)list[i],
+                  (lmp_rgb) { reflected[4 * i] + tile->emission[0][i],
+                              reflected[4 * i + 1] + tile->emission[1][i],
+                              reflected[4 * i + 2] + tile->emission[2][i] });
+}
+
+static int tiles_of(int pixels) {
+    return (pixels + SHADE_TILE - 1) / SHADE_TILE;
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+bool shade_tiles(const shade_job *job, const render_surfaces *s, const shade_sample *before,
+                 float *rgba) {
+    const int columns = tiles_of(s->width), rows = tiles_of(s->height);
     bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
-        render_tile row;
-        const bool mine = render_tile_create(TILE * TILE, &row);
+        render_tile tile;
+        const bool mine = ok = render_tile_create(SHADE_TILE * SHADE_TILE, &tile);
 #pragma omp for schedule(dynamic)
         for (int i = 0; i < columns * rows; i++)
             if (mine) {
-                const int at[2] = { i % columns * TILE, i / columns * TILE };
-                shade_tile(s, gbuffer, at, size, &row, rgba);
+                const int x = i % columns * SHADE_TILE, y = i / columns * SHADE_TILE;
+                shade_tile(job, s, before, s->x + x, s->y + y, least(SHADE_TILE, s->width - x),
+                           least(SHADE_TILE, s->height - y), &tile, rgba);
             }
         if (mine)
-            render_tile_free(&row);
-        ok = mine;
+            render_tile_free(&tile);
     }
     return ok;
 }
 
-bool shade_frame(const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
-                 cli_error *error) {
-    const size_t count = frame->light_count;
+shade_job *shade_begin(const render_frame *frame, const render_surfaces *surfaces) {
     const bool by_field = method_table[frame->method].reads & METHOD_READS_FIELD;
-    lmp_light *lights = shade_lights(frame);
-    shading s = { { .method = method_table[frame->method].method,
-                    .bands = frame->bands,
-                    .window = frame->window,
-                    .lobe = frame->lobes },
-                  .lights = lights,
-                  .light_count = count,
-                  .environment = gpu_gbuffer_environment(gbuffer),
-                  .layered = gpu_gbuffer_is_layered(gbuffer) };
-    bool ok = lights;
-    if (ok && by_field) {
-        s.field =
-            shade_field_follow(frame->field, lights, count, gbuffer, frame->width, frame->height);
-        ok = s.field != NULL;
-    }
-    const double start = timing_now();
-    ok = ok && shade_tiles(&s, gbuffer, frame->width, frame->height, rgba);
-    if (by_field)
-        shade_field_note(frame->field, 1e3 * (timing_now() - start));
-    free(lights);
-    return ok || cli_fail(error, NULL, "out of memory");
+    shade_job *job = calloc(1, sizeof *job);
+    if (!job)
+        return NULL;
+    job->frame = frame;
+    job->settings = (lmp_shade_settings) { .method = method_table[frame->method].method,
+                                           .bands = frame->bands,
+                                           .window = frame->window,
+                                           .lobe = frame->lobes };
+    job->lights = shade_lights(frame);
+    if (job->lights && by_field)
+        job->field = shade_field_follow(frame->field, job->lights, frame->light_count, surfaces);
+    job->start = timing_now();
+    if (job->lights && (job->field || !by_field))
+        return job;
+    shade_end(job);
+    return NULL;
 }
 
-render_shader shade_on(device_kind device) {
-    return device_table[device].on_host ? shade_frame : NULL;
+void shade_end(shade_job *job) {
+    if (!job)
+        return;
+    if (job->field)
+        shade_field_note(job->frame->field, 1e3 * (timing_now() - job->start));
+    free(job->lights);
+    free(job);
+}
+
+bool shade_frame(const render_frame *frame, const render_surfaces *surfaces, float *rgba,
+                 cli_error *error) {
+    shade_job *job = shade_begin(frame, surfaces);
+    const bool ok = job && shade_tiles(job, surfaces, NULL, rgba);
+    shade_end(job);
+    return ok || cli_fail(error, NULL, "out of memory");
 }

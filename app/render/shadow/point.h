@@ -4,7 +4,7 @@
 #ifndef LAMPION_SHADOW_POINT_H
 #define LAMPION_SHADOW_POINT_H
 
-#include "app/render/gl/gpu.h"
+#include "app/render/frame/surfaces.h"
 #include "app/trace/trace.h"
 
 enum { SHADOW_LANES = TRACE_LANES };

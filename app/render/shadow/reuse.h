@@ -3,7 +3,7 @@
 #ifndef LAMPION_SHADOW_REUSE_H
 #define LAMPION_SHADOW_REUSE_H
 
-#include "app/render/gl/gpu.h"
+#include "app/render/frame/surfaces.h"
 #include "app/render/shadow/planes.h"
 
 /* Multiplies a row's radiance by what filtered planes say of their pixels on the same surface. */

@@ -13,7 +13,7 @@
 struct shadow {
     const scene *scene;
     shadow_settings settings;
-    trace_bvh *bvh;
+    const trace_bvh *bvh;
     shadow_around around;
     shadow_source *sources;
     shadow_planes planes;
@@ -25,16 +25,16 @@ static bool fail_memory(const char *subject, cli_error *error) {
                     "out of memory for shadows (--no-shadows renders without them)");
 }
 
-shadow *shadow_create(const scene *world, const environment *surroundings,
+shadow *shadow_create(const scene *world, const trace_bvh *bvh, const environment *surroundings,
                       const shadow_settings *settings, cli_error *error) {
     shadow *s = calloc(1, sizeof *s);
     if (s) {
         s->scene = world;
         s->settings = *settings;
         s->sources = malloc(SHADOW_SOURCES(SCENE_LIGHTS_MAX) * sizeof *s->sources);
-        s->bvh = s->sources ? trace_create(world) : NULL;
+        s->bvh = bvh;
     }
-    if (s && s->bvh && shadow_surround(s, surroundings, error))
+    if (s && s->sources && s->bvh && shadow_surround(s, surroundings, error))
         return s;
     shadow_destroy(s);
     fail_memory(world->origin, error);
@@ -50,7 +50,6 @@ bool shadow_surround(shadow *s, const environment *surroundings, cli_error *erro
 void shadow_destroy(shadow *s) {
     if (!s)
         return;
-    trace_destroy(s->bvh);
     shadow_around_free(&s->around);
     shadow_planes_free(&s->planes);
     free(s->sources);
@@ -70,19 +69,19 @@ static bool alternates(const shadow *s) {
 }
 
 /* Which of the samples that send rays it is, from 0. */
-static int sample_of(const shadow *s, const gpu_gbuffer *gbuffer) {
-    const int sample = gpu_gbuffer_sample(gbuffer);
+static int sample_of(const shadow *s, const render_surfaces *surfaces) {
+    const int sample = surfaces->camera.sample;
     return alternates(s) ? sample / SAMPLES_APART : sample;
 }
 
 /* Of samples that stand alone the first is shown while things move. */
-static int spacing_of(const shadow *s, const gpu_gbuffer *gbuffer) {
+static int spacing_of(const shadow *s, const render_surfaces *surfaces) {
     if (!s->settings.sparse || s->settings.raw)
         return 1;
-    return s->settings.apart && gpu_gbuffer_sample(gbuffer) == 0 ? 4 : 2;
+    return s->settings.apart && surfaces->camera.sample == 0 ? 4 : 2;
 }
 
-static shadow_job job_of(shadow *s, const render_frame *frame, const gpu_gbuffer *gbuffer) {
+static shadow_job job_of(shadow *s, const render_frame *frame, const render_surfaces *surfaces) {
     const bool shines = shadow_around_shines(&s->around);
     shadow_job job = {
         .view = { .scene = s->scene,
@@ -93,16 +92,16 @@ static shadow_job job_of(shadow *s, const render_frame *frame, const gpu_gbuffer
                   .settings = { .bands = frame->bands, .window = frame->window } },
         .sources = s->sources,
         .rays = s->settings.rays,
-        .spacing = spacing_of(s, gbuffer),
-        .sample = sample_of(s, gbuffer),
-        .seed = shadow_hash(s->settings.seed, (uint32_t)sample_of(s, gbuffer)),
+        .spacing = spacing_of(s, surfaces),
+        .sample = sample_of(s, surfaces),
+        .seed = shadow_hash(s->settings.seed, (uint32_t)sample_of(s, surfaces)),
     };
     job.source_count = shadow_sources_make(frame->lights, frame->light_count,
                                            shines ? &s->around : NULL, s->sources);
     return job;
 }
 
-static bool send_rays(shadow *s, const shadow_job *job, const gpu_gbuffer *gbuffer) {
+static bool send_rays(shadow *s, const shadow_job *job, const render_surfaces *surfaces) {
     size_t rays = 0;
     bool ok = true;
 #pragma omp parallel reduction(&& : ok) reduction(+ : rays)
@@ -114,7 +113,7 @@ static bool send_rays(shadow *s, const shadow_job *job, const gpu_gbuffer *gbuff
 #pragma omp for schedule(dynamic, 4)
         for (int y = 0; y < s->planes.height; y++)
             if (ok) {
-                gpu_gbuffer_row(gbuffer, y, &row);
+                render_surfaces_tile(surfaces, 0, y, surfaces->width, 1, &row);
                 rays += shadow_rays_row(job, &row, y, weights, &s->planes);
             }
         if (mine)
@@ -132,7 +131,7 @@ static float ratio_of(const shadow_planes *planes, int channel, size_t pixel) {
     return all > 0 && unhidden < all ? unhidden / all : 1;
 }
 
-static void apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
+static void apply(const shadow *s, const render_surfaces *surfaces, float *rgba) {
     const ptrdiff_t count = (ptrdiff_t)s->planes.width * s->planes.height;
 #pragma omp parallel for
     for (ptrdiff_t i = 0; i < count; i++) {
@@ -141,7 +140,7 @@ static void apply(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
                   s->planes.values[SHADOW_ALL + 2][pixel] >
               0))
             continue;
-        const lmp_rgb glow = gpu_gbuffer_emission(gbuffer, pixel);
+        const lmp_rgb glow = render_surfaces_emission(surfaces, pixel);
         const float emission[3] = { glow.r, glow.g, glow.b };
         for (int c = 0; c < 3; c++) {
             float *radiance = &rgba[4 * pixel + (size_t)c];
@@ -156,22 +155,23 @@ static float narrowing_of(const shadow_job *job) {
     return sqrtf((float)(job->sample + 1) / (float)job->spacing);
 }
 
-static bool cast(shadow *s, const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba) {
+static bool cast(shadow *s, const render_frame *frame, const render_surfaces *surfaces,
+                 float *rgba) {
     const double start = timing_now();
-    const shadow_job job = job_of(s, frame, gbuffer);
+    const shadow_job job = job_of(s, frame, surfaces);
     if (!shadow_planes_resize(&s->planes, frame->width, frame->height) ||
-        !send_rays(s, &job, gbuffer))
+        !send_rays(s, &job, surfaces))
         return false;
     const double sent = timing_now();
     if (!s->settings.raw)
         shadow_filter(&s->planes, job.spacing, narrowing_of(&job));
-    apply(s, gbuffer, rgba);
+    apply(s, surfaces, rgba);
     s->statistics.rays_milliseconds = 1e3 * (sent - start);
     s->statistics.filter_milliseconds = 1e3 * (timing_now() - sent);
     return true;
 }
 
-static bool reuse(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
+static bool reuse(const shadow *s, const render_surfaces *surfaces, float *rgba) {
     bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
@@ -180,7 +180,7 @@ static bool reuse(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
 #pragma omp for schedule(dynamic, 4)
         for (int y = 0; y < s->planes.height; y++)
             if (mine) {
-                gpu_gbuffer_row(gbuffer, y, &row);
+                render_surfaces_tile(surfaces, 0, y, surfaces->width, 1, &row);
                 shadow_reuse_row(&s->planes, &row, y, rgba);
             }
         if (mine)
@@ -189,10 +189,10 @@ static bool reuse(const shadow *s, const gpu_gbuffer *gbuffer, float *rgba) {
     return ok;
 }
 
-bool shadow_frame(void *user, const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
-                  cli_error *error) {
+bool shadow_frame(void *user, const render_frame *frame, const render_surfaces *surfaces,
+                  float *rgba, cli_error *error) {
     shadow *s = user;
-    const bool again = alternates(s) && gpu_gbuffer_sample(gbuffer) % SAMPLES_APART != 0;
-    return (again ? reuse(s, gbuffer, rgba) : cast(s, frame, gbuffer, rgba)) ||
+    const bool again = alternates(s) && surfaces->camera.sample % SAMPLES_APART != 0;
+    return (again ? reuse(s, surfaces, rgba) : cast(s, frame, surfaces, rgba)) ||
            fail_memory(NULL, error);
 }

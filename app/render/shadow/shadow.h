@@ -5,7 +5,8 @@
 #ifndef LAMPION_SHADOW_H
 #define LAMPION_SHADOW_H
 
-#include "app/render/gl/gpu.h"
+#include "app/render/frame/surfaces.h"
+#include "app/trace/trace.h"
 
 typedef struct shadow_settings {
     int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
@@ -60,8 +61,8 @@ typedef struct shadow_statistics {
 
 typedef struct shadow shadow;
 
-/* Scene and environment, which may be NULL, must outlive it. NULL on failure. */
-shadow *shadow_create(const scene *scene, const environment *surroundings,
+/* Scene, its tree and environment, which may be NULL, must outlive it. NULL on failure. */
+shadow *shadow_create(const scene *scene, const trace_bvh *bvh, const environment *surroundings,
                       const shadow_settings *settings, cli_error *error);
 void shadow_destroy(shadow *shadow);
 
@@ -69,8 +70,8 @@ void shadow_destroy(shadow *shadow);
 bool shadow_surround(shadow *shadow, const environment *surroundings, cli_error *error);
 
 /* render_frame.shadow, `user` a shadow. */
-bool shadow_frame(void *user, const render_frame *frame, const gpu_gbuffer *gbuffer, float *rgba,
-                  cli_error *error);
+bool shadow_frame(void *user, const render_frame *frame, const render_surfaces *surfaces,
+                  float *rgba, cli_error *error);
 
 shadow_statistics shadow_describe(const shadow *shadow);
 

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/cpu/rays.h"
+
+#include "app/render/cpu/surface.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool cpu_lights_create(const render_frame *frame, trace_spheres **lights) {
+    trace_sphere *drawn = malloc((frame->light_count + 1) * sizeof *drawn);
+    size_t count = 0;
+    *lights = NULL;
+    if (!drawn)
+        return false;
+    for (size_t i = 0; i < frame->light_count; i++) {
+        const lmp_light *e = &frame->lights[i].emitter;
+        if (!scene_light_is_drawn(&frame->lights[i]))
+            continue;
+        drawn[count++] = (trace_sphere) { .center = { e->position.x, e->position.y, e->position.z },
+                                          .radius = e->radius,
+                                          .number = (uint32_t)i };
+    }
+    if (count > 0)
+        *lights = trace_spheres_create(drawn, count);
+    free(drawn);
+    return count == 0 || *lights;
+}
+
+/* Rays side by side are a square of pixels: two halves of 4 by 2, the packets of half the width. */
+enum { SIDE = 4 };
+
+static void set_ray(const render_camera *c, int x, int y, int lane, cpu_ray *ray,
+                    trace_rays *rays) {
+    render_camera_ray(c, x, y, ray->origin, ray->direction);
+    for (int i = 0; i < 3; i++) {
+        rays->origin[i][lane] = ray->origin[i];
+        rays->direction[i][lane] = ray->direction[i];
+    }
+    rays->start[lane] = c->parallel ? 0 : c->near;
+    rays->length[lane] = c->far;
+    rays->pixel[lane] = (uint32_t)x * 1664525u + (uint32_t)y * 1013904223u;
+}
+
+static void fill_square(const cpu_view *view, int x, int y, int width, int height,
+                        const render_surfaces *s) {
+    cpu_ray of[TRACE_LANES];
+    trace_rays rays = { .sample = (uint32_t)s->camera.sample,
+                        .samples = (uint32_t)s->camera.samples };
+    trace_hit hits[TRACE_LANES];
+    bool lights[TRACE_LANES] = { false };
+    for (int i = 0; i < TRACE_LANES; i++) {
+        const int column = i % SIDE, row = i / SIDE;
+        /* those past the edge are none, but have a direction like their neighbors' */
+        set_ray(&s->camera, x + column, y + row, i, &of[i], &rays);
+        if (column >= width || row >= height)
+            rays.length[i] = -1;
+    }
+    trace_nearest_n(view->bvh, TRACE_IMAGE, &rays, hits);
+    if (view->lights)
+        trace_spheres_nearest_n(view->lights, &rays, lights, hits);
+    for (int i = 0; i < TRACE_LANES; i++) {
+        if (rays.length[i] < 0)
+            continue;
+        const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
+        if (lights[i])
+            s->seen[at] = RENDER_SEES_LIGHT + hits[i].instance;
+        else if (hits[i].instance == TRACE_NOTHING)
+            s->seen[at] = RENDER_SEES_NOTHING;
+        else
+            cpu_surface_fill(view->scene, view->textures, &of[i], &hits[i], at, s);
+    }
+}
+
+void cpu_rays_fill(const cpu_view *view, int x, int y, int width, int height,
+                   const render_surfaces *s) {
+    for (int j = 0; j < height; j += SIDE)
+        for (int i = 0; i < width; i += SIDE)
+            fill_square(view, x + i, y + j, width - i, height - j, s);
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/frame/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The near plane's distance as a part of the scene's extent. */
+static const float near_of_extent = 1e-4f;
+
+static void subtract(const float a[3], const float b[3], float difference[3]) {
+    for (int i = 0; i < 3; i++)
+        difference[i] = a[i] - b[i];
+}
+
+static void cross(const float a[3], const float b[3], float product[3]) {
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static bool scale_to(float v[3], float length) {
+    const float current = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(current > 0))
+        return false;
+    for (int i = 0; i < 3; i++)
+        v[i] *= length / current;
+    return true;
+}
+
+/* Sample `index` of `count` in its pixel, -0.5 … 0.5, by the two-dimensional golden ratio (Roberts
+ * 2018). The first is in its middle. */
+static void sample_offset(int index, int count, float offset[2]) {
+    static const double steps[2] = { 0.7548776662466927, 0.5698402909980532 };
+    for (int i = 0; i < 2; i++) {
+        const double at = count > 1 ? 0.5 + steps[i] * index : 0.5;
+        offset[i] = (float)(at - floor(at) - 0.5);
+    }
+}
+
+static float near_of(const scene *world) {
+    float extent = 0;
+    for (int i = 0; i < 3; i++)
+        extent = fmaxf(extent, world->maximum[i] - world->minimum[i]);
+    return near_of_extent * (extent > 0 ? extent : 1);
+}
+
+bool render_camera_set(const scene *world, const render_frame *frame, int sample, render_camera *c,
+                       cli_error *error) {
+    const scene_camera *from = &frame->camera;
+    const float half_height = 0.5f * scene_camera_height(from, 1);
+    const float half_width = half_height * (float)frame->width / (float)frame->height;
+    float offset[2];
+    sample_offset(sample, frame->samples, offset);
+    memset(c, 0, sizeof *c);
+    c->width = frame->width;
+    c->height = frame->height;
+    c->parallel = from->height > 0;
+    c->near = near_of(world);
+    c->far = INFINITY;
+    c->sample = sample;
+    c->samples = frame->samples > 1 ? frame->samples : 1;
+    memcpy(c->eye, from->eye, sizeof c->eye);
+    subtract(from->target, from->eye, c->forward);
+    cross(c->forward, from->up, c->right);
+    cross(c->forward, c->right, c->down);
+    c->jitter[0] = 2 * offset[0] / (float)frame->width;
+    c->jitter[1] = 2 * offset[1] / (float)frame->height;
+    return (scale_to(c->forward, 1) && scale_to(c->right, half_width) &&
+            scale_to(c->down, half_height)) ||
+           cli_fail(error, "camera", "it looks along its up direction, or at itself");
+}
+
+void render_camera_ray(const render_camera *c, int x, int y, float origin[3], float direction[3]) {
+    const float u = ((float)x + 0.5f) / (float)c->width * 2 - 1 + c->jitter[0];
+    const float v = ((float)y + 0.5f) / (float)c->height * 2 - 1 + c->jitter[1];
+    for (int i = 0; i < 3; i++) {
+        const float aside = c->right[i] * u + c->down[i] * v;
+        origin[i] = c->eye[i] + (c->parallel ? aside : 0);
+        direction[i] = c->forward[i] + (c->parallel ? 0 : aside);
+    }
+}
+
+void render_camera_views(const render_camera *c, int first, int y, int count,
+                         float *const view[3]) {
+    const float spread = c->parallel ? 0 : 1;
+    const float v = ((float)y + 0.5f) / (float)c->height * 2 - 1 + c->jitter[1];
+    const float across = 2 / (float)c->width, start = 0.5f * across - 1 + c->jitter[0];
+    float left[3], right[3];
+    for (int i = 0; i < 3; i++) {
+        left[i] = c->forward[i] + c->down[i] * v * spread;
+        right[i] = c->right[i] * spread;
+    }
+    float *restrict vx = view[0], *restrict vy = view[1], *restrict vz = view[2];
+#pragma omp simd
+    for (int x = 0; x < count; x++) {
+        const float u = (float)(first + x) * across + start;
+        const float rx = left[0] + right[0] * u, ry = left[1] + right[1] * u;
+        const float rz = left[2] + right[2] * u;
+        const float back = -1 / sqrtf(rx * rx + ry * ry + rz * rz);
+        vx[x] = rx * back;
+        vy[x] = ry * back;
+        vz[x] = rz * back;
+    }
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/frame/surfaces.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* --- planes ----------------------------------------------------------------------------------- */
+
+enum { PLAIN = 16, LAYERED = 12 };
+
+/* Gives the next plane of `count` values. */
+static float *next(float **memory, size_t count) {
+    float *plane = *memory;
+    *memory += count;
+    return plane;
+}
+
+bool render_surfaces_create(int width, int height, bool layered, render_surfaces *s) {
+    const size_t count = (size_t)width * (size_t)height;
+    const size_t planes = 1 + PLAIN + (layered ? LAYERED : 0);
+    memset(s, 0, sizeof *s);
+    float *memory = malloc(planes * count * sizeof *memory);
+    if (!memory)
+        return false;
+    s->width = width;
+    s->height = height;
+    s->layered = layered;
+    s->memory = memory;
+    s->seen = (uint32_t *)(void *)next(&memory, count);
+    float **const vectors[] = { s->position, s->normal, s->base, s->emission };
+    float **const numbers[] = { &s->metallic, &s->roughness, &s->specular, &s->ambient };
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        for (int c = 0; c < 3; c++)
+            vectors[i][c] = next(&memory, count);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        *numbers[i] = next(&memory, count);
+    float **const more_vectors[] = { s->coat_normal, s->tint, s->sheen };
+    float **const more_numbers[] = { &s->coat, &s->coat_roughness, &s->sheen_roughness };
+    for (size_t i = 0; layered && i < sizeof more_vectors / sizeof *more_vectors; i++)
+        for (int c = 0; c < 3; c++)
+            more_vectors[i][c] = next(&memory, count);
+    for (size_t i = 0; layered && i < sizeof more_numbers / sizeof *more_numbers; i++)
+        *more_numbers[i] = next(&memory, count);
+    return true;
+}
+
+void render_surfaces_free(render_surfaces *s) {
+    free(s->memory);
+    memset(s, 0, sizeof *s);
+}
+
+void render_surfaces_copy(const render_surfaces *from, render_surfaces *to) {
+    const size_t planes = 1 + PLAIN + (from->layered ? LAYERED : 0);
+    memcpy(to->memory, from->memory,
+           planes * (size_t)from->width * (size_t)from->height * sizeof(float));
+}
+
+/* --- a tile ----------------------------------------------------------------------------------- */
+
+bool render_tile_create(int pixels, render_tile *tile) {
+    const size_t count = (size_t)pixels;
+    memset(tile, 0, sizeof *tile);
+    float *memory = malloc(count * (sizeof *tile->material + 16 * sizeof(float) + 1));
+    if (!memory)
+        return false;
+    tile->material = (lmp_material *)(void *)memory;
+    memory = (float *)(void *)(tile->material + count);
+    float **planes[] = { tile->position, tile->normal, tile->view, tile->coat_normal,
+                         tile->emission };
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++)
+        for (int c = 0; c < 3; c++)
+            planes[i][c] = next(&memory, count);
+    tile->ambient = next(&memory, count);
+    tile->kind = (unsigned char *)memory;
+    return true;
+}
+
+void render_tile_free(render_tile *tile) {
+    free(tile->material);
+}
+
+static lmp_rgb light_of(const render_surfaces *s, uint32_t number) {
+    return number < s->frame->light_count ? s->frame->lights[number].emitter.radiance
+                                          : (lmp_rgb) { 0, 0, 0 };
+}
+
+/* What is seen past everything, in the direction against `view`. */
+static lmp_rgb background_of(const render_surfaces *s, const float view[3]) {
+    const float *background = s->frame->background;
+    const float away[3] = { -view[0], -view[1], -view[2] };
+    if (environment_shines(s->environment) && s->environment->backdrop.rgb &&
+        !s->frame->hide_backdrop)
+        return environment_seen(s->environment, away);
+    return (lmp_rgb) { background[0], background[1], background[2] };
+}
+
+static lmp_rgb beyond(const render_surfaces *s, size_t pixel, const float view[3]) {
+    const uint32_t seen = s->seen[pixel];
+    return seen == RENDER_SEES_NOTHING ? background_of(s, view)
+                                       : light_of(s, seen - RENDER_SEES_LIGHT);
+}
+
+lmp_rgb render_surfaces_beyond(const render_surfaces *s, int x, int y) {
+    float view[3];
+    float *const planes[3] = { &view[0], &view[1], &view[2] };
+    render_camera_views(&s->camera, x, y, 1, planes);
+    return beyond(s, render_surfaces_at(s, x, y), view);
+}
+
+static lmp_rgb color_at(float *const planes[3], size_t pixel) {
+    return (lmp_rgb) { planes[0][pixel], planes[1][pixel], planes[2][pixel] };
+}
+
+/* Of a surface, without its colors. In place, for it is large. */
+static void fill_reflector(const render_surfaces *s, size_t pixel, lmp_material *material) {
+    const uint32_t number = s->seen[pixel];
+    const bool layered = s->layered && render_material_is_layered(s->materials, number);
+    const lmp_rgb tint = layered ? color_at(s->tint, pixel) : (lmp_rgb) { 1, 1, 1 };
+    render_material_fill(s->materials, number, s->specular[pixel], tint, material);
+    if (layered) {
+        const lmp_rgb sheen = color_at(s->sheen, pixel);
+        material->coat = (lmp_coat) { s->coat[pixel], s->coat_roughness[pixel] };
+        if (s->materials->fibers && (sheen.r > 0 || sheen.g > 0 || sheen.b > 0))
+            material->fibers =
+                (lmp_fibers) { sheen, s->sheen_roughness[pixel], s->materials->fibers };
+    }
+}
+
+/* Whether two pixels that see surfaces have the same reflector. */
+static bool are_alike(const render_surfaces *s, size_t a, size_t b) {
+    return !s->layered && s->seen[a] == s->seen[b] && s->specular[a] == s->specular[b];
+}
+
+static void fill_surface(const render_surfaces *s, size_t pixel, size_t at, render_tile *tile) {
+    lmp_material *material = &tile->material[at];
+    material->base_color = color_at(s->base, pixel);
+    material->metallic = s->metallic[pixel];
+    material->roughness = s->roughness[pixel];
+    tile->ambient[at] = s->ambient[pixel];
+    const bool coated = s->layered && material->coat.weight > 0;
+    for (int c = 0; s->layered && c < 3; c++)
+        tile->coat_normal[c][at] = coated ? s->coat_normal[c][pixel] : s->normal[c][pixel];
+}
+
+/* `count` pixels of a row, into the tile from `at` on. */
+static void fill_span(const render_surfaces *s, size_t first, size_t count, size_t at,
+                      render_tile *tile) {
+    for (int c = 0; c < 3; c++) {
+        memcpy(tile->position[c] + at, s->position[c] + first, count * sizeof(float));
+        memcpy(tile->normal[c] + at, s->normal[c] + first, count * sizeof(float));
+    }
+    for (size_t i = 0; i < count; i++) {
+        const size_t pixel = first + i, to = at + i;
+        const uint32_t seen = s->seen[pixel];
+        const float view[3] = { tile->view[0][to], tile->view[1][to], tile->view[2][to] };
+        const lmp_rgb emission =
+            seen < RENDER_SEES_LIGHT ? render_surfaces_emission(s, pixel) : beyond(s, pixel, view);
+        tile->emission[0][to] = emission.r;
+        tile->emission[1][to] = emission.g;
+        tile->emission[2][to] = emission.b;
+        tile->kind[to] = seen == RENDER_SEES_NOTHING ? RENDER_NONE
+                         : seen >= RENDER_SEES_LIGHT ? RENDER_LIGHT
+                                                     : RENDER_SURFACE;
+        if (tile->kind[to] != RENDER_SURFACE)
+            continue;
+        if (i > 0 && are_alike(s, pixel, pixel - 1))
+            tile->material[to] = tile->material[to - 1];
+        else
+            fill_reflector(s, pixel, &tile->material[to]);
+        fill_surface(s, pixel, to, tile);
+    }
+}
+
+void render_surfaces_tile(const render_surfaces *s, int x, int y, int width, int height,
+                          render_tile *tile) {
+    for (int i = 0; i < height; i++) {
+        const size_t at = (size_t)i * (size_t)width;
+        float *const views[3] = { tile->view[0] + at, tile->view[1] + at, tile->view[2] + at };
+        render_camera_views(&s->camera, x, y + i, width, views);
+        fill_span(s, render_surfaces_at(s, x, y + i), (size_t)width, at, tile);
+    }
+}
+
+void render_surfaces_gather(const render_surfaces *s, const uint32_t *pixels, size_t count,
+                            render_tile *tile) {
+    for (size_t i = 0; i < count; i++) {
+        const size_t pixel = pixels[i];
+        for (int c = 0; c < 3; c++) {
+            tile->position[c][i] = s->position[c][pixel];
+            tile->normal[c][i] = s->normal[c][pixel];
+            tile->emission[c][i] = s->emission[c][pixel];
+        }
+        float *const view[3] = { tile->view[0] + i, tile->view[1] + i, tile->view[2] + i };
+        const int row = (int)(pixel / (size_t)s->width), column = (int)(pixel % (size_t)s->width);
+        render_camera_views(&s->camera, s->x + column, s->y + row, 1, view);
+        tile->kind[i] = RENDER_SURFACE;
+        if (i > 0 && are_alike(s, pixel, pixels[i - 1]))
+            tile->material[i] = tile->material[i - 1];
+        else
+            fill_reflector(s, pixel, &tile->material[i]);
+        fill_surface(s, pixel, i, tile);
+    }
+}
+
+size_t render_surfaces_positions(const render_surfaces *s, int y, render_tile *tile) {
+    const size_t first = render_surfaces_at(s, s->x, y);
+    size_t count = 0;
+    for (int x = 0; x < s->width; x++) {
+        const size_t pixel = first + (size_t)x;
+        for (int c = 0; c < 3; c++)
+            tile->position[c][count] = s->position[c][pixel];
+        count += s->seen[pixel] < RENDER_SEES_LIGHT;
+    }
+    return count;
+}

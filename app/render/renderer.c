@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT */
+#include "app/render/renderer.h"
+
+#include "app/timing/timing.h"
+
+#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* --- devices ---------------------------------------------------------------------------------- */
+
+bool render_finds_gpu(void) {
+    static const char *const nodes[] = { "/dev/dri/renderD*", "/dev/nvidia[0-9]*", "/dev/dxg" };
+    bool found = false;
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes && !found; i++) {
+        glob_t matches = { .gl_pathc = 0 };
+        found = glob(nodes[i], 0, NULL, &matches) == 0 && access(matches.gl_pathv[0], R_OK) == 0;
+        globfree(&matches);
+    }
+    return found;
+}
+
+bool render_device_open(device_kind kind, const char *gl_device, const scene *world,
+                        render_device *d, cli_error *error) {
+    memset(d, 0, sizeof *d);
+    if (kind == DEVICE_GPU) {
+        gpu_context gl;
+        if (!gpu_context_create(gl_device, &gl, error))
+            return false;
+        render_device_adopt(&gl, world, d);
+        d->adopted = false;
+        return true;
+    }
+    d->cpu = cpu_scene_create(world, error);
+    if (!d->cpu)
+        return false;
+    d->kind = DEVICE_CPU;
+    d->scene = world;
+    timing_cpu_name(d->name, sizeof d->name);
+    snprintf(d->driver, sizeof d->driver, "%s", trace_version());
+    return true;
+}
+
+void render_device_adopt(const gpu_context *context, const scene *world, render_device *d) {
+    memset(d, 0, sizeof *d);
+    d->kind = DEVICE_GPU;
+    d->scene = world;
+    d->gl = *context;
+    d->adopted = true;
+    memcpy(d->name, context->device, sizeof d->name);
+    memcpy(d->driver, context->driver, sizeof d->driver);
+}
+
+void render_device_close(render_device *d) {
+    cpu_scene_destroy(d->cpu);
+    trace_destroy(d->bvh);
+    if (d->kind == DEVICE_GPU && !d->adopted)
+        gpu_context_destroy(&d->gl);
+    memset(d, 0, sizeof *d);
+}
+
+const trace_bvh *render_device_bvh(render_device *d) {
+    if (d->cpu)
+        return cpu_scene_bvh(d->cpu);
+    if (!d->bvh)
+        d->bvh = trace_create(d->scene);
+    return d->bvh;
+}
+
+size_t render_device_field_bytes(const render_device *d) {
+    return d->kind == DEVICE_GPU ? d->gl.storage_max : 0;
+}
+
+const char *render_device_clock(const render_device *d) {
+    return d->kind == DEVICE_CPU || d->gl.software ? "wall clock" : "timer queries";
+}
+
+/* --- the renderer ----------------------------------------------------------------------------- */
+
+any_renderer *renderer_create(const render_device *device, cli_error *error) {
+    any_renderer *r = calloc(1, sizeof *r);
+    if (!r) {
+        cli_fail(error, NULL, "out of memory");
+        return NULL;
+    }
+    if (device->kind == DEVICE_GPU)
+        r->gl = gpu_renderer_create(&device->gl, device->scene, error);
+    else
+        r->cpu = cpu_renderer_create(device->cpu, error);
+    if (r->gl || r->cpu)
+        return r;
+    free(r);
+    return NULL;
+}
+
+void renderer_destroy(any_renderer *r) {
+    if (!r)
+        return;
+    gpu_renderer_destroy(r->gl);
+    cpu_renderer_destroy(r->cpu);
+    free(r);
+}
+
+bool renderer_set_tables(any_renderer *r, const lmp_brdf_table *const *tables, int count,
+                         const int *uses, cli_error *error) {
+    return r->gl ? gpu_set_tables(r->gl, tables, count, uses, error)
+                 : render_materials_set_tables(cpu_renderer_materials(r->cpu), tables, count, uses,
+                                               error);
+}
+
+void renderer_set_brdfs(any_renderer *r, const lmp_preintegrated_brdf *const *brdfs) {
+    if (r->gl)
+        gpu_set_preintegrated_brdfs(r->gl, brdfs);
+    else
+        render_materials_set_brdfs(cpu_renderer_materials(r->cpu), brdfs);
+}
+
+void renderer_set_fibers(any_renderer *r, const lmp_brdf_table *const *white) {
+    if (r->gl)
+        gpu_set_fibers(r->gl, white);
+    else
+        cpu_renderer_materials(r->cpu)->fibers = white;
+}
+
+void renderer_set_environment(any_renderer *r, const environment *around) {
+    if (r->gl)
+        gpu_set_environment(r->gl, around);
+    else
+        cpu_set_environment(r->cpu, around);
+}
+
+/* Whether the frame has what its method reads. */
+static bool check_frame(const render_frame *frame, cli_error *error) {
+    const unsigned reads = method_table[frame->method].reads;
+    if (reads & METHOD_READS_PREINTEGRATED && !frame->lobes)
+        return cli_fail(error, NULL, "preintegrated shading without its lobes");
+    if (reads & METHOD_READS_FIELD && !frame->field)
+        return cli_fail(error, NULL, "a field's shading without its field");
+    return true;
+}
+
+bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *times,
+                   cli_error *error) {
+    const int last = frame->samples > 1 ? frame->samples - 1 : 0;
+    return check_frame(frame, error) &&
+           (r->gl ? gpu_render(r->gl, frame, times, error)
+                  : cpu_render(r->cpu, frame, 0, last, false, times, error));
+}
+
+bool renderer_refine(any_renderer *r, const render_frame *frame, int index, render_times *times,
+                     cli_error *error) {
+    return check_frame(frame, error) &&
+           (r->gl ? gpu_refine(r->gl, frame, index, times, error)
+                  : cpu_render(r->cpu, frame, index, index, true, times, error));
+}
+
+bool renderer_read_rgb8(any_renderer *r, const image_display *display, unsigned char *rgb8,
+                        render_times *times, cli_error *error) {
+    if (r->gl)
+        return gpu_read_rgb8(r->gl, display, rgb8, times, error);
+    const double start = timing_now();
+    image_tone_map(cpu_image(r->cpu), display, rgb8);
+    if (times) {
+        times->tone = 1e3 * (timing_now() - start);
+        times->total += times->tone;
+    }
+    return true;
+}
+
+bool renderer_read_image(any_renderer *r, image *pixels, cli_error *error) {
+    if (r->gl)
+        return gpu_read_image(r->gl, pixels, error);
+    const image *from = cpu_image(r->cpu);
+    if (!image_create(pixels, from->width, from->height, error))
+        return false;
+    memcpy(pixels->rgb, from->rgb,
+           3 * (size_t)from->width * (size_t)from->height * sizeof *pixels->rgb);
+    return true;
+}
+
+bool renderer_show(any_renderer *r, gpu_screen *screen, int side, const image_display *display) {
+    if (r->gl) {
+        gpu_screen_take(screen, r->gl, side, display);
+        return true;
+    }
+    const image *from = cpu_image(r->cpu);
+    unsigned char *rgb8 = malloc(3 * (size_t)from->width * (size_t)from->height);
+    if (!rgb8)
+        return false;
+    image_tone_map(from, display, rgb8);
+    gpu_screen_put(screen, side, from->width, from->height, rgb8);
+    free(rgb8);
+    return true;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/* embree.h - what the files of this folder share of Embree. */
+#ifndef LAMPION_TRACE_EMBREE_H
+#define LAMPION_TRACE_EMBREE_H
+
+#include "app/trace/trace.h"
+
+#include <embree3/rtcore.h>
+
+/* By LAMPION_EMBREE. NULL without memory. */
+RTCDevice embree_device_create(void);
+
+/* Embree hands rays and hits over as rows of n values; C++ alone has names for them. */
+enum {
+    EMBREE_START = 3,
+    EMBREE_END = 8,
+    EMBREE_RAY = 10,
+    EMBREE_U = 15,
+    EMBREE_V = 16,
+    EMBREE_PRIMITIVE = 17,
+    EMBREE_GEOMETRY = 18,
+    EMBREE_INSTANCE = 19
+};
+
+typedef struct embree_packet {
+    float *rows;
+    unsigned count;
+} embree_packet;
+
+static inline float *embree_value(const embree_packet *p, unsigned row, unsigned lane) {
+    return &p->rows[row * p->count + lane];
+}
+
+static inline uint32_t *embree_number(const embree_packet *p, unsigned row, unsigned lane) {
+    return (uint32_t *)(void *)embree_value(p, row, lane);
+}
+
+/* A query for rays, which are numbered by their lanes, and which of them are any. */
+void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int valid[TRACE_LANES]);
+
+#endif
