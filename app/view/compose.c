@@ -9,7 +9,7 @@ static unsigned char difference(unsigned char a, unsigned char b) {
     return (unsigned char)(gained < 255 ? gained : 255);
 }
 
-void view_compose(const view_picture sides[2], const gpu_layout *layout, unsigned char *rgb8) {
+void view_compose(const view_side sides[2], const gpu_layout *layout, unsigned char *rgb8) {
     const size_t width = (size_t)layout->width, count = width * (size_t)layout->height;
     const unsigned char *first = sides[0].rgb8, *second = sides[1].rgb8;
     if (layout->split == GPU_SPLIT_NONE || !second) {

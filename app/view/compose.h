@@ -6,12 +6,12 @@
 
 #include "app/render/gl/gpu.h"
 
-typedef struct view_picture {
+typedef struct view_side {
     int width, height;
     unsigned char *rgb8; /* rows from the top */
-} view_picture;
+} view_side;
 
 /* rgb8: of the layout's size, which is that of the sides. */
-void view_compose(const view_picture sides[2], const gpu_layout *layout, unsigned char *rgb8);
+void view_compose(const view_side sides[2], const gpu_layout *layout, unsigned char *rgb8);
 
 #endif

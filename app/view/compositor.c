@@ -1,25 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/compositor.h"
-#include "app/bake/bake.h"
 #include "app/override/override.h"
 #include "app/render/shade/field.h"
 #include "app/render/shadow/shadow.h"
 #include "app/view/compose.h"
 #include "app/view/draft.h"
+#include "app/view/lobes.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 /* From so many triangles on a software device draws a coarser scene while things move. */
-enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300, LOBES_KEPT = 8 };
-
-/* A preintegrated lobe that has been made. */
-typedef struct kept_lobe {
-    int bands;
-    lmp_window window;
-    lmp_preintegrated_lobe *lobe;
-    unsigned used; /* when, by the compositor's clock */
-} kept_lobe;
+enum { DRAFT_TRIANGLES = 50000, DRAFT_CELLS = 300 };
 
 /* In full; coarse while the camera rests; coarse and of fewer triangles while it moves. */
 typedef enum quality { FINE, RESTING, MOVING, QUALITIES } quality;
@@ -42,15 +34,14 @@ struct view_compositor {
     const scene *world;
     scene draft; /* without vertices: the scene itself serves */
     gpu_screen *screen;
-    view_picture shown[2]; /* of the sides, without a screen */
+    view_side shown[2]; /* of the sides, without a screen */
     side sides[2];
     shadow *shadows;
     environment around;
     char around_name[VIEW_PATH_SIZE]; /* what it was made of */
     float around_numbers[2];
-    kept_lobe lobes[LOBES_KEPT];
+    view_lobes lobes;
     scene_camera camera; /* of the last draft */
-    unsigned clock;
 };
 
 view_compositor *view_compositor_create(const gpu_context *context, const scene *world,
@@ -87,8 +78,7 @@ void view_compositor_destroy(view_compositor *s) {
         return;
     close_side(&s->sides[0]);
     close_side(&s->sides[1]);
-    for (int i = 0; i < LOBES_KEPT; i++)
-        lmp_preintegrated_lobe_destroy(s->lobes[i].lobe);
+    view_lobes_free(&s->lobes);
     shadow_destroy(s->shadows);
     environment_free(&s->around);
     gpu_screen_destroy(s->screen);
@@ -102,35 +92,6 @@ void view_compositor_destroy(view_compositor *s) {
 
 gpu_screen *view_compositor_screen(view_compositor *s) {
     return s->screen;
-}
-
-/* --- lobes ------------------------------------------------------------------------------------ */
-
-static kept_lobe *find_lobe(view_compositor *s, const view_shading *shading) {
-    for (int i = 0; i < LOBES_KEPT; i++)
-        if (s->lobes[i].lobe && s->lobes[i].bands == shading->bands &&
-            s->lobes[i].window == shading->window)
-            return &s->lobes[i];
-    return NULL;
-}
-
-/* Makes it, in place of the one that was used longest ago. */
-static const lmp_preintegrated_lobe *get_lobe(view_compositor *s, const view_shading *shading,
-                                              cli_error *error) {
-    kept_lobe *made = find_lobe(s, shading);
-    if (!made) {
-        lmp_preintegrated_lobe *lobe = NULL;
-        if (!bake_lobes(shading->bands, shading->window, &lobe, error))
-            return NULL;
-        made = &s->lobes[0];
-        for (int i = 1; i < LOBES_KEPT; i++)
-            if (s->lobes[i].used < made->used)
-                made = &s->lobes[i];
-        lmp_preintegrated_lobe_destroy(made->lobe);
-        *made = (kept_lobe) { shading->bands, shading->window, lobe, 0 };
-    }
-    made->used = ++s->clock;
-    return made->lobe;
 }
 
 /* --- fields ----------------------------------------------------------------------------------- */
@@ -214,7 +175,7 @@ const char *view_compositor_pending(view_compositor *s, const view_settings *set
         const view_shading *shading = &settings->shading[i];
         if (!has_materials(s, &s->sides[i], settings, shading))
             return "projecting the materials …";
-        if (is_preintegrated(shading) && !find_lobe(s, shading))
+        if (is_preintegrated(shading) && !view_lobes_have(&s->lobes, shading))
             return "integrating the lobes …";
     }
     if (settings->shadows && !s->shadows)
@@ -354,21 +315,21 @@ static bool fill_frame(view_compositor *s, const view_settings *settings,
     };
     memcpy(frame->background, settings->background, sizeof frame->background);
     if (is_preintegrated(shading))
-        frame->lobes = get_lobe(s, shading, error);
+        frame->lobes = view_lobes_get(&s->lobes, shading, error);
     return !is_preintegrated(shading) || frame->lobes;
 }
 
-/* Takes a side's image for the screen, or for a picture without one. */
+/* Takes a side's image for the screen, or for a file without one. */
 static bool show_side(view_compositor *s, const view_settings *settings, any_renderer *renderer,
                       const render_frame *frame, int number, cli_error *error) {
     const image_display display = { .exposure = settings->exposure, .tone = settings->tone };
-    view_picture *shown = &s->shown[number];
+    view_side *shown = &s->shown[number];
     if (s->screen)
         return renderer_show(renderer, s->screen, number, &display) ||
                cli_fail(error, NULL, "out of memory");
     free(shown->rgb8);
-    *shown = (view_picture) { frame->width, frame->height,
-                              malloc(3 * (size_t)frame->width * (size_t)frame->height) };
+    *shown = (view_side) { frame->width, frame->height,
+                           malloc(3 * (size_t)frame->width * (size_t)frame->height) };
     return shown->rgb8 ? renderer_read_rgb8(renderer, &display, shown->rgb8, NULL, error)
                        : cli_fail(error, NULL, "out of memory");
 }

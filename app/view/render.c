@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-#include "app/view/compositor.h"
 #include "app/render/renderer.h"
+#include "app/view/compositor.h"
 #include "app/view/view.h"
 
 /* Opens OpenGL where a side needs it; without it *context stays zero, and the CPU draws. */

@@ -181,8 +181,8 @@ void render_surfaces_tile(const render_surfaces *s, int x, int y, int width, int
     }
 }
 
-void render_surfaces_gather(const render_surfaces *s, const uint32_t *pixels, size_t count,
-                            render_tile *tile) {
+void render_surfaces_pick(const render_surfaces *s, const uint32_t *pixels, size_t count,
+                          render_tile *tile) {
     for (size_t i = 0; i < count; i++) {
         const size_t pixel = pixels[i];
         for (int c = 0; c < 3; c++) {

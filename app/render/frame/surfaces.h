@@ -66,8 +66,8 @@ void render_surfaces_tile(const render_surfaces *surfaces, int x, int y, int wid
 lmp_rgb render_surfaces_beyond(const render_surfaces *surfaces, int x, int y);
 
 /* The pixels of a list alone, by their indices in the planes, all of which see a surface. */
-void render_surfaces_gather(const render_surfaces *surfaces, const uint32_t *pixels, size_t count,
-                            render_tile *tile);
+void render_surfaces_pick(const render_surfaces *surfaces, const uint32_t *pixels, size_t count,
+                          render_tile *tile);
 
 /* The positions of the surfaces alone in a row, one after another; returns how many there are. */
 size_t render_surfaces_positions(const render_surfaces *surfaces, int y, render_tile *tile);

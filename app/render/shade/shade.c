@@ -168,7 +168,7 @@ void shade_tile(const shade_job *job, const render_surfaces *s, const shade_samp
     const size_t count = list_pixels(s, before, x, y, width, height, list, rgba);
     if (count == 0)
         return;
-    render_surfaces_gather(s, list, count, tile);
+    render_surfaces_pick(s, list, count, tile);
     reflect(job, s, tile, count, reflected);
     for (size_t i = 0; i < count; i++)
         set_pixel(rgba + 4 * (size_t)list[i],
