@@ -110,7 +110,7 @@ static scene_camera camera_before(const scene *s, lmp_vec3 center, float aspect)
     framing f = { .center = center,
                   .from = vec_normalize(vec(0.45f, 0.35f, 1.0f), vec(0.0f, 0.0f, 1.0f)),
                   .slope = { slope * aspect, slope },
-                  .radius = 1e-6f };
+                  .radius = 1e-18f };
     f.right = vec_normalize(vec_cross(vec(0.0f, 1.0f, 0.0f), f.from), f.from);
     f.up = vec_cross(f.from, f.right);
     scene_camera camera = { .name = "framed", .up = { 0.0f, 1.0f, 0.0f }, .fov = DEFAULT_FOV };

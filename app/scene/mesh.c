@@ -66,12 +66,31 @@ void mesh_flip(mesh_draft *f) {
     }
 }
 
+/* The mesh's own unit: products of four edges neither overflow nor vanish, and no bit of a normal
+ * depends on it. */
+static void find_unit(mesh_draft *f) {
+    float size = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        float lo = INFINITY, hi = -INFINITY;
+        for (size_t i = 0; i < f->corner_count; i++) {
+            const float x = f->vertices[f->corners[i]].position[k];
+            lo = fminf(lo, x);
+            hi = fmaxf(hi, x);
+        }
+        size = fmaxf(size, hi - lo);
+    }
+    const bool usual = size > 0.0f && isfinite(size);
+    f->unit = usual ? ldexpf(1.0f, -(ilogbf(size) < -120 ? -120 : ilogbf(size))) : 1.0f;
+}
+
+static lmp_vec3 edge(const mesh_draft *f, uint32_t from, uint32_t to) {
+    return vec_scale(
+        vec_sub(vec_load(f->vertices[to].position), vec_load(f->vertices[from].position)), f->unit);
+}
+
 static lmp_vec3 triangle_normal(const mesh_draft *f, size_t triangle) {
     const uint32_t *c = &f->corners[3 * triangle];
-    const lmp_vec3 a = vec_load(f->vertices[c[0]].position);
-    const lmp_vec3 b = vec_sub(vec_load(f->vertices[c[1]].position), a);
-    const lmp_vec3 d = vec_sub(vec_load(f->vertices[c[2]].position), a);
-    return vec_cross(b, d);
+    return vec_cross(edge(f, c[0], c[1]), edge(f, c[0], c[2]));
 }
 
 /* --- sides ------------------------------------------------------------------------------------ */
@@ -181,8 +200,7 @@ static void add_triangle_tangent(const mesh_draft *f, size_t triangle, lmp_vec3 
                                  lmp_vec3 *across) {
     const uint32_t *c = &f->corners[3 * triangle];
     const scene_vertex *a = &f->vertices[c[0]], *b = &f->vertices[c[1]], *d = &f->vertices[c[2]];
-    const lmp_vec3 e1 = vec_sub(vec_load(b->position), vec_load(a->position));
-    const lmp_vec3 e2 = vec_sub(vec_load(d->position), vec_load(a->position));
+    const lmp_vec3 e1 = edge(f, c[0], c[1]), e2 = edge(f, c[0], c[2]);
     const float *p = a->uv[0], *q = b->uv[0], *r = d->uv[0];
     const float u1 = q[0] - p[0], v1 = q[1] - p[1];
     const float u2 = r[0] - p[0], v2 = r[1] - p[1];
@@ -278,6 +296,7 @@ bool mesh_add(mesh_draft *f, scene_builder *builder, cli_error *error) {
     bool ok = true;
     if (f->corner_count == 0)
         return true;
+    find_unit(f);
     if (f->has_normals && f->unsided)
         follow_normals(f);
     if (!f->has_normals)

@@ -21,6 +21,7 @@ typedef struct mesh_draft {
     bool has_normals;
     bool weld;        /* merge equal vertices: the source has them once a corner */
     bool unsided;     /* the order of corners means nothing: it follows given normals */
+    float unit;       /* filled in: a power of 2, by which its edges are about 1 long */
     float crease_cos; /* missing normals are smooth across edges flatter than this */
 } mesh_draft;
 

@@ -76,6 +76,32 @@ static void a_lamp_of_an_obj_shines_by_one_side(void **state) {
     scene_free(&world);
 }
 
+/* Normals are made from products of edges, which overflow or vanish in float32 long before the
+ * coordinates do; and the camera stands as far away as the model is large. */
+static void a_model_of_any_size_has_its_normals_and_is_framed(void **state) {
+    (void)state;
+    static const double sizes[] = { 1, 1e9, 1e12, 1e-7, 1e-12 };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "v 0 0 0\nv %g 0 0\nv 0 0 %g\nf 1 2 3\n", sizes[i], -sizes[i]);
+        folder_write_text("size.obj", text);
+        scene world = load(in_folder("size.obj"));
+        const scene_camera camera = scene_default_camera(&world, 1);
+        double square = 0;
+        for (int k = 0; k < 3; k++)
+            square += pow(((double)camera.eye[k] - (double)camera.target[k]) / sizes[i], 2);
+        CHECK_WITHIN(fabs((double)world.vertices[0].normal[1] - 1), 1e-6);
+        CHECK_WITHIN(fabs((double)world.vertices[0].tangent[1]), 1e-6);
+        assert_true(square > 1 && square < 16);
+        scene_free(&world);
+    }
+    /* Upright, where a normal that is made up would point along it. */
+    folder_write_text("size.obj", "v 0 0 0\nv 1e12 0 0\nv 0 1e12 0\nf 1 2 3\n");
+    scene world = load(in_folder("size.obj"));
+    CHECK_WITHIN(fabs((double)world.vertices[0].normal[2] - 1), 1e-6);
+    scene_free(&world);
+}
+
 static void a_cutoff_above_1_hides_the_surface(void **state) {
     (void)state;
     static const char *const cutoffs[] = { "1", "1.5", "100" };
@@ -115,6 +141,7 @@ int main(void) {
         cmocka_unit_test(a_format_without_sides_culls_none),
         cmocka_unit_test(clockwise_triangles_follow_their_normals),
         cmocka_unit_test(a_lamp_of_an_obj_shines_by_one_side),
+        cmocka_unit_test(a_model_of_any_size_has_its_normals_and_is_framed),
         cmocka_unit_test(a_cutoff_above_1_hides_the_surface),
         cmocka_unit_test(an_opacity_of_0_is_told),
     };
