@@ -45,6 +45,19 @@ static const forgiven gltf_changes[] = {
       "\"componentType\":5120,\"count\":4,\"type\":\"VEC3\"",
       "undeclared KHR_mesh_quantization (1 attribute)" },
     { "\"target\":34962", "\"target\":1", "unknown target (1 buffer view)" },
+    /* materials that are drawn without what an extension adds, though they require it */
+    { "[\"KHR_texture_transform\"]",
+      "[\"KHR_materials_anisotropy\",\"KHR_materials_iridescence\","
+      "\"KHR_materials_dispersion\",\"KHR_materials_variants\"]",
+      NULL },
+    { "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_anisotropy\":{}}",
+      "anisotropy (1 material)" },
+    { "\"doubleSided\":true", "\"extensions\":{\"KHR_materials_dispersion\":{}}",
+      "dispersion (1 material)" },
+    { "\"mode\":4", "\"extensions\":{\"KHR_materials_variants\":{\"mappings\":[]}}",
+      "variants (1 mesh)" },
+    { "{\"source\":0,", "{\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}},\"source\":0,",
+      "KHR_texture_basisu (1 texture)" },
     /* numbers: rounded, and out of range */
     { "\"metallicFactor\":0.5", "\"metallicFactor\":1.0000001", NULL },
     { "\"metallicFactor\":0.5", "\"metallicFactor\":1.5",
