@@ -130,10 +130,14 @@ static double measure_eval(int bands, lmp_vec3 direction) {
     return check_error(LMP_SH_COUNT(bands), expected, actual);
 }
 
-/* Spheres of r/d from 1e-4 to 0.95 at random. */
+/* r/d from 1e-4 to 0.95 at random. */
+static float random_radius(void) {
+    return (float)pow(10, check_random_between(-4, -0.0223));
+}
+
 static double measure_sphere(int bands, double *gradient_error) {
     const lmp_vec3 center = random_anywhere();
-    const float radius = (float)pow(10, check_random_between(-4, -0.0223));
+    const float radius = random_radius();
     const double zero[3] = { 0, 0, 0 };
     double w[3];
     wide(center, w);
@@ -174,22 +178,29 @@ static lmp_vec3 random_near(lmp_vec3 axis, int bands) {
     return (lmp_vec3) { (float)(v[0] / length), (float)(v[1] / length), (float)(v[2] / length) };
 }
 
-/* A Phong lobe of exponent n² under a sphere, relative to the largest response. */
+/* A Phong lobe of exponent n² under a sphere of r/d from 1e-4 to 0.95, relative to the largest
+ * response to it. */
 static double measure_response(int bands) {
-    double lambda_wide[LMP_BANDS_MAX], zonal[LMP_BANDS_MAX], p[LMP_BANDS_MAX];
+    static int last; /* bands of lambda_wide, whose quadrature takes long */
+    static double lambda_wide[LMP_BANDS_MAX];
+    double zonal[LMP_BANDS_MAX], p[LMP_BANDS_MAX];
     float lambda[LMP_BANDS_MAX];
     const lmp_light light = { .position = check_random_direction(),
-                              .radius = 0.1f,
+                              .radius = random_radius(),
                               .radiance = { 1, 1, 1 } };
     const lmp_vec3 q = random_near(light.position, bands);
     double w[3], axis[3], largest = 0, sum = 0;
     wide(light.position, w);
+    const double distance2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+    const double sin2 = (double)light.radius * (double)light.radius / distance2;
     wide(q, axis);
-    oracle_lobe_phong(bands, bands * bands, lambda_wide);
+    if (bands != last)
+        oracle_lobe_phong(bands, bands * bands, lambda_wide);
+    last = bands;
     lmp_lobe_phong(bands, (float)(bands * bands), lambda);
-    oracle_cap_zonal(bands, 0.01 / (1 + sqrt(0.99)), zonal);
-    const double length = sqrt((w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) *
-                               (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]));
+    oracle_cap_zonal(bands, sin2 / (1 + sqrt(1 - sin2)), zonal);
+    const double length =
+        sqrt(distance2 * (axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]));
     oracle_legendre(bands, (w[0] * axis[0] + w[1] * axis[1] + w[2] * axis[2]) / length, p);
     for (int l = 0; l < bands; l++) {
         const double factor = sqrt((2 * l + 1) / (4 * ORACLE_PI)) * zonal[l] * lambda_wide[l];
@@ -208,13 +219,14 @@ static row_errors measure_row(int bands, int trials) {
     row_errors worst = { 0 };
     for (int trial = 0; trial < trials; trial++) {
         double gradient_error;
-        worst.eval = fmax(worst.eval, measure_eval(bands, random_off_poles()));
-        worst.pole = fmax(worst.pole, measure_eval(bands, random_pole()));
+        for (int k = 0; k < 10; k++) { /* they are quick, and their largest are rare */
+            worst.eval = fmax(worst.eval, measure_eval(bands, random_off_poles()));
+            worst.pole = fmax(worst.pole, measure_eval(bands, random_pole()));
+            worst.response = fmax(worst.response, measure_response(bands));
+        }
         worst.sphere = fmax(worst.sphere, measure_sphere(bands, &gradient_error));
         worst.gradient = fmax(worst.gradient, gradient_error);
-        if (trial % 10 == 0)
-            worst.rotation = fmax(worst.rotation, measure_rotation(bands));
-        worst.response = fmax(worst.response, measure_response(bands));
+        worst.rotation = fmax(worst.rotation, measure_rotation(bands));
     }
     return worst;
 }
@@ -225,15 +237,15 @@ static void hold_every_row(int times) {
         int bands, trials; /* so many `times` */
         row_errors bounds;
     } rows[] = {
-        { 3, 100, { 6e-7, 6e-7, 1.3e-6, 2.5e-6, 4e-7, 7e-7 } },
-        { 6, 50, { 2.4e-6, 2.4e-6, 3.5e-6, 3.6e-6, 5e-7, 7e-7 } },
-        { 10, 40, { 5e-6, 6e-6, 8e-6, 7e-6, 6e-7, 6e-7 } },
-        { 20, 20, { 1.2e-5, 2.2e-5, 3e-5, 2e-5, 9e-7, 8e-7 } },
-        { 30, 10, { 1.5e-5, 5e-5, 5.5e-5, 4e-5, 9e-7, 7e-7 } },
-        { 60, 4, { 3e-5, 1.5e-4, 1.8e-4, 1.6e-4, 1.3e-6, 6e-7 } },
-        { 128, 2, { 4.6e-5, 5.6e-4, 8e-4, 6e-4, 1.8e-6, 4e-7 } },
+        { 3, 100, { 6e-7, 6e-7, 1.3e-6, 2.5e-6, 4e-7, 1.1e-6 } },
+        { 6, 50, { 2.4e-6, 2.4e-6, 3.5e-6, 3.6e-6, 5e-7, 1e-6 } },
+        { 10, 40, { 5e-6, 6e-6, 8e-6, 7e-6, 6e-7, 1e-6 } },
+        { 20, 20, { 1.2e-5, 2.2e-5, 3e-5, 2e-5, 9e-7, 1.1e-6 } },
+        { 30, 10, { 1.5e-5, 5e-5, 5.5e-5, 4e-5, 9e-7, 1.1e-6 } },
+        { 60, 4, { 3e-5, 1.5e-4, 1.8e-4, 1.6e-4, 1.3e-6, 1.1e-6 } },
+        { 128, 2, { 4.6e-5, 5.6e-4, 8e-4, 6e-4, 1.8e-6, 2e-6 } },
     };
-    print_message("\n| bands | Y_lm | near a pole | sphere light | its gradient | rotation | lobe "
+    print_message("| bands | Y_lm | near a pole | sphere light | its gradient | rotation | lobe "
                   "response |\n"
                   "|---|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -262,6 +274,7 @@ static void hold_every_row(int times) {
 
 static void errors_grow_slowly_with_the_number_of_bands(void **state) {
     (void)state;
+    print_message("table accuracy.bands\n");
     hold_every_row(check_count(5, 40));
 }
 
@@ -300,13 +313,18 @@ static void the_last_digits_go_near_the_surface_of_a_light(void **state) {
                  { 1e-4, 1.1e-5 }, { 1e-5, 3.5e-5 }, { 1e-6, 1.1e-4 } };
     double said[16];
     assert_int_equal(read_row("| d/r - 1 |", "\n| error |", said), 6);
-    print_message("\n| d/r - 1 | sphere light, 10 bands |\n|---|---|\n");
+    check_random(); /* prints the seed */
+    print_message("table accuracy.surface\n"
+                  "| d/r - 1 | 0.1 | 0.01 | 0.001 | 1e-4 | 1e-5 | 1e-6 |\n"
+                  "|---|---|---|---|---|---|---|\n"
+                  "| error |");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const double error = measure_touching(10, rows[i].gap);
-        print_message("| %g | %.1e |\n", rows[i].gap, error);
+        print_message(" %.1e |", error);
         check_bound(rows[i].bound, said[i]);
         CHECK_WITHIN(error, rows[i].bound);
     }
+    print_message("\n");
 }
 
 static int allocate_arrays(void **state) {
@@ -341,5 +359,6 @@ int main(void) {
         cmocka_unit_test(the_last_digits_go_near_the_surface_of_a_light),
         cmocka_unit_test(errors_of_other_seeds_are_as_large),
     };
+    cmocka_set_test_filter(getenv("LAMPION_TEST"));
     return cmocka_run_group_tests(tests, allocate_arrays, free_arrays);
 }

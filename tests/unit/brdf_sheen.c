@@ -7,6 +7,7 @@
 #include <lampion/shade.h>
 
 #include <math.h>
+#include <stdlib.h>
 
 /* --- values ----------------------------------------------------------------------------------- */
 
@@ -186,13 +187,17 @@ static void bands_come_to_the_integral_of_the_specification(void **state) {
     } rows[] = { { 0.3f, { 0.04, 5e-3, 1e-3 } },
                  { 0.5f, { 0.05, 5e-3, 1e-3 } },
                  { 1, { 0.05, 5e-3, 1e-3 } } };
-    for (int r = 0; r < 3; r++)
+    print_message("table layers.sheen\n"
+                  "| roughness | 5 bands | 10 bands | 20 bands |\n|---|---|---|---|\n");
+    for (int r = 0; r < 3; r++) {
+        print_message("| %.1f |", (double)rows[r].roughness);
         for (int k = 0; k < 3; k++) {
             const double rms = error_of_bands(5 << k, rows[r].roughness);
-            print_message("roughness %.1f, %d bands: rms %.4f of the peak\n",
-                          (double)rows[r].roughness, 5 << k, rms);
+            print_message(" %.4f |", rms);
             CHECK_WITHIN(rms, rows[r].most[k]);
         }
+        print_message("\n");
+    }
 }
 
 int main(void) {
@@ -204,5 +209,6 @@ int main(void) {
         cmocka_unit_test(sheen_out_of_range_is_refused),
         cmocka_unit_test(bands_come_to_the_integral_of_the_specification),
     };
+    cmocka_set_test_filter(getenv("LAMPION_TEST"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
