@@ -2,8 +2,9 @@
 add_library(lampion_flags INTERFACE)
 target_compile_options(lampion_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-conversion
-  -Wshadow -Wundef -Wvla -Wcast-qual -Wwrite-strings -Wstrict-prototypes -Wmissing-prototypes
-  -Wold-style-definition -Wformat=2)
+  -Wshadow -Wundef -Wvla -Wcast-qual -Wwrite-strings
+  $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes> $<$<COMPILE_LANGUAGE:C>:-Wmissing-prototypes>
+  $<$<COMPILE_LANGUAGE:C>:-Wold-style-definition> -Wformat=2)
 if(LAMPION_WERROR)
   target_compile_options(lampion_flags INTERFACE -Werror)
 endif()

@@ -21,6 +21,8 @@ void gltf_close(gltf *document) {
         free(document->buffers[i].owned);
     for (size_t i = 0; document->views && i < gltf_count(document, GLTF_VIEWS); i++)
         free(document->views[i].owned);
+    for (size_t i = 0; document->accessors && i < gltf_count(document, GLTF_ACCESSORS); i++)
+        free(document->accessors[i].owned);
     for (int kind = 0; kind < GLTF_KINDS; kind++)
         free(document->lists[kind].items);
     free(document->buffers);

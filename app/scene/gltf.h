@@ -55,7 +55,8 @@ typedef struct gltf_accessor {
     bool normalized;
     const unsigned char *bytes; /* NULL: zeros */
     size_t stride;
-    long view; /* or -1 */
+    long view;   /* or -1 */
+    void *owned; /* bytes that were decompressed for it */
     struct {
         size_t count;
         gltf_component component;
@@ -125,6 +126,9 @@ bool gltf_check_extensions(const gltf *document, cli_error *error);
 /* Loads buffers, checks views, unpacks accessors. */
 bool gltf_load_buffers(gltf *document, cli_error *error);
 bool gltf_load_accessors(gltf *document, cli_error *error);
+
+/* Decompresses what Draco compressed into accessors that are loaded. */
+bool gltf_load_draco(gltf *document, cli_error *error);
 
 /* The tree of nodes: one parent at most, no loop; parents, order and world transforms. */
 bool gltf_load_nodes(gltf *document, cli_error *error);

@@ -266,8 +266,6 @@ static bool load_accessor(const gltf *document, size_t i, gltf_accessor *a, cli_
     if (a->normalized && component_size(a->component) == 4)
         return gltf_fail(document, GLTF_ACCESSORS, i, "has a type that cannot be normalized",
                          error);
-    if (a->view < 0 && !(count * (double)size <= UNBACKED_BYTES_MAX))
-        return gltf_fail(document, GLTF_ACCESSORS, i, "has a count without data", error);
     if (a->view >= 0) {
         const cJSON *view = gltf_item(document, GLTF_VIEWS, (size_t)a->view);
         a->stride = (size_t)gltf_number(view, "byteStride", (double)size);
@@ -282,11 +280,20 @@ static bool load_accessor(const gltf *document, size_t i, gltf_accessor *a, cli_
            gltf_fail(document, GLTF_ACCESSORS, i, "has invalid sparse data", error);
 }
 
+static bool check_backing(const gltf *document, size_t i, cli_error *error) {
+    const gltf_accessor *a = &document->accessors[i];
+    return a->bytes || (double)a->count * (double)a->stride <= UNBACKED_BYTES_MAX ||
+           gltf_fail(document, GLTF_ACCESSORS, i, "has a count without data", error);
+}
+
 bool gltf_load_accessors(gltf *document, cli_error *error) {
     const size_t count = gltf_count(document, GLTF_ACCESSORS);
     document->accessors = calloc(count + 1, sizeof *document->accessors);
     bool ok = document->accessors || cli_fail(error, document->subject, "does not fit into memory");
     for (size_t i = 0; i < count && ok; i++)
         ok = load_accessor(document, i, &document->accessors[i], error);
+    ok = ok && gltf_load_draco(document, error);
+    for (size_t i = 0; i < count && ok; i++)
+        ok = check_backing(document, i, error);
     return ok;
 }

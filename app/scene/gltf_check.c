@@ -279,13 +279,17 @@ bool gltf_check_version(const gltf *document, cli_error *error) {
  * that surface, and they are named as left out. */
 static bool may_be_required(const char *name) {
     static const char *const known[] = {
-        "KHR_texture_transform",    "KHR_mesh_quantization",    "EXT_mesh_gpu_instancing",
-        "EXT_meshopt_compression",  "KHR_meshopt_compression",  "EXT_texture_webp",
-        "KHR_texture_basisu",       "KHR_lights_punctual",      "KHR_materials_emissive_strength",
-        "KHR_materials_unlit",      "KHR_materials_sheen",      "KHR_materials_clearcoat",
-        "KHR_materials_ior",        "KHR_materials_specular",   "KHR_materials_transmission",
-        "KHR_materials_volume",     "KHR_materials_anisotropy", "KHR_materials_iridescence",
-        "KHR_materials_dispersion", "KHR_materials_variants",   NULL
+        "KHR_texture_transform",      "KHR_mesh_quantization",
+        "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+        "KHR_draco_mesh_compression", "KHR_meshopt_compression",
+        "EXT_texture_webp",           "KHR_texture_basisu",
+        "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+        "KHR_materials_unlit",        "KHR_materials_sheen",
+        "KHR_materials_clearcoat",    "KHR_materials_ior",
+        "KHR_materials_specular",     "KHR_materials_transmission",
+        "KHR_materials_volume",       "KHR_materials_anisotropy",
+        "KHR_materials_iridescence",  "KHR_materials_dispersion",
+        "KHR_materials_variants",     NULL
     };
     size_t i = 0;
     while (known[i] && strcmp(known[i], name) != 0)

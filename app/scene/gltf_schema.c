@@ -239,6 +239,14 @@ static const gltf_object material = {
 /* --- meshes and nodes ------------------------------------------------------------------------- */
 
 #define ATTRIBUTES .type = GLTF_TYPE_REFERENCES, .kind = GLTF_ACCESSORS
+static const gltf_object names = { "mesh", (const gltf_field[]) { END }, NULL };
+static const gltf_object draco = {
+    "mesh",
+    (const gltf_field[]) { { "bufferView", REFERENCE(GLTF_VIEWS), .required = true },
+                           { "attributes", OBJECT(names), .required = true },
+                           END },
+    NULL,
+};
 static const gltf_object primitive = {
     "mesh",
     (const gltf_field[]) { { "attributes", ATTRIBUTES, .required = true },
@@ -247,7 +255,7 @@ static const gltf_object primitive = {
                            { "mode", .type = GLTF_TYPE_INTEGER, .maximum = 6 },
                            { "targets", .array = true, ATTRIBUTES },
                            END },
-    NULL,
+    (const gltf_field[]) { { "KHR_draco_mesh_compression", OBJECT(draco) }, END },
 };
 static const gltf_object mesh = {
     "mesh",
