@@ -147,7 +147,7 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
     vec4 forward;    /* unit; w: 1 if the rays are parallel */
     vec4 right;      /* to the right edge of the view at distance 1, or at any */
     vec4 down;       /* to its bottom edge */
-    vec4 background; /* radiance of the background */
+    vec4 background; /* radiance of the background; w: depth of the far plane, or 0 */
     vec4 size_lights; /* width, height, number of lights */
     vec4 jitter; /* the sample's position in its pixel, 0 in the middle; the view is -1 … 1; z, w:
                     its index, of how many */

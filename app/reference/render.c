@@ -42,10 +42,18 @@ static pixel_ray ray_through(const frame *f, int x, int y) {
     const double along = 1 - 2 * (y + 0.5) / f->settings->height;
     const reference_vec aside =
         reference_add(reference_scale(across, f->right), reference_scale(along, f->up));
-    return (pixel_ray) {
-        reference_add(f->eye, reference_scale(f->parallel, aside)),
-        reference_normalize(reference_add(f->forward, reference_scale(1 - f->parallel, aside))),
-    };
+    const reference_vec direction =
+        reference_normalize(reference_add(f->forward, reference_scale(1 - f->parallel, aside)));
+    const double start = (double)f->settings->camera.near / reference_dot(direction, f->forward);
+    const reference_vec eye = reference_add(f->eye, reference_scale(f->parallel, aside));
+    return (pixel_ray) { reference_add(eye, reference_scale(start, direction)), direction };
+}
+
+/* How far the ray runs to the camera's far plane. */
+static double length_of(const frame *f, const pixel_ray *ray) {
+    const double far = (double)f->settings->camera.far;
+    const double depth = reference_dot(reference_subtract(ray->from, f->eye), f->forward);
+    return far > 0 ? (far - depth) / reference_dot(ray->direction, f->forward) : (double)INFINITY;
 }
 
 /* The nearest glowing sphere that the camera sees before `distance`, or NULL. */
@@ -221,13 +229,14 @@ static void see_surface(const frame *f, worker *own, const reference_hit *hit,
 
 static sight see(const frame *f, worker *own, const pixel_ray *ray, uint64_t key) {
     const reference_hit hit = reference_tracer_see(f->tracer, ray->from, ray->direction);
-    const scene_light *light = seen_light(f, ray, hit.distance);
+    const double length = length_of(f, ray);
+    const scene_light *light = seen_light(f, ray, fmin(hit.distance, length));
     sight seen = { .opacity = 1 };
     if (light) {
         const float *radiance = &light->emitter.radiance.r;
         for (int c = 0; c < 3; c++)
             seen.mean[c] = (double)radiance[c];
-    } else if (isfinite(hit.distance)) {
+    } else if (isfinite(hit.distance) && hit.distance <= length) {
         see_surface(f, own, &hit, ray->direction, key, &seen);
     } else {
         see_backdrop(f, ray->direction, seen.mean);

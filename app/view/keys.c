@@ -149,6 +149,7 @@ static void first_camera(view_state *s, int unused) {
     (void)unused;
     s->camera = 0;
     s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
+    s->now.camera.near = s->now.camera.far = 0;
 }
 
 static void next_camera(view_state *s, int step) {

@@ -105,6 +105,7 @@ static void begin_other(view_state *s) {
     memset(s->now.materials, 0, sizeof s->now.materials);
     s->now.material_count = 0;
     s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
+    s->now.camera.near = s->now.camera.far = 0; /* it flies on, past the file's planes */
     s->camera = 0;
     s->seconds = 0;
     s->panel = (view_panel) { .kind = VIEW_PANEL_CLOSED };

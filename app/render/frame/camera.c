@@ -55,8 +55,8 @@ bool render_camera_set(const scene *world, const render_frame *frame, int sample
     c->width = frame->width;
     c->height = frame->height;
     c->parallel = from->height > 0;
-    c->near = near_of(world);
-    c->far = INFINITY;
+    c->near = from->near > 0 ? from->near : near_of(world);
+    c->far = from->far > 0 ? from->far : INFINITY;
     c->sample = sample;
     c->samples = frame->samples > 1 ? frame->samples : 1;
     memcpy(c->eye, from->eye, sizeof c->eye);
@@ -65,9 +65,15 @@ bool render_camera_set(const scene *world, const render_frame *frame, int sample
     cross(c->forward, c->right, c->down);
     c->jitter[0] = 2 * offset[0] / (float)frame->width;
     c->jitter[1] = 2 * offset[1] / (float)frame->height;
-    return (scale_to(c->forward, 1) && scale_to(c->right, half_width) &&
-            scale_to(c->down, half_height)) ||
-           cli_fail(error, "camera", "it looks along its up direction, or at itself");
+    if (!scale_to(c->forward, 1) || !scale_to(c->right, half_width) ||
+        !scale_to(c->down, half_height))
+        return cli_fail(error, "camera", "it looks along its up direction, or at itself");
+    /* parallel rays begin at the near plane */
+    for (int i = 0; c->parallel && i < 3; i++)
+        c->eye[i] += c->forward[i] * from->near;
+    if (c->parallel)
+        c->far -= from->near;
+    return true;
 }
 
 void render_camera_ray(const render_camera *c, int x, int y, float origin[3], float direction[3]) {

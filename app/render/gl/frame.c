@@ -54,6 +54,7 @@ void gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, const rend
     block->eye[3] = gpu_depth_reach(r, camera);
     block->forward[3] = camera->parallel ? 1 : 0;
     memcpy(block->background, frame->background, sizeof frame->background);
+    block->background[3] = camera->far < INFINITY ? camera->far : 0;
     gpu_describe_environment(r, frame, block->surroundings);
     block->size_lights[0] = (float)frame->width;
     block->size_lights[1] = (float)frame->height;
@@ -63,6 +64,16 @@ void gpu_fill_frame(const gpu_renderer *r, const render_frame *frame, const rend
     block->jitter[2] = (float)camera->sample;
     block->jitter[3] = (float)camera->samples;
     fill_clip(block, half_width, half_height);
+}
+
+/* As camera.glsl. */
+float gpu_depth_of(const shared_frame *block, float distance) {
+    const float reach = block->eye[3];
+    if (!(distance > 0))
+        return 0;
+    return block->forward[3] == 0 ? reach / distance
+           : distance < reach     ? 1 - 0.5f * distance / reach
+                                  : 0.5f * reach / distance;
 }
 
 void gpu_upload_lights(gpu_renderer *r, const render_frame *frame) {

@@ -296,6 +296,8 @@ float gpu_depth_reach(const gpu_renderer *renderer, const render_camera *camera)
 /* For one sample. */
 void gpu_fill_frame(const gpu_renderer *renderer, const render_frame *frame,
                     const render_camera *camera, shared_frame *block);
+/* The depth at a distance from the camera; 0: of what is infinitely far, as of distance 0. */
+float gpu_depth_of(const shared_frame *block, float distance);
 void gpu_upload_lights(gpu_renderer *renderer, const render_frame *frame);
 
 /* --- variant.c -------------------------------------------------------------------------------- */

@@ -18,6 +18,8 @@ static void copy_geometry(const gpu_renderer *r, bool back) {
 
 static void draw_geometry(gpu_renderer *r, const render_frame *frame, const shared_frame *block) {
     static const GLfloat zero[4] = { 0 };
+    /* what is farther than the far plane fails against its depth */
+    const GLfloat far_depth[4] = { gpu_depth_of(block, block->background[3]) };
     if (frame->keep_geometry && r->kept[0] &&
         memcmp(r->kept_view, block->clip_from_world, sizeof r->kept_view) == 0) {
         copy_geometry(r, true);
@@ -25,7 +27,7 @@ static void draw_geometry(gpu_renderer *r, const render_frame *frame, const shar
     }
     for (int i = 0; i < GPU_ATTACHMENTS_PLAIN; i++)
         glClearNamedFramebufferfv(r->framebuffer, GL_COLOR, i, zero);
-    glClearNamedFramebufferfv(r->framebuffer, GL_DEPTH, 0, zero);
+    glClearNamedFramebufferfv(r->framebuffer, GL_DEPTH, 0, far_depth);
     gpu_mesh_draw(&r->mesh, block->clip_from_world, &r->surface);
     if (!frame->keep_geometry)
         return;
