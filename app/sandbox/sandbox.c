@@ -153,7 +153,7 @@ static void leave_parent(pid_t parent) {
 }
 
 /* What has been said of the work's progress, in the child; elsewhere nobody listens. */
-static double told = INFINITY;
+static double told = (double)INFINITY;
 
 _Noreturn static void child_main(const sandbox_job *job, pid_t parent, int output, int socket) {
     cli_error error = { 0 };

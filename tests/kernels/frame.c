@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT */
+/* Whole images of the CPU's device: the same bits by every instruction set's kernels, by Embree's
+ * instruction sets, for any number of threads, and, by golden checksums, by every compiler. */
+#include "app/render/renderer.h"
+#include "app/render/shadow/shadow.h"
+
+#include "tests/oracle/check.h"
+
+#include <lampion/cpu.h>
+
+#include <inttypes.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GOLDEN_BALLS  0xc749f679eb24f61f
+#define GOLDEN_ATRIUM 0x67816d3c03227592
+
+enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
+
+/* FNV-1a. */
+static uint64_t add_bytes(uint64_t hash, const void *data, size_t size) {
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    return hash;
+}
+
+/* The radiances and the bytes shown of them. */
+static uint64_t draw(const scene *world, bool shadows) {
+    cli_error error = { "" };
+    render_device device;
+    image pixels;
+    static unsigned char rgb8[3 * WIDTH * HEIGHT];
+    const shadow_settings settings = { .rays = 2 };
+    if (!render_device_open(DEVICE_CPU, NULL, world, &device, &error))
+        fail_msg("%s", error.text);
+    any_renderer *renderer = renderer_create(&device, &error);
+    shadow *cast = shadow_create(world, render_device_bvh(&device), NULL, &settings, &error);
+    assert_true(renderer && cast);
+    const render_frame frame = { .width = WIDTH,
+                                 .height = HEIGHT,
+                                 .camera = scene_default_camera(world, (float)WIDTH / HEIGHT),
+                                 .bands = BANDS,
+                                 .window = LMP_WINDOW_HANNING,
+                                 .lights = world->lights,
+                                 .light_count = world->light_count,
+                                 .samples = 3,
+                                 .shadow = { shadows ? shadow_frame : NULL, cast } };
+    if (!renderer_draw(renderer, &frame, NULL, &error) ||
+        !renderer_read_image(renderer, &pixels, &error))
+        fail_msg("%s", error.text);
+    const image_display display = { .exposure = image_auto_exposure(&pixels) };
+    assert_true(renderer_read_rgb8(renderer, &display, rgb8, NULL, &error));
+    uint64_t hash =
+        add_bytes(0xcbf29ce484222325u, pixels.rgb, 3 * (size_t)WIDTH * HEIGHT * sizeof *pixels.rgb);
+    hash = add_bytes(hash, rgb8, sizeof rgb8);
+    image_free(&pixels);
+    shadow_destroy(cast);
+    renderer_destroy(renderer);
+    render_device_close(&device);
+    return hash;
+}
+
+static void check_scene(const char *name, bool shadows, uint64_t golden) {
+    static const char *const configurations[] = { "isa=sse2", "isa=sse4.2", "isa=avx2" };
+    scene world;
+    cli_error error = { "" };
+    if (!scene_load(name, &(scene_options) { .no_cache = true }, &world, &error))
+        fail_msg("%s", error.text);
+    const uint64_t first = draw(&world, shadows);
+    if (first != golden)
+        fail_msg("%s: 0x%016" PRIx64 ", not 0x%016" PRIx64, name, first, golden);
+    for (unsigned flag = LMP_CPU_SCALAR; flag <= LMP_CPU_AVX512; flag <<= 1) {
+        if (!(lmp_cpu_flags() & flag))
+            continue;
+        lmp_cpu_mask(flag);
+        assert_true(draw(&world, shadows) == golden);
+    }
+    lmp_cpu_mask(LMP_CPU_ALL);
+    for (int threads = 1; threads <= 7; threads += 3) {
+        omp_set_num_threads(threads);
+        assert_true(draw(&world, shadows) == golden);
+    }
+    omp_set_num_threads(omp_get_num_procs());
+    for (size_t i = 0; i < sizeof configurations / sizeof *configurations; i++) {
+        setenv("LAMPION_EMBREE", configurations[i], 1);
+        assert_true(draw(&world, shadows) == golden);
+    }
+    unsetenv("LAMPION_EMBREE");
+    scene_free(&world);
+}
+
+static void balls_have_the_same_bits_everywhere(void **state) {
+    (void)state;
+    check_scene("builtin:balls", false, GOLDEN_BALLS);
+}
+
+static void the_atrium_has_the_same_bits_everywhere(void **state) {
+    (void)state;
+    check_scene("builtin:atrium", true, GOLDEN_ATRIUM);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(balls_have_the_same_bits_everywhere),
+        cmocka_unit_test(the_atrium_has_the_same_bits_everywhere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
