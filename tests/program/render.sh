@@ -18,6 +18,20 @@ done
 "$PROGRAM" compare "$WORK/cpu-zonal.exr" "$WORK/cpu-coefficients.exr" --fail-above rmse=1e-6 ||
     fail "the CPU's images differ by more than rounding"
 
+# what is unlit has the colors of its vertices, on every device and in the reference
+cat >"$WORK/unlit.gltf" <<'END'
+{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}]}],"materials":[{"extensions":{"KHR_materials_unlit":{}}}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":72}],"buffers":[{"byteLength":72,"uri":"data:application/octet-stream;base64,AABAwAAAQMAAAAAAAABAQAAAQMAAAAAAAAAAAAAAQEAAAAAAAACAP83MTD4AAAAAAACAP83MTD4AAAAAAACAP83MTD4AAAAA"}]}
+END
+front="--size 8x8 --eye 0,0,1 --target 0,0,0 --environment none"
+for device in cpu gpu; do
+    "$PROGRAM" render "$WORK/unlit.gltf" $front --device $device -o "$WORK/unlit-$device.exr"
+done
+"$PROGRAM" reference "$WORK/unlit.gltf" $front --spp 1 -o "$WORK/unlit.exr"
+for device in cpu gpu; do
+    "$PROGRAM" compare "$WORK/unlit-$device.exr" "$WORK/unlit.exr" --fail-above rmse=1e-3 ||
+        fail "$device: an unlit surface has another color than its vertices"
+done
+
 # sequences: numbered, moving, and of one exposure
 "$PROGRAM" render builtin:balls $small --frames 2 --fps 1 -o "$WORK/f_%03d.png"
 [ -f "$WORK/f_000.png" ] && [ -f "$WORK/f_001.png" ] || fail "frames are not numbered"

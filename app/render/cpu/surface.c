@@ -128,16 +128,22 @@ static void fill_layers(const point *p, lmp_vec3 view, size_t at, const render_s
     set_vector(s->coat_normal, at, vec_scale(n, p->side));
 }
 
+/* Multiplies by the colors of the vertices, where they count. */
+static void tint(const point *p, float rgb[3]) {
+    if (!(p->material->flags & SCENE_VERTEX_COLORS))
+        return;
+    for (int c = 0; c < 3; c++) {
+        float color = 0;
+        for (int i = 0; i < 3; i++)
+            color += p->weights[i] * (float)p->corners[i].color[c];
+        rgb[c] *= color * (1 / 65535.0f);
+    }
+}
+
 static void fill_base(const point *p, size_t at, const render_surfaces *s) {
     const scene_material *m = p->material;
     float texel[4], base[3] = { m->base_color[0], m->base_color[1], m->base_color[2] };
-    if (m->flags & SCENE_VERTEX_COLORS)
-        for (int c = 0; c < 3; c++) {
-            float color = 0;
-            for (int i = 0; i < 3; i++)
-                color += p->weights[i] * (float)p->corners[i].color[c];
-            base[c] *= color * (1 / 65535.0f);
-        }
+    tint(p, base);
     look_up(p, &m->base_color_map, texel);
     for (int c = 0; c < 3; c++)
         base[c] *= texel[c];
@@ -181,6 +187,8 @@ void cpu_surface_fill(const scene *world, const cpu_textures *textures, const cp
     look_up(&p, &m->emission_map, texel);
     for (int c = 0; c < 3; c++)
         emission[c] = m->emission[c] * texel[c];
+    if (m->flags & SCENE_UNLIT)
+        tint(&p, emission);
     if (s->layered && render_material_is_layered(s->materials, number))
         fill_layers(&p, vec_normalize(vec_scale(d, -1), d), at, s, emission);
     set_vector(s->emission, at, vec_load(emission));
