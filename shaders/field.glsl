@@ -47,12 +47,12 @@ int field_light(int i) {
     return int(field_lists[i < field_own.y ? field_own.x + i : field_all.x + i - field_own.y]);
 }
 
-/* What the field has of a light is f = u² (6 - 8 u + 3 u²), u = t²; only spheres fade. */
+/* What the field has of a light is f = u² (6 - 8 u + 3 u²), u = t²; only spheres and points fade. */
 float field_lacks(int light, vec3 point) {
     vec4 sphere = lights[light].sphere;
     if (!field_inside || lights[light].radiance.w > float(SHARED_LIGHT_HIDDEN))
         return 1.0;
-    float t = clamp((length(sphere.xyz - point) - sphere.w) * field.origin.w, 0.0, 1.0);
+    float t = clamp((length(sphere.xyz - point) - max(sphere.w, 0.0)) * field.origin.w, 0.0, 1.0);
     float v = 1.0 - t * t;
     return v * v * v * (1.0 + 3.0 * t * t);
 }

@@ -56,11 +56,12 @@ float node_norm(int l, int m) {
     return m % 2 == 0 ? sqrt(square) : -sqrt(square);
 }
 
-/* A sphere of radiance 1 outside of which the point lies, in a band l of column m: as
+/* A sphere, or a Dirac, of color 1 outside of which the point lies, in a band l of column m: as
  * src/kernels/gradient.h has it, R_l and P_l(alpha) by their differences. */
 struct node_light {
     vec3 w;    /* direction to the center */
     float t;   /* 1 - alpha */
+    float base; /* 2 pi t */
     vec3 size; /* pi sin²a; that by the distance; twice that by alpha */
     vec2 fade; /* how much of it the field has, and the derivative by the distance */
     float c, s, c_before, s_before;             /* parts of (x + iy)^m, and of the power before */
@@ -68,13 +69,14 @@ struct node_light {
     float R, R_step, P, P_step;
 };
 
-/* In band 0 of column 0. */
+/* In band 0 of column 0. r below 0: a Dirac, of pi sin²a = 1/d². */
 node_light node_light_at(vec3 v, float d, float r, vec2 fade) {
-    float e = sqrt((d - r) * (d + r)), inverse = 1.0 / (d * (d + e)), per_d = (d + e) * inverse;
-    float s2 = r * r * per_d * per_d, across = pi * s2 * per_d;
-    vec3 size = vec3(pi * s2, across, 2.0 * across / max(e * per_d, COS_MIN));
-    return node_light(v * per_d, r * r * inverse, size, fade, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0,
-                      1.0, 0.0, 1.0, 0.0);
+    float held = max(r, 0.0), e = sqrt((d - held) * (d + held)), inverse = 1.0 / (d * (d + e));
+    float per_d = (d + e) * inverse, t = held * held * inverse;
+    float strength = (r < 0.0 ? 1.0 : pi * held * held) * per_d * per_d, across = strength * per_d;
+    vec3 size = vec3(strength, across, 2.0 * across / max(e * per_d, COS_MIN));
+    return node_light(v * per_d, t, r < 0.0 ? strength : 2.0 * pi * t, size, fade, 1.0, 0.0, 0.0,
+                      0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0);
 }
 
 /* From band k - 1 to k, and on the way to column m to the column k. */
@@ -101,7 +103,7 @@ void node_step(int k, int m, inout node_light a) {
 
 void node_take(int l, int m, float norm, node_light a, vec3 color, inout mat3x4 cosine,
                inout mat3x4 sine) {
-    float q = norm * a.q, value = l == 0 ? 2.0 * pi * a.t : a.size.x * a.R;
+    float q = norm * a.q, value = l == 0 ? a.base : a.size.x * a.R;
     float across = l == 0 ? 0.0 : a.fade.x * a.size.y * a.R;
     float along = a.fade.x * a.size.z * a.P - a.fade.y * value;
     float around = float(m) * across * q, tilt = across * norm * a.slope;
@@ -117,10 +119,10 @@ void node_take(int l, int m, float norm, node_light a, vec3 color, inout mat3x4 
 
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* f, less that of the coarser field: 0 from inside a sphere, and of lights that are none. */
+/* f, less that of the coarser field: 0 from inside a sphere, and of lights that do not fade. */
 vec2 node_fade(int light, float d) {
     vec2 per_reach = vec2(field.origin.w, coarsest ? 0.0 : coarser.origin.w);
-    vec2 t = clamp((d - lights[light].sphere.w) * per_reach, 0.0, 1.0), u = t * t, rest = 1.0 - u;
+    vec2 t = clamp((d - max(lights[light].sphere.w, 0.0)) * per_reach, 0.0, 1.0), u = t * t, rest = 1.0 - u;
     vec2 value = u * u * (6.0 - u * (8.0 - 3.0 * u)), slope = 24.0 * per_reach * t * u * rest * rest;
     if (lights[light].radiance.w > float(SHARED_LIGHT_HIDDEN))
         return vec2(0.0);

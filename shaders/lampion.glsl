@@ -17,7 +17,8 @@
  * and, where some lights are no spheres,
  *   LMP_LIGHT_FIXED(i)       bool: it is the same cap from every point, a sun or a sky; SPHERE(i) is
  *                            then its unit axis and 1 - cos a, a its half angle; default false
- *   LMP_LIGHT_COLOR(i, p)    vec3: its radiance towards p; default LMP_LIGHT_RADIANCE(i)
+ *   LMP_LIGHT_COLOR(i, p)    vec3: its radiance towards p; default LMP_LIGHT_RADIANCE(i). Where
+ *                            SPHERE(i).w < 0 it has no size: its intensity or, if fixed, irradiance
  *   LMP_LIGHT_LIT(i, p)      bool: it gives p light, or lmp_shade_zonal leaves it out; default true
  *
  * A fragment shader that is lit by it, all of it:
@@ -192,32 +193,32 @@ float lmp_window_weight(int l) {
 }
 #endif
 
-/* The cap of the sphere (center, radius) seen from a point. radius >= 0. */
+/* The cap of the sphere (center, radius) seen from a point; of a Dirac one without size. */
 lmp_cap lmp_cap_of_sphere(vec4 sphere, vec3 from) {
     vec3 v = sphere.xyz - from;
-    float d = sqrt(dot(v, v));
-    bool inside = d < sphere.w;
-    float far = max(max(d, sphere.w), 1e-30);
-    float near = min(d, sphere.w);
-    float s = near / far;
-    float a = sqrt((far - near) * (far + near)) / far;
-    float side = inside ? -1.0 : 1.0;
+    float d = sqrt(dot(v, v)), r = max(sphere.w, 0.0);
+    bool inside = d < r;
+    float far = max(max(d, r), 1e-30), near = min(d, r), s = near / far;
+    float a = sqrt((far - near) * (far + near)) / far, side = inside ? -1.0 : 1.0;
     lmp_cap cap;
     cap.axis = v * (side / max(d, 1e-30));
     cap.one_minus_cos = s * s / (1.0 + a);
     cap.base = 2.0 * (inside ? 1.0 + a : cap.one_minus_cos);
     cap.strength = side * s * s;
+    if (sphere.w < 0.0)
+        cap.base = cap.strength = 1.0 / LMP_PI / (max(d, 1e-6) * max(d, 1e-6));
     return cap;
 }
 
-/* The cap of the directions up to a from `axis`, 1 - cos a in 0 … 2. */
+/* The cap of the directions up to a from `axis`, 1 - cos a in 0 … 2; below 0 the axis alone. */
 lmp_cap lmp_cap_of_directions(vec3 axis, float one_minus_cos) {
-    float side = one_minus_cos > 1.0 ? -1.0 : 1.0;
+    float side = one_minus_cos > 1.0 ? -1.0 : 1.0, held = max(one_minus_cos, 0.0);
     lmp_cap cap;
     cap.axis = side * axis;
-    cap.one_minus_cos = min(one_minus_cos, 2.0 - one_minus_cos);
-    cap.base = 2.0 * one_minus_cos;
+    cap.one_minus_cos = min(held, 2.0 - held);
+    cap.base = one_minus_cos < 0.0 ? 1.0 / LMP_PI : 2.0 * held;
     cap.strength = side * cap.one_minus_cos * (2.0 - cap.one_minus_cos);
+    cap.strength = one_minus_cos < 0.0 ? cap.base : cap.strength;
     return cap;
 }
 
@@ -403,8 +404,7 @@ vec3 lmp_shade_some_zonal(lmp_surface surface, lmp_lobes lobes) {
         lmp_cap cap = lmp_light_cap(i, surface.position);
         float u = dot(cap.axis, surface.normal), r = 1.0, difference = 0.0;
         float p0 = 1.0, p1 = u, p2, d = 0.0;
-        LMP_EACH v = LMP_DOT(cap.axis, lobes.axis), q0 = LMP_EACH(1.0), q1 = v, q2;
-        LMP_EACH g = LMP_EACH(0.0);
+        LMP_EACH v = LMP_DOT(cap.axis, lobes.axis), q0 = LMP_EACH(1.0), q1 = v, q2, g = LMP_EACH(0.0);
         if (LMP_BANDS > 1) {
             d = diffuse[LMP_BAND(1)] * u;
             g = glossy[LMP_BAND(1)] * v;

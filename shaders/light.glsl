@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* light.glsl - the lights of the program, every kind of them, as lampion.glsl takes them. */
 
-/* A spot gives saturate(cone.xyz · w + cone.w)² of its intensity in the direction w from it. */
+/* A cone gives saturate(cone.xyz · w + cone.w)² of its intensity in the direction w from it. */
 vec3 light_color(int i, vec3 point) {
     vec4 cone = lights[i].cone;
     vec3 away = point - lights[i].sphere.xyz;
-    if (lights[i].radiance.w != float(SHARED_LIGHT_SPOT))
+    if (lights[i].radiance.w != float(SHARED_LIGHT_CONE))
         return lights[i].radiance.rgb;
     float inside = dot(cone.xyz, away) * inversesqrt(max(dot(away, away), 1e-37)) + cone.w;
     inside = clamp(inside, 0.0, 1.0);

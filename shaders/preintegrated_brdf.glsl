@@ -119,10 +119,11 @@ vec3 lmp_shade_preintegrated_brdf(lmp_surface surface, int first) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < lmp_light_count(); i++) {
         lmp_cap cap = lmp_light_cap(i, surface.position);
+        bool obtuse = cap.base > 2.0 && cap.strength <= 0.0;
         vec3 covered = lmp_preintegrated_brdf_mean(m, LMP_MATRIX_TIMES(world_to_local, cap.axis), cap.one_minus_cos) *
-                       (2.0 * LMP_PI * cap.one_minus_cos);
+                       (obtuse ? 2.0 * LMP_PI * cap.one_minus_cos : LMP_PI * cap.base);
         /* more than a hemisphere: ambient light less the complementary cap */
-        sum += lmp_light_color(i, surface.position) * (cap.base > 2.0 ? m.ambient - covered : covered);
+        sum += lmp_light_color(i, surface.position) * (obtuse ? m.ambient - covered : covered);
     }
     return max(sum, vec3(0.0));
 }

@@ -76,10 +76,12 @@ float lmp_preintegrated_lobe_read(lmp_lobe_position position, float g, float a) 
 /* A lobe's response to a cap of radiance 1, whose axis has this cosine with the lobe's. */
 float lmp_preintegrated_lobe_response(lmp_lobe_position position, lmp_cap cap, float cosine) {
     /* more than a hemisphere: ambient light less the complementary cap */
-    bool inside = cap.base > 2.0;
-    float covered = 2.0 * LMP_PI * cap.one_minus_cos;
+    bool inside = cap.base > 2.0 && cap.strength <= 0.0;
+    float solid_angle = 2.0 * LMP_PI * cap.one_minus_cos;
+    /* of a Dirac, what makes it as strong */
+    float covered = inside ? solid_angle : LMP_PI * cap.base;
     float read = lmp_preintegrated_lobe_read(position, lmp_lookup_acos(cosine), lmp_lookup_arc(cap.one_minus_cos));
-    float part = read * covered / (covered + position.angle);
+    float part = read * covered / (solid_angle + position.angle);
     return inside ? 1.0 - part : part;
 }
 

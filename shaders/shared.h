@@ -156,11 +156,12 @@ SHARED_BLOCK(frame_block, shared_frame, SHARED_FRAME) {
 }
 SHARED_END(shared_frame);
 
-/* What a light is: a sphere that is seen, or one that only shades; a spot's small sphere; or the
- * same cap from every point, with its axis and 1 - cos a for center and radius. */
+/* What a light is (lmp_packed_light): a sphere that is seen; a sphere or a Dirac that only shades;
+ * a Dirac that falls off around an axis; or what is the same from every point, with its axis and 1
+ * - cos a for center and radius. A size below 0 is a Dirac's. */
 #define SHARED_LIGHT_DRAWN  0
 #define SHARED_LIGHT_HIDDEN 1
-#define SHARED_LIGHT_SPOT   2
+#define SHARED_LIGHT_CONE   2
 #define SHARED_LIGHT_FIXED  3
 #ifdef LAMPION_SHADER
 struct shared_light {
@@ -168,8 +169,8 @@ struct shared_light {
 typedef struct shared_light {
 #endif
     vec4 sphere;   /* center, radius */
-    vec4 radiance; /* w: SHARED_LIGHT_… */
-    vec4 cone;     /* of a spot: what its falloff is made from */
+    vec4 radiance; /* or what a Dirac has in its place; w: SHARED_LIGHT_… */
+    vec4 cone;     /* what the falloff of a cone is made from */
 #ifdef LAMPION_SHADER
 };
 #else

@@ -79,6 +79,8 @@ static void model_sky(lmp_light *light, float irradiance, float diagonal) {
     light->ground = rgb_scale(warm, 0.2f * irradiance / PI);
 }
 
+const lmp_light_kind scene_light_kind_default = LMP_LIGHT_SPHERE;
+
 const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
     [LMP_LIGHT_SPHERE] = { .name = "sphere",
                            .members = { POSITION,
@@ -94,6 +96,7 @@ const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
     [LMP_LIGHT_POINT] = { .name = "point",
                           .members = { POSITION, COLOR(intensity, false) },
                           .widen = widen_point,
+                          .widened_by = "--point-radius",
                           .model = model_point },
     [LMP_LIGHT_SPOT] = { .name = "spot",
                          .members = { POSITION, DIRECTION, ANGLE(inner, true), ANGLE(outer, false),
@@ -103,6 +106,7 @@ const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS] = {
     [LMP_LIGHT_DIRECTIONAL] = { .name = "directional",
                                 .members = { DIRECTION, COLOR(irradiance, false) },
                                 .widen = widen_sun,
+                                .widened_by = "--sun-angle",
                                 .model = model_directional },
     [LMP_LIGHT_CAP] = { .name = "cap",
                         .members = { DIRECTION, ANGLE(angle, false), COLOR(radiance, false) },
@@ -117,6 +121,12 @@ lmp_light scene_light_model(lmp_light_kind kind, float irradiance, float diagona
     lmp_light light = { .kind = kind, .direction = { 0, 1, 0 } };
     scene_light_kinds[kind].model(&light, irradiance, diagonal);
     return light;
+}
+
+lmp_light scene_light_from(lmp_vec3 direction) {
+    return (lmp_light) { .kind = LMP_LIGHT_DIRECTIONAL,
+                         .direction = direction,
+                         .irradiance = { 1, 1, 1 } };
 }
 
 bool scene_light_has(const scene_light *light, scene_light_type type) {

@@ -46,15 +46,22 @@ typedef struct scene_light_kind {
     /* NULL, or makes it as large as a point's radius or a sun's half angle says, of the same
      * intensity or irradiance; 0 leaves it. */
     void (*widen)(lmp_light *light, float radius, float angle);
+    const char *widened_by; /* the option that says how large, where there is `widen` */
     /* Makes scene_light_model's. */
     void (*model)(lmp_light *light, float irradiance, float diagonal);
 } scene_light_kind;
 
 extern const scene_light_kind scene_light_kinds[LMP_LIGHT_KINDS]; /* by lmp_light_kind */
 
+/* That of a light that names none. */
+extern const lmp_light_kind scene_light_kind_default;
+
 /* A light to begin with, as the viewer adds it: warm, at the origin, directed at what is below, and
  * about so bright that it gives a scene of this diagonal the irradiance. */
 lmp_light scene_light_model(lmp_light_kind kind, float irradiance, float diagonal);
+
+/* One of irradiance 1 from a single direction. */
+lmp_light scene_light_from(lmp_vec3 direction);
 
 /* Whether lights of this one's kind have a member of a type. */
 bool scene_light_has(const scene_light *light, scene_light_type type);

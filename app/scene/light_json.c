@@ -21,10 +21,11 @@ static const char *join(const scene_light_kind *kind, const scene_light_member *
 
 static bool read_kind(const cJSON *object, scene_light *light, scene_light_error *error) {
     const cJSON *item = file_json_member(object, "kind");
-    const char *name = cJSON_IsString(item) ? item->valuestring : "";
+    const char *given = cJSON_IsString(item) ? item->valuestring : "";
+    const char *name = item ? given : scene_light_kinds[scene_light_kind_default].name;
     size_t used = 0;
     for (int i = 0; i < LMP_LIGHT_KINDS; i++)
-        if (strcmp(item ? name : scene_light_kinds[0].name, scene_light_kinds[i].name) == 0) {
+        if (strcmp(name, scene_light_kinds[i].name) == 0) {
             light->emitter.kind = (lmp_light_kind)i;
             return true;
         }

@@ -15,8 +15,7 @@ static bool widen_lights(scene *s, const scene_lights_options *options, cli_erro
         kind->widen(&light->emitter, options->point_radius, angle);
         if (!scene_light_check(light, &wrong))
             return cli_fail(error, s->origin, "lights[%zu]%s with that %s", i, wrong.text,
-                            light->emitter.kind == LMP_LIGHT_CAP ? "--sun-angle"
-                                                                 : "--point-radius");
+                            kind->widened_by);
     }
     return true;
 }

@@ -136,7 +136,7 @@ void view_add_light(view_state *s, int unused) {
     }
     const view_ray ray = pointer_ray(s);
     const view_hit hit = view_pick_surface(&ray, s->world);
-    scene_light light = { .emitter = new_light(s, LMP_LIGHT_SPHERE) };
+    scene_light light = { .emitter = new_light(s, scene_light_kind_default) };
     if (s->selected >= 0 && scene_light_has(&s->now.lights[s->selected], SCENE_LIGHT_POSITION))
         light.emitter = s->now.lights[s->selected].emitter;
     const float reach = vec_length(vec_sub(vec_load(s->now.camera.target), ray.from));

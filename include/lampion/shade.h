@@ -161,12 +161,9 @@ typedef struct lmp_surfaces {
  *
  * Lobes summed by LMP_SHADE_ZONAL differ from lmp_shade by rounding, at n bands up to 3e-6 + 2e-7
  * n² of a light's peak (what it gives where the lobes point at it), which counts where a narrow
- * lobe points at a small light. Two limits besides, of both methods that are vectorized:
- *   - A cap, sky or sphere that covers about a hemisphere: up to 5e-4, for cos a comes from sin a.
- *   - A point or spot light is a sphere of radius LMP_POINT_DISTANCE_MIN: no other from d = 2e-3 to
- *     1e13, but nearer by its highlight loses (1e-6 n / d)² / 15 (of 128 bands 0.1 % at 1e-3, 9 %
- *     at 1e-4). Its intensity is at most 1e26.
- * Sums of coefficients go one surface after another. Positions: light.h, batches.
+ * lobe points at a small light. On the surface of a sphere, where cos a changes faster than float32
+ * tells positions apart, both methods that are vectorized round it to within 5e-4, as lmp_shade
+ * does. Sums of coefficients go one surface after another. Positions: light.h, batches.
  *
  * settings may be NULL (zero-initialized); lights may be NULL if light_count is 0
  * rgb_stride is from one surface's red to the next one's; 0 means tight, 3 floats. rgb must not

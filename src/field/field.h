@@ -40,12 +40,18 @@ typedef struct field_entry {
     uint32_t next, count, lights[FIELD_ENTRY];
 } field_entry;
 
-/* A light as the kernels read it, dark if it is not interpolated. */
+/* A light as the kernels read it, dark if it is not interpolated; of a Dirac, whose radius is
+ * LMP_DIRAC, the intensity. */
 typedef struct field_sphere {
     lmp_vec3 center;
     float radius;
     lmp_rgb radiance;
 } field_sphere;
+
+/* How far from its center something of it is within a distance. */
+static inline float lmp_field_around(const field_sphere *sphere, float distance) {
+    return (sphere->radius > 0 ? sphere->radius : 0) + distance;
+}
 
 struct lmp_field {
     lmp_host host; /* resolved; first, for lmp_release_object */
@@ -149,9 +155,6 @@ static inline float lmp_field_distance2(const field_box *box, lmp_vec3 at) {
 }
 
 /* --- near lights (near.c) --------------------------------------------------------------------- */
-
-/* Whether lights of its kind are interpolated, but near them. */
-bool lmp_field_fades(const lmp_light *light);
 
 /* Puts a light into the lists of the blocks that it is near to, takes it from them, or does both
  * for one that was that sphere when it was listed; empties all. */

@@ -2,6 +2,7 @@
 /* near.c - which lights are near which cells: a list a block of cells, in a pool of entries that
  * was allocated with the field. What does not fit is near everywhere. */
 #include "src/field/field.h"
+#include "src/light/packed.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,16 +24,12 @@ static uint32_t held(float block, uint32_t count) {
     return block > 0 ? block < (float)count ? (uint32_t)block : count : 0;
 }
 
-bool lmp_field_fades(const lmp_light *light) {
-    return light->kind == LMP_LIGHT_SPHERE || light->kind == LMP_LIGHT_POINT;
-}
-
 static float block_edge(const lmp_field *field, int axis) {
     return FIELD_BLOCK * coordinate(field->info.desc.cell, axis);
 }
 
 static near_ball ball_of(const lmp_field *field, const field_sphere *sphere) {
-    near_ball ball = { .radius = sphere->radius + field->info.reach };
+    near_ball ball = { .radius = lmp_field_around(sphere, field->info.reach) };
     for (int a = 0; a < 3; a++) {
         const float edge = block_edge(field, a);
         ball.edge[a] = edge;
@@ -146,7 +143,7 @@ static bool is_room(lmp_field *field, uint32_t light, const near_ball *ball) {
 static void list_light(lmp_field *field, uint32_t light) {
     const near_ball ball = ball_of(field, &field->spheres[light]);
     field->everywhere[light] =
-        !(lmp_field_fades(&field->lights[light]) && is_room(field, light, &ball));
+        !(lmp_light_fades(&field->lights[light]) && is_room(field, light, &ball));
     if (field->everywhere[light])
         put(field, light, field->block_count);
     else
@@ -165,7 +162,7 @@ static void unlist_light(lmp_field *field, uint32_t light, const field_sphere *s
 /* A light that moves stays in most lists, which are long: those are not touched. */
 static void relist_light(lmp_field *field, uint32_t light, const field_sphere *was) {
     const near_ball before = ball_of(field, was), after = ball_of(field, &field->spheres[light]);
-    if (field->everywhere[light] || !lmp_field_fades(&field->lights[light]) ||
+    if (field->everywhere[light] || !lmp_light_fades(&field->lights[light]) ||
         !is_room(field, light, &after)) {
         unlist_light(field, light, was);
         list_light(field, light);
@@ -206,11 +203,11 @@ void lmp_field_unlist_all(lmp_field *field) {
 /* --- points ----------------------------------------------------------------------------------- */
 
 float lmp_field_lacks(const lmp_field *field, uint32_t light, lmp_vec3 point) {
-    if (!lmp_field_fades(&field->lights[light]))
+    if (!lmp_light_fades(&field->lights[light]))
         return 1;
     const field_sphere *s = &field->spheres[light];
     const float x = s->center.x - point.x, y = s->center.y - point.y, z = s->center.z - point.z;
-    const float away = (sqrtf(x * x + y * y + z * z) - s->radius) / field->info.reach;
+    const float away = (sqrtf(x * x + y * y + z * z) - lmp_field_around(s, 0)) / field->info.reach;
     const float t = fminf(fmaxf(away, 0), 1), v = 1 - t * t;
     return v * v * v * (1 + 3 * t * t);
 }

@@ -131,7 +131,7 @@ static field_box box_of(const brick_points *points) {
 
 /* Whether the coarser field may lack something of the sphere at a node of the brick. */
 static bool is_near(const lmp_field *field, const field_box *box, const field_sphere *sphere) {
-    const float reach = (sphere->radius + field->coarse->info.reach) * 1.0001f;
+    const float reach = lmp_field_around(sphere, field->coarse->info.reach) * 1.0001f;
     return lmp_field_distance2(box, sphere->center) < reach * reach;
 }
 

@@ -79,7 +79,7 @@ static field_box box_of(const shade_chunk *chunk) {
 /* Whether some point of the box may lack some of the light. */
 static bool is_near(const lmp_field *field, uint32_t light, const field_box *box) {
     const field_sphere *sphere = &field->spheres[light];
-    const float reach = (sphere->radius + field->info.reach) * 1.0001f;
+    const float reach = lmp_field_around(sphere, field->info.reach) * 1.0001f;
     return (lmp_field_distance2(box, sphere->center) < reach * reach) | field->everywhere[light];
 }
 
@@ -111,26 +111,23 @@ static __attribute__((noinline)) size_t find_near(const lmp_field *field, const 
     return count;
 }
 
-/* Surfaces that are shaded together at most; lights that the zonal kernel takes at once, and how
- * many of them may be spots, which have a plane of their own. */
-enum { FIELD_CHUNK = FIELD_BLOCKS, PASS = LMP_KERNEL_LIGHTS_MAX, SPOTS = 3 };
+/* Surfaces that are shaded together at most, and lights that the zonal kernel takes at once. */
+enum { FIELD_CHUNK = FIELD_BLOCKS, PASS = LMP_KERNEL_LIGHTS_MAX };
 
 /* Adds the first of the lights found; returns how many. */
 static size_t add_near(const field_shading *shading, const uint32_t *found, size_t count,
                        shade_chunk *chunk) {
     const lmp_field *field = shading->field;
-    lmp_kernel_light lights[PASS];
-    float scales[SPOTS][FIELD_CHUNK];
+    lmp_packed_light lights[PASS];
     size_t taken = 0;
-    for (int spots = 0; taken < count && taken < PASS && spots < SPOTS; taken++) {
+    for (; taken < count && taken < PASS; taken++) {
         const lmp_light *light = &field->lights[found[taken]];
         lmp_rgb ambient = { 0, 0, 0 };
-        lmp_shade_take_light(light, chunk, scales[spots], &lights[taken], &ambient);
-        lights[taken].per_reach = lmp_field_fades(light) ? 1 / field->info.reach : 0;
+        lmp_shade_take_light(light, &lights[taken], &ambient);
+        lights[taken].per_reach = lmp_light_fades(light) ? 1 / field->info.reach : 0;
         chunk->ambient[0] += ambient.r;
         chunk->ambient[1] += ambient.g;
         chunk->ambient[2] += ambient.b;
-        spots += light->kind == LMP_LIGHT_SPOT;
     }
     lmp_kernels_get()->shade_zonal(shading->settings.bands, shading->window, shading->diffuse,
                                    &chunk->surfaces, lights, taken, chunk->count, &chunk->sums);

@@ -2,6 +2,7 @@
 /* update.c - what becomes of a field when its lights change. */
 #include "src/field/field.h"
 #include "src/light/cap.h"
+#include "src/light/packed.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,24 +10,14 @@
 /* Lights that one pass over the nodes adds, and takes away, at most. */
 enum { PASS = 16 };
 
-static const float pi = 3.14159265f;
-
 /* --- lights ----------------------------------------------------------------------------------- */
 
-/* A point is a sphere this small (src/shade/chunk.h). */
 static field_sphere sphere_of(const lmp_light *light) {
-    const float area = pi * LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
-    const lmp_rgb i = light->intensity;
-    switch (light->kind) {
-    case LMP_LIGHT_SPHERE:
-        return (field_sphere) { light->position, light->radius, light->radiance };
-    case LMP_LIGHT_POINT:
-        return (field_sphere) { light->position,
-                                LMP_POINT_DISTANCE_MIN,
-                                { i.r / area, i.g / area, i.b / area } };
-    default:
+    lmp_packed_light packed;
+    if (!lmp_light_fades(light))
         return (field_sphere) { .radius = 0 };
-    }
+    lmp_light_pack(light, &packed);
+    return (field_sphere) { packed.at, packed.size, packed.color };
 }
 
 static void set_light(lmp_field *field, uint32_t at, const lmp_light *light) {

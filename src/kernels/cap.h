@@ -3,8 +3,8 @@
  *
  * One quotient and two roots serve everything: with e = sqrt(d² - r²), alpha = e/d and
  * X = 1/(d (d + e)),  1/d = (d + e) X,  t = 1 - alpha = r² X,  s2 = sin²a = (r/d)². Inside the
- * sphere d and r are exchanged (light.h). A radius of LMP_KERNEL_DIRAC is a point
- * light: the cap of no size that pi s2 = 1/d² makes as strong. */
+ * sphere d and r are exchanged (light.h). A radius of LMP_DIRAC is a Dirac: the
+ * cap of no size that pi s2 = 1/d² makes as strong. */
 #ifndef LAMPION_KERNELS_CAP_H
 #define LAMPION_KERNELS_CAP_H
 
@@ -30,7 +30,7 @@ typedef struct cap_lanes {
 
 /* s2 of a Dirac, 0 where the radius says that it is none. */
 LMP_INLINE vf cap_dirac(vf d2, vf r) {
-    const vf held = vf_max(d2, vf_set(LMP_KERNEL_DIRAC_MIN * LMP_KERNEL_DIRAC_MIN));
+    const vf held = vf_max(d2, vf_set(LMP_DIRAC_DISTANCE_MIN * LMP_DIRAC_DISTANCE_MIN));
     return vf_select_less(r, vf_set(0), vf_set(1 / LMP_KERNEL_PI) / held, vf_set(0));
 }
 

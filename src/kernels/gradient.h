@@ -173,7 +173,8 @@ LMP_INLINE void gradient_fade(accumulate_tile tile, int at_once, const lmp_kerne
         const vf y = lights_at(center->y, center->stride, i) - point[1];
         const vf z = lights_at(center->z, center->stride, i) - point[2];
         const vf d = vf_sqrt(x * x + y * y + z * z);
-        const float radius = lights_at(lights->radius.at, lights->radius.stride, i);
+        const float size = lights_at(lights->radius.at, lights->radius.stride, i);
+        const float radius = size > 0 ? size : 0;
         const fade_lanes in = fade_at(d, radius, fade.per_reach);
         const fade_lanes out = fade_at(d, radius, fade.per_outer);
         const vf value = in.value - out.value, slope = in.slope - out.slope;

@@ -12,6 +12,8 @@
 
 #include <lampion/base.h>
 
+#include <math.h>
+
 #define LMP_KERNEL_LANES_MAX 16
 
 /* Value v of element e lies at at[e * stride + v], or at at[v * stride + e] if planar; here alone
@@ -51,13 +53,14 @@ typedef struct lmp_kernel_pairs {
     const float *radius;
 } lmp_kernel_pairs;
 
-/* The radius that makes a point light of a sphere, of intensity where radiance is, and the distance
- * from which on it falls. Its square is above that of any distance: as far as kernels that know
- * spheres alone can tell, the point is inside. */
-#define LMP_KERNEL_DIRAC     -1e19f
-#define LMP_KERNEL_DIRAC_MIN 1e-6f
+/* The size of a light without one, a Dirac, in place of a radius or an angle. Its square is above
+ * that of any distance: as far as kernels that know spheres alone can tell, every point is inside,
+ * which is their slow path. And the distance from which on a Dirac at a position falls. */
+#define LMP_DIRAC              (-INFINITY)
+#define LMP_DIRAC_DISTANCE_MIN 1e-6f
 
-/* Spheres wherever the caller keeps them; radiance.x … z are red, green, blue. */
+/* Spheres wherever the caller keeps them; radiance.x … z are red, green, blue. One of a radius of
+ * LMP_DIRAC is a Dirac at its center, of intensity where radiance is. */
 typedef struct lmp_kernel_lights {
     lmp_vec3_array center;
     lmp_float_array radius;
@@ -70,11 +73,29 @@ typedef struct lmp_kernel_lights {
     int adds; /* accumulate_more's own */
 } lmp_kernel_lights;
 
-/* A spot's: the cosine of the outer one, and what the inner one's is more. */
-typedef struct lmp_kernel_cone {
-    lmp_vec3 center, axis; /* from the light */
+/* What a light is once its kind has been looked at (src/light/packed.h): kernels, shading, fields,
+ * shadows and shaders know these forms alone. A loop of directions, as lights of other shapes are,
+ * is one more of them. */
+typedef enum lmp_light_form {
+    LMP_FORM_SPHERE, /* around a position */
+    LMP_FORM_DIRAC,  /* a single direction, to a position or fixed */
+    LMP_FORM_CONE,   /* a Dirac at a position that falls off around an axis */
+    LMP_FORM_CAP     /* fixed, of at most a hemisphere, and ambient light besides */
+} lmp_light_form;
+
+typedef struct lmp_packed_light {
+    lmp_light_form form;
+    int fixed; /* seen alike from every point: `at` is its unit direction, else its position */
+    lmp_vec3 at;
+    float size;      /* a radius; 1 - cos a of a cap, 0 … 1; LMP_DIRAC of Diracs and cones */
+    lmp_rgb color;   /* radiance; of Diracs and cones intensity or, of fixed ones, irradiance */
+    lmp_rgb ambient; /* radiance from every direction; only a cap has any */
+    float per_reach; /* above 0: what a field (field.h of the API) lacks of it is left, 1/reach */
+    /* Of a cone alone: its axis, from the light, the cosine of the outer angle, and what that of
+     * the inner one is more. */
+    lmp_vec3 axis;
     float outer, width;
-} lmp_kernel_cone;
+} lmp_packed_light;
 
 /* A preintegrated lobe (lampion/preintegrated.h), and where lobes lie in it
  * (src/preintegrated/lobe_eval.h): an array a member, readable like planes. */
@@ -121,16 +142,6 @@ typedef struct lmp_kernel_surfaces {
     int lobe_count;
     lmp_kernel_lobe lobe[LMP_KERNEL_LOBES_MAX];
 } lmp_kernel_surfaces;
-
-/* A sphere; or with w = 0 a cap of any kind, seen alike from every point: x, y, z its direction,
- * radius the sine of its half angle. scale is a plane of factors of its radiance, or NULL. Of a
- * sphere with per_reach above 0 what a field lacks of it (field.h of the API), 1/reach, is left. */
-typedef struct lmp_kernel_light {
-    float x, y, z, w, radius;
-    lmp_rgb radiance;
-    const float *scale;
-    float per_reach;
-} lmp_kernel_light;
 
 /* Lights fade toward their surfaces over a distance of 1/per_reach (src/kernels/fade.h); and, with
  * per_outer above 0, lack what is left of them when they fade over 1/per_outer. */
@@ -259,8 +270,8 @@ typedef struct lmp_kernels {
     /* Adds values to the output's from `first` on, times each element's factor. */
     void (*add)(const float *sh, size_t first, size_t values, const float *factors, size_t count,
                 const lmp_kernel_out *out);
-    /* Multiplies whole registers of factors by what of a spot's light comes to the points. */
-    void (*cone)(const lmp_kernel_cone *cone, const lmp_kernel_vec3 *points, size_t count,
+    /* Multiplies whole registers of factors by what of a cone's light comes to the points. */
+    void (*cone)(const lmp_packed_light *cone, const lmp_kernel_vec3 *points, size_t count,
                  float *factors);
     /* As accumulate, and 9 bands^2 values: derivatives by x, then y, then z; |cos a| is held at
      * cos_min and up, for they are infinite on the sphere's surface. */
@@ -284,9 +295,9 @@ typedef struct lmp_kernels {
                  const lmp_kernel_lights *lights, const lmp_kernel_vec3 *points, size_t count,
                  const lmp_kernel_out *out);
     /* Adds what the lobes, truncated to `bands` bands with window[l] and diffuse[l] the factors of
-     * the diffuse lobe of integral 1, reflect of the lights. */
+     * the diffuse lobe of integral 1, reflect of the lights but their ambient light. */
     void (*shade_zonal)(int bands, const float *window, const float *diffuse,
-                        const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                        const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
                         size_t light_count, size_t count,
                         const lmp_kernel_accumulated *accumulated);
     /* The same of light given by its coefficients at each surface, 3 bands^2 values, planar and
@@ -300,13 +311,13 @@ typedef struct lmp_kernels {
                                      const lmp_kernel_lobe_positions *diffuse,
                                      const lmp_kernel_lobe_positions *specular,
                                      const lmp_kernel_surfaces *surfaces,
-                                     const lmp_kernel_light *lights, size_t light_count,
+                                     const lmp_packed_light *lights, size_t light_count,
                                      size_t count, const lmp_kernel_accumulated *accumulated);
     /* Adds what a BRDF reflects, in planes of red, green, blue, of the lights and of
      * ambient radiance. Lobes are not read. */
     void (*shade_preintegrated_brdf)(const lmp_kernel_preintegrated_brdf *material,
                                      const lmp_kernel_surfaces *surfaces,
-                                     const lmp_kernel_light *lights, size_t light_count,
+                                     const lmp_packed_light *lights, size_t light_count,
                                      lmp_rgb ambient, size_t count, float *const rgb[3]);
 } lmp_kernels;
 

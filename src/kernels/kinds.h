@@ -1,25 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* kinds.h - what lights need that are no spheres: the cones of spots, and coefficients that are the
- * same at every point. Point lights are in cap.h. */
+/* kinds.h - what lights need that are no spheres: cones, and coefficients that are the same at
+ * every point. Diracs are in cap.h. */
 #ifndef LAMPION_KERNELS_KINDS_H
 #define LAMPION_KERNELS_KINDS_H
 
+#include "src/kernels/cone.h"
 #include "src/kernels/layout.h"
 
 /* The operations of lmp_light_cap, lane by lane. */
-static void kernel_cone(const lmp_kernel_cone *cone, const lmp_kernel_vec3 *points, size_t count,
+static void kernel_cone(const lmp_packed_light *cone, const lmp_kernel_vec3 *points, size_t count,
                         float *factors) {
-    const lmp_vec3 a = cone->axis;
     const vf zero = vf_set(0), one = vf_set(1);
     for (size_t e = 0; e < count; e += LMP_LANES) {
-        const vf x = cone->center.x - vf_load(points->x + e);
-        const vf y = cone->center.y - vf_load(points->y + e);
-        const vf z = cone->center.z - vf_load(points->z + e), d = vf_sqrt(x * x + y * y + z * z);
+        const vf x = cone->at.x - vf_load(points->x + e);
+        const vf y = cone->at.y - vf_load(points->y + e);
+        const vf z = cone->at.z - vf_load(points->z + e), d = vf_sqrt(x * x + y * y + z * z);
         const vf divisor = vf_select_less(zero, d, d, one), up = vf_select_less(zero, d, z, one);
-        const vf cosine = a.x * -(x / divisor) + a.y * -(y / divisor) + a.z * -(up / divisor);
-        const vf position = (cosine - cone->outer) / vf_set(cone->width);
-        const vf held = vf_min(vf_max(position, zero), one);
-        vf_store(factors + e, vf_load(factors + e) * (held * held));
+        const vf falloff = cone_falloff(cone, x / divisor, y / divisor, up / divisor);
+        vf_store(factors + e, vf_load(factors + e) * falloff);
     }
 }
 

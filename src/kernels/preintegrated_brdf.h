@@ -109,9 +109,9 @@ LMP_INLINE void brdf_block_load(const lmp_kernel_preintegrated_brdf *material,
 
 /* The axis from the mirror direction. */
 LMP_INLINE void brdf_direction_of(const lmp_kernel_preintegrated_brdf *material,
-                                  const lmp_kernel_light *light, size_t e, const brdf_block *block,
+                                  const lmp_packed_light *light, const brdf_block *block,
                                   brdf_direction *direction) {
-    const cap_lanes cap = shade_cap(light, block->plain, e, block->point, &direction->cap);
+    const cap_lanes cap = shade_cap(light, block->plain, block->point, &direction->cap);
     const vf x = shade_dot(block->x, &cap) * cap.per_d, y = shade_dot(block->y, &cap) * cap.per_d;
     const vf z = shade_dot(block->z, &cap) * cap.per_d;
     const vf across2 = x * x + y * y;
@@ -304,7 +304,7 @@ LMP_INLINE void brdf_ambient(const brdf_block *block, lmp_rgb radiance, vf weigh
 
 /* What a block reflects of `count` lights, and of `ambient` light. */
 static LMP_NOINLINE void brdf_lights(const lmp_kernel_preintegrated_brdf *material,
-                                     const brdf_block *block, const lmp_kernel_light *lights,
+                                     const brdf_block *block, const lmp_packed_light *lights,
                                      texel_lanes (*radiance)[TEXEL_PARTS], size_t count,
                                      lmp_rgb ambient, size_t e, int live, float *const rgb[3]) {
     brdf_direction directions[BRDF_LIGHTS];
@@ -314,7 +314,7 @@ static LMP_NOINLINE void brdf_lights(const lmp_kernel_preintegrated_brdf *materi
     memset(&sums, 0, sizeof sums);
     brdf_ambient(block, ambient, vf_set(1), from_all);
     for (size_t i = 0; i < count; i++)
-        brdf_direction_of(material, &lights[i], e, block, &directions[i]);
+        brdf_direction_of(material, &lights[i], block, &directions[i]);
     for (size_t i = 0; i < count; i++)
         brdf_position_of(material, block, &directions[i], &positions[i]);
     for (size_t i = 0; i < count; i++) {
@@ -323,7 +323,7 @@ static LMP_NOINLINE void brdf_lights(const lmp_kernel_preintegrated_brdf *materi
         for (int k = 0; k < live; k++)
             brdf_read(material->texels, slices, k, radiance[i], sums.at[k]);
         if (__builtin_expect(directions[i].cap.is_ambient, 0))
-            brdf_ambient(block, lights[i].radiance, directions[i].cap.ambient, from_all);
+            brdf_ambient(block, lights[i].color, directions[i].cap.ambient, from_all);
     }
     brdf_channels(&sums, from_caps);
     for (int c = 0; c < 3; c++)
@@ -332,13 +332,13 @@ static LMP_NOINLINE void brdf_lights(const lmp_kernel_preintegrated_brdf *materi
 
 static void kernel_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
                                             const lmp_kernel_surfaces *surfaces,
-                                            const lmp_kernel_light *lights, size_t light_count,
+                                            const lmp_packed_light *lights, size_t light_count,
                                             lmp_rgb ambient, size_t count, float *const rgb[3]) {
     texel_lanes radiance[LMP_KERNEL_LIGHTS_MAX][TEXEL_PARTS];
     const lmp_rgb none = { 0, 0, 0 };
     const int plain = shade_are_plain(lights, light_count);
     for (size_t i = 0; i < light_count; i++)
-        brdf_radiance(lights[i].radiance, radiance[i]);
+        brdf_radiance(lights[i].color, radiance[i]);
     for (size_t e = 0; e < count; e += LMP_LANES) {
         const int live = count - e < LMP_LANES ? (int)(count - e) : LMP_LANES;
         brdf_block block;

@@ -136,9 +136,9 @@ typedef struct shade_block {
     vf point[3], normal[3], axis[LMP_KERNEL_LOBES_MAX][3];
 } shade_block;
 
-LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, int plain, size_t e,
+LMP_INLINE void shade_direction_of(int lobes, const lmp_packed_light *light, int plain,
                                    const shade_block *block, shade_direction *direction, vf *v) {
-    const cap_lanes cap = shade_cap(light, plain, e, block->point, direction);
+    const cap_lanes cap = shade_cap(light, plain, block->point, direction);
     direction->u = shade_dot(block->normal, &cap) * cap.per_d;
     LMP_UNROLL for (int k = 0; k < lobes; k++) v[k] = shade_dot(block->axis[k], &cap) * cap.per_d;
 }
@@ -146,7 +146,7 @@ LMP_INLINE void shade_direction_of(int lobes, const lmp_kernel_light *light, int
 /* Some lights first, then their lobes: in one loop, the roots and quotients of a light would wait
  * for each other at its beginning. The v of a light follow those of the one before. */
 LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
-                                 const lmp_kernel_light *lights, size_t light_count, int plain,
+                                 const lmp_packed_light *lights, size_t light_count, int plain,
                                  size_t e, shade_direction *directions, vf *v) {
     shade_block block;
     shade_planes(&surfaces->point, e, block.point);
@@ -154,8 +154,7 @@ LMP_INLINE void shade_directions(int lobes, const lmp_kernel_surfaces *surfaces,
     LMP_UNROLL for (int k = 0; k < lobes; k++)
         shade_planes(&surfaces->lobe[k].axis, e, block.axis[k]);
     for (size_t i = 0; i < light_count; i++)
-        shade_direction_of(lobes, &lights[i], plain, e, &block, &directions[i],
-                           v + i * (size_t)lobes);
+        shade_direction_of(lobes, &lights[i], plain, &block, &directions[i], v + i * (size_t)lobes);
 }
 
 /* Lobe -1 is the diffuse one. */
@@ -175,7 +174,7 @@ LMP_INLINE void lobe_pair_load(const lmp_kernel_preintegrated_lobe *lobe,
 LMP_INLINE void lobe_shade(int lobe_count, const lmp_kernel_preintegrated_lobe *lobe,
                            const lmp_kernel_lobe_positions *diffuse,
                            const lmp_kernel_lobe_positions *specular,
-                           const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                           const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
                            size_t light_count, size_t count,
                            const lmp_kernel_accumulated *accumulated) {
     const int plain = shade_are_plain(lights, light_count);
@@ -197,8 +196,8 @@ LMP_INLINE void lobe_shade(int lobe_count, const lmp_kernel_preintegrated_lobe *
                 const vf *of = v + i * (size_t)lobe_count;
                 lobe_pair(&lobes[0], &lobes[1], direction, first < 0 ? direction->u : of[first],
                           of[first + 1], responses);
-                shade_accumulate(&lights[i].radiance, responses[0], sums[0]);
-                shade_accumulate(&lights[i].radiance, responses[1], sums[1]);
+                shade_accumulate(&lights[i].color, responses[0], sums[0]);
+                shade_accumulate(&lights[i].color, responses[1], sums[1]);
             }
             shade_sums_store(sums[0], e, planes[0]);
             shade_sums_store(sums[1], e, planes[1]);
@@ -210,7 +209,7 @@ static void kernel_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe 
                                             const lmp_kernel_lobe_positions *diffuse,
                                             const lmp_kernel_lobe_positions *specular,
                                             const lmp_kernel_surfaces *surfaces,
-                                            const lmp_kernel_light *lights, size_t light_count,
+                                            const lmp_packed_light *lights, size_t light_count,
                                             size_t count,
                                             const lmp_kernel_accumulated *accumulated) {
     if (surfaces->lobe_count == 1)

@@ -30,7 +30,7 @@ typedef struct zonal_pair {
 typedef struct zonal_work {
     const zonal_tables *tables;
     const lmp_kernel_surfaces *surfaces;
-    const lmp_kernel_light *lights;
+    const lmp_packed_light *lights;
     size_t light_count, count;
     int plain; /* the lights */
     const lmp_kernel_accumulated *accumulated;
@@ -94,7 +94,7 @@ LMP_INLINE void zonal_radials(int side_by_side, size_t first, int bands, int mon
 
 /* All pairs of a tile: light after light, of each all blocks. Whether there is ambient light. */
 LMP_INLINE int zonal_caps(int bands, int monic, const zonal_work *work,
-                          const lmp_kernel_light *lights, size_t light_count, size_t e,
+                          const lmp_packed_light *lights, size_t light_count, size_t e,
                           int blocks) {
     int is_ambient = 0;
     for (int b = 0; b < blocks; b++) {
@@ -104,7 +104,7 @@ LMP_INLINE int zonal_caps(int bands, int monic, const zonal_work *work,
         for (size_t i = 0; i < light_count; i++) {
             zonal_pair *to = &work->pairs[i * (size_t)blocks + (size_t)b];
             shade_direction direction = { .ambient = vf_set(0) };
-            const cap_lanes cap = shade_cap(&lights[i], work->plain, block, point, &direction);
+            const cap_lanes cap = shade_cap(&lights[i], work->plain, point, &direction);
             to->axis[0] = cap.x * cap.per_d;
             to->axis[1] = cap.y * cap.per_d;
             to->axis[2] = cap.z * cap.per_d;
@@ -134,7 +134,7 @@ typedef struct zonal_lobe {
     const lmp_kernel_vec3 *axes;
     int row;
     float *const *to;
-    const lmp_kernel_light *lights;
+    const lmp_packed_light *lights;
     int is_ambient;
     size_t e;
 } zonal_lobe;
@@ -161,11 +161,11 @@ LMP_INLINE void zonal_some(int side_by_side, size_t first, int blocks, int bands
         zonal_phong_sum(side_by_side, bands, monic, tables, weights, r, v, sum);
     LMP_UNROLL for (int i = 0; i < side_by_side; i++) {
         const size_t e = lobe->e + (blocks > 1 ? (size_t)i * LMP_LANES : 0);
-        const lmp_kernel_light *light =
+        const lmp_packed_light *light =
             &lobe->lights[blocks > 1 ? first / ZONAL_BLOCKS : first + (size_t)i];
         if (i == 0 || blocks > 1)
             shade_sums_load(lobe->to, e, sums);
-        zonal_add(&pairs[i], lobe->is_ambient, &light->radiance, sum[i],
+        zonal_add(&pairs[i], lobe->is_ambient, &light->color, sum[i],
                   diffuse ? zonal_lanes(tables->diffuse[0]) : weights[i][0], sums);
         if (i == side_by_side - 1 || blocks > 1)
             shade_sums_store(sums, e, lobe->to);
@@ -192,7 +192,7 @@ LMP_INLINE void zonal_tile(int blocks, int bands, int monic, const zonal_work *w
         for (int k = 0; k < lobes; k++)
             zonal_weigh(bands, work, first + k, k, e, blocks, kept);
         for (size_t i = 0, taken; i < work->light_count; i += taken) {
-            const lmp_kernel_light *lights = work->lights + i;
+            const lmp_packed_light *lights = work->lights + i;
             const size_t rest = work->light_count - i;
             taken = rest < work->together ? rest : work->together;
             const int is_ambient = zonal_caps(bands, monic, work, lights, taken, e, blocks);
@@ -301,7 +301,7 @@ static inline void zonal_divide(int bands, zonal_work *work) {
 }
 
 static void kernel_shade_zonal(int bands, const float *window, const float *diffuse,
-                               const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                               const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
                                size_t light_count, size_t count,
                                const lmp_kernel_accumulated *accumulated) {
     zonal_tables tables;

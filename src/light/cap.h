@@ -34,9 +34,6 @@ static inline bool lmp_are_spheres(const lmp_spheres *spheres, size_t count) {
            lmp_are_within(spheres->radius, count, 0, LMP_LENGTH_MAX);
 }
 
-/* Of a spot. */
-lmp_kernel_cone lmp_light_cone(const lmp_light *spot);
-
 /* Whether the members that the light's kind names are in their ranges (light.h). */
 bool lmp_is_light(const lmp_light *light);
 bool lmp_are_lights(const lmp_light *lights, size_t count);

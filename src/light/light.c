@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/base/precondition.h"
 #include "src/light/cap.h"
+#include "src/light/packed.h"
 #include "src/sh/column.h"
 
 #include <lampion/light.h>
@@ -18,119 +19,49 @@ static lmp_vec3 opposite(lmp_vec3 v) {
     return (lmp_vec3) { -v.x, -v.y, -v.z };
 }
 
-/* --- each kind as a cap ----------------------------------------------------------------------- */
+/* --- each form as a cap ----------------------------------------------------------------------- */
 
-/* A cap of cos a = ±(1 - one_minus_cos); obtuse: all directions less the complementary cap. */
-static void set_cap(lmp_vec3 axis, bool obtuse, float sin2, float one_minus_cos, lmp_rgb radiance,
-                    lmp_cap *cap) {
-    cap->axis = obtuse ? opposite(axis) : axis;
-    cap->sin2 = sin2;
-    cap->one_minus_cos = one_minus_cos;
-    cap->strength = scaled(radiance, obtuse ? -pi * sin2 : pi * sin2);
-    cap->ambient = obtuse ? radiance : (lmp_rgb) { 0, 0, 0 };
-}
-
-static void set_sphere(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
+/* Inside a sphere: all directions less the complementary cap. */
+static void sphere_cap(const lmp_packed_light *sphere, lmp_vec3 point, lmp_cap *cap) {
     lmp_sight sight;
-    lmp_sight_sphere(light->position, light->radius, point, &sight);
-    set_cap(sight.axis, sight.inside, sight.sin2, sight.one_minus_cos, light->radiance, cap);
+    lmp_sight_sphere(sphere->at, sphere->size, point, &sight);
+    const float solid = pi * sight.sin2;
+    cap->axis = sight.inside ? opposite(sight.axis) : sight.axis;
+    cap->sin2 = sight.sin2;
+    cap->one_minus_cos = sight.one_minus_cos;
+    cap->strength = scaled(sphere->color, sight.inside ? -solid : solid);
+    cap->ambient = sight.inside ? sphere->color : (lmp_rgb) { 0, 0, 0 };
 }
 
-static void set_angle(const lmp_light *light, lmp_cap *cap) {
-    const bool obtuse = light->angle > pi / 2;
-    const float half = sinf((obtuse ? pi - light->angle : light->angle) / 2);
-    const float one_minus_cos = 2 * half * half;
-    set_cap(light->direction, obtuse, one_minus_cos * (2 - one_minus_cos), one_minus_cos,
-            light->radiance, cap);
-}
-
-lmp_kernel_cone lmp_light_cone(const lmp_light *spot) {
-    const float inner = cosf(spot->inner), outer = cosf(spot->outer);
-    return (lmp_kernel_cone) { spot->position, spot->direction, outer,
-                               fmaxf(inner - outer, 1e-3f) };
-}
-
-/* 1 inside the inner cone, 0 outside the outer one, of the direction from the light. */
-static float spot_falloff(const lmp_light *light, lmp_vec3 from_light) {
-    const lmp_kernel_cone cone = lmp_light_cone(light);
-    const lmp_vec3 d = cone.axis;
-    const float cosine = d.x * from_light.x + d.y * from_light.y + d.z * from_light.z;
-    const float position = (cosine - cone.outer) / cone.width;
-    const float held = fminf(fmaxf(position, 0), 1);
-    return held * held;
-}
-
-static void set_point(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
+static void dirac_cap(const lmp_packed_light *dirac, lmp_vec3 point, lmp_cap *cap) {
     lmp_sight sight;
-    lmp_sight_sphere(light->position, 0, point, &sight);
+    *cap = (lmp_cap) { .axis = dirac->at, .strength = dirac->color };
+    if (dirac->fixed)
+        return;
+    lmp_sight_sphere(dirac->at, 0, point, &sight);
     const float distance = fmaxf(sight.distance, LMP_POINT_DISTANCE_MIN);
     const float falloff =
-        light->kind == LMP_LIGHT_SPOT ? spot_falloff(light, opposite(sight.axis)) : 1;
+        dirac->form == LMP_FORM_CONE ? lmp_cone_falloff(dirac, opposite(sight.axis)) : 1;
     cap->axis = sight.axis;
-    cap->strength = scaled(light->intensity, falloff / (distance * distance));
+    cap->strength = scaled(dirac->color, falloff / (distance * distance));
 }
 
-static void set_hemisphere(const lmp_light *light, lmp_cap *cap) {
-    const lmp_rgb sky = light->radiance, ground = light->ground;
-    const lmp_rgb difference = { sky.r - ground.r, sky.g - ground.g, sky.b - ground.b };
-    set_cap(light->direction, false, 1, 1, difference, cap);
-    cap->ambient = ground;
-}
-
-static bool is_color(lmp_rgb color) {
-    return isfinite(color.r) && isfinite(color.g) && isfinite(color.b);
-}
-
-bool lmp_is_light(const lmp_light *light) {
-    const float inner = light->inner, outer = light->outer;
-    if (!is_color(light->radiance))
-        return false;
-    switch (light->kind) {
-    case LMP_LIGHT_SPHERE:
-        return lmp_is_point(light->position) && lmp_is_length(light->radius);
-    case LMP_LIGHT_POINT:
-        return lmp_is_point(light->position);
-    case LMP_LIGHT_SPOT:
-        return lmp_is_point(light->position) && lmp_is_unit(light->direction) && inner >= 0 &&
-               inner <= outer && outer <= pi;
-    case LMP_LIGHT_DIRECTIONAL:
-        return lmp_is_unit(light->direction);
-    case LMP_LIGHT_CAP:
-        return lmp_is_unit(light->direction) && light->angle >= 0 && light->angle <= pi;
-    case LMP_LIGHT_HEMISPHERE:
-        return lmp_is_unit(light->direction) && is_color(light->ground);
-    }
-    return false;
-}
-
-bool lmp_are_lights(const lmp_light *lights, size_t count) {
-    for (size_t i = 0; i < count; i++)
-        if (!lmp_is_light(&lights[i]))
-            return false;
-    return true;
+static void fixed_cap(const lmp_packed_light *fixed, lmp_cap *cap) {
+    const float sin2 = fixed->size * (2 - fixed->size);
+    *cap =
+        (lmp_cap) { fixed->at, sin2, fixed->size, scaled(fixed->color, pi * sin2), fixed->ambient };
 }
 
 void lmp_light_cap(const lmp_light *light, lmp_vec3 point, lmp_cap *cap) {
     assert(lmp_is_light(light) && lmp_is_point(point));
-    *cap = (lmp_cap) { .axis = light->direction };
-    switch (light->kind) {
-    case LMP_LIGHT_SPHERE:
-        set_sphere(light, point, cap);
-        break;
-    case LMP_LIGHT_POINT:
-    case LMP_LIGHT_SPOT:
-        set_point(light, point, cap);
-        break;
-    case LMP_LIGHT_DIRECTIONAL:
-        cap->strength = light->irradiance;
-        break;
-    case LMP_LIGHT_CAP:
-        set_angle(light, cap);
-        break;
-    case LMP_LIGHT_HEMISPHERE:
-        set_hemisphere(light, cap);
-        break;
-    }
+    lmp_packed_light packed;
+    lmp_light_pack(light, &packed);
+    if (packed.form == LMP_FORM_SPHERE)
+        sphere_cap(&packed, point, cap);
+    else if (packed.form == LMP_FORM_CAP)
+        fixed_cap(&packed, cap);
+    else
+        dirac_cap(&packed, point, cap);
 }
 
 /* --- coefficients ----------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 
 #include "src/kernels/batch.h"
 #include "src/light/cap.h"
+#include "src/light/packed.h"
 #include "src/sh/layout.h"
 
 #include <lampion/light.h>
@@ -22,7 +23,7 @@ typedef struct light_group {
     float center[3][LMP_LIGHT_GROUP], radius[LMP_LIGHT_GROUP], rgb[3][LMP_LIGHT_GROUP];
     unsigned at[LMP_LIGHT_GROUP];
     size_t count;
-    bool has_spots;
+    bool has_cones;
 } light_group;
 
 /* What a call is about. */
@@ -35,29 +36,26 @@ typedef struct light_call {
     size_t visibility_stride;
 } light_call;
 
-static bool has_position(const lmp_light *light) {
-    return light->kind == LMP_LIGHT_SPHERE || light->kind == LMP_LIGHT_POINT ||
-           light->kind == LMP_LIGHT_SPOT;
-}
-
 /* Takes lights from light i on, as many as find room, and returns which is the next. */
 static size_t take_group(const light_call *call, size_t i, light_group *group) {
     group->count = 0;
-    group->has_spots = false;
+    group->has_cones = false;
     for (; i < call->light_count && group->count < LMP_LIGHT_GROUP; i++) {
         const lmp_light *light = &call->lights[i];
-        if (!has_position(light))
+        lmp_packed_light packed;
+        if (lmp_light_is_fixed(light))
             continue;
+        lmp_light_pack(light, &packed);
         const size_t k = group->count++;
         group->at[k] = (unsigned)i;
-        group->center[0][k] = light->position.x;
-        group->center[1][k] = light->position.y;
-        group->center[2][k] = light->position.z;
-        group->radius[k] = light->kind == LMP_LIGHT_SPHERE ? light->radius : LMP_KERNEL_DIRAC;
-        group->rgb[0][k] = light->radiance.r;
-        group->rgb[1][k] = light->radiance.g;
-        group->rgb[2][k] = light->radiance.b;
-        group->has_spots |= light->kind == LMP_LIGHT_SPOT;
+        group->center[0][k] = packed.at.x;
+        group->center[1][k] = packed.at.y;
+        group->center[2][k] = packed.at.z;
+        group->radius[k] = packed.size;
+        group->rgb[0][k] = packed.color.r;
+        group->rgb[1][k] = packed.color.g;
+        group->rgb[2][k] = packed.color.b;
+        group->has_cones |= packed.form == LMP_FORM_CONE;
     }
     return i;
 }
@@ -73,8 +71,9 @@ static void take_factors(const light_call *call, const light_group *group,
         if (call->visibility)
             memcpy(factors[k], call->visibility + group->at[k] * call->visibility_stride + first,
                    count * sizeof *factors[k]);
-        if (light->kind == LMP_LIGHT_SPOT) {
-            const lmp_kernel_cone cone = lmp_light_cone(light);
+        if (lmp_light_form_of(light) == LMP_FORM_CONE) {
+            lmp_packed_light cone;
+            lmp_light_pack(light, &cone);
             lmp_kernels_get()->cone(&cone, points, count, factors[k]);
         }
     }
@@ -101,7 +100,7 @@ static void sum_group(const light_call *call, const light_group *group,
         .count = group->count
     };
     float factors[LMP_LIGHT_GROUP][BLOCK];
-    if (!group->has_spots && !call->visibility) {
+    if (!group->has_cones && !call->visibility) {
         sum_lights(call, &lights, points, count, adds, out);
         return;
     }
@@ -158,7 +157,7 @@ static LMP_NOINLINE void add_all_alike(const light_call *call, size_t count,
     for (size_t p = 0; p < LMP_BATCH; p++)
         ones[p] = 1;
     for (size_t i = 0; i < call->light_count; i++)
-        if (!has_position(&call->lights[i]))
+        if (lmp_light_is_fixed(&call->lights[i]))
             add_alike(call->bands, &call->lights[i],
                       call->visibility ? call->visibility + i * call->visibility_stride : ones,
                       count, out);
@@ -169,7 +168,7 @@ static LMP_NOINLINE void add_all_alike(const light_call *call, size_t count,
 static bool are_spheres(const lmp_light *lights, size_t count) {
     bool all = true;
     for (size_t i = 0; i < count; i++)
-        all &= lights[i].kind == LMP_LIGHT_SPHERE;
+        all &= lmp_light_form_of(&lights[i]) == LMP_FORM_SPHERE;
     return all;
 }
 

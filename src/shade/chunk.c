@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "src/shade/chunk.h"
 
-#include <math.h>
-
-static const float pi = 3.14159265f;
-
 /* Those without lobes are alike that are shaded from the same. */
 static bool is_alike(const lmp_surfaces *surfaces, bool preintegrated, size_t at,
                      const shade_source *source) {
@@ -102,56 +98,5 @@ void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk) {
     for (int c = 0; c < 3; c++) {
         memset(planes->accumulated[c], 0, planes->stride * sizeof(float));
         chunk->sums.diffuse[c] = planes->accumulated[c];
-    }
-}
-
-/* --- lights ----------------------------------------------------------------------------------- */
-
-static lmp_rgb scaled(lmp_rgb color, float factor) {
-    return (lmp_rgb) { color.r * factor, color.g * factor, color.b * factor };
-}
-
-/* A plane of what a spot gives to each of the chunk's points of what a point light would. */
-static void take_cone(const lmp_light *light, const shade_chunk *chunk, float *scale) {
-    lmp_light white = *light, plain;
-    white.intensity = (lmp_rgb) { 1, 1, 1 };
-    plain = white;
-    plain.kind = LMP_LIGHT_POINT;
-    for (size_t i = 0; i < chunk->count; i++) {
-        const lmp_vec3 at = lmp_batch_get(&chunk->surfaces.point, i);
-        lmp_cap cone, full;
-        lmp_light_cap(&white, at, &cone);
-        lmp_light_cap(&plain, at, &full);
-        scale[i] = cone.strength.r / full.strength.r;
-    }
-}
-
-/* What is the same cap from every point. */
-static void take_cap(const lmp_light *light, lmp_kernel_light *taken, lmp_rgb *ambient) {
-    lmp_cap cap;
-    lmp_light_cap(light, light->position, &cap);
-    ambient->r += cap.ambient.r;
-    ambient->g += cap.ambient.g;
-    ambient->b += cap.ambient.b;
-    const float sine = cap.sin2 > 0 ? sqrtf(cap.sin2) : SHADE_DIRAC_SINE;
-    *taken =
-        (lmp_kernel_light) { cap.axis.x, cap.axis.y, cap.axis.z,
-                             0,          sine,       scaled(cap.strength, 1 / (pi * sine * sine)),
-                             NULL,       0 };
-}
-
-void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, float *scale,
-                          lmp_kernel_light *taken, lmp_rgb *ambient) {
-    const float radius = SHADE_DIRAC_RADIUS;
-    if (light->kind != LMP_LIGHT_POINT && light->kind != LMP_LIGHT_SPOT) {
-        take_cap(light, taken, ambient);
-        return;
-    }
-    lmp_shade_take_sphere(light, taken);
-    taken->radius = radius;
-    taken->radiance = scaled(light->intensity, 1 / pi / radius / radius);
-    if (light->kind == LMP_LIGHT_SPOT) {
-        take_cone(light, chunk, scale);
-        taken->scale = scale;
     }
 }

@@ -3,13 +3,8 @@
 #ifndef LAMPION_SHADE_CHUNK_H
 #define LAMPION_SHADE_CHUNK_H
 
+#include "src/light/packed.h"
 #include "src/shade/planes.h"
-
-/* A Dirac is a cap this wide, or a sphere this large, of the same strength. That takes (n a)²/15
- * off its highlight, a the half angle: of the cap nothing that shows, of the sphere less than
- * rounding from a distance of 2e-3 on (shade.h). */
-#define SHADE_DIRAC_SINE   1e-5f
-#define SHADE_DIRAC_RADIUS LMP_POINT_DISTANCE_MIN
 
 /* Surfaces near each other that are shaded from the same. */
 typedef struct shade_chunk {
@@ -56,23 +51,14 @@ void lmp_shade_take_lobes(const lmp_surfaces *surfaces, int lobes, size_t first,
 /* Of the surfaces taken all that a kernel reads; nothing is accumulated yet. */
 void lmp_shade_load_chunk(const lmp_surfaces *surfaces, shade_chunk *chunk);
 
-static inline void lmp_shade_take_sphere(const lmp_light *light, lmp_kernel_light *taken) {
-    const lmp_vec3 p = light->position;
-    *taken = (lmp_kernel_light) { p.x, p.y, p.z, 1, light->radius, light->radiance, NULL, 0 };
-}
-
-/* A light of another kind. */
-void lmp_shade_take_other(const lmp_light *light, const shade_chunk *chunk, float *scale,
-                          lmp_kernel_light *taken, lmp_rgb *ambient);
-
-/* The light as one sphere or cap; `ambient` receives what it adds from every direction. scale: a
- * plane for spots. Inline, for every chunk takes every light. */
-static inline void lmp_shade_take_light(const lmp_light *light, const shade_chunk *chunk,
-                                        float *scale, lmp_kernel_light *taken, lmp_rgb *ambient) {
-    if (light->kind == LMP_LIGHT_SPHERE)
-        lmp_shade_take_sphere(light, taken);
-    else
-        lmp_shade_take_other(light, chunk, scale, taken, ambient);
+/* `ambient` receives what it adds from every direction. Inline, for every chunk takes every light.
+ */
+static inline void lmp_shade_take_light(const lmp_light *light, lmp_packed_light *taken,
+                                        lmp_rgb *ambient) {
+    lmp_light_pack(light, taken);
+    ambient->r += taken->ambient.r;
+    ambient->g += taken->ambient.g;
+    ambient->b += taken->ambient.b;
 }
 
 #endif

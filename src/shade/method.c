@@ -13,7 +13,7 @@ static void prepare_zonal(const lmp_shade_settings *settings, shade_prepared *pr
 }
 
 static void add_zonal(const shade_prepared *prepared, const shade_chunk *chunk,
-                      const lmp_kernel_light *lights, size_t count) {
+                      const lmp_packed_light *lights, size_t count) {
     lmp_kernels_get()->shade_zonal(prepared->settings->bands, prepared->window, prepared->diffuse,
                                    &chunk->surfaces, lights, count, chunk->count, &chunk->sums);
 }
@@ -71,7 +71,7 @@ static lmp_kernel_lobe_positions find_positions(const lmp_preintegrated_lobe_inf
 }
 
 static void add_preintegrated(const shade_prepared *prepared, const shade_chunk *chunk,
-                              const lmp_kernel_light *lights, size_t count) {
+                              const lmp_packed_light *lights, size_t count) {
     chunk_positions positions;
     lmp_kernel_lobe_positions specular[LMP_KERNEL_LOBES_MAX];
     const lmp_kernel_preintegrated_lobe lobe = { prepared->info.coefficients };

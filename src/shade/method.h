@@ -26,7 +26,7 @@ typedef struct shade_method {
                             size_t count);
     /* Adds what the lobes of a chunk accumulate; NULL: surface by surface. */
     void (*lobes_of_chunk)(const shade_prepared *prepared, const shade_chunk *chunk,
-                           const lmp_kernel_light *lights, size_t count);
+                           const lmp_packed_light *lights, size_t count);
     void (*prepare)(const lmp_shade_settings *settings, shade_prepared *prepared); /* or NULL */
 } shade_method;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* shade_n.c - shading many surfaces: chunks of planes, every light as a sphere or a fixed cap. */
+/* shade_n.c - shading many surfaces: chunks of planes, every light packed. */
 #include "src/light/cap.h"
 #include "src/shade/method.h"
 
@@ -15,14 +15,11 @@ static void shade_each(const lmp_shade_settings *resolved, const lmp_surfaces *s
     }
 }
 
-/* Spots that one call of a kernel takes at most: each needs a plane of its own. */
-enum { SPOTS_MAX = 4 };
-
 static_assert(sizeof(lmp_kernel_slice) == sizeof(lmp_preintegrated_brdf_slice) &&
                   offsetof(lmp_kernel_slice, unit) == offsetof(lmp_preintegrated_brdf_slice, unit),
               "the kernels' slices are those of preintegrated BRDFs");
 
-static void shade_brdf_planes(const shade_chunk *chunk, const lmp_kernel_light *lights,
+static void shade_brdf_planes(const shade_chunk *chunk, const lmp_packed_light *lights,
                               size_t count, lmp_rgb ambient) {
     const lmp_preintegrated_brdf_info info =
         lmp_preintegrated_brdf_describe(chunk->source.preintegrated);
@@ -45,18 +42,12 @@ static void shade_brdf_planes(const shade_chunk *chunk, const lmp_kernel_light *
                                                 chunk->count, chunk->sums.diffuse);
 }
 
-/* Takes lights until one more would be too many; returns how many. */
-static size_t take_lights(const lmp_light *lights, size_t count, const shade_chunk *chunk,
-                          float (*scales)[SHADE_SURFACES_MAX], lmp_kernel_light *taken,
+/* Takes as many lights as a kernel does; returns how many. */
+static size_t take_lights(const lmp_light *lights, size_t count, lmp_packed_light *taken,
                           lmp_rgb *ambient) {
-    size_t n = 0, spots = 0;
-    for (; n < count && n < LMP_KERNEL_LIGHTS_MAX; n++) {
-        const bool spot = lights[n].kind == LMP_LIGHT_SPOT;
-        if (spot && spots == SPOTS_MAX)
-            break;
-        lmp_shade_take_light(&lights[n], chunk, scales[spots], &taken[n], ambient);
-        spots += spot;
-    }
+    size_t n = 0;
+    for (; n < count && n < LMP_KERNEL_LIGHTS_MAX; n++)
+        lmp_shade_take_light(&lights[n], &taken[n], ambient);
     return n;
 }
 
@@ -64,12 +55,11 @@ static size_t take_lights(const lmp_light *lights, size_t count, const shade_chu
 static void shade_by_kernels(const shade_prepared *prepared, const lmp_surfaces *surfaces,
                              shade_chunk *chunk, const lmp_light *lights, size_t light_count,
                              size_t stride, float *rgb) {
-    float scales[SPOTS_MAX + 1][SHADE_SURFACES_MAX] __attribute__((aligned(64)));
     lmp_shade_load_chunk(surfaces, chunk);
     for (size_t light = 0, taken; light < light_count; light += taken) {
-        lmp_kernel_light some[LMP_KERNEL_LIGHTS_MAX];
+        lmp_packed_light some[LMP_KERNEL_LIGHTS_MAX];
         lmp_rgb ambient = { 0, 0, 0 };
-        taken = take_lights(lights + light, light_count - light, chunk, scales, some, &ambient);
+        taken = take_lights(lights + light, light_count - light, some, &ambient);
         if (chunk->source.preintegrated)
             shade_brdf_planes(chunk, some, taken, ambient);
         else

@@ -28,6 +28,15 @@ has include/lampion/light.h lmp_light_kind
 for file in $(git grep -l 'case LMP_LIGHT_' -- src app); do
     grep -q "$file" $document || fail "$document does not name $file, which has a case for kinds of light"
 done
+# And few files know kinds of light at all: all others know the forms they are packed to.
+named() {
+    git grep -lwE 'LMP_LIGHT_(SPHERE|POINT|SPOT|DIRECTIONAL|CAP|HEMISPHERE)' -- "$@"
+}
+files=$(named 'src/*.c' 'app/*.c')
+[ "$(echo "$files" | wc -l)" -le 8 ] || fail "more than 8 .c files name kinds of light:" $files
+[ -n "$(named 'tests/oracle/kinds.h')" ] || fail "a name of a kind of light would go unseen"
+kinds=$(sed -n '/^typedef enum lmp_light_kind/,/}/p' include/lampion/light.h | grep -c '^ *LMP_LIGHT_')
+[ "$kinds" -eq 6 ] || fail "a kind of light is not looked for"
 has app/method/method.h method_kind
 has app/method/method.c BANDS
 has include/lampion/shade.h lmp_shade_method

@@ -252,6 +252,36 @@ static void every_kind_of_light_agrees_with_lmp_shade(void **state) {
     with_balls(check_kinds);
 }
 
+/* So close to surfaces that a sphere in the place of a point would be seen as one. */
+static void check_close_points(scene *world, gpu_renderer *renderer) {
+    render_frame frame = frame_of(world, WIDTH, HEIGHT);
+    frame.bands = 20;
+    render_pixel *pixels = render_pixels(renderer, &frame);
+    size_t count = 0;
+    for (size_t i = 0; i < PIXELS && count < 8; i += PIXELS / 16)
+        if (pixels[i].kind == RENDER_SURFACE) {
+            const lmp_vec3 at = pixels[i].surface.position, n = pixels[i].surface.normal;
+            const lmp_vec3 near = { at.x + 3e-5f * n.x, at.y + 3e-5f * n.y, at.z + 3e-5f * n.z };
+            world->lights[count] =
+                (scene_light) { .emitter = { .kind = count % 2 ? LMP_LIGHT_SPOT : LMP_LIGHT_POINT,
+                                             .position = near,
+                                             .direction = { -n.x, -n.y, -n.z },
+                                             .inner = 1,
+                                             .outer = 1.5f,
+                                             .intensity = { 3e-5f, 2e-5f, 1e-5f } } };
+            count++;
+        }
+    assert_true(count >= 4);
+    free(pixels);
+    frame.light_count = count;
+    check_with("close points", renderer, frame);
+}
+
+static void points_close_to_surfaces_agree_with_lmp_shade(void **state) {
+    (void)state;
+    with_balls(check_close_points);
+}
+
 /* More than a uniform block of 64 KB holds. */
 enum { CROWD = 1500 };
 
@@ -327,6 +357,7 @@ int main(int count, char **arguments) {
         cmocka_unit_test(lights_that_hold_or_touch_surfaces_agree_with_lmp_shade),
         cmocka_unit_test(a_light_a_million_radii_away_agrees_with_lmp_shade),
         cmocka_unit_test(every_kind_of_light_agrees_with_lmp_shade),
+        cmocka_unit_test(points_close_to_surfaces_agree_with_lmp_shade),
         cmocka_unit_test(no_lights_and_a_crowd_agree_with_lmp_shade),
         cmocka_unit_test(windows_agree_with_lmp_shade),
         cmocka_unit_test(methods_give_the_same_bytes_to_one_level),

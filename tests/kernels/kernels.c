@@ -210,7 +210,7 @@ static void wrong_add(const float *sh, size_t first, size_t values, const float 
     honest.add(sh, first, values, factors, count, out);
     spoil(out);
 }
-static void wrong_cone(const lmp_kernel_cone *cone, const lmp_kernel_vec3 *points, size_t count,
+static void wrong_cone(const lmp_packed_light *cone, const lmp_kernel_vec3 *points, size_t count,
                        float *factors) {
     honest.cone(cone, points, count, factors);
     spoil(&(lmp_kernel_out) { factors, 1, 0 });
@@ -282,7 +282,7 @@ static void long_project(int bands, const lmp_kernel_pairs *pairs, size_t count,
 }
 
 static void wrong_shade_zonal(int bands, const float *window, const float *diffuse,
-                              const lmp_kernel_surfaces *surfaces, const lmp_kernel_light *lights,
+                              const lmp_kernel_surfaces *surfaces, const lmp_packed_light *lights,
                               size_t light_count, size_t count,
                               const lmp_kernel_accumulated *accumulated) {
     honest.shade_zonal(bands, window, diffuse, surfaces, lights, light_count, count, accumulated);
@@ -292,7 +292,7 @@ static void wrong_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *
                                            const lmp_kernel_lobe_positions *diffuse,
                                            const lmp_kernel_lobe_positions *specular,
                                            const lmp_kernel_surfaces *surfaces,
-                                           const lmp_kernel_light *lights, size_t light_count,
+                                           const lmp_packed_light *lights, size_t light_count,
                                            size_t count,
                                            const lmp_kernel_accumulated *accumulated) {
     honest.shade_preintegrated_lobe(lobe, diffuse, specular, surfaces, lights, light_count, count,
@@ -301,14 +301,14 @@ static void wrong_shade_preintegrated_lobe(const lmp_kernel_preintegrated_lobe *
 }
 static void wrong_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
                                            const lmp_kernel_surfaces *surfaces,
-                                           const lmp_kernel_light *lights, size_t light_count,
+                                           const lmp_packed_light *lights, size_t light_count,
                                            lmp_rgb ambient, size_t count, float *const rgb[3]) {
     honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
     spoil_accumulated(&(lmp_kernel_accumulated) { .diffuse = { rgb[0], rgb[1], rgb[2] } });
 }
 static void long_shade_preintegrated_brdf(const lmp_kernel_preintegrated_brdf *material,
                                           const lmp_kernel_surfaces *surfaces,
-                                          const lmp_kernel_light *lights, size_t light_count,
+                                          const lmp_packed_light *lights, size_t light_count,
                                           lmp_rgb ambient, size_t count, float *const rgb[3]) {
     honest.shade_preintegrated_brdf(material, surfaces, lights, light_count, ambient, count, rgb);
     rgb[2][-1] = 0;

@@ -99,7 +99,7 @@ static void cones_match_double_precision(void **test) {
     lmp_kernels best;
     lmp_kernels_init(&best, LMP_CPU_ALL);
     inputs *in = inputs_create(drawn_seed());
-    const lmp_kernel_cone cone = cone_of(in);
+    const lmp_packed_light cone = cone_of(in);
     const double axis[3] = { (double)cone.axis.x, (double)cone.axis.y, (double)cone.axis.z };
     float *actual = results(&best, CONE, 1, in, COUNT, 0);
     for (int i = 0; i < COUNT; i++) {

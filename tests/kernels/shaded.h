@@ -45,30 +45,46 @@ static void see(const shading *s, int i, seen *surface) {
 typedef struct seen_light {
     double center[3], point[3], radius; /* for oracle_sphere */
     double axis[3], t;                  /* 1 - cos a */
-    double scale;                       /* of its radiance */
+    double solid_angle;                 /* of the cap; of a Dirac, what makes it as strong */
+    double rounded;                     /* how large what is rounded is: of a cone, all of it */
     double alpha2;                      /* cos² a */
-    bool inside, nothing;
+    bool inside, nothing, dirac;
 } seen_light;
 
-static void see_light(const shading *s, const seen *surface, int light, int i, seen_light *to) {
-    const lmp_kernel_light *l = &s->lights[light];
-    const double center[3] = { (double)l->x, (double)l->y, (double)l->z };
+/* What of a Dirac comes in a direction. */
+static double falloff_of(const lmp_packed_light *l, const double axis[3]) {
+    if (l->form != LMP_FORM_CONE)
+        return 1;
+    const double cosine =
+        -(axis[0] * (double)l->axis.x + axis[1] * (double)l->axis.y + axis[2] * (double)l->axis.z);
+    return pow(fmin(fmax((cosine - (double)l->outer) / (double)l->width, 0), 1), 2);
+}
+
+static void see_light(const shading *s, const seen *surface, int light, seen_light *to) {
+    const lmp_packed_light *l = &s->lights[light];
+    const double center[3] = { (double)l->at.x, (double)l->at.y, (double)l->at.z };
     double v[3];
     for (int k = 0; k < 3; k++) {
         to->center[k] = center[k];
-        to->point[k] = l->w > 0 ? surface->point[k] : 0;
+        to->point[k] = l->fixed ? 0 : surface->point[k];
         v[k] = center[k] - to->point[k];
     }
-    const double r = (double)l->radius, d2 = dot3(v, v), d = sqrt(d2);
+    const double size = (double)l->size, d2 = dot3(v, v), d = sqrt(d2);
+    const bool cap = l->form == LMP_FORM_CAP;
+    to->dirac = l->form == LMP_FORM_DIRAC || l->form == LMP_FORM_CONE;
+    const double r = to->dirac ? 0 : cap ? sqrt(size * (2 - size) * d2) : size;
     to->radius = r;
-    to->scale = l->scale ? (double)l->scale[i] : 1;
     to->inside = d < r;
-    to->nothing = d2 == 0 && r == 0;
-    const double sine2 = to->nothing ? 0 : to->inside ? d2 / (r * r) : r * r / d2;
-    to->alpha2 = 1 - sine2;
-    to->t = sine2 / (1 + sqrt(1 - sine2));
+    to->nothing = d2 == 0 && r == 0 && !to->dirac;
+    const double sine2 = d2 == 0 && r == 0 ? 0 : to->inside ? d2 / (r * r) : r * r / d2;
+    to->alpha2 = cap ? 1 : 1 - sine2; /* whose cosine is given */
+    to->t = cap ? size : sine2 / (1 + sqrt(1 - sine2));
     for (int k = 0; k < 3; k++)
         to->axis[k] = d2 > 0 ? (to->inside ? -v[k] : v[k]) / d : k == 2;
+    const double least = (double)LMP_DIRAC_DISTANCE_MIN;
+    const double strength = l->fixed ? 1 : 1 / fmax(d2, least * least);
+    to->solid_angle = to->dirac ? strength * falloff_of(l, to->axis) : 2 * ORACLE_PI * to->t;
+    to->rounded = to->dirac ? fmax(strength, 1) : 1;
 }
 
 /* What is expected of an element, and how far rounding may take it. */
@@ -76,11 +92,21 @@ typedef struct shaded {
     double values[3 + 3 * LMP_KERNEL_LOBES_MAX], bound;
 } shaded;
 
-static void shaded_add(shaded *sum, int first, lmp_rgb rgb, double scale,
-                       const double response[3]) {
-    sum->values[first] += (double)rgb.r * scale * response[0];
-    sum->values[first + 1] += (double)rgb.g * scale * response[1];
-    sum->values[first + 2] += (double)rgb.b * scale * response[2];
+static void shaded_add(shaded *sum, int first, lmp_rgb rgb, const double response[3]) {
+    sum->values[first] += (double)rgb.r * response[0];
+    sum->values[first + 1] += (double)rgb.g * response[1];
+    sum->values[first + 2] += (double)rgb.b * response[2];
+}
+
+/* The coefficients of a light of color 1. */
+static void light_sh(int bands, const seen_light *one, double *sh) {
+    if (!one->dirac) {
+        oracle_sphere(bands, one->center, one->radius, one->point, sh, NULL);
+        return;
+    }
+    oracle_sh_eval(bands, one->axis, sh);
+    for (size_t j = 0; j < LMP_SH_COUNT(bands); j++)
+        sh[j] *= one->solid_angle;
 }
 
 /* A lobe's response from its definition, Σ lambda_l L_lm Y_lm(axis). */
@@ -122,16 +148,17 @@ static void expect_zonal(const shading *s, int i, shaded *to) {
     *to = (shaded) { { 0 }, 0 };
     for (int light = 0; light < SHADE_LIGHTS; light++) {
         seen_light one;
-        see_light(s, &surface, light, i, &one);
+        see_light(s, &surface, light, &one);
         if (one.nothing)
             continue;
-        oracle_sphere(s->bands, one.center, one.radius, one.point, sh, NULL);
+        light_sh(s->bands, &one, sh);
         for (int lobe = 0; lobe <= s->lobes; lobe++) {
             const double value = lobe_of(s->bands, lambda[lobe], sh, around[lobe]);
-            shaded_add(to, 3 * lobe, s->lights[light].radiance, one.scale,
-                       (double[3]) { value, value, value });
+            shaded_add(to, 3 * lobe, s->lights[light].color, (double[3]) { value, value, value });
         }
         to->bound += 4e-7 + (1e-9 + 0.05 * surface_bound(one.alpha2)) * size;
+        if (one.dirac) /* no band of it is damped: what shade.h says of a peak */
+            to->bound += one.rounded * size / (4 * ORACLE_PI) * (3e-6 + 2e-7 * s->bands * s->bands);
     }
 }
 
@@ -166,14 +193,14 @@ static double read_lobe(const shading *s, uint32_t first, uint32_t columns, cons
 }
 
 /* Of ambient light less the mean, or the mean, times the cap's solid angle. */
-static void add_mean(const seen_light *one, const lmp_kernel_light *light, int first,
+static void add_mean(const seen_light *one, const lmp_packed_light *light, int first,
                      const double mean[3], const double ambient[3], shaded *to) {
     double value[3];
     for (int c = 0; c < 3; c++) {
-        const double covered = 2 * ORACLE_PI * one->t * mean[c];
+        const double covered = one->solid_angle * mean[c];
         value[c] = one->inside ? ambient[c] - covered : covered;
     }
-    shaded_add(to, first, light->radiance, one->scale, value);
+    shaded_add(to, first, light->color, value);
 }
 
 static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
@@ -182,7 +209,7 @@ static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
     *to = (shaded) { { 0 }, 0 };
     for (int light = 0; light < SHADE_LIGHTS; light++) {
         seen_light one;
-        see_light(s, &surface, light, i, &one);
+        see_light(s, &surface, light, &one);
         if (one.nothing)
             continue;
         for (int lobe = 0; lobe <= s->lobes; lobe++) {
@@ -198,8 +225,8 @@ static void expect_preintegrated_lobe(const shading *s, int i, shaded *to) {
                      (double[3]) { 1, 1, 1 }, to);
             /* acos near 1 has half of the digits, where the response is flat */
             const double density = (double)position[1];
-            to->bound += one.scale * (WHOLE + STEEPEST * density * surface_bound(one.alpha2) +
-                                      STEEPEST * density * density * 1e-7);
+            to->bound += one.rounded * (WHOLE + STEEPEST * density * surface_bound(one.alpha2) +
+                                        STEEPEST * density * density * 1e-7);
         }
     }
 }
@@ -303,16 +330,16 @@ static void expect_preintegrated_brdf(const shading *s, int i, shaded *to) {
         (1 - later) * (double)color[0].b + later * (double)color[1].b,
     };
     *to = (shaded) { { 0 }, 1e-6 };
-    shaded_add(to, 0, s->ambient, 1, all);
+    shaded_add(to, 0, s->ambient, all);
     for (int light = 0; light < SHADE_LIGHTS; light++) {
         seen_light one;
         double mean[3];
-        see_light(s, &surface, light, i, &one);
+        see_light(s, &surface, light, &one);
         if (one.nothing)
             continue;
         read_brdf(s, &one, frame, view, later, mean);
         add_mean(&one, &s->lights[light], 0, mean, all, to);
-        to->bound += one.scale * (WHOLE + STEEPEST * surface_bound(one.alpha2));
+        to->bound += one.rounded * (WHOLE + STEEPEST * surface_bound(one.alpha2));
     }
 }
 

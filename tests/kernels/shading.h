@@ -19,9 +19,8 @@ typedef struct shading {
     int bands, lobes; /* of Phong's */
     _Alignas(64) float axis[LMP_KERNEL_LOBES_MAX][3][COUNT + 16];
     _Alignas(64) float exponent[LMP_KERNEL_LOBES_MAX][COUNT + 16];
-    lmp_kernel_light lights[SHADE_LIGHTS];
+    lmp_packed_light lights[SHADE_LIGHTS];
     lmp_rgb ambient;
-    _Alignas(64) float scale[2][COUNT + 16];
     float window[LMP_BANDS_MAX], diffuse[LMP_BANDS_MAX];
     lmp_kernel_in sh; /* of the light at each surface */
 
@@ -42,33 +41,29 @@ typedef struct shading {
     lmp_kernel_preintegrated_brdf brdf;
 } shading;
 
-/* Spheres, of which point i sees number i in the way of special[i]; caps alike from every point;
- * and spheres with a factor for each point. */
+/* Spheres, of which point i sees number i in the way of special[i]; a direction and a cap alike
+ * from every point; and a Dirac and a cone, which point 2 sees in its way. */
 static void make_lights(shading *s) {
     const inputs *in = s->in;
     static const int element[] = { 0, 1, 2, 3, 4, 5, 6, 20, 21, 30, 2 };
     for (int i = 0; i < SHADE_LIGHTS; i++) {
         const int e = element[i];
-        s->lights[i] =
-            (lmp_kernel_light) { .x = in->center[0][e],
-                                 .y = in->center[1][e],
-                                 .z = in->center[2][e],
-                                 .w = 1,
-                                 .radius = in->radius[e],
-                                 .radiance = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] } };
-        if (i == 7 || i == 8) {
-            s->lights[i].x = in->axis[0][e];
-            s->lights[i].y = in->axis[1][e];
-            s->lights[i].z = in->axis[2][e];
-            s->lights[i].w = 0;
-            s->lights[i].radius = i == 7 ? 1e-5f : 0.9f;
+        lmp_packed_light *light = &s->lights[i];
+        *light =
+            (lmp_packed_light) { .form = LMP_FORM_SPHERE,
+                                 .at = { in->center[0][e], in->center[1][e], in->center[2][e] },
+                                 .size = in->radius[e],
+                                 .color = { in->rgb[0][i], in->rgb[1][i], in->rgb[2][i] },
+                                 .axis = { 0.36f, -0.48f, 0.8f },
+                                 .outer = -0.75f,
+                                 .width = 1.5f };
+        light->fixed = i == 7 || i == 8;
+        if (light->fixed)
+            light->at = (lmp_vec3) { in->axis[0][e], in->axis[1][e], in->axis[2][e] };
+        if (i >= 7) {
+            light->form = i == 8 ? LMP_FORM_CAP : i == 10 ? LMP_FORM_CONE : LMP_FORM_DIRAC;
+            light->size = i == 8 ? 0.5625f : LMP_DIRAC;
         }
-        if (i > 8)
-            s->lights[i].scale = s->scale[i - 9];
-    }
-    for (int i = 0; i < COUNT + 16; i++) {
-        s->scale[0][i] = 1 + grid(1.0f / 1024);
-        s->scale[1][i] = 1 + grid(1.0f / 1024);
     }
     s->ambient = (lmp_rgb) { 0.5f, 0.25f, 1 };
 }

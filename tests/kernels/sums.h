@@ -23,7 +23,7 @@ static lmp_kernel_lights lights_of(const inputs *in) {
 static lmp_kernel_lights diracs_of(const inputs *in, float radius[LIGHTS]) {
     lmp_kernel_lights lights = lights_of(in);
     for (int i = 0; i < LIGHTS; i++)
-        radius[i] = i % 2 ? LMP_KERNEL_DIRAC : in->radius[i];
+        radius[i] = i % 2 ? LMP_DIRAC : in->radius[i];
     lights.radius.at = radius;
     return lights;
 }
@@ -75,18 +75,20 @@ static void run_add(const lmp_kernels *k, int bands, const inputs *in, size_t co
 }
 
 /* At the first point. */
-static lmp_kernel_cone cone_of(const inputs *in) {
-    return (lmp_kernel_cone) { { in->point[0][0], in->point[1][0], in->point[2][0] },
-                               { 0.36f, -0.48f, 0.8f },
-                               -0.25f,
-                               0.75f };
+static lmp_packed_light cone_of(const inputs *in) {
+    return (lmp_packed_light) { .form = LMP_FORM_CONE,
+                                .at = { in->point[0][0], in->point[1][0], in->point[2][0] },
+                                .size = LMP_DIRAC,
+                                .axis = { 0.36f, -0.48f, 0.8f },
+                                .outer = -0.25f,
+                                .width = 0.75f };
 }
 
 /* Of the elements' distances. */
 static void run_cone(const lmp_kernels *k, const inputs *in, size_t count,
                      const lmp_kernel_out *out) {
     const lmp_kernel_vec3 point = { in->point[0], in->point[1], in->point[2] };
-    const lmp_kernel_cone cone = cone_of(in);
+    const lmp_packed_light cone = cone_of(in);
     _Alignas(64) float factors[COUNT + 16];
     memcpy(factors, in->distance, sizeof factors);
     k->cone(&cone, &point, count, factors);

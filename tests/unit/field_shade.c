@@ -94,10 +94,44 @@ static void lights_that_are_no_spheres_are_summed_exactly(void **test) {
     const lmp_shade_settings settings = { .bands = 5 };
     double worst, rms;
     shade_both(&settings, NULL, others, 10, &worst, &rms);
-    CHECK_WITHIN(worst, 5e-4); /* of skies, as shade.h says of lmp_shade_n */
+    CHECK_WITHIN(worst, 1e-5);
 }
 
-static void points_are_interpolated_as_small_spheres(void **test) {
+/* So near that a sphere in a point's place would be seen as one, however small. */
+static void points_are_points_close_by(void **test) {
+    (void)test;
+    enum { FEW = 10 };
+    scatter();
+    for (int i = 0; i < FEW; i++) {
+        lights[i].kind = LMP_LIGHT_POINT;
+        lights[i].position = field_point(0.5, 1.5);
+        lights[i].intensity = (lmp_rgb) { 1, 0.5f, 0.25f };
+    }
+    for (int i = 0; i < COUNT; i++) {
+        const lmp_vec3 w = check_random_direction(), at = lights[i % FEW].position;
+        position[i] = (lmp_vec3) { at.x + 1e-5f * w.x, at.y + 1e-5f * w.y, at.z + 1e-5f * w.z };
+        materials[i].kind = LMP_MATERIAL_LOBES;
+        materials[i].exponent = 500;
+        normal[i] = view[i] = (lmp_vec3) { -w.x, -w.y, -w.z }; /* the highlight in the middle */
+    }
+    const lmp_shade_settings settings = { .bands = 10 };
+    const lmp_field_desc desc = { .bands = 10 };
+    lmp_field *field = field_of(&desc, lights, FEW);
+    lmp_rgb rgb[COUNT], exact[COUNT];
+    double worst, rms;
+    for (int i = 0; i < COUNT; i++) {
+        const lmp_surface surface = { .position = position[i],
+                                      .normal = normal[i],
+                                      .view = view[i] };
+        exact[i] = lmp_shade(&settings, &materials[i], &surface, lights, FEW);
+    }
+    lmp_field_shade_n(&settings, field, &surfaces, COUNT, 0, &rgb->r);
+    compare(rgb, exact, &worst, &rms);
+    CHECK_WITHIN(worst, 1e-4);
+    lmp_field_destroy(field);
+}
+
+static void points_are_interpolated(void **test) {
     (void)test;
     scatter();
     for (int i = 0; i < LIGHTS; i++) {
@@ -151,7 +185,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(surfaces_reflect_as_under_all_lights),
         cmocka_unit_test(lights_that_are_no_spheres_are_summed_exactly),
-        cmocka_unit_test(points_are_interpolated_as_small_spheres),
+        cmocka_unit_test(points_are_interpolated),
+        cmocka_unit_test(points_are_points_close_by),
         cmocka_unit_test(tables_reflect_as_under_all_lights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

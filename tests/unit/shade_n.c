@@ -162,7 +162,8 @@ static void add_bounds(const lmp_shade_settings *settings, const vertex *v, cons
     moved.direction = across(s->normal, s->view);
     const lmp_rgb specular = lmp_shade(settings, &specular_only, s, &moved, 1);
     const lmp_rgb d = v->material.diffuse, e = v->material.specular;
-    const double bound = cap.one_minus_cos > 0.95f ? 5e-4 : 3e-6 + 2e-7 * n * n;
+    const bool touches = light->kind == LMP_LIGHT_SPHERE && cap.one_minus_cos > 0.95f;
+    const double bound = touches ? 5e-4 : 3e-6 + 2e-7 * n * n;
     sum[0] += bound * (double)(diffuse.r + specular.r + (d.r + e.r) * cap.ambient.r);
     sum[1] += bound * (double)(diffuse.g + specular.g + (d.g + e.g) * cap.ambient.g);
     sum[2] += bound * (double)(diffuse.b + specular.b + (d.b + e.b) * cap.ambient.b);
@@ -210,29 +211,66 @@ static void many_surfaces_are_shaded_as_one_is(void **state) {
     }
 }
 
-/* As far and as near as shade.h says. */
-static void point_lights_near_and_far_are_points(void **state) {
+/* A light without size, at a distance d where there is one, that gives the strength to surfaces at
+ * the origin; of a spot all comes. */
+static lmp_light dirac_of(lmp_light_kind kind, float d, float strength) {
+    const lmp_vec3 w = check_random_direction();
+    const float held = kind == LMP_LIGHT_DIRECTIONAL ? 1 : fmaxf(d, LMP_POINT_DISTANCE_MIN);
+    const float each = strength * held * held;
+    return (lmp_light) { .kind = kind,
+                         .position = { d * w.x, d * w.y, d * w.z },
+                         .direction = kind == LMP_LIGHT_SPOT ? (lmp_vec3) { -w.x, -w.y, -w.z } : w,
+                         .inner = 1,
+                         .outer = 1.5f,
+                         .intensity = { each, each, each } };
+}
+
+static void lights_without_size_are_so_at_any_distance_and_strength(void **state) {
     (void)state;
     static float rgb[COUNT * 3];
     const lmp_surfaces surfaces = interleaved();
-    const float distances[] = { 2e-3f, 1, 1e6f, 1e13f };
+    const float distances[] = { 1e-7f, 1e-5f, 1e-3f, 1, 1e6f, 1e15f };
     const int bands[] = { 1, 10, 20, 128 };
     scatter(false);
     for (int i = 0; i < COUNT; i++) {
         vertices[i].surface.position = (lmp_vec3) { 0, 0, 0 };
         vertices[i].material.exponent = 1e4f;
     }
-    for (int k = 0; k < 16; k++) {
-        const float d = distances[k / 4];
-        const lmp_vec3 w = check_random_direction();
-        const lmp_light light = { .kind = LMP_LIGHT_POINT,
-                                  .position = { d * w.x, d * w.y, d * w.z },
-                                  .intensity = { d * d, d * d, d * d } };
+    for (int k = 0; k < 72; k++) {
+        const float d = distances[k / 4 % 6], strength = d < 1e6f ? 1e30f : 1e5f;
+        const lmp_light light = dirac_of((lmp_light_kind)(LMP_LIGHT_POINT + k / 24), d, strength);
         const lmp_shade_settings settings = { .bands = bands[k % 4] };
         face_highlight(&light, 4.0f / (float)bands[k % 4]);
         lmp_shade_n(&settings, &surfaces, COUNT, &light, 1, 0, rgb);
         CHECK_WITHIN(fraction_of_bound(&settings, &light, 1, rgb, 3), 1);
     }
+}
+
+static void lights_without_size_are_read_from_a_preintegrated_lobe_as_they_are(void **state) {
+    (void)state;
+    static float rgb[COUNT * 3];
+    const lmp_surfaces surfaces = interleaved();
+    const float distances[] = { 1e-7f, 1e-5f, 1, 1e15f };
+    const lmp_preintegrated_lobe_desc desc = { .bands = 20 };
+    const lmp_shade_settings settings = { .bands = desc.bands };
+    lmp_preintegrated_lobe *lobe;
+    assert_int_equal(lmp_preintegrated_lobe_create(NULL, &desc, &lobe), LMP_OK);
+    const lmp_shade_settings readings = by_readings(lobe);
+    scatter(false);
+    for (int i = 0; i < COUNT; i++)
+        vertices[i].surface.position = (lmp_vec3) { 0, 0, 0 };
+    for (int k = 0; k < 12; k++) {
+        lights[0] = dirac_of((lmp_light_kind)(LMP_LIGHT_POINT + k / 4), distances[k % 4], 1);
+        for (int i = 1; i < LIGHTS; i++) {
+            lights[i] = lights[0];
+            lights[i].intensity = (lmp_rgb) { 0, 0, 0 };
+        }
+        face_highlight(&lights[0], 0.3f);
+        lmp_shade_n(&readings, &surfaces, COUNT, lights, LIGHTS, 0, rgb);
+        CHECK_WITHIN(difference(rgb, 3, by_lobe_table, lobe), 1e-4);
+        CHECK_WITHIN(difference(rgb, 3, by_bands, &settings), 2e-2);
+    }
+    lmp_preintegrated_lobe_destroy(lobe);
 }
 
 static void many_surfaces_are_read_from_a_preintegrated_lobe_as_one_is(void **state) {
@@ -399,7 +437,8 @@ static void not_a_number_stays_with_its_surface(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(many_surfaces_are_shaded_as_one_is),
-        cmocka_unit_test(point_lights_near_and_far_are_points),
+        cmocka_unit_test(lights_without_size_are_so_at_any_distance_and_strength),
+        cmocka_unit_test(lights_without_size_are_read_from_a_preintegrated_lobe_as_they_are),
         cmocka_unit_test(many_surfaces_are_read_from_a_preintegrated_lobe_as_one_is),
         cmocka_unit_test(both_kinds_of_lobes_are_shaded_side_by_side),
         cmocka_unit_test(every_instruction_set_gives_the_same_bits),

@@ -198,9 +198,7 @@ void shadow_points_set(const shadow_view *view, const render_tile *row, const in
 
 static void reflect_series(const shadow_points *p, const shadow_vectors *directions, int lane,
                            shadow_vectors *k) {
-    const lmp_light light = { .kind = LMP_LIGHT_DIRECTIONAL,
-                              .direction = shadow_lane(directions, lane),
-                              .irradiance = { 1, 1, 1 } };
+    const lmp_light light = scene_light_from(shadow_lane(directions, lane));
     const lmp_surface surface = { .position = shadow_lane(&p->position, lane),
                                   .normal = shadow_lane(&p->normal, lane),
                                   .view = shadow_lane(&p->view, lane),

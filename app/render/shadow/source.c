@@ -6,43 +6,47 @@
 
 /* --- the sources ------------------------------------------------------------------------------ */
 
-static shadow_source source_of(shadow_kind kind, const lmp_light *light, lmp_rgb color) {
+static shadow_source source_of(shadow_kind kind, lmp_rgb color) {
     return (shadow_source) { .kind = kind,
-                             .light = light,
                              .color = color,
                              .brightness = (color.r + color.g + color.b) / 3 };
 }
 
-static shadow_source far_source(const lmp_light *light, lmp_vec3 axis, float one_minus_cos,
-                                lmp_rgb color) {
-    shadow_source source = source_of(SHADOW_FAR, light, color);
+static shadow_source near_source(const lmp_packed_light *light) {
+    const bool sphere = light->form == LMP_FORM_SPHERE;
+    shadow_source source = source_of(sphere ? SHADOW_SPHERE : SHADOW_POINT, light->color);
+    source.light = *light;
+    return source;
+}
+
+static shadow_source far_source(lmp_vec3 axis, float one_minus_cos, lmp_rgb color) {
+    shadow_source source = source_of(SHADOW_FAR, color);
     source.axis = axis;
     source.one_minus_cos = one_minus_cos;
     return source;
 }
 
+/* What shines in the cap, and around it. */
+static size_t add_cap(const lmp_packed_light *cap, shadow_source *sources) {
+    const lmp_rgb far = cap->ambient,
+                  near = { cap->color.r + far.r, cap->color.g + far.g, cap->color.b + far.b };
+    const shadow_source inside = far_source(cap->at, cap->size, near);
+    const shadow_source outside = far_source(vec_scale(cap->at, -1), 2 - cap->size, far);
+    size_t count = 0;
+    if (inside.brightness > 0 || !(outside.brightness > 0))
+        sources[count++] = inside;
+    if (outside.brightness > 0)
+        sources[count++] = outside;
+    return count;
+}
+
 static size_t add_light(const lmp_light *light, shadow_source *sources) {
-    const float half = sinf(light->angle / 2);
-    switch (light->kind) {
-    case LMP_LIGHT_SPHERE:
-        sources[0] = source_of(SHADOW_SPHERE, light, light->radiance);
-        return 1;
-    case LMP_LIGHT_POINT:
-    case LMP_LIGHT_SPOT:
-        sources[0] = source_of(SHADOW_POINT, light, light->intensity);
-        return 1;
-    case LMP_LIGHT_DIRECTIONAL:
-        sources[0] = far_source(light, light->direction, 0, light->irradiance);
-        return 1;
-    case LMP_LIGHT_CAP:
-        sources[0] = far_source(light, light->direction, 2 * half * half, light->radiance);
-        return 1;
-    case LMP_LIGHT_HEMISPHERE:
-        sources[0] = far_source(light, light->direction, 1, light->radiance);
-        sources[1] = far_source(light, vec_scale(light->direction, -1), 1, light->ground);
-        return 2;
-    }
-    return 0;
+    lmp_packed_light packed;
+    lmp_light_pack(light, &packed);
+    if (packed.form == LMP_FORM_CAP)
+        return add_cap(&packed, sources);
+    sources[0] = packed.fixed ? far_source(packed.at, 0, packed.color) : near_source(&packed);
+    return 1;
 }
 
 size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow_around *around,
@@ -51,7 +55,7 @@ size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow
     for (size_t i = 0; i < count; i++)
         made += add_light(&lights[i].emitter, sources + made);
     if (around) {
-        sources[made] = source_of(SHADOW_AROUND, NULL, around->mean);
+        sources[made] = source_of(SHADOW_AROUND, around->mean);
         sources[made++].around = around;
     }
     return made;
@@ -59,14 +63,8 @@ size_t shadow_sources_make(const scene_light *lights, size_t count, const shadow
 
 /* --- from a point ----------------------------------------------------------------------------- */
 
-/* As of KHR_lights_punctual, whose difference of cosines is held to 1e-3. */
-static float spot_falloff(const lmp_light *light, lmp_vec3 axis) {
-    if (light->kind != LMP_LIGHT_SPOT)
-        return 1;
-    const float outer = cosf(light->outer), inner = cosf(light->inner);
-    const float cosine = -vec_dot(light->direction, axis);
-    const float t = fminf(fmaxf((cosine - outer) / fmaxf(inner - outer, 1e-3f), 0), 1);
-    return t * t;
+static float falloff_of(const lmp_packed_light *light, lmp_vec3 axis) {
+    return light->form == LMP_FORM_CONE ? lmp_cone_falloff(light, vec_scale(axis, -1)) : 1;
 }
 
 static float sine_of(float one_minus_cos) {
@@ -85,9 +83,8 @@ typedef struct cap_lanes {
 } cap_lanes;
 
 static void see_sphere(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
-    const lmp_light *light = source->light;
-    const lmp_vec3 center = light->position;
-    const float r = light->radius, least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
+    const lmp_vec3 center = source->light.at;
+    const float r = source->light.size, least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const float x = center.x - p->position.of[0][i], y = center.y - p->position.of[1][i];
         const float z = center.z - p->position.of[2][i];
@@ -102,7 +99,7 @@ static void see_sphere(const shadow_source *source, const shadow_points *p, cap_
 }
 
 static void see_point(const shadow_source *source, const shadow_points *p, cap_lanes *caps) {
-    const lmp_vec3 center = source->light->position;
+    const lmp_vec3 center = source->light.at;
     const float least = LMP_POINT_DISTANCE_MIN * LMP_POINT_DISTANCE_MIN;
     for (int i = 0; i < SHADOW_LANES; i++) {
         const lmp_vec3 to =
@@ -113,7 +110,7 @@ static void see_point(const shadow_source *source, const shadow_points *p, cap_l
         caps->axis.of[1][i] = axis.y;
         caps->axis.of[2][i] = axis.z;
         caps->sine[i] = 0;
-        caps->power[i] = source->brightness / (PI * d2) * spot_falloff(source->light, axis);
+        caps->power[i] = source->brightness / (PI * d2) * falloff_of(&source->light, axis);
     }
 }
 
@@ -206,14 +203,14 @@ static void collect(const shadow_source *const sources[SHADOW_LANES], source_lan
     for (int i = 0; i < SHADOW_LANES; i++) {
         const shadow_source *s = sources[i];
         const bool near = s->kind == SHADOW_SPHERE || s->kind == SHADOW_POINT;
-        const lmp_vec3 at = near ? s->light->position : s->axis;
+        const lmp_vec3 at = near ? s->light.at : s->axis;
         lanes->at.of[0][i] = at.x;
         lanes->at.of[1][i] = at.y;
         lanes->at.of[2][i] = at.z;
         lanes->color.of[0][i] = s->color.r;
         lanes->color.of[1][i] = s->color.g;
         lanes->color.of[2][i] = s->color.b;
-        lanes->radius[i] = s->kind == SHADOW_SPHERE ? s->light->radius : 0;
+        lanes->radius[i] = s->kind == SHADOW_SPHERE ? s->light.size : 0;
         lanes->far[i] = near ? -1 : s->one_minus_cos;
     }
 }
@@ -306,7 +303,7 @@ static TRACE_WIDE void draw_caps(const source_lanes *lanes, const shadow_vectors
 static void draw_point(const shadow_source *source, const seen_lanes *seen, int lane,
                        shadow_samples *samples) {
     const float held = fmaxf(seen->distance[lane], LMP_POINT_DISTANCE_MIN);
-    const float falloff = spot_falloff(source->light, shadow_lane(&seen->axis, lane));
+    const float falloff = falloff_of(&source->light, shadow_lane(&seen->axis, lane));
     const lmp_rgb arrives = rgb_scale(source->color, falloff / (held * held));
     shadow_set_lane(&samples->arrives, lane, vec(arrives.r, arrives.g, arrives.b));
 }

@@ -7,15 +7,17 @@
 #include "app/render/shadow/around.h"
 #include "app/render/shadow/point.h"
 
+#include "src/light/packed.h"
+
 typedef enum shadow_kind { SHADOW_SPHERE, SHADOW_POINT, SHADOW_FAR, SHADOW_AROUND } shadow_kind;
 
 typedef struct shadow_source {
     shadow_kind kind;
-    const lmp_light *light;
-    lmp_rgb color;       /* radiance; intensity of a point; irradiance of a single direction */
-    float brightness;    /* its mean */
-    lmp_vec3 axis;       /* of what is far */
-    float one_minus_cos; /* of what is far: its cap's, 0 … 2; 0: a single direction */
+    lmp_packed_light light; /* of what is near */
+    lmp_rgb color;          /* radiance; intensity of a point; irradiance of a single direction */
+    float brightness;       /* its mean */
+    lmp_vec3 axis;          /* of what is far */
+    float one_minus_cos;    /* of what is far: its cap's, 0 … 2; 0: a single direction */
     const shadow_around *around;
 } shadow_source;
 
