@@ -223,7 +223,7 @@ LMP_INLINE void few_blocks(int bands, int begin, int end, size_t live, few_lanes
     LMP_UNROLL for (int v = 0; v < values; v += LMP_LANES)
         layout_square(work->planes + v * LMP_LANES, work->rows + v, FEW_ROW);
     LMP_UNROLL for (int first = begin; first < end; first += FEW_ORDERS)
-        few_add(bands - first, live, work, work->rows + few_values(bands, first) - before,
+        few_add(bands - first, live, work, work->rows + (few_values(bands, first) - before),
                 work->sums + few_bands(bands, first));
 }
 
