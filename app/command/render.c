@@ -171,7 +171,7 @@ static bool open_device(render_job *j, cli_error *error) {
     if (render_device_open(kind, o->device, &j->world, &j->device, error)) {
         if (kind == DEVICE_CPU || choose_device(j, j->device.gl.software) == kind)
             return true;
-    } else if (o->device_kind != DEVICE_AUTO || o->device || !runs_on_cpu(o))
+    } else if (kind == DEVICE_CPU || o->device_kind != DEVICE_AUTO || o->device || !runs_on_cpu(o))
         return false;
     render_device_close(&j->device);
     return render_device_open(DEVICE_CPU, NULL, &j->world, &j->device, error);

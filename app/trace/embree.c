@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/trace/embree.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 RTCDevice embree_device_create(void) {
@@ -26,17 +25,4 @@ void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int vali
         packet->flags[i] = 0;
         query->hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-}
-
-const char *trace_version(void) {
-    static char text[32] = "Embree";
-    const RTCDevice device = embree_device_create();
-    if (device)
-        snprintf(text, sizeof text, "Embree %d.%d.%d",
-                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
-                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
-    if (device)
-        rtcReleaseDevice(device);
-    return text;
 }

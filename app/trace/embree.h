@@ -3,7 +3,7 @@
 #ifndef LAMPION_TRACE_EMBREE_H
 #define LAMPION_TRACE_EMBREE_H
 
-#include "app/trace/trace.h"
+#include "app/trace/rays.h"
 
 #include <embree3/rtcore.h>
 

@@ -8,6 +8,7 @@
 #include "app/trace/triangle.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -37,13 +38,6 @@ void trace_corners(const scene *world, const trace_hit *hit, scene_vertex corner
                    double weights[3]) {
     scene_triangle(world, hit->instance, hit->triangle, corners);
     set_weights(hit->u, hit->v, weights);
-}
-
-double trace_lift(const scene *world) {
-    double size = 0;
-    for (int i = 0; i < 3; i++)
-        size = fmax(size, fmax(fabs((double)world->minimum[i]), fabs((double)world->maximum[i])));
-    return 1e-5 * size;
 }
 
 /* --- what lets rays pass ---------------------------------------------------------------------- */
@@ -243,4 +237,17 @@ void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *ra
                       ? (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING }
                       : (trace_hit) { query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i],
                                       query.hit.u[i], query.hit.v[i] };
+}
+
+const char *trace_version(void) {
+    static char text[32] = "Embree";
+    const RTCDevice device = embree_device_create();
+    if (device)
+        snprintf(text, sizeof text, "Embree %d.%d.%d",
+                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
+                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
+    if (device)
+        rtcReleaseDevice(device);
+    return text;
 }

@@ -5,7 +5,7 @@
 #define LAMPION_TRACE_TREE_H
 
 #include "app/scene/instance.h"
-#include "app/trace/trace.h"
+#include "app/trace/rays.h"
 
 #include <embree3/rtcore.h>
 

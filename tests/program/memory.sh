@@ -72,9 +72,14 @@ for k in 1 2 5 20; do
     rm -f image.png
     status=0
     LD_PRELOAD=$scarce LAMPION_REFUSE_TO=libembree LAMPION_REFUSE=$k "$PROGRAM" render builtin:ball --size 16x16 \
-        --bands 3 --shadows -o image.png 2>err || status=$?
-    [ "$status" = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -q 'out of memory for shadows (--no-shadows ' err ||
+        --bands 3 --device cpu --shadows -o image.png 2>err || status=$?
+    [ "$status" = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -q 'builtin:ball: out of memory' err ||
         fail "refusal $k to the ray tracer: status $status: $(cat err)"
+    status=0
+    LD_PRELOAD=$scarce LAMPION_REFUSE_TO=libembree LAMPION_REFUSE=$k "$PROGRAM" render builtin:ball --size 16x16 \
+        --bands 3 --device gpu --shadows -o image.png 2>err || status=$?
+    [ "$status" = 1 ] && [ "$(wc -l <err)" = 1 ] && grep -q 'out of memory for shadows (--no-shadows ' err ||
+        fail "refusal $k to the ray tracer of shadows: status $status: $(cat err)"
     [ ! -e image.png ] || fail "refusal $k to the ray tracer: an image"
 done
 
