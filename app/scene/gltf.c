@@ -13,6 +13,7 @@ bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder
 
 bool gltf_load(gltf *document, cli_error *error) {
     return gltf_load_buffers(document, error) && gltf_load_accessors(document, error) &&
+           gltf_load_draco(document, error) && gltf_check_backing(document, error) &&
            gltf_load_nodes(document, error) && gltf_check_uses(document, error);
 }
 

@@ -127,6 +127,9 @@ bool gltf_check_extensions(const gltf *document, cli_error *error);
 bool gltf_load_buffers(gltf *document, cli_error *error);
 bool gltf_load_accessors(gltf *document, cli_error *error);
 
+/* Whether accessors that have no data claim little enough to be made up of zeros. */
+bool gltf_check_backing(const gltf *document, cli_error *error);
+
 /* Decompresses what Draco compressed into accessors that are loaded. */
 bool gltf_load_draco(gltf *document, cli_error *error);
 

@@ -292,8 +292,12 @@ bool gltf_load_accessors(gltf *document, cli_error *error) {
     bool ok = document->accessors || cli_fail(error, document->subject, "does not fit into memory");
     for (size_t i = 0; i < count && ok; i++)
         ok = load_accessor(document, i, &document->accessors[i], error);
-    ok = ok && gltf_load_draco(document, error);
-    for (size_t i = 0; i < count && ok; i++)
+    return ok;
+}
+
+bool gltf_check_backing(const gltf *document, cli_error *error) {
+    bool ok = true;
+    for (size_t i = 0; i < gltf_count(document, GLTF_ACCESSORS) && ok; i++)
         ok = check_backing(document, i, error);
     return ok;
 }
