@@ -138,7 +138,7 @@ static void make_curve(byte_curve *curve) {
 }
 
 static unsigned char to_byte(const byte_curve *curve, float linear) {
-    const float x = linear > 0 ? fminf(linear, 1) : 0;
+    const float x = linear > 0 ? (linear < 1 ? linear : 1) : 0;
     int byte = curve->guess[(int)(sqrtf(x) * GUESSES)];
     while (byte > 0 && x < curve->least[byte])
         byte--;
@@ -149,7 +149,7 @@ static unsigned char to_byte(const byte_curve *curve, float linear) {
 
 /* Keeps the curve's squares finite, and off its pole below 0; NaN is black. */
 static float limit(float x) {
-    return x > 0 ? fminf(x, SHARED_TONE_MAX) : 0;
+    return x > 0 ? (x < SHARED_TONE_MAX ? x : SHARED_TONE_MAX) : 0;
 }
 
 static void map_pixel(const float *radiance, const image_display *display, float shown[3]) {

@@ -14,9 +14,10 @@ void triangle_rays_set(const float *const origin[3], const float *const directio
                 axis = c;
         const int next = (axis + 1) % 3, last = (axis + 2) % 3;
         rays->axis[i] = axis;
-        rays->shear[0][i] = 1 / direction[axis][i];
-        rays->shear[1][i] = direction[next][i] / direction[axis][i];
-        rays->shear[2][i] = direction[last][i] / direction[axis][i];
+        const float inverse = 1 / direction[axis][i];
+        rays->shear[0][i] = inverse;
+        rays->shear[1][i] = direction[next][i] * inverse;
+        rays->shear[2][i] = direction[last][i] * inverse;
         rays->origin[0][i] = origin[axis][i];
         rays->origin[1][i] = origin[next][i];
         rays->origin[2][i] = origin[last][i];
@@ -27,7 +28,7 @@ void triangle_rays_set(const float *const origin[3], const float *const directio
             rays->common = -1;
 }
 
-/* A corner in the rays' space: its distance along the rays, and where it is beside them. */
+/* A corner in the rays' space: how far it is along their axis, and where beside them. */
 typedef struct corner_lanes {
     triangle_lanes along, x, y;
 } corner_lanes;
@@ -45,7 +46,7 @@ static inline void move_corner(const triangle_rays *r, unsigned first, unsigned 
         const float z = pick(own, p[0], p[1], p[2]) - r->origin[0][k];
         const float x = pick(own, p[1], p[2], p[0]) - r->origin[1][k];
         const float y = pick(own, p[2], p[0], p[1]) - r->origin[2][k];
-        corner->along[i] = z * r->shear[0][k];
+        corner->along[i] = z;
         corner->x[i] = x - r->shear[1][k] * z;
         corner->y[i] = y - r->shear[2][k] * z;
     }
@@ -114,7 +115,8 @@ static inline void find_hits(const triangle_rays *rays, unsigned first, unsigned
     for (unsigned i = 0; i < count; i++) {
         const float u = sides->weights[0][i], v = sides->weights[1][i], w = sides->weights[2][i];
         const float sum = u + v + w, scale = 1 / sum;
-        const float mean = u * at[0].along[i] + v * at[1].along[i] + w * at[2].along[i];
+        const float mean = (u * at[0].along[i] + v * at[1].along[i] + w * at[2].along[i]) *
+                           rays->shear[0][first + i];
         /* of a triangle that is seen edge-on the sum is 0, and what follows no number */
         hits->distance[i] = is_inside(u, v, w) ? mean * scale : NAN;
         hits->u[i] = v * scale;

@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GOLDEN_BALLS  0xc749f679eb24f61f
-#define GOLDEN_ATRIUM 0x67816d3c03227592
+#define GOLDEN_BALLS  0x2870260920f338d4
+#define GOLDEN_ATRIUM 0xa1bd33be39710d11
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 

@@ -43,7 +43,7 @@ static void set_ray(const render_camera *c, int x, int y, int lane, cpu_ray *ray
 }
 
 static void fill_square(const cpu_view *view, int x, int y, int width, int height,
-                        const render_surfaces *s) {
+                        cpu_triangle *triangle, const render_surfaces *s) {
     cpu_ray of[TRACE_LANES];
     trace_rays rays = { .sample = (uint32_t)s->camera.sample,
                         .samples = (uint32_t)s->camera.samples };
@@ -67,14 +67,17 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
             s->seen[at] = RENDER_SEES_LIGHT + hits[i].instance;
         else if (hits[i].instance == TRACE_NOTHING)
             s->seen[at] = RENDER_SEES_NOTHING;
-        else
-            cpu_surface_fill(view->scene, view->textures, &of[i], &hits[i], at, s);
+        else {
+            cpu_triangle_find(view->scene, &hits[i], triangle);
+            cpu_surface_fill(view->textures, triangle, &of[i], &hits[i], at, s);
+        }
     }
 }
 
 void cpu_rays_fill(const cpu_view *view, int x, int y, int width, int height,
                    const render_surfaces *s) {
+    cpu_triangle triangle = { .material = NULL };
     for (int j = 0; j < height; j += SIDE)
         for (int i = 0; i < width; i += SIDE)
-            fill_square(view, x + i, y + j, width - i, height - j, s);
+            fill_square(view, x + i, y + j, width - i, height - j, &triangle, s);
 }

@@ -5,10 +5,9 @@
 
 /* A point of a triangle as its material is asked about it. */
 typedef struct point {
-    const scene *world;
     const cpu_textures *textures;
     const scene_material *material;
-    scene_vertex corners[3]; /* in the world */
+    const scene_vertex *corners;
     float weights[3];
     lmp_vec3 smooth; /* the unit normal between the corners', on the front side */
     float side;      /* -1 where the back is seen */
@@ -18,13 +17,6 @@ typedef struct point {
 static lmp_vec3 mix(const float *a, const float *b, const float *c, const float weights[3]) {
     return vec_add(vec_scale(vec_load(a), weights[0]),
                    vec_add(vec_scale(vec_load(b), weights[1]), vec_scale(vec_load(c), weights[2])));
-}
-
-static bool is_mapped(const scene_material *material) {
-    for (int i = 0; i < SCENE_MAPS; i++)
-        if (material->maps[i].texture >= 0)
-            return true;
-    return false;
 }
 
 /* How weights of the second and third corner change along the plane, from the ray of a pixel to one
@@ -94,13 +86,13 @@ static void set_vector(float *const planes[3], size_t at, lmp_vec3 v) {
     planes[2][at] = v.z;
 }
 
-static void set_color(float *const planes[3], size_t at, const float rgb[3]) {
-    for (int c = 0; c < 3; c++)
-        planes[c][at] = fminf(fmaxf(rgb[c], 0), 1);
+static float unit(float x) {
+    return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
-static float unit(float x) {
-    return fminf(fmaxf(x, 0), 1);
+static void set_color(float *const planes[3], size_t at, const float rgb[3]) {
+    for (int c = 0; c < 3; c++)
+        planes[c][at] = unit(rgb[c]);
 }
 
 /* Of a layered material; what is under a coat shines through it. */
@@ -157,29 +149,62 @@ static void fill_base(const point *p, size_t at, const render_surfaces *s) {
     s->ambient[at] = unit(1 + m->occlusion * (texel[0] - 1));
 }
 
-void cpu_surface_fill(const scene *world, const cpu_textures *textures, const cpu_ray *ray,
-                      const trace_hit *hit, size_t at, const render_surfaces *s) {
-    point p = { .world = world, .textures = textures };
-    double weights[3];
-    trace_corners(world, hit, p.corners, weights);
-    const uint32_t number = world->meshes[world->instances[hit->instance].mesh].material;
-    const scene_vertex *v = p.corners;
-    p.material = &world->materials[number];
-    for (int i = 0; i < 3; i++)
-        p.weights[i] = (float)weights[i];
-    const lmp_vec3 a = vec_load(v[0].position);
-    const lmp_vec3 edges[2] = { vec_sub(vec_load(v[1].position), a),
-                                vec_sub(vec_load(v[2].position), a) };
-    const lmp_vec3 face = vec_cross(edges[0], edges[1]), d = vec_load(ray->direction);
-    const lmp_vec3 normal = mix(v[0].normal, v[1].normal, v[2].normal, p.weights);
-    p.side = vec_dot(face, d) > 0 ? -1.0f : 1.0f;
-    p.smooth = vec_dot(normal, normal) > 0 ? vec_normalize(normal, face)
-                                           : vec_normalize(face, vec(0, 1, 0));
-    if (is_mapped(p.material))
-        set_footprint(&s->camera, ray, hit->distance, edges, face, &p);
+void cpu_triangle_find(const scene *world, const trace_hit *hit, cpu_triangle *t) {
+    if (t->material && t->instance == hit->instance && t->triangle == hit->triangle)
+        return;
+    t->instance = hit->instance;
+    t->triangle = hit->triangle;
+    t->number = world->meshes[world->instances[hit->instance].mesh].material;
+    t->material = &world->materials[t->number];
+    t->mapped = false;
+    for (int i = 0; i < SCENE_MAPS; i++)
+        t->mapped = t->mapped || t->material->maps[i].texture >= 0;
+    scene_triangle(world, hit->instance, hit->triangle, t->corners);
+    const lmp_vec3 a = vec_load(t->corners[0].position);
+    for (int i = 0; i < 2; i++)
+        t->edges[i] = vec_sub(vec_load(t->corners[i + 1].position), a);
+    t->face = vec_cross(t->edges[0], t->edges[1]);
+}
+
+/* Of a material without maps. */
+static void fill_plain(const point *p, uint32_t number, size_t at, const render_surfaces *s) {
+    const scene_material *m = p->material;
+    float base[3] = { m->base_color[0], m->base_color[1], m->base_color[2] };
+    float emission[3] = { m->emission[0], m->emission[1], m->emission[2] };
+    tint(p, base);
+    if (m->flags & SCENE_UNLIT)
+        tint(p, emission);
     s->seen[at] = number;
+    set_vector(s->normal, at, vec_scale(p->smooth, p->side));
+    set_color(s->base, at, base);
+    s->metallic[at] = m->metallic;
+    s->roughness[at] = m->roughness;
+    s->specular[at] = s->ambient[at] = 1;
+    set_vector(s->emission, at, vec_load(emission));
+}
+
+void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const cpu_ray *ray,
+                      const trace_hit *hit, size_t at, const render_surfaces *s) {
+    point p = { .textures = textures, .material = t->material, .corners = t->corners };
+    const scene_vertex *v = t->corners;
+    p.weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
+    p.weights[1] = hit->u;
+    p.weights[2] = hit->v;
+    const lmp_vec3 d = vec_load(ray->direction);
+    const lmp_vec3 normal = mix(v[0].normal, v[1].normal, v[2].normal, p.weights);
+    p.side = vec_dot(t->face, d) > 0 ? -1.0f : 1.0f;
+    p.smooth = vec_dot(normal, normal) > 0 ? vec_normalize(normal, t->face)
+                                           : vec_normalize(t->face, vec(0, 1, 0));
     set_vector(s->position, at, mix(v[0].position, v[1].position, v[2].position, p.weights));
     const scene_material *m = p.material;
+    const bool layered = s->layered && render_material_is_layered(s->materials, t->number);
+    if (!t->mapped && !layered) {
+        fill_plain(&p, t->number, at, s);
+        return;
+    }
+    if (t->mapped)
+        set_footprint(&s->camera, ray, hit->distance, t->edges, t->face, &p);
+    s->seen[at] = t->number;
     const lmp_vec3 n = bend(&p, p.smooth, &m->normal_map, m->normal_scale);
     set_vector(s->normal, at, vec_scale(n, p.side));
     fill_base(&p, at, s);
@@ -189,7 +214,7 @@ void cpu_surface_fill(const scene *world, const cpu_textures *textures, const cp
         emission[c] = m->emission[c] * texel[c];
     if (m->flags & SCENE_UNLIT)
         tint(&p, emission);
-    if (s->layered && render_material_is_layered(s->materials, number))
+    if (layered)
         fill_layers(&p, vec_normalize(vec_scale(d, -1), d), at, s, emission);
     set_vector(s->emission, at, vec_load(emission));
 }

@@ -6,14 +6,28 @@
 
 #include "app/render/cpu/texture.h"
 #include "app/render/frame/surfaces.h"
+#include "app/scene/instance.h"
 #include "app/trace/trace.h"
 
 typedef struct cpu_ray {
     float origin[3], direction[3]; /* 1 long along the camera's view */
 } cpu_ray;
 
-/* Fills value `at` of the surfaces' planes. */
-void cpu_surface_fill(const scene *scene, const cpu_textures *textures, const cpu_ray *ray,
-                      const trace_hit *hit, size_t at, const render_surfaces *surfaces);
+/* A triangle in the world and its material; zero: none yet. */
+typedef struct cpu_triangle {
+    uint32_t instance, triangle, number; /* number: of the material */
+    const scene_material *material;
+    bool mapped; /* it has maps */
+    scene_vertex corners[3];
+    lmp_vec3 edges[2], face; /* from the first corner; across both */
+} cpu_triangle;
+
+/* That of a hit, unless it is there: neighbors often meet the same. */
+void cpu_triangle_find(const scene *scene, const trace_hit *hit, cpu_triangle *triangle);
+
+/* Fills value `at` of the surfaces' planes with what the ray meets of the triangle. */
+void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *triangle,
+                      const cpu_ray *ray, const trace_hit *hit, size_t at,
+                      const render_surfaces *surfaces);
 
 #endif

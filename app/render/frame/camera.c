@@ -65,6 +65,10 @@ bool render_camera_set(const scene *world, const render_frame *frame, int sample
     cross(c->forward, c->right, c->down);
     c->jitter[0] = 2 * offset[0] / (float)frame->width;
     c->jitter[1] = 2 * offset[1] / (float)frame->height;
+    c->step[0] = 2 / (float)frame->width;
+    c->step[1] = 2 / (float)frame->height;
+    for (int i = 0; i < 2; i++)
+        c->first[i] = 0.5f * c->step[i] - 1 + c->jitter[i];
     if (!scale_to(c->forward, 1) || !scale_to(c->right, half_width) ||
         !scale_to(c->down, half_height))
         return cli_fail(error, "camera", "it looks along its up direction, or at itself");
@@ -77,8 +81,7 @@ bool render_camera_set(const scene *world, const render_frame *frame, int sample
 }
 
 void render_camera_ray(const render_camera *c, int x, int y, float origin[3], float direction[3]) {
-    const float u = ((float)x + 0.5f) / (float)c->width * 2 - 1 + c->jitter[0];
-    const float v = ((float)y + 0.5f) / (float)c->height * 2 - 1 + c->jitter[1];
+    const float u = (float)x * c->step[0] + c->first[0], v = (float)y * c->step[1] + c->first[1];
     for (int i = 0; i < 3; i++) {
         const float aside = c->right[i] * u + c->down[i] * v;
         origin[i] = c->eye[i] + (c->parallel ? aside : 0);
@@ -89,8 +92,8 @@ void render_camera_ray(const render_camera *c, int x, int y, float origin[3], fl
 void render_camera_views(const render_camera *c, int first, int y, int count,
                          float *const view[3]) {
     const float spread = c->parallel ? 0 : 1;
-    const float v = ((float)y + 0.5f) / (float)c->height * 2 - 1 + c->jitter[1];
-    const float across = 2 / (float)c->width, start = 0.5f * across - 1 + c->jitter[0];
+    const float v = (float)y * c->step[1] + c->first[1];
+    const float across = c->step[0], start = c->first[0];
     float left[3], right[3];
     for (int i = 0; i < 3; i++) {
         left[i] = c->forward[i] + c->down[i] * v * spread;

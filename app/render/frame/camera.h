@@ -11,11 +11,12 @@ typedef struct render_camera {
     int width, height;
     bool parallel; /* the rays are parallel */
     float eye[3];
-    float forward[3]; /* unit */
-    float right[3];   /* to the right edge of the view at distance 1, or at any */
-    float down[3];    /* to its bottom edge */
-    float jitter[2];  /* where in its pixel the sample is, in positions of the view */
-    float near, far;  /* depths of what is seen; far: INFINITY */
+    float forward[3];        /* unit */
+    float right[3];          /* to the right edge of the view at distance 1, or at any */
+    float down[3];           /* to its bottom edge */
+    float jitter[2];         /* where in its pixel the sample is, in positions of the view */
+    float first[2], step[2]; /* of the samples of pixels: the first position, and to the next */
+    float near, far;         /* depths of what is seen; far: INFINITY */
     int sample, samples;
 } render_camera;
 

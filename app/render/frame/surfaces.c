@@ -181,18 +181,35 @@ void render_surfaces_tile(const render_surfaces *s, int x, int y, int width, int
     }
 }
 
+/* Views of the pixels of a list, those side by side in a row together. */
+static void pick_views(const render_surfaces *s, const uint32_t *pixels, size_t count,
+                       render_tile *tile) {
+    const uint32_t width = (uint32_t)s->width;
+    for (size_t i = 0, end; i < count; i = end) {
+        const uint32_t row = pixels[i] / width, past = (row + 1) * width;
+        for (end = i + 1; end < count && pixels[end] == pixels[end - 1] + 1 && pixels[end] < past;)
+            end++;
+        float *const views[3] = { tile->view[0] + i, tile->view[1] + i, tile->view[2] + i };
+        render_camera_views(&s->camera, s->x + (int)(pixels[i] - row * width), s->y + (int)row,
+                            (int)(end - i), views);
+    }
+}
+
+static void pick_plane(const float *from, const uint32_t *pixels, size_t count, float *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[pixels[i]];
+}
+
 void render_surfaces_pick(const render_surfaces *s, const uint32_t *pixels, size_t count,
                           render_tile *tile) {
+    pick_views(s, pixels, count, tile);
+    for (int c = 0; c < 3; c++) {
+        pick_plane(s->position[c], pixels, count, tile->position[c]);
+        pick_plane(s->normal[c], pixels, count, tile->normal[c]);
+        pick_plane(s->emission[c], pixels, count, tile->emission[c]);
+    }
     for (size_t i = 0; i < count; i++) {
         const size_t pixel = pixels[i];
-        for (int c = 0; c < 3; c++) {
-            tile->position[c][i] = s->position[c][pixel];
-            tile->normal[c][i] = s->normal[c][pixel];
-            tile->emission[c][i] = s->emission[c][pixel];
-        }
-        float *const view[3] = { tile->view[0] + i, tile->view[1] + i, tile->view[2] + i };
-        const int row = (int)(pixel / (size_t)s->width), column = (int)(pixel % (size_t)s->width);
-        render_camera_views(&s->camera, s->x + column, s->y + row, 1, view);
         tile->kind[i] = RENDER_SURFACE;
         if (i > 0 && are_alike(s, pixel, pixels[i - 1]))
             tile->material[i] = tile->material[i - 1];

@@ -103,8 +103,8 @@ static void decode_positions(const gpu_gbuffer *g, int y, float reach) {
     const render_surfaces *s = &g->surfaces;
     const render_camera *c = &s->camera;
     const size_t first = (size_t)y * (size_t)g->width;
-    const float v = ((float)y + 0.5f) / (float)c->height * 2 - 1 + c->jitter[1];
-    const float across = 2 / (float)c->width, start = 0.5f * across - 1 + c->jitter[0];
+    const float v = (float)y * c->step[1] + c->first[1];
+    const float across = c->step[0], start = c->first[0];
     float from[3], left[3], aside[3], right[3];
     for (int i = 0; i < 3; i++) {
         from[i] = c->eye[i] + (c->parallel ? c->down[i] * v : 0);

@@ -3,6 +3,7 @@
 #include "app/render/shade/field.h"
 #include "app/render/shade/lights.h"
 #include "app/timing/timing.h"
+#include "app/trace/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -80,58 +81,54 @@ static void reflect(const shade_job *job, const render_surfaces *planes, const r
  * lit to count as lit alike. */
 static const float value_step = 1 / 256.0f, normal_step = 1 / 64.0f, pixel_steps = 4;
 
-static float distance2(float *const a[3], float *const b[3], size_t pixel) {
-    float sum = 0;
-    for (int c = 0; c < 3; c++) {
-        const float d = a[c][pixel] - b[c][pixel];
-        sum += d * d;
+static inline float difference2(float *const a[3], float *const b[3], size_t i) {
+    const float x = a[0][i] - b[0][i], y = a[1][i] - b[1][i], z = a[2][i] - b[2][i];
+    return x * x + y * y + z * z;
+}
+
+static inline int are_near(const float *a, const float *b, size_t i) {
+    return fabsf(a[i] - b[i]) <= value_step;
+}
+
+static inline int are_near3(float *const a[3], float *const b[3], size_t i) {
+    return are_near(a[0], b[0], i) & are_near(a[1], b[1], i) & are_near(a[2], b[2], i);
+}
+
+/* Marks the pixels of a row, from `first` on, whose samples see one surface, nearby; of the layers
+ * nothing is known yet. Without branches, so that it is done to many at once. */
+static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surfaces *b, size_t first,
+                                  int count, unsigned char *alike) {
+    const render_camera *c = &b->camera;
+    const float down2 = c->down[0] * c->down[0] + c->down[1] * c->down[1] + c->down[2] * c->down[2];
+    /* the square of what positions may differ by at distance 1, or at any */
+    const float reach2 = pixel_steps * pixel_steps * down2 * c->step[1] * c->step[1];
+    const float spread = c->parallel ? 0 : reach2, constant = c->parallel ? reach2 : 0;
+    const float x = c->eye[0], y = c->eye[1], z = c->eye[2];
+#pragma omp simd
+    for (int k = 0; k < count; k++) {
+        const size_t i = first + (size_t)k;
+        const float dx = b->position[0][i] - x, dy = b->position[1][i] - y;
+        const float dz = b->position[2][i] - z;
+        const float allowed2 = constant + spread * (dx * dx + dy * dy + dz * dz);
+        alike[k] =
+            (unsigned char)((a->seen[i] == b->seen[i]) &
+                            (difference2(a->normal, b->normal, i) <= normal_step * normal_step) &
+                            (difference2(a->position, b->position, i) <= allowed2) &
+                            are_near3(a->base, b->base, i) &
+                            are_near3(a->emission, b->emission, i) &
+                            are_near(a->metallic, b->metallic, i) &
+                            are_near(a->roughness, b->roughness, i) &
+                            are_near(a->specular, b->specular, i) &
+                            are_near(a->ambient, b->ambient, i));
     }
-    return sum;
-}
-
-static bool are_near(float a, float b, float step) {
-    return fabsf(a - b) <= step;
-}
-
-static bool are_near3(float *const a[3], float *const b[3], size_t pixel, float step) {
-    return are_near(a[0][pixel], b[0][pixel], step) && are_near(a[1][pixel], b[1][pixel], step) &&
-           are_near(a[2][pixel], b[2][pixel], step);
-}
-
-/* The width of a pixel there, squared. */
-static float width2_at(const render_surfaces *s, size_t pixel) {
-    const render_camera *c = &s->camera;
-    float down2 = 0, far2 = 0;
-    for (int i = 0; i < 3; i++) {
-        const float d = s->position[i][pixel] - c->eye[i];
-        down2 += c->down[i] * c->down[i];
-        far2 += d * d;
-    }
-    return 4 * down2 * (c->parallel ? 1 : far2) / ((float)c->height * (float)c->height);
 }
 
 static bool have_alike_layers(const render_surfaces *a, const render_surfaces *b, size_t i) {
-    return are_near(a->coat[i], b->coat[i], value_step) &&
-           are_near(a->coat_roughness[i], b->coat_roughness[i], value_step) &&
-           are_near(a->sheen_roughness[i], b->sheen_roughness[i], value_step) &&
-           are_near3(a->sheen, b->sheen, i, value_step) &&
-           are_near3(a->tint, b->tint, i, value_step) &&
-           distance2(a->coat_normal, b->coat_normal, i) <= normal_step * normal_step;
-}
-
-/* Whether two samples of a pixel see one surface, nearby. */
-static bool see_alike(const render_surfaces *a, const render_surfaces *b, size_t i) {
-    return a->seen[i] == b->seen[i] &&
-           distance2(a->normal, b->normal, i) <= normal_step * normal_step &&
-           distance2(a->position, b->position, i) <= pixel_steps * pixel_steps * width2_at(b, i) &&
-           are_near3(a->base, b->base, i, value_step) &&
-           are_near3(a->emission, b->emission, i, value_step) &&
-           are_near(a->metallic[i], b->metallic[i], value_step) &&
-           are_near(a->roughness[i], b->roughness[i], value_step) &&
-           are_near(a->specular[i], b->specular[i], value_step) &&
-           are_near(a->ambient[i], b->ambient[i], value_step) &&
-           (!a->layered || !render_material_is_layered(a->materials, a->seen[i]) ||
-            have_alike_layers(a, b, i));
+    return !a->layered || !render_material_is_layered(a->materials, a->seen[i]) ||
+           (are_near(a->coat, b->coat, i) & are_near(a->coat_roughness, b->coat_roughness, i) &
+            are_near(a->sheen_roughness, b->sheen_roughness, i) & are_near3(a->sheen, b->sheen, i) &
+            are_near3(a->tint, b->tint, i) &
+            (difference2(a->coat_normal, b->coat_normal, i) <= normal_step * normal_step));
 }
 
 /* --- tiles ------------------------------------------------------------------------------------ */
@@ -142,22 +139,26 @@ static void set_pixel(float *pixel, lmp_rgb color) {
     pixel[2] = color.b;
 }
 
-/* Lists the pixels that are to be shaded, by their indices; the others receive what they show. */
+/* Lists the pixels of a row that are to be shaded, by their indices; the others receive what they
+ * show. */
 static size_t list_pixels(const render_surfaces *s, const shade_sample *before, int x, int y,
-                          int width, int height, uint32_t *list, float *rgba) {
+                          int width, uint32_t *list, float *rgba) {
+    const size_t first = render_surfaces_at(s, x, y);
+    unsigned char alike[SHADE_TILE] = { 0 };
     size_t count = 0;
-    for (int j = y; j < y + height; j++)
-        for (int i = x; i < x + width; i++) {
-            const size_t pixel = render_surfaces_at(s, i, j);
-            float *const to = rgba + 4 * pixel;
-            if (s->seen[pixel] >= RENDER_SEES_LIGHT)
-                set_pixel(to, render_surfaces_beyond(s, i, j));
-            else if (before && see_alike(before->surfaces, s, pixel))
-                set_pixel(to, (lmp_rgb) { before->rgba[4 * pixel], before->rgba[4 * pixel + 1],
-                                          before->rgba[4 * pixel + 2] });
-            else
-                list[count++] = (uint32_t)pixel;
-        }
+    if (before)
+        mark_alike(before->surfaces, s, first, width, alike);
+    for (int i = 0; i < width; i++) {
+        const size_t pixel = first + (size_t)i;
+        float *const to = rgba + 4 * pixel;
+        if (s->seen[pixel] >= RENDER_SEES_LIGHT)
+            set_pixel(to, render_surfaces_beyond(s, x + i, y));
+        else if (alike[i] && have_alike_layers(before->surfaces, s, pixel))
+            set_pixel(to, (lmp_rgb) { before->rgba[4 * pixel], before->rgba[4 * pixel + 1],
+                                      before->rgba[4 * pixel + 2] });
+        else
+            list[count++] = (uint32_t)pixel;
+    }
     return count;
 }
 
@@ -165,7 +166,9 @@ void shade_tile(const shade_job *job, const render_surfaces *s, const shade_samp
                 int y, int width, int height, render_tile *tile, float *rgba) {
     uint32_t list[SHADE_TILE * SHADE_TILE];
     float reflected[4 * SHADE_TILE * SHADE_TILE];
-    const size_t count = list_pixels(s, before, x, y, width, height, list, rgba);
+    size_t count = 0;
+    for (int j = 0; j < height; j++)
+        count += list_pixels(s, before, x, y + j, width, list + count, rgba);
     if (count == 0)
         return;
     render_surfaces_pick(s, list, count, tile);
