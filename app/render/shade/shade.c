@@ -125,9 +125,9 @@ static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surface
 
 static bool have_alike_layers(const render_surfaces *a, const render_surfaces *b, size_t i) {
     return !a->layered || !render_material_is_layered(a->materials, a->seen[i]) ||
-           (are_near(a->coat, b->coat, i) & are_near(a->coat_roughness, b->coat_roughness, i) &
-            are_near(a->sheen_roughness, b->sheen_roughness, i) & are_near3(a->sheen, b->sheen, i) &
-            are_near3(a->tint, b->tint, i) &
+           (are_near(a->coat, b->coat, i) && are_near(a->coat_roughness, b->coat_roughness, i) &&
+            are_near(a->sheen_roughness, b->sheen_roughness, i) &&
+            are_near3(a->sheen, b->sheen, i) && are_near3(a->tint, b->tint, i) &&
             (difference2(a->coat_normal, b->coat_normal, i) <= normal_step * normal_step));
 }
 
