@@ -110,16 +110,13 @@ static TRACE_WIDE void mark_alike(const render_surfaces *a, const render_surface
         const float dx = b->position[0][i] - x, dy = b->position[1][i] - y;
         const float dz = b->position[2][i] - z;
         const float allowed2 = constant + spread * (dx * dx + dy * dy + dz * dz);
-        alike[k] =
-            (unsigned char)((a->seen[i] == b->seen[i]) &
-                            (difference2(a->normal, b->normal, i) <= normal_step * normal_step) &
-                            (difference2(a->position, b->position, i) <= allowed2) &
-                            are_near3(a->base, b->base, i) &
-                            are_near3(a->emission, b->emission, i) &
-                            are_near(a->metallic, b->metallic, i) &
-                            are_near(a->roughness, b->roughness, i) &
-                            are_near(a->specular, b->specular, i) &
-                            are_near(a->ambient, b->ambient, i));
+        int same = a->seen[i] == b->seen[i];
+        same &= difference2(a->normal, b->normal, i) <= normal_step * normal_step;
+        same &= difference2(a->position, b->position, i) <= allowed2;
+        same &= are_near3(a->base, b->base, i) & are_near3(a->emission, b->emission, i);
+        same &= are_near(a->metallic, b->metallic, i) & are_near(a->roughness, b->roughness, i);
+        same &= are_near(a->specular, b->specular, i) & are_near(a->ambient, b->ambient, i);
+        alike[k] = (unsigned char)same;
     }
 }
 
