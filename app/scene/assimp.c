@@ -107,7 +107,8 @@ static const source *find_beside(assimp_job *job, const char *path) {
 static struct aiFile *open_for_assimp(struct aiFileIO *io, const char *path, const char *mode) {
     assimp_job *job = (assimp_job *)(void *)io->UserData;
     while (strncmp(path, "./", 2) == 0)
-        path += 2;
+        for (path += 2; *path == '/';)
+            path++;
     const void *data = job->data;
     size_t size = job->size;
     if (mode[0] != 'r')
@@ -146,7 +147,10 @@ static const struct aiScene *run_assimp(assimp_job *job, cli_error *error) {
     /* Otherwise any text that is called .ase is a skeleton, drawn by triangles. */
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
-    const struct aiScene *imported = aiImportFileExWithProperties(job->name, 0, &io, properties);
+    /* some readers look for the folder of a name alone in vain, and take the name for it */
+    char path[512];
+    snprintf(path, sizeof path, "./%s", job->name);
+    const struct aiScene *imported = aiImportFileExWithProperties(path, 0, &io, properties);
     aiReleasePropertyStore(properties);
     /* A file that is not read is the likely cause of what Assimp says, and else is left out. */
     if (job->refusal.text[0] && (job->out_of_memory || !imported || !imported->mRootNode)) {
