@@ -36,16 +36,16 @@ static void print_kernels(int mask) {
     printf(LABEL "%s (of%s)\n", "kernels", lmp_cpu_name(), names);
 }
 
-/* False: without OpenGL nothing can be drawn. */
+/* Whether there is OpenGL: without it the CPU draws images, and there is no viewer. */
 static bool print_opengl(const char *device) {
     gpu_context context;
     cli_error error;
     const bool ok = gpu_context_create(device, &context, &error);
     if (ok)
         printf(LABEL "%s, %s%s\n", "OpenGL", context.device, context.driver,
-               context.software ? "; software: the CPU shades" : "");
+               context.software ? "; software: the CPU draws" : "");
     else
-        printf(LABEL "none: %s\n", "OpenGL", error.text);
+        printf(LABEL "none: %s; the CPU draws\n", "OpenGL", error.text);
     gpu_context_destroy(&context);
     return ok;
 }
@@ -121,7 +121,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     print_libraries();
     print_cache();
     printf(LABEL "none is read\n", "configuration");
-    return ok ? CLI_OK : CLI_FAILURE;
+    return ok || !device ? CLI_OK : CLI_FAILURE; /* one that was asked for is missed */
 }
 
 const cli_command command_doctor = {
