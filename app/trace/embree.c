@@ -26,3 +26,29 @@ void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int vali
         query->hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
 }
+
+#if defined __has_feature
+#if __has_feature(thread_sanitizer)
+#define IS_WATCHED
+#include <sanitizer/tsan_interface.h>
+static char handed_over; /* its address stands for what threads hand over */
+#endif
+#endif
+
+void embree_enter(void) {
+#ifdef IS_WATCHED
+    __tsan_acquire(&handed_over);
+#endif
+}
+
+void embree_leave(void) {
+#ifdef IS_WATCHED
+    __tsan_release(&handed_over);
+#endif
+}
+
+void embree_commit(RTCScene tree) {
+    embree_leave();
+    rtcCommitScene(tree);
+    embree_enter();
+}

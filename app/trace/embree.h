@@ -35,6 +35,12 @@ static inline uint32_t *embree_number(const embree_packet *p, unsigned row, unsi
     return (uint32_t *)(void *)embree_value(p, row, lane);
 }
 
+/* Builds a tree, by Embree's threads. They are not instrumented, so the thread sanitizer has to be
+ * told what they wait for: their callbacks begin with embree_enter and end with embree_leave. */
+void embree_commit(RTCScene tree);
+void embree_enter(void);
+void embree_leave(void);
+
 /* A query for rays, which are numbered by their lanes, and which of them are any. */
 void embree_set_rays(const trace_rays *rays, struct RTCRayHit16 *query, int valid[TRACE_LANES]);
 

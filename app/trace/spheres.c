@@ -66,6 +66,7 @@ static void intersect(const struct RTCIntersectFunctionNArguments *a) {
 /* Widened, so that the tree's rounding drops no sphere. */
 static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
     const trace_spheres *spheres = a->geometryUserPtr;
+    embree_enter();
     const trace_sphere *s = &spheres->of[a->primID];
     float r[3];
     for (int c = 0; c < 3; c++)
@@ -78,6 +79,7 @@ static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
         .upper_y = s->center[1] + r[1],
         .upper_z = s->center[2] + r[2],
     };
+    embree_leave();
 }
 
 static bool build(trace_spheres *s, size_t count) {
@@ -92,7 +94,7 @@ static bool build(trace_spheres *s, size_t count) {
     rtcAttachGeometryByID(s->rays, geometry, 0);
     rtcReleaseGeometry(geometry);
     rtcSetSceneFlags(s->rays, RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(s->rays);
+    embree_commit(s->rays);
     return rtcGetDeviceError(s->device) == RTC_ERROR_NONE;
 }
 

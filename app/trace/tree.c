@@ -8,6 +8,7 @@
 
 /* Widened, so that the tree's rounding drops no triangle that the test would hit. */
 static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
+    embree_enter();
     const trace_mesh *mesh = a->geometryUserPtr;
     const scene *world = mesh->bvh->scene;
     const uint32_t *index = world->indices + mesh->mesh->first_index + 3 * (size_t)a->primID;
@@ -30,6 +31,7 @@ static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
         .upper_y = maximum[1] + margin,
         .upper_z = maximum[2] + margin,
     };
+    embree_leave();
 }
 
 static bool attach(RTCDevice device, RTCScene tree, RTCGeometry geometry, unsigned number) {
@@ -55,7 +57,7 @@ static bool add_tree(const trace_bvh *bvh, trace_mesh *mesh) {
     rtcSetSceneFlags(mesh->tree, RTC_SCENE_FLAG_ROBUST);
     if (!add_triangles(bvh, mesh, mesh->tree, 0))
         return false;
-    rtcCommitScene(mesh->tree);
+    embree_commit(mesh->tree);
     return rtcGetDeviceError(bvh->device) == RTC_ERROR_NONE;
 }
 
@@ -123,7 +125,7 @@ bool tree_build(trace_bvh *bvh, const scene *world, RTCIntersectFunctionN test) 
     for (size_t i = 0; i < world->instance_count; i++)
         if (!add_instance(bvh, i))
             return false;
-    rtcCommitScene(bvh->rays);
+    embree_commit(bvh->rays);
     return rtcGetDeviceError(bvh->device) == RTC_ERROR_NONE;
 }
 
