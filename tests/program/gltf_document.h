@@ -140,6 +140,7 @@ static inline bool reads_bytes(const void *data, size_t size, scene_builder *bui
                     gltf_add_materials(&parsed, builder, error) &&
                     gltf_add_views(&parsed, builder, error);
     gltf_close(&parsed);
+    sources_free(&sources);
     return ok;
 }
 
