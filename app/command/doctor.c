@@ -4,6 +4,7 @@
 #include "app/file/file.h"
 #include "app/render/gl/gpu.h"
 #include "app/timing/timing.h"
+#include "app/trace/trace.h"
 
 #include <lampion/base.h>
 #include <lampion/cpu.h>
@@ -12,7 +13,6 @@
 #include <GLFW/glfw3.h>
 #include <assimp/version.h>
 #include <cjson/cJSON.h>
-#include <embree3/rtcore.h>
 #include <omp.h>
 #include <openexr.h>
 #include <pango/pango.h>
@@ -50,29 +50,17 @@ static bool print_opengl(const char *device) {
     return ok;
 }
 
-static void print_embree(void) {
-    const RTCDevice device = rtcNewDevice(NULL);
-    if (!device) {
-        printf(", Embree (does not start)");
-        return;
-    }
-    printf(", Embree %d.%d.%d",
-           (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-           (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
-           (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
-    rtcReleaseDevice(device);
-}
-
 /* As they are loaded, which need not be as they were compiled against. */
 static void print_libraries(void) {
     int major, minor, patch;
     const char *extra;
+    char embree[32];
     exr_get_library_version(&major, &minor, &patch, &extra);
     printf(LABEL "Assimp %u.%u.%u", "libraries", aiGetVersionMajor(), aiGetVersionMinor(),
            aiGetVersionPatch());
-    print_embree();
-    printf(", OpenEXR %d.%d.%d, libpng %s, cJSON %s", major, minor, patch, png_get_libpng_ver(NULL),
-           cJSON_Version());
+    trace_version(NULL, embree, sizeof embree);
+    printf(", %s, OpenEXR %d.%d.%d, libpng %s, cJSON %s", embree, major, minor, patch,
+           png_get_libpng_ver(NULL), cJSON_Version());
     glfwGetVersion(&major, &minor, &patch);
     printf(", GLFW %d.%d.%d, Pango %s\n", major, minor, patch, pango_version_string());
 }

@@ -39,7 +39,7 @@ bool render_device_open(device_kind kind, const char *gl_device, const scene *wo
     d->kind = DEVICE_CPU;
     d->scene = world;
     timing_cpu_name(d->name, sizeof d->name);
-    snprintf(d->driver, sizeof d->driver, "%s", trace_version());
+    trace_version(cpu_scene_bvh(d->cpu), d->driver, sizeof d->driver);
     return true;
 }
 

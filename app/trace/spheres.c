@@ -2,6 +2,7 @@
 #include "app/trace/spheres.h"
 
 #include "app/trace/embree.h"
+#include "app/trace/tree.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +10,6 @@
 
 struct trace_spheres {
     trace_sphere *of;
-    RTCDevice device;
     RTCScene rays;
 };
 
@@ -82,10 +82,10 @@ static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
     embree_leave();
 }
 
-static bool build(trace_spheres *s, size_t count) {
-    if (!(s->device = embree_device_create()) || !(s->rays = rtcNewScene(s->device)))
+static bool build(trace_spheres *s, RTCDevice device, size_t count) {
+    if (!(s->rays = rtcNewScene(device)))
         return false;
-    RTCGeometry geometry = rtcNewGeometry(s->device, RTC_GEOMETRY_TYPE_USER);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, (unsigned)count);
     rtcSetGeometryUserData(geometry, s);
     rtcSetGeometryBoundsFunction(geometry, find_bounds, NULL);
@@ -95,16 +95,17 @@ static bool build(trace_spheres *s, size_t count) {
     rtcReleaseGeometry(geometry);
     rtcSetSceneFlags(s->rays, RTC_SCENE_FLAG_ROBUST);
     embree_commit(s->rays);
-    return rtcGetDeviceError(s->device) == RTC_ERROR_NONE;
+    return rtcGetDeviceError(device) == RTC_ERROR_NONE;
 }
 
-trace_spheres *trace_spheres_create(const trace_sphere *spheres, size_t count) {
+trace_spheres *trace_spheres_create(const trace_bvh *bvh, const trace_sphere *spheres,
+                                    size_t count) {
     trace_spheres *s = calloc(1, sizeof *s);
     if (s)
         s->of = malloc((count + 1) * sizeof *s->of);
     if (s && s->of) {
         memcpy(s->of, spheres, count * sizeof *spheres);
-        if (build(s, count))
+        if (build(s, bvh->device, count))
             return s;
     }
     trace_spheres_destroy(s);
@@ -116,8 +117,6 @@ void trace_spheres_destroy(trace_spheres *s) {
         return;
     if (s->rays)
         rtcReleaseScene(s->rays);
-    if (s->device)
-        rtcReleaseDevice(s->device);
     free(s->of);
     free(s);
 }

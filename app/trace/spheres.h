@@ -13,8 +13,10 @@ typedef struct trace_sphere {
 
 typedef struct trace_spheres trace_spheres;
 
-/* Copies them. NULL without memory. */
-trace_spheres *trace_spheres_create(const trace_sphere *spheres, size_t count);
+/* Copies them; they share Embree's device with a tree of triangles, which must outlive them. NULL
+ * without memory. */
+trace_spheres *trace_spheres_create(const trace_bvh *bvh, const trace_sphere *spheres,
+                                    size_t count);
 void trace_spheres_destroy(trace_spheres *spheres);
 
 /* Where a sphere is before what `hits` holds, the hit becomes that of the nearest: its distance,

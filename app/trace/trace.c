@@ -239,15 +239,16 @@ void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *ra
                                       query.hit.u[i], query.hit.v[i] };
 }
 
-const char *trace_version(void) {
-    static char text[32] = "Embree";
-    const RTCDevice device = embree_device_create();
-    if (device)
-        snprintf(text, sizeof text, "Embree %d.%d.%d",
-                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
-                 (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
-    if (device)
+void trace_version(const trace_bvh *bvh, char *text, size_t size) {
+    const RTCDevice device = bvh ? bvh->device : embree_device_create();
+    if (!device) {
+        snprintf(text, size, "Embree (does not start)");
+        return;
+    }
+    snprintf(text, size, "Embree %d.%d.%d",
+             (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+             (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MINOR),
+             (int)rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_PATCH));
+    if (!bvh)
         rtcReleaseDevice(device);
-    return text;
 }

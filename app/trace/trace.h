@@ -14,8 +14,9 @@
 trace_bvh *trace_create(const scene *scene);
 void trace_destroy(trace_bvh *bvh);
 
-/* "Embree" and the version that is loaded. */
-const char *trace_version(void);
+/* "Embree" and the version that is loaded, which a tree's device tells; without one, a new device.
+ */
+void trace_version(const trace_bvh *bvh, char *text, size_t size);
 
 /* The three corners of the hit triangle, in world space, and their weights. */
 void trace_corners(const scene *scene, const trace_hit *hit, scene_vertex corners[3],

@@ -56,7 +56,7 @@ may_include() {
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/render app/render/frame app/render/gl app/device app/method app/bake app/render/shade app/render/shadow app/override app/view LIBRARY ;;
     app/paper) echo app/timing app/zonal app/cli app/file app/method app/override app/compare app/figure app/render app/render/frame app/render/gl app/image app/reference app/scene app/paper app/material LIBRARY ;;
     app/bench) echo app/timing app/zonal app/cli app/device app/method app/scene app/material app/render app/render/frame app/render/gl app/bake app/render/shade app/override app/bench LIBRARY ;;
-    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/render/shade app/render/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/reference app/ruler app/scoreboard app/render app/render/frame app/render/gl app/device app/material app/view app/volume \
+    app/command) echo app/bench app/environment app/zonal app/timing app/cli app/method app/bake app/render/shade app/render/shadow app/override app/animation app/paper app/compare app/csv app/file app/image app/figure app/scene app/trace app/reference app/ruler app/scoreboard app/render app/render/frame app/render/gl app/device app/material app/view app/volume \
         app/command shaders LIBRARY ;;
     esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }

@@ -378,7 +378,7 @@ bool cpu_render(cpu_renderer *r, const render_frame *frame, int first, int last,
     render_materials_note_sheen(&r->materials, r->materials.fibers);
     if (!size_image(r, frame, error))
         return false;
-    if (!cpu_lights_create(frame, &lights))
+    if (!cpu_lights_create(frame, r->world->bvh, &lights))
         return cli_fail(error, NULL, "out of memory");
     d.view.lights = lights;
     const bool all = first == 0 && last >= frame->samples - 1;

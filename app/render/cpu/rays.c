@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool cpu_lights_create(const render_frame *frame, trace_spheres **lights) {
+bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_spheres **lights) {
     trace_sphere *drawn = malloc((frame->light_count + 1) * sizeof *drawn);
     size_t count = 0;
     *lights = NULL;
@@ -22,7 +22,7 @@ bool cpu_lights_create(const render_frame *frame, trace_spheres **lights) {
                                           .number = (uint32_t)i };
     }
     if (count > 0)
-        *lights = trace_spheres_create(drawn, count);
+        *lights = trace_spheres_create(bvh, drawn, count);
     free(drawn);
     return count == 0 || *lights;
 }

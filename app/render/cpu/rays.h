@@ -17,7 +17,7 @@ typedef struct cpu_view {
 
 /* The lights of a frame that are drawn; *lights becomes NULL where there are none. False without
  * memory. */
-bool cpu_lights_create(const render_frame *frame, trace_spheres **lights);
+bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_spheres **lights);
 
 /* Fills the planes of a rectangle, from any thread: a sample of each pixel, by surfaces->camera. */
 void cpu_rays_fill(const cpu_view *view, int x, int y, int width, int height,
