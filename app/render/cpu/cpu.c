@@ -123,13 +123,10 @@ static void add_sample(const render_frame *frame, const float *rgba, float sum[4
     sum[3] += weight;
 }
 
-static void set_mean(const float sum[4], float *rgb) {
+/* What the image shows of a pixel: its only sample, or the mean of all. */
+static void set_pixel(int samples, const float *rgba, const float sum[4], float *rgb) {
     for (int c = 0; c < 3; c++)
-        rgb[c] = sum[c] / sum[3];
-}
-
-static int least(int a, int b) {
-    return a < b ? a : b;
+        rgb[c] = samples > 1 ? sum[c] / sum[3] : rgba[c];
 }
 
 /* --- a tile after another, all samples of each ------------------------------------------------ */
@@ -138,26 +135,10 @@ static int least(int a, int b) {
 typedef struct tile_work {
     render_surfaces surfaces, first;
     render_tile tile;
-    float rgba[4 * SHADE_TILE * SHADE_TILE], first_rgba[4 * SHADE_TILE * SHADE_TILE];
-    float sums[4 * SHADE_TILE * SHADE_TILE];
+    float rgba[4 * RENDER_TILE_PIXELS], first_rgba[4 * RENDER_TILE_PIXELS];
+    float sums[4 * RENDER_TILE_PIXELS];
     double surfaces_seconds, shade_seconds;
 } tile_work;
-
-static tile_work *open_work(const drawing *d) {
-    const bool layered = d->renderer->materials.layered;
-    tile_work *w = calloc(1, sizeof *w);
-    if (!w)
-        return NULL;
-    const bool ok = render_surfaces_create(SHADE_TILE, SHADE_TILE, layered, &w->surfaces) &&
-                    render_surfaces_create(SHADE_TILE, SHADE_TILE, layered, &w->first) &&
-                    render_tile_create(SHADE_TILE * SHADE_TILE, &w->tile);
-    if (ok)
-        return w;
-    render_surfaces_free(&w->surfaces);
-    render_surfaces_free(&w->first);
-    free(w);
-    return NULL;
-}
 
 static void close_work(tile_work *w) {
     if (!w)
@@ -168,50 +149,59 @@ static void close_work(tile_work *w) {
     free(w);
 }
 
-static void draw_tile(const drawing *d, const shade_job *job, const render_camera *cameras, int x,
-                      int y, tile_work *w) {
+static tile_work *open_work(const drawing *d) {
+    const bool layered = d->renderer->materials.layered;
+    tile_work *w = calloc(1, sizeof *w);
+    if (w && render_surfaces_create(RENDER_TILE, RENDER_TILE, layered, &w->surfaces) &&
+        render_surfaces_create(RENDER_TILE, RENDER_TILE, layered, &w->first) &&
+        render_tile_create(RENDER_TILE_PIXELS, &w->tile))
+        return w;
+    close_work(w);
+    return NULL;
+}
+
+/* The index of a pixel in a tile's planes. */
+static size_t tile_index(int row, int column) {
+    return (size_t)row * RENDER_TILE + (size_t)column;
+}
+
+static void draw_tile(const drawing *d, const shade_job *job, const render_camera *cameras,
+                      const render_rectangle *pixels, tile_work *w) {
     const render_frame *frame = d->frame;
-    const int width = least(SHADE_TILE, frame->width - x);
-    const int height = least(SHADE_TILE, frame->height - y);
     const int samples = cameras[0].samples;
-    render_surfaces *planes[2] = { &w->first, &w->surfaces };
     memset(w->sums, 0, sizeof w->sums);
     for (int i = 0; i < samples; i++) {
-        render_surfaces *s = planes[i > 0];
+        render_surfaces *s = i > 0 ? &w->surfaces : &w->first;
         float *rgba = i > 0 ? w->rgba : w->first_rgba;
         const shade_sample before = { &w->first, w->first_rgba };
         const double start = timing_now();
-        s->x = x;
-        s->y = y;
+        s->x = pixels->x;
+        s->y = pixels->y;
         set_planes(d, &cameras[i], s);
-        cpu_rays_fill(&d->view, x, y, width, height, s);
+        cpu_rays_fill(&d->view, pixels, s);
         const double found = timing_now();
-        shade_tile(job, s, i > 0 ? &before : NULL, x, y, width, height, &w->tile, rgba);
-        for (int row = 0; row < height; row++)
-            for (int column = 0; column < width; column++) {
-                const size_t pixel = 4 * ((size_t)row * SHADE_TILE + (size_t)column);
-                add_sample(frame, rgba + pixel, w->sums + pixel);
+        shade_tile(job, s, i > 0 ? &before : NULL, pixels, &w->tile, rgba);
+        for (int row = 0; row < pixels->height; row++)
+            for (int column = 0; column < pixels->width; column++) {
+                const size_t at = 4 * tile_index(row, column);
+                add_sample(frame, rgba + at, w->sums + at);
             }
         w->surfaces_seconds += found - start;
         w->shade_seconds += timing_now() - found;
     }
-    for (int row = 0; row < height; row++) {
-        float *to =
-            d->renderer->image.rgb + 3 * ((size_t)(y + row) * (size_t)frame->width + (size_t)x);
-        const size_t first = 4 * (size_t)row * SHADE_TILE;
-        for (size_t column = 0; column < (size_t)width; column++) {
-            if (samples == 1)
-                memcpy(to + 3 * column, w->first_rgba + first + 4 * column, 3 * sizeof *to);
-            else
-                set_mean(w->sums + first + 4 * column, to + 3 * column);
+    for (int row = 0; row < pixels->height; row++) {
+        const size_t first = (size_t)(pixels->y + row) * (size_t)frame->width + (size_t)pixels->x;
+        for (int column = 0; column < pixels->width; column++) {
+            const size_t at = 4 * tile_index(row, column);
+            set_pixel(samples, w->first_rgba + at, w->sums + at,
+                      d->renderer->image.rgb + 3 * (first + (size_t)column));
         }
     }
 }
 
 static bool draw_tiles(drawing *d, const shade_job *job, const render_camera *cameras) {
     const render_frame *frame = d->frame;
-    const int columns = (frame->width + SHADE_TILE - 1) / SHADE_TILE;
-    const int rows = (frame->height + SHADE_TILE - 1) / SHADE_TILE;
+    const int count = render_tile_count(frame->width, frame->height);
     double surfaces = 0, shade = 0;
     bool ok = true;
 #pragma omp parallel reduction(&& : ok) reduction(+ : surfaces, shade)
@@ -219,10 +209,11 @@ static bool draw_tiles(drawing *d, const shade_job *job, const render_camera *ca
         tile_work *work = open_work(d);
         ok = work != NULL;
 #pragma omp for schedule(dynamic)
-        for (int i = 0; i < columns * rows; i++)
-            if (work)
-                draw_tile(d, job, cameras, i % columns * SHADE_TILE, i / columns * SHADE_TILE,
-                          work);
+        for (int i = 0; i < count; i++)
+            if (work) {
+                const render_rectangle pixels = render_tile_at(frame->width, frame->height, i);
+                draw_tile(d, job, cameras, &pixels, work);
+            }
         if (work) {
             surfaces += work->surfaces_seconds;
             shade += work->shade_seconds;
@@ -275,64 +266,55 @@ static bool size_planes(const drawing *d, bool keep, cli_error *error) {
     return ok || cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
 }
 
-static void find_surfaces(const drawing *d, const render_camera *camera) {
-    render_surfaces *s = &d->renderer->surfaces;
-    const int columns = (s->width + SHADE_TILE - 1) / SHADE_TILE;
-    const int rows = (s->height + SHADE_TILE - 1) / SHADE_TILE;
+static void find_surfaces(const drawing *d, const render_camera *camera, render_surfaces *s) {
+    const int count = render_tile_count(s->width, s->height);
     set_planes(d, camera, s);
 #pragma omp parallel for schedule(dynamic)
-    for (int i = 0; i < columns * rows; i++) {
-        const int x = i % columns * SHADE_TILE, y = i / columns * SHADE_TILE;
-        cpu_rays_fill(&d->view, x, y, least(SHADE_TILE, s->width - x),
-                      least(SHADE_TILE, s->height - y), s);
+    for (int i = 0; i < count; i++) {
+        const render_rectangle pixels = render_tile_at(s->width, s->height, i);
+        cpu_rays_fill(&d->view, &pixels, s);
     }
 }
 
-/* Adds rgba to the sums; with `show` their mean becomes the image. */
+/* Adds rgba to the sums; with `show` the image is what there is so far. */
 static void resolve(const drawing *d, int index, bool show) {
     cpu_renderer *r = d->renderer;
     const ptrdiff_t count = (ptrdiff_t)d->frame->width * d->frame->height;
-    const bool single = d->frame->samples <= 1;
 #pragma omp parallel for schedule(static)
     for (ptrdiff_t i = 0; i < count; i++) {
-        float *sum = r->sums + 4 * i, *to = r->image.rgb + 3 * i;
-        if (single) {
-            memcpy(to, r->rgba + 4 * i, 3 * sizeof *to);
-            continue;
-        }
+        const float *rgba = r->rgba + 4 * i;
+        float *sum = r->sums + 4 * i;
         if (index == 0)
             memset(sum, 0, 4 * sizeof *sum);
-        add_sample(d->frame, r->rgba + 4 * i, sum);
+        add_sample(d->frame, rgba, sum);
         if (show)
-            set_mean(sum, to);
+            set_pixel(d->frame->samples, rgba, sum, r->image.rgb + 3 * i);
     }
 }
 
+/* With `keep` the first sample's surfaces and radiance stay, for the others to be compared with. */
 static bool draw_sample(drawing *d, int index, bool keep, render_times *times, cli_error *error) {
     cpu_renderer *r = d->renderer;
     const render_frame *frame = d->frame;
+    const bool kept = keep && index == 0;
+    render_surfaces *s = kept ? &r->first : &r->surfaces;
+    float *rgba = kept ? r->first_rgba : r->rgba;
     render_camera camera;
     if (!render_camera_set(d->view.scene, frame, index, &camera, error))
         return false;
     const double start = timing_now();
-    find_surfaces(d, &camera);
+    find_surfaces(d, &camera, s);
     const double found = timing_now();
-    shade_job *job = shade_begin(frame, &r->surfaces);
+    shade_job *job = shade_begin(frame, s);
     const shade_sample before = { &r->first, r->first_rgba };
-    const bool ok =
-        job && shade_tiles(job, &r->surfaces, keep && index > 0 ? &before : NULL, r->rgba);
+    const bool ok = job && shade_tiles(job, s, keep && !kept ? &before : NULL, rgba);
     shade_end(job);
     if (!ok)
         return cli_fail(error, NULL, "out of memory");
-    if (keep && index == 0) {
-        set_planes(d, &camera, &r->first);
-        render_surfaces_copy(&r->surfaces, &r->first);
-        memcpy(r->first_rgba, r->rgba,
-               4 * (size_t)frame->width * (size_t)frame->height * sizeof *r->rgba);
-    }
+    if (kept) /* shadows change what they are given */
+        memcpy(r->rgba, rgba, 4 * (size_t)frame->width * (size_t)frame->height * sizeof *r->rgba);
     const double shaded = timing_now();
-    if (frame->shadow.run &&
-        !frame->shadow.run(frame->shadow.user, frame, &r->surfaces, r->rgba, error))
+    if (frame->shadow.run && !frame->shadow.run(frame->shadow.user, frame, s, r->rgba, error))
         return false;
     if (times) {
         times->surfaces += 1e3 * (found - start);
@@ -351,7 +333,7 @@ static bool draw_whole(drawing *d, int first, int last, bool show, render_times 
     for (int i = first; i <= last; i++) {
         if (!draw_sample(d, i, samples > 1, times, error))
             return false;
-        resolve(d, i, show || i == samples - 1);
+        resolve(d, i, show || i >= samples - 1);
     }
     return true;
 }

@@ -74,10 +74,10 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
     }
 }
 
-void cpu_rays_fill(const cpu_view *view, int x, int y, int width, int height,
-                   const render_surfaces *s) {
+void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels, const render_surfaces *s) {
     cpu_triangle triangle = { .material = NULL };
-    for (int j = 0; j < height; j += SIDE)
-        for (int i = 0; i < width; i += SIDE)
-            fill_square(view, x + i, y + j, width - i, height - j, &triangle, s);
+    for (int j = 0; j < pixels->height; j += SIDE)
+        for (int i = 0; i < pixels->width; i += SIDE)
+            fill_square(view, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j,
+                        &triangle, s);
 }

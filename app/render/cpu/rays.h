@@ -20,7 +20,7 @@ typedef struct cpu_view {
 bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_spheres **lights);
 
 /* Fills the planes of a rectangle, from any thread: a sample of each pixel, by surfaces->camera. */
-void cpu_rays_fill(const cpu_view *view, int x, int y, int width, int height,
+void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
                    const render_surfaces *surfaces);
 
 #endif

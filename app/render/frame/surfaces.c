@@ -49,13 +49,26 @@ void render_surfaces_free(render_surfaces *s) {
     memset(s, 0, sizeof *s);
 }
 
-void render_surfaces_copy(const render_surfaces *from, render_surfaces *to) {
-    const size_t planes = 1 + PLAIN + (from->layered ? LAYERED : 0);
-    memcpy(to->memory, from->memory,
-           planes * (size_t)from->width * (size_t)from->height * sizeof(float));
+/* --- tiles ------------------------------------------------------------------------------------ */
+
+static int tiles_along(int pixels) {
+    return (pixels + RENDER_TILE - 1) / RENDER_TILE;
 }
 
-/* --- a tile ----------------------------------------------------------------------------------- */
+int render_tile_count(int width, int height) {
+    return tiles_along(width) * tiles_along(height);
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+render_rectangle render_tile_at(int width, int height, int number) {
+    const int columns = tiles_along(width);
+    const int x = number % columns * RENDER_TILE, y = number / columns * RENDER_TILE;
+    return (render_rectangle) { x, y, least(RENDER_TILE, width - x),
+                                least(RENDER_TILE, height - y) };
+}
 
 bool render_tile_create(int pixels, render_tile *tile) {
     const size_t count = (size_t)pixels;

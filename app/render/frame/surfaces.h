@@ -40,8 +40,16 @@ static inline size_t render_surfaces_at(const render_surfaces *s, int x, int y) 
     return (size_t)(y - s->y) * (size_t)s->width + (size_t)(x - s->x);
 }
 
-/* Copies planes of the same size. */
-void render_surfaces_copy(const render_surfaces *from, render_surfaces *to);
+/* A rectangle of an image's pixels. */
+typedef struct render_rectangle {
+    int x, y, width, height;
+} render_rectangle;
+
+/* Images are drawn in tiles of at most so many pixels a side, whose pixels lie close to each other:
+ * near the same lights, in few cells of a field. How many there are, and one of them. */
+enum { RENDER_TILE = 32, RENDER_TILE_PIXELS = RENDER_TILE * RENDER_TILE };
+int render_tile_count(int width, int height);
+render_rectangle render_tile_at(int width, int height, int number);
 
 typedef enum render_kind { RENDER_NONE, RENDER_LIGHT, RENDER_SURFACE } render_kind;
 

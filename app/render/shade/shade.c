@@ -141,7 +141,7 @@ static void set_pixel(float *pixel, lmp_rgb color) {
 static size_t list_pixels(const render_surfaces *s, const shade_sample *before, int x, int y,
                           int width, uint32_t *list, float *rgba) {
     const size_t first = render_surfaces_at(s, x, y);
-    unsigned char alike[SHADE_TILE] = { 0 };
+    unsigned char alike[RENDER_TILE] = { 0 };
     size_t count = 0;
     if (before)
         mark_alike(before->surfaces, s, first, width, alike);
@@ -159,13 +159,14 @@ static size_t list_pixels(const render_surfaces *s, const shade_sample *before, 
     return count;
 }
 
-void shade_tile(const shade_job *job, const render_surfaces *s, const shade_sample *before, int x,
-                int y, int width, int height, render_tile *tile, float *rgba) {
-    uint32_t list[SHADE_TILE * SHADE_TILE];
-    float reflected[4 * SHADE_TILE * SHADE_TILE];
+void shade_tile(const shade_job *job, const render_surfaces *s, const shade_sample *before,
+                const render_rectangle *pixels, render_tile *tile, float *rgba) {
+    uint32_t list[RENDER_TILE_PIXELS];
+    float reflected[4 * RENDER_TILE_PIXELS];
     size_t count = 0;
-    for (int j = 0; j < height; j++)
-        count += list_pixels(s, before, x, y + j, width, list + count, rgba);
+    for (int j = 0; j < pixels->height; j++)
+        count +=
+            list_pixels(s, before, pixels->x, pixels->y + j, pixels->width, list + count, rgba);
     if (count == 0)
         return;
     render_surfaces_pick(s, list, count, tile);
@@ -177,28 +178,19 @@ void shade_tile(const shade_job *job, const render_surfaces *s, const shade_samp
                               reflected[4 * i + 2] + tile->emission[2][i] });
 }
 
-static int tiles_of(int pixels) {
-    return (pixels + SHADE_TILE - 1) / SHADE_TILE;
-}
-
-static int least(int a, int b) {
-    return a < b ? a : b;
-}
-
 bool shade_tiles(const shade_job *job, const render_surfaces *s, const shade_sample *before,
                  float *rgba) {
-    const int columns = tiles_of(s->width), rows = tiles_of(s->height);
+    const int count = render_tile_count(s->width, s->height);
     bool ok = true;
 #pragma omp parallel reduction(&& : ok)
     {
         render_tile tile;
-        const bool mine = ok = render_tile_create(SHADE_TILE * SHADE_TILE, &tile);
+        const bool mine = ok = render_tile_create(RENDER_TILE_PIXELS, &tile);
 #pragma omp for schedule(dynamic)
-        for (int i = 0; i < columns * rows; i++)
+        for (int i = 0; i < count; i++)
             if (mine) {
-                const int x = i % columns * SHADE_TILE, y = i / columns * SHADE_TILE;
-                shade_tile(job, s, before, s->x + x, s->y + y, least(SHADE_TILE, s->width - x),
-                           least(SHADE_TILE, s->height - y), &tile, rgba);
+                const render_rectangle pixels = render_tile_at(s->width, s->height, i);
+                shade_tile(job, s, before, &pixels, &tile, rgba);
             }
         if (mine)
             render_tile_free(&tile);

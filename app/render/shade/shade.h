@@ -5,9 +5,6 @@
 
 #include "app/render/frame/surfaces.h"
 
-/* Pixels of a tile lie close to each other: near the same lights, in few cells of a field. */
-enum { SHADE_TILE = 32 };
-
 /* A render_shader: by the frame's method, bands, window, lights and lobes. */
 bool shade_frame(const render_frame *frame, const render_surfaces *surfaces, float *rgba,
                  cli_error *error);
@@ -30,11 +27,11 @@ typedef struct shade_sample {
     const float *rgba; /* of the planes' pixels */
 } shade_sample;
 
-/* Shades a rectangle of at most SHADE_TILE pixels a side, from any thread with a tile of its own
- * for so many pixels. rgba: of the pixels of the surfaces' planes; before: NULL, or planes of the
- * same rectangle. */
+/* Shades a rectangle of at most RENDER_TILE pixels a side, from any thread with a tile of its own
+ * for RENDER_TILE_PIXELS. rgba: of the pixels of the surfaces' planes; before: NULL, or planes of
+ * the same rectangle. */
 void shade_tile(const shade_job *job, const render_surfaces *surfaces, const shade_sample *before,
-                int x, int y, int width, int height, render_tile *tile, float *rgba);
+                const render_rectangle *pixels, render_tile *tile, float *rgba);
 
 /* All of a frame's tiles. */
 bool shade_tiles(const shade_job *job, const render_surfaces *surfaces, const shade_sample *before,
