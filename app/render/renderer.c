@@ -131,29 +131,17 @@ void renderer_set_environment(any_renderer *r, const environment *around) {
         cpu_set_environment(r->cpu, around);
 }
 
-/* Whether the frame has what its method reads. */
-static bool check_frame(const render_frame *frame, cli_error *error) {
-    const unsigned reads = method_table[frame->method].reads;
-    if (reads & METHOD_READS_PREINTEGRATED && !frame->lobes)
-        return cli_fail(error, NULL, "preintegrated shading without its lobes");
-    if (reads & METHOD_READS_FIELD && !frame->field)
-        return cli_fail(error, NULL, "a field's shading without its field");
-    return true;
-}
-
 bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *times,
                    cli_error *error) {
     const int last = frame->samples > 1 ? frame->samples - 1 : 0;
-    return check_frame(frame, error) &&
-           (r->gl ? gpu_render(r->gl, frame, times, error)
-                  : cpu_render(r->cpu, frame, 0, last, false, times, error));
+    return r->gl ? gpu_render(r->gl, frame, times, error)
+                 : cpu_render(r->cpu, frame, 0, last, false, times, error);
 }
 
 bool renderer_refine(any_renderer *r, const render_frame *frame, int index, render_times *times,
                      cli_error *error) {
-    return check_frame(frame, error) &&
-           (r->gl ? gpu_refine(r->gl, frame, index, times, error)
-                  : cpu_render(r->cpu, frame, index, index, true, times, error));
+    return r->gl ? gpu_refine(r->gl, frame, index, times, error)
+                 : cpu_render(r->cpu, frame, index, index, true, times, error);
 }
 
 bool renderer_read_rgb8(any_renderer *r, const image_display *display, unsigned char *rgb8,

@@ -358,7 +358,7 @@ bool cpu_render(cpu_renderer *r, const render_frame *frame, int first, int last,
         *times = (render_times) { .shade = 0 };
     const double start = timing_now();
     render_materials_note_sheen(&r->materials, r->materials.fibers);
-    if (!size_image(r, frame, error))
+    if (!render_frame_check(frame, error) || !size_image(r, frame, error))
         return false;
     if (!cpu_lights_create(frame, r->world->bvh, &lights))
         return cli_fail(error, NULL, "out of memory");

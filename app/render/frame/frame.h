@@ -49,6 +49,9 @@ typedef struct render_frame {
     float samples_exposure; /* the mean suits an image of this exposure; 0: the plain mean */
 } render_frame;
 
+/* Whether the frame has what its method reads. */
+bool render_frame_check(const render_frame *frame, cli_error *error);
+
 /* Milliseconds of one frame's passes: timer queries on hardware, a wall clock on the CPU. */
 typedef struct render_times {
     double surfaces; /* finding them: rays, or a G-buffer */

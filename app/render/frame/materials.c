@@ -79,6 +79,13 @@ void render_material_fill(const render_materials *m, size_t number, float specul
                                                      weight } };
 }
 
+void render_material_cover(const render_materials *m, lmp_coat coat, lmp_rgb sheen,
+                           float sheen_roughness, lmp_material *material) {
+    material->coat = coat;
+    if (m->fibers && (sheen.r > 0 || sheen.g > 0 || sheen.b > 0))
+        material->fibers = (lmp_fibers) { sheen, sheen_roughness, m->fibers };
+}
+
 unsigned render_materials_sheens(const render_materials *m) {
     unsigned count = 0;
     for (size_t i = 0; i < m->count; i++)

@@ -48,6 +48,10 @@ bool render_material_is_layered(const render_materials *materials, size_t number
 void render_material_fill(const render_materials *materials, size_t number, float specular,
                           lmp_rgb tint, lmp_material *material);
 
+/* What lies over it, if the material is layered: a coat, and a sheen where tables draw it. */
+void render_material_cover(const render_materials *materials, lmp_coat coat, lmp_rgb sheen,
+                           float sheen_roughness, lmp_material *material);
+
 /* Says once on stderr that sheen is left out, if materials have one and `drawn` is false. */
 void render_materials_note_sheen(render_materials *materials, bool drawn);
 

@@ -130,13 +130,9 @@ static void fill_reflector(const render_surfaces *s, size_t pixel, lmp_material 
     const bool layered = s->layered && render_material_is_layered(s->materials, number);
     const lmp_rgb tint = layered ? color_at(s->tint, pixel) : (lmp_rgb) { 1, 1, 1 };
     render_material_fill(s->materials, number, s->specular[pixel], tint, material);
-    if (layered) {
-        const lmp_rgb sheen = color_at(s->sheen, pixel);
-        material->coat = (lmp_coat) { s->coat[pixel], s->coat_roughness[pixel] };
-        if (s->materials->fibers && (sheen.r > 0 || sheen.g > 0 || sheen.b > 0))
-            material->fibers =
-                (lmp_fibers) { sheen, s->sheen_roughness[pixel], s->materials->fibers };
-    }
+    if (layered)
+        render_material_cover(s->materials, (lmp_coat) { s->coat[pixel], s->coat_roughness[pixel] },
+                              color_at(s->sheen, pixel), s->sheen_roughness[pixel], material);
 }
 
 /* Whether two pixels that see surfaces have the same reflector. */

@@ -32,13 +32,9 @@ static void unpack(const gpu_renderer *r, const shared_pixel *from, size_t count
         const size_t number = (size_t)(kind - SHARED_KIND_SURFACE);
         render_material_fill(&r->materials, number, from[i].layers[1], as_rgb(from[i].tint),
                              &to[i].material);
-        if (render_material_is_layered(&r->materials, number)) {
-            const lmp_rgb sheen = as_rgb(from[i].sheen);
-            to[i].material.coat = (lmp_coat) { from[i].coat[3], from[i].tint[3] };
-            if (r->materials.fibers && (sheen.r > 0 || sheen.g > 0 || sheen.b > 0))
-                to[i].material.fibers =
-                    (lmp_fibers) { sheen, from[i].sheen[3], r->materials.fibers };
-        }
+        if (render_material_is_layered(&r->materials, number))
+            render_material_cover(&r->materials, (lmp_coat) { from[i].coat[3], from[i].tint[3] },
+                                  as_rgb(from[i].sheen), from[i].sheen[3], &to[i].material);
         to[i].material.base_color = as_rgb(from[i].base_color);
         to[i].material.metallic = from[i].normal_metallic[3];
         to[i].material.roughness = from[i].view_roughness[3];

@@ -191,10 +191,8 @@ static bool render_samples(gpu_renderer *r, const render_frame *frame, int first
         return cli_fail(error, NULL, "%zu lights: %s takes %zu%s", frame->light_count,
                         r->context.device, lights_max,
                         lights_max < SCENE_LIGHTS_MAX ? " (--device cpu takes more)" : "");
-    if (method_table[frame->method].reads & METHOD_READS_PREINTEGRATED && !frame->lobes)
-        return cli_fail(error, NULL, "preintegrated shading without its lobes");
-    if (method_table[frame->method].reads & METHOD_READS_FIELD && !frame->field)
-        return cli_fail(error, NULL, "a field's shading without its field");
+    if (!render_frame_check(frame, error))
+        return false;
     const GLuint program = frame->host ? 0 : gpu_variant_find(r, frame, error);
     if ((!frame->host && !program) || !gpu_targets_create(r, frame->width, frame->height, error))
         return false;
