@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_buffer.c - buffers, the views into them, and the accessors of these. */
+#include "app/scene/escape.h"
 #include "app/scene/gltf.h"
 #include "app/scene/meshopt.h"
 
@@ -17,13 +18,6 @@ static int base64_digit(char c) {
            : c >= '0' && c <= '9' ? c - '0' + 52
            : c == '+'             ? 62
            : c == '/'             ? 63
-                                  : -1;
-}
-
-static int hex_digit(char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
                                   : -1;
 }
 
@@ -52,12 +46,8 @@ static bool decode_base64(const char *text, gltf_bytes *bytes) {
 static bool decode_escaped(const char *text, gltf_bytes *bytes) {
     unsigned char *out = malloc(strlen(text) + 1);
     size_t size = 0;
-    for (const char *c = text; out && *c; c++) {
-        const bool escape = *c == '%' && hex_digit(c[1]) >= 0 && hex_digit(c[2]) >= 0;
-        out[size++] =
-            (unsigned char)(escape ? hex_digit(c[1]) * 16 + hex_digit(c[2]) : (unsigned char)*c);
-        c += escape ? 2 : 0;
-    }
+    for (const char *c = text; out && *c;)
+        out[size++] = (unsigned char)escape_next(&c);
     *bytes = (gltf_bytes) { .bytes = out, .size = size, .owned = out };
     return out != NULL;
 }

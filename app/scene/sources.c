@@ -2,6 +2,7 @@
 #include "app/scene/sources.h"
 
 #include "app/sandbox/sandbox.h"
+#include "app/scene/escape.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -13,22 +14,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int hex_digit(char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
 /* Decodes percent-escapes and turns backslashes into slashes; false if it does not fit. */
 static bool decode_escapes(const char *uri, char *path, size_t size) {
     size_t used = 0;
-    for (const char *c = uri; *c; c++) {
-        char byte = *c == '\\' ? '/' : *c;
-        if (*c == '%' && hex_digit(c[1]) >= 0 && hex_digit(c[2]) >= 0) {
-            byte = (char)(hex_digit(c[1]) * 16 + hex_digit(c[2]));
-            c += 2;
-        }
+    for (const char *c = uri; *c;) {
+        const bool backslash = *c == '\\';
+        const char next = escape_next(&c), byte = backslash ? '/' : next;
         if (byte == 0 || used + 1 >= size)
             return false;
         path[used++] = byte;
