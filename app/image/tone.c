@@ -2,6 +2,7 @@
 #include "app/image/tone.h"
 
 #include "app/cli/cli.h"
+#include "app/image/srgb.h"
 #include "shaders/tone.h"
 
 #include <math.h>
@@ -124,10 +125,8 @@ typedef struct byte_curve {
 static void make_curve(byte_curve *curve) {
     curve->least[0] = -1;
     curve->least[256] = 2;
-    for (int i = 1; i < 256; i++) {
-        const double x = (i - 0.5) / 255;
-        curve->least[i] = (float)(x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4));
-    }
+    for (int i = 1; i < 256; i++)
+        curve->least[i] = (float)image_srgb_to_linear((i - 0.5) / 255);
     int byte = 0;
     for (int i = 0; i <= GUESSES; i++) {
         const float root = (float)i / GUESSES;

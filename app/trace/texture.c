@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/trace/texture.h"
 
-#include <math.h>
+#include "app/image/srgb.h"
 
-static double srgb_to_linear(double v) {
-    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
-}
+#include <math.h>
 
 static uint32_t wrap(double texel, uint32_t size, uint32_t mode) {
     const double n = size;
@@ -29,7 +27,7 @@ static void add_texel(const scene *world, const scene_texture *texture, double x
         world->texels + texture->first_byte + 4 * ((size_t)row * texture->width + column);
     for (int c = 0; c < 4; c++) {
         const double v = texel[c] / 255.0;
-        rgba[c] += weight * (texture->srgb && c < 3 ? srgb_to_linear(v) : v);
+        rgba[c] += weight * (texture->srgb && c < 3 ? image_srgb_to_linear(v) : v);
     }
 }
 

@@ -40,7 +40,7 @@ may_include() {
     app/figure) echo app/cli app/image app/figure base ;;
     app/scene) echo app/cli app/file app/sandbox app/image app/scene LIBRARY ;;
     app/environment) echo app/cli app/image app/scene app/environment LIBRARY ;;
-    app/trace) echo app/scene app/trace ;;
+    app/trace) echo app/image app/scene app/trace ;;
     app/animation) echo app/cli app/file app/scene app/animation base ;;
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;

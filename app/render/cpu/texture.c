@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/cpu/texture.h"
 
+#include "app/image/srgb.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,12 +31,10 @@ struct cpu_textures {
 
 /* --- the curve of sRGB ------------------------------------------------------------------------ */
 
-/* Computed in double, and so far from where its rounding to float could depend on the machine. */
 static void make_curve(cpu_textures *t) {
     for (int i = 0; i < 256; i++) {
-        const double v = i / 255.0;
         t->linear[0][i] = (float)i / 255;
-        t->linear[1][i] = (float)(v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4));
+        t->linear[1][i] = (float)image_srgb_to_linear(i / 255.0);
     }
     for (int i = 0, byte = 0; i < CURVE; i++) {
         const float root = ((float)i + 1) / CURVE;

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT */
+/* srgb.h - the transfer of sRGB (IEC 61966-2-1). */
+#ifndef LAMPION_IMAGE_SRGB_H
+#define LAMPION_IMAGE_SRGB_H
+
+#include <math.h>
+
+/* The linear value of a stored one, 0 … 1; in double, for what is made of it to be rounded, so that
+ * the bits of floats and bytes do not depend on the machine's mathematics. */
+static inline double image_srgb_to_linear(double stored) {
+    return stored <= 0.04045 ? stored / 12.92 : pow((stored + 0.055) / 1.055, 2.4);
+}
+
+#endif
