@@ -23,6 +23,12 @@ typedef struct texels_decoder {
                    unsigned char *rgba, texels_reason *reason);
 } texels_decoder;
 
+/* By stb_image, whatever formats it is built with: for a decoder. */
+bool texels_stb_measure(const unsigned char *data, size_t size, int *width, int *height,
+                        texels_reason *reason);
+bool texels_stb_decode(const unsigned char *data, size_t size, int width, int height,
+                       unsigned char *rgba, texels_reason *reason);
+
 extern const texels_decoder texels_png, texels_jpeg, texels_webp, texels_tga, texels_bmp;
 
 #endif

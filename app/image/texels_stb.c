@@ -23,15 +23,15 @@ static bool fail(texels_reason *reason) {
     return false;
 }
 
-static bool measure(const unsigned char *data, size_t size, int *width, int *height,
-                    texels_reason *reason) {
+bool texels_stb_measure(const unsigned char *data, size_t size, int *width, int *height,
+                        texels_reason *reason) {
     int channels;
     return (size <= INT_MAX && stbi_info_from_memory(data, (int)size, width, height, &channels)) ||
            fail(reason);
 }
 
-static bool decode(const unsigned char *data, size_t size, int width, int height,
-                   unsigned char *rgba, texels_reason *reason) {
+bool texels_stb_decode(const unsigned char *data, size_t size, int width, int height,
+                       unsigned char *rgba, texels_reason *reason) {
     int w, h, channels;
     unsigned char *const pixels = stbi_load_from_memory(data, (int)size, &w, &h, &channels, 4);
     const bool ok = pixels && w == width && h == height;
@@ -41,5 +41,5 @@ static bool decode(const unsigned char *data, size_t size, int width, int height
     return ok || fail(reason);
 }
 
-const texels_decoder texels_tga = { begins_tga, measure, decode };
-const texels_decoder texels_bmp = { begins_bmp, measure, decode };
+const texels_decoder texels_tga = { begins_tga, texels_stb_measure, texels_stb_decode };
+const texels_decoder texels_bmp = { begins_bmp, texels_stb_measure, texels_stb_decode };

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT */
+/* codecs.c - what Debian has libraries for on the machine's own architecture alone: a page decodes
+ * PNG and JPEG by stb_image, and says of the rest that it is not read. */
+#include "app/image/texels.h"
+#include "app/scene/draco.h"
+#include "app/scene/meshopt.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool begins_png(const unsigned char *data, size_t size) {
+    return size >= 8 && memcmp(data, "\x89PNG\r\n\x1a\n", 8) == 0;
+}
+
+static bool begins_jpeg(const unsigned char *data, size_t size) {
+    return size >= 3 && memcmp(data, "\xff\xd8\xff", 3) == 0;
+}
+
+static bool begins_webp(const unsigned char *data, size_t size) {
+    return size >= 12 && memcmp(data, "RIFF", 4) == 0 && memcmp(data + 8, "WEBP", 4) == 0;
+}
+
+static bool refuse(const unsigned char *data, size_t size, int *width, int *height,
+                   texels_reason *reason) {
+    (void)data, (void)size, (void)width, (void)height;
+    snprintf(reason->text, sizeof reason->text, "WebP is not read in a page");
+    return false;
+}
+
+const texels_decoder texels_png = { begins_png, texels_stb_measure, texels_stb_decode };
+const texels_decoder texels_jpeg = { begins_jpeg, texels_stb_measure, texels_stb_decode };
+const texels_decoder texels_webp = { begins_webp, refuse, NULL };
+
+void *meshopt_decode(const meshopt_layout *layout, const unsigned char *data, size_t size,
+                     const char **wrong) {
+    (void)layout, (void)data, (void)size;
+    *wrong = "is compressed by meshoptimizer, which is not read in a page";
+    return NULL;
+}
+
+/* Nothing else is asked of a mesh that there is none of. */
+draco_mesh *draco_mesh_decode(const void *data, size_t size) {
+    (void)data, (void)size;
+    return NULL;
+}
