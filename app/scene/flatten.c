@@ -3,6 +3,8 @@
 
 #include "app/scene/instance.h"
 
+#include <string.h>
+
 /* Appends the mesh of an instance as it stands in the world. */
 static void append_moved(scene_builder *builder, scene_instance placed) {
     const scene_mesh mesh = ((scene_mesh *)builder_items(builder, BLOB_MESHES))[placed.mesh];
@@ -21,10 +23,9 @@ static void append_moved(scene_builder *builder, scene_instance placed) {
     if (!vertices)
         return;
     const scene_vertex *old = builder_items(builder, BLOB_VERTICES);
-    for (size_t i = 0; i <= (size_t)most - least; i++) {
-        vertices[i] = old[least + i];
-        scene_instance_vertex(&placed, &vertices[i]);
-    }
+    const size_t count = (size_t)most - least + 1;
+    memcpy(vertices, old + least, count * sizeof *vertices);
+    scene_instance_vertices(&placed, vertices, count);
     const bool mirrors = scene_instance_mirrors(&placed);
     for (uint32_t i = 0; i < mesh.index_count; i++) {
         const uint32_t corner = mirrors && i % 3 > 0 ? i - i % 3 + 3 - i % 3 : i;

@@ -67,22 +67,25 @@ bool scene_instance_mirrors(const scene_instance *instance) {
     return vec_dot(row_of(instance, 0), vec_cross(row_of(instance, 1), row_of(instance, 2))) < 0.0f;
 }
 
-void scene_instance_vertex(const scene_instance *instance, scene_vertex *vertex) {
+void scene_instance_vertices(const scene_instance *instance, scene_vertex *vertices, size_t count) {
     if (scene_instance_is_identity(instance))
         return;
     const float side = scene_instance_mirrors(instance) ? -1.0f : 1.0f;
-    const lmp_vec3 n = vec_load(vertex->normal), t = vec_load(vertex->tangent);
+    const lmp_vec3 x = row_of(instance, 0), y = row_of(instance, 1), z = row_of(instance, 2);
     lmp_vec3 rows[3];
-    float at[3];
     cofactors(instance, rows);
-    const lmp_vec3 normal = { vec_dot(rows[0], n), vec_dot(rows[1], n), vec_dot(rows[2], n) };
-    const lmp_vec3 tangent = { vec_dot(row_of(instance, 0), t), vec_dot(row_of(instance, 1), t),
-                               vec_dot(row_of(instance, 2), t) };
-    scene_instance_point(instance, vertex->position, at);
-    memcpy(vertex->position, at, sizeof at);
-    vec_store(vec_normalize(vec_scale(normal, side), n), vertex->normal);
-    vec_store(vec_normalize(tangent, t), vertex->tangent);
-    vertex->tangent[3] *= side;
+    for (size_t i = 0; i < count; i++) {
+        scene_vertex *vertex = &vertices[i];
+        const lmp_vec3 n = vec_load(vertex->normal), t = vec_load(vertex->tangent);
+        const lmp_vec3 normal = { vec_dot(rows[0], n), vec_dot(rows[1], n), vec_dot(rows[2], n) };
+        const lmp_vec3 tangent = { vec_dot(x, t), vec_dot(y, t), vec_dot(z, t) };
+        float at[3];
+        scene_instance_point(instance, vertex->position, at);
+        memcpy(vertex->position, at, sizeof at);
+        vec_store(vec_normalize(vec_scale(normal, side), n), vertex->normal);
+        vec_store(vec_normalize(tangent, t), vertex->tangent);
+        vertex->tangent[3] *= side;
+    }
 }
 
 /* The root of the sum of squares: no less than the largest, and at most by the root of 3 more. */
@@ -153,8 +156,7 @@ void scene_triangle_positions(const scene *s, size_t number, uint32_t triangle,
 void scene_triangle(const scene *s, size_t number, uint32_t triangle, scene_vertex corners[3]) {
     const scene_vertex *own[3];
     scene_triangle_vertices(s, number, triangle, own);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; i++)
         corners[i] = *own[i];
-        scene_instance_vertex(&s->instances[number], &corners[i]);
-    }
+    scene_instance_vertices(&s->instances[number], corners, 3);
 }

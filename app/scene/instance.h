@@ -31,8 +31,8 @@ static inline void scene_instance_point(const scene_instance *instance, const fl
     }
 }
 
-/* Takes a whole vertex into the world; normal and tangent are unit there too. */
-void scene_instance_vertex(const scene_instance *instance, scene_vertex *vertex);
+/* Takes whole vertices into the world; normals and tangents are unit there too. */
+void scene_instance_vertices(const scene_instance *instance, scene_vertex *vertices, size_t count);
 
 /* What the lengths of a mesh grow by at most. */
 float scene_instance_scale(const scene_instance *instance);
