@@ -6,7 +6,7 @@
 /* --- error and reach -------------------------------------------------------------------------- */
 
 /* error = max((joint / (reach + a))³, (scale / (reach + b))⁴): the third derivative of the fade
- * jumps where the fade ends, and the coefficients of many bands growth fast near a light. Bounds of
+ * jumps where the fade ends, and the coefficients of many bands grow fast near a light. Bounds of
  * the largest errors that a search finds for reaches of 1.2 to 64 cells, on grids of one to four
  * levels (tests/unit/field_error.c): 5 % above them at least, a third at most from 2 cells
  * on. */
@@ -183,7 +183,7 @@ static int plan_levels(const lmp_host *host, const lmp_field_desc *desc, lmp_fie
 }
 
 /* Lays the levels out in memory, or only counts its bytes where that is NULL. The lights are one
- * list, and one room for bricks is enough, for levels take growths. */
+ * list, and one room for bricks is enough, for levels take turns. */
 static size_t lay_out(lmp_field *levels, int count, unsigned char *memory) {
     const size_t lights = (size_t)levels->info.desc.light_max;
     size_t used = (size_t)count * sizeof *levels;
