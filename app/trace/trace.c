@@ -51,15 +51,15 @@ static bool may_be_cut(const scene_material *material, trace_kind kind) {
 static double alpha_of(const scene *world, const scene_material *material,
                        const trace_triangle *t) {
     const uint32_t set = material->base_color_map.set;
-    double uv[2] = { 0, 0 }, rgba[4], alpha = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
+    double uv[2] = { 0, 0 }, alpha = material->flags & SCENE_VERTEX_COLORS ? 0 : 1;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
             uv[k] += t->weights[i] * (double)t->corners[i]->uv[set][k];
         if (material->flags & SCENE_VERTEX_COLORS)
             alpha += t->weights[i] * (double)t->corners[i]->color[3] / 65535;
     }
-    trace_texture_at(world, &material->base_color_map, uv, rgba);
-    return rgba[3] * alpha * (double)material->base_color[3];
+    return trace_texture_alpha(world, &material->base_color_map, uv) * alpha *
+           (double)material->base_color[3];
 }
 
 /* --- rays against a triangle ------------------------------------------------------------------ */
