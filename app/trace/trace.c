@@ -91,30 +91,46 @@ static double threshold_of(const trace_packet *p, unsigned lane) {
                                    rays->sample, rays->samples);
 }
 
-static bool lets_pass(const trace_packet *p, unsigned lane, const triangle_hits *hits) {
+static bool lets_pass(const trace_packet *p, unsigned lane, const triangle_hit *hit) {
     const scene_material *material = p->instance->material;
     const trace_kind kind = p->context->kind;
-    if (kind != TRACE_LIGHT && !hits->front[lane] && !(material->flags & SCENE_DOUBLE_SIDED))
+    if (kind != TRACE_LIGHT && !hit->front && !(material->flags & SCENE_DOUBLE_SIDED))
         return true;
     if (!may_be_cut(material, kind))
         return false;
     trace_triangle t;
     const scene *world = p->context->bvh->scene;
     scene_triangle_vertices(world, p->number, p->triangle, t.corners);
-    set_weights(hits->u[lane], hits->v[lane], t.weights);
+    set_weights(hit->u, hit->v, t.weights);
     const double alpha = alpha_of(world, material, &t);
     return kind == TRACE_IMAGE && material->flags & SCENE_ALPHA_BLEND
                ? alpha <= threshold_of(p, lane)
                : alpha < (double)material->alpha_cutoff;
 }
 
-static void keep(const trace_packet *p, unsigned lane, const triangle_hits *hits) {
-    *embree_value(&p->lanes, EMBREE_END, lane) = hits->distance[lane];
-    *embree_value(&p->lanes, EMBREE_U, lane) = hits->u[lane];
-    *embree_value(&p->lanes, EMBREE_V, lane) = hits->v[lane];
+static void keep(const trace_packet *p, unsigned lane, const triangle_hit *hit) {
+    *embree_value(&p->lanes, EMBREE_END, lane) = hit->distance;
+    *embree_value(&p->lanes, EMBREE_U, lane) = hit->u;
+    *embree_value(&p->lanes, EMBREE_V, lane) = hit->v;
     *embree_number(&p->lanes, EMBREE_PRIMITIVE, lane) = p->triangle;
     *embree_number(&p->lanes, EMBREE_GEOMETRY, lane) = p->number;
     *embree_number(&p->lanes, EMBREE_INSTANCE, lane) = RTC_INVALID_GEOMETRY_ID;
+}
+
+/* A lane's ray, of which the test says that it meets the triangle, or that it passes by. */
+static void consider(const trace_packet *p, unsigned lane, triangle_hit hit) {
+    if (comes_first(p, lane, hit.distance) && !lets_pass(p, lane, &hit))
+        keep(p, lane, &hit);
+}
+
+/* Few lanes of a packet are tested one at a time, by the same arithmetic. */
+enum { FEW = 3 };
+
+static bool are_few(const int *valid, unsigned count) {
+    unsigned sum = 0;
+    for (unsigned i = 0; i < count; i++)
+        sum += valid[i] != 0;
+    return sum <= FEW;
 }
 
 /* The number of the packet's first ray: numbers run on, and are those of rays that take part. */
@@ -139,12 +155,17 @@ static void intersect(const struct RTCIntersectFunctionNArguments *a) {
     const float *corners[3];
     float moved[3][3];
     triangle_hits hits;
-    tree_corners(context->bvh, p.instance, p.triangle, moved, corners);
-    if (!triangle_test(&context->rays, first_ray(&p, a->valid), p.lanes.count, corners, &hits))
-        return;
-    for (unsigned i = 0; i < p.lanes.count; i++)
-        if (a->valid[i] && comes_first(&p, i, hits.distance[i]) && !lets_pass(&p, i, &hits))
-            keep(&p, i, &hits);
+    const unsigned first = first_ray(&p, a->valid);
+    tree_corners(p.instance, p.triangle, moved, corners);
+    if (are_few(a->valid, a->N)) {
+        for (unsigned i = 0; i < a->N; i++)
+            if (a->valid[i] && triangle_test(&context->rays, first + i, 1, corners, &hits))
+                consider(&p, i, triangle_hit_at(&hits, 0));
+    } else if (triangle_test(&context->rays, first, a->N, corners, &hits)) {
+        for (unsigned i = 0; i < a->N; i++)
+            if (a->valid[i])
+                consider(&p, i, triangle_hit_at(&hits, i));
+    }
 }
 
 /* --- creation --------------------------------------------------------------------------------- */
@@ -152,7 +173,7 @@ static void intersect(const struct RTCIntersectFunctionNArguments *a) {
 /* What Embree and its threads take at most, in bytes: its allocator asks for 128 MiB at once. */
 #define ROOM          ((size_t)192 << 20)
 #define ROOM_THREAD   ((size_t)16 << 20)
-#define ROOM_TRIANGLE 256
+#define ROOM_TRIANGLE 292
 #define ROOM_INSTANCE 2048
 
 /* Whether all of it is there where the address space is limited: Embree is C++, and its threads end
@@ -193,50 +214,79 @@ static void set_context(const trace_bvh *bvh, trace_kind kind, trace_context *co
         context->embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 }
 
-trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origin[3],
-                        const float direction[3]) {
-    trace_context context;
+static trace_hit nearest(const trace_bvh *bvh, trace_context *context, const float origin[3],
+                         const float direction[3], float start, float length, unsigned number) {
     struct RTCRayHit query = {
         .ray = { .org_x = origin[0],
                  .org_y = origin[1],
                  .org_z = origin[2],
-                 .tnear = 0,
+                 .tnear = start,
                  .dir_x = direction[0],
                  .dir_y = direction[1],
                  .dir_z = direction[2],
-                 .tfar = INFINITY,
+                 .tfar = length,
+                 .id = number,
                  .mask = ~0u },
         .hit = { .geomID = RTC_INVALID_GEOMETRY_ID },
     };
-    const float *const from[3] = { &origin[0], &origin[1], &origin[2] };
-    const float *const along[3] = { &direction[0], &direction[1], &direction[2] };
-    triangle_rays_set(from, along, 1, &context.rays);
-    context.image = NULL;
-    set_context(bvh, kind, &context);
-    rtcIntersect1(bvh->rays, &context.embree, &query);
+    rtcIntersect1(bvh->rays, &context->embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
     return (trace_hit) { query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u,
                          query.hit.v };
 }
 
-void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
-                     trace_hit hits[TRACE_LANES]) {
+trace_hit trace_nearest(const trace_bvh *bvh, trace_kind kind, const float origin[3],
+                        const float direction[3]) {
     trace_context context;
+    const float *const from[3] = { &origin[0], &origin[1], &origin[2] };
+    const float *const along[3] = { &direction[0], &direction[1], &direction[2] };
+    triangle_rays_set(from, along, 1, &context.rays);
+    context.image = NULL;
+    set_context(bvh, kind, &context);
+    return nearest(bvh, &context, origin, direction, 0, INFINITY, 0);
+}
+
+static void trace_apart(const trace_bvh *bvh, trace_context *context, const trace_rays *rays,
+                        trace_hit hits[TRACE_LANES]) {
+    for (unsigned i = 0; i < TRACE_LANES; i++) {
+        const float origin[3] = { rays->origin[0][i], rays->origin[1][i], rays->origin[2][i] };
+        const float direction[3] = { rays->direction[0][i], rays->direction[1][i],
+                                     rays->direction[2][i] };
+        if (rays->length[i] >= 0)
+            hits[i] = nearest(bvh, context, origin, direction, rays->start[i], rays->length[i], i);
+        else
+            hits[i] = (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
+    }
+}
+
+static void trace_together(const trace_bvh *bvh, trace_context *context, const trace_rays *rays,
+                           trace_hit hits[TRACE_LANES]) {
     struct RTCRayHit16 query;
     _Alignas(64) int valid[TRACE_LANES];
     embree_set_rays(rays, &query, valid);
-    const float *const from[3] = { rays->origin[0], rays->origin[1], rays->origin[2] };
-    const float *const along[3] = { rays->direction[0], rays->direction[1], rays->direction[2] };
-    triangle_rays_set(from, along, TRACE_LANES, &context.rays);
-    context.image = rays;
-    set_context(bvh, kind, &context);
-    rtcIntersect16(valid, bvh->rays, &context.embree, &query);
+    rtcIntersect16(valid, bvh->rays, &context->embree, &query);
     for (int i = 0; i < TRACE_LANES; i++)
         hits[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                       ? (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING }
                       : (trace_hit) { query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i],
                                       query.hit.u[i], query.hit.v[i] };
+}
+
+/* Rays of a camera go the same way; those to lights part so soon that each is traced by itself:
+ * that takes 0.87 of the time in San Miguel. */
+void trace_nearest_n(const trace_bvh *bvh, trace_kind kind, const trace_rays *rays,
+                     trace_hit hits[TRACE_LANES]) {
+    trace_context context;
+    const float *const from[3] = { rays->origin[0], rays->origin[1], rays->origin[2] };
+    const float *const along[3] = { rays->direction[0], rays->direction[1], rays->direction[2] };
+    triangle_rays_set(from, along, TRACE_LANES, &context.rays);
+    context.image = rays;
+    set_context(bvh, kind, &context);
+    if (kind == TRACE_LIGHT)
+        trace_apart(bvh, &context, rays, hits);
+    else
+        trace_together(bvh, &context, rays, hits);
 }
 
 void trace_version(const trace_bvh *bvh, char *text, size_t size) {

@@ -5,22 +5,17 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Widened, so that the tree's rounding drops no triangle that the test would hit. */
 static void find_bounds(const struct RTCBoundsFunctionArguments *a) {
     embree_enter();
     const trace_mesh *mesh = a->geometryUserPtr;
-    const scene *world = mesh->bvh->scene;
-    const uint32_t *index = world->indices + mesh->mesh->first_index + 3 * (size_t)a->primID;
-    const float *corners[3];
-    float moved[3][3], minimum[3], maximum[3];
-    for (int i = 0; i < 3; i++)
-        corners[i] = world->vertices[index[i]].position;
-    if (!mesh->tree)
-        tree_corners(mesh->bvh, &mesh->bvh->instances[mesh->instance], a->primID, moved, corners);
+    const trace_corner_set *corners = &mesh->corners[a->primID];
+    float minimum[3], maximum[3];
     for (int k = 0; k < 3; k++) {
-        minimum[k] = fminf(corners[0][k], fminf(corners[1][k], corners[2][k]));
-        maximum[k] = fmaxf(corners[0][k], fmaxf(corners[1][k], corners[2][k]));
+        minimum[k] = fminf(corners->of[0][k], fminf(corners->of[1][k], corners->of[2][k]));
+        maximum[k] = fmaxf(corners->of[0][k], fmaxf(corners->of[1][k], corners->of[2][k]));
     }
     const float margin = mesh->margin;
     *a->bounds_o = (struct RTCBounds) {
@@ -99,17 +94,53 @@ static void set_instances(trace_bvh *bvh) {
     for (size_t i = 0; i < world->instance_count; i++) {
         const scene_instance *placed = &world->instances[i];
         trace_mesh *mesh = &bvh->meshes[placed->mesh];
-        bvh->instances[i] = (trace_instance) { .placed = placed,
-                                               .indices = world->indices + mesh->mesh->first_index,
-                                               .material = &world->materials[mesh->mesh->material],
-                                               .moves = !scene_instance_is_identity(placed),
-                                               .mirrors = scene_instance_mirrors(placed) };
+        bvh->instances[i] =
+            (trace_instance) { .placed = placed,
+                               .material = &world->materials[mesh->mesh->material] };
         mesh->margin = mesh->uses > 0 ? fmaxf(mesh->margin, margin * stretch(placed)) : margin;
         if (++mesh->uses == 2)
             mesh->margin = fmaxf(margin * stretch(&world->instances[mesh->instance]),
                                  margin * stretch(placed));
         mesh->instance = (uint32_t)i;
     }
+}
+
+/* Of a mesh that one instance has, as scene_triangle_positions has them; else as the mesh has. */
+static void set_corners(const scene *world, const trace_mesh *mesh) {
+    const uint32_t *index = world->indices + mesh->mesh->first_index;
+    for (uint32_t t = 0; t < mesh->mesh->index_count / 3; t++)
+        if (mesh->uses == 1)
+            scene_triangle_positions(world, mesh->instance, t, mesh->corners[t].of);
+        else
+            for (int i = 0; i < 3; i++)
+                memcpy(mesh->corners[t].of[i],
+                       world->vertices[index[3 * (size_t)t + (size_t)i]].position,
+                       sizeof mesh->corners[t].of[i]);
+}
+
+static bool make_corners(trace_bvh *bvh) {
+    const scene *world = bvh->scene;
+    size_t count = 0;
+    for (size_t i = 0; i < world->mesh_count; i++)
+        count += world->meshes[i].index_count / 3;
+    trace_corner_set *next = bvh->corners = malloc((count + 1) * sizeof *bvh->corners);
+    if (!next)
+        return false;
+    for (size_t i = 0; i < world->mesh_count; i++) {
+        bvh->meshes[i].corners = next;
+        next += world->meshes[i].index_count / 3;
+    }
+#pragma omp parallel for schedule(dynamic, 16)
+    for (size_t i = 0; i < world->mesh_count; i++)
+        set_corners(world, &bvh->meshes[i]);
+    for (size_t i = 0; i < world->instance_count; i++) {
+        trace_instance *instance = &bvh->instances[i];
+        const trace_mesh *mesh = &bvh->meshes[instance->placed->mesh];
+        instance->corners = mesh->corners;
+        instance->moves = mesh->uses > 1 && !scene_instance_is_identity(instance->placed);
+        instance->mirrors = mesh->uses > 1 && scene_instance_mirrors(instance->placed);
+    }
+    return true;
 }
 
 bool tree_build(trace_bvh *bvh, const scene *world, RTCIntersectFunctionN test) {
@@ -121,6 +152,8 @@ bool tree_build(trace_bvh *bvh, const scene *world, RTCIntersectFunctionN test) 
     if (!bvh->meshes || !bvh->instances || !bvh->device || !(bvh->rays = rtcNewScene(bvh->device)))
         return false;
     set_instances(bvh);
+    if (!make_corners(bvh))
+        return false;
     rtcSetSceneFlags(bvh->rays, RTC_SCENE_FLAG_ROBUST);
     for (size_t i = 0; i < world->instance_count; i++)
         if (!add_instance(bvh, i))
@@ -137,6 +170,7 @@ void tree_free(trace_bvh *bvh) {
             rtcReleaseScene(bvh->meshes[i].tree);
     if (bvh->device)
         rtcReleaseDevice(bvh->device);
+    free(bvh->corners);
     free(bvh->instances);
     free(bvh->meshes);
 }

@@ -9,12 +9,19 @@
 
 #include <embree3/rtcore.h>
 
+/* Positions of a triangle, side by side: a test reads one cache line, or two, where the scene's
+ * indices and vertices lie on four. */
+typedef struct trace_corner_set {
+    float of[3][3];
+} trace_corner_set;
+
 /* What the test reads of an instance. */
 typedef struct trace_instance {
+    const trace_corner_set *corners; /* of its triangles */
     const scene_instance *placed;
-    const uint32_t *indices;
     const scene_material *material;
-    bool moves, mirrors; /* its matrix is not the identity; it changes the sides of triangles */
+    bool moves,
+        mirrors; /* the corners are those of a mesh that it moves, or whose sides it changes */
 } trace_instance;
 
 /* A geometry of Embree's: a mesh that one instance alone has, in the world; or one of several, in
@@ -23,14 +30,17 @@ typedef struct trace_mesh {
     const trace_bvh *bvh;
     const scene_mesh *mesh;
     uint32_t uses, instance; /* instances, and the last of them */
-    float margin;            /* of its triangles' bounds */
-    RTCScene tree;           /* of more than one instance */
+    trace_corner_set
+        *corners;  /* of its triangles, in its own space; of one instance, in the world */
+    float margin;  /* of its triangles' bounds */
+    RTCScene tree; /* of more than one instance */
 } trace_mesh;
 
 struct trace_bvh {
     const scene *scene;
     trace_mesh *meshes;
     trace_instance *instances;
+    trace_corner_set *corners; /* of all meshes */
     RTCDevice device;
     RTCScene rays;
     RTCIntersectFunctionN test;
@@ -45,12 +55,11 @@ void tree_free(trace_bvh *bvh);
 
 /* The positions of a triangle's corners in the world; those of an instance that moves its mesh are
  * computed into `moved`. */
-static inline void tree_corners(const trace_bvh *bvh, const trace_instance *instance,
-                                uint32_t triangle, float moved[3][3], const float *corners[3]) {
-    const uint32_t *index = instance->indices + 3 * (size_t)triangle;
+static inline void tree_corners(const trace_instance *instance, uint32_t triangle,
+                                float moved[3][3], const float *corners[3]) {
+    const trace_corner_set *set = &instance->corners[triangle];
     for (int i = 0; i < 3; i++) {
-        const int from = instance->mirrors && i > 0 ? 3 - i : i;
-        corners[i] = bvh->scene->vertices[index[from]].position;
+        corners[i] = set->of[instance->mirrors && i > 0 ? 3 - i : i];
         if (instance->moves) {
             scene_instance_point(instance->placed, corners[i], moved[i]);
             corners[i] = moved[i];

@@ -140,6 +140,8 @@ static inline bool test(const triangle_rays *rays, unsigned first, unsigned coun
 TRACE_WIDE bool triangle_test(const triangle_rays *rays, unsigned first, unsigned count,
                               const float *const corners[3], triangle_hits *hits) {
     switch (count) {
+    case 1:
+        return test(rays, first, 1, corners, hits);
     case 4:
         return test(rays, first, 4, corners, hits);
     case 8:

@@ -30,6 +30,16 @@ typedef struct triangle_hits {
     bool front[TRIANGLE_LANES]; /* the corners run counter-clockwise as the ray sees them */
 } triangle_hits;
 
+/* Of one of them. */
+typedef struct triangle_hit {
+    float distance, u, v;
+    bool front;
+} triangle_hit;
+
+static inline triangle_hit triangle_hit_at(const triangle_hits *hits, unsigned i) {
+    return (triangle_hit) { hits->distance[i], hits->u[i], hits->v[i], hits->front[i] };
+}
+
 /* Tests rays `first` to first + count - 1 against the triangle of three corners; results stand from
  * 0 on. False if all pass by: then *hits is not set.
  *
