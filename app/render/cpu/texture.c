@@ -185,42 +185,58 @@ void cpu_textures_destroy(cpu_textures *t) {
 
 /* --- look-ups --------------------------------------------------------------------------------- */
 
-/* The texel that a whole number, however large, comes to. */
-static uint32_t wrap(float texel, uint32_t size, uint32_t mode) {
-    const float n = (float)size;
-    float i = texel;
-    if (i >= 0 && i < n)
-        return (uint32_t)i;
+/* A coordinate within 0 … 1 that shows the same. */
+static float fold(float u, uint32_t mode) {
+    if (u >= 0 && u <= 1)
+        return u;
     if (mode == SCENE_WRAP_CLAMP)
-        i = fminf(fmaxf(i, 0), n - 1);
-    else if (mode == SCENE_WRAP_REPEAT)
-        i -= n * floorf(i / n);
-    else {
-        i -= 2 * n * floorf(i / (2 * n));
-        i = i < n ? i : 2 * n - 1 - i;
-    }
-    return i > 0 && i < n ? (uint32_t)i : 0;
+        return u > 0 ? 1 : 0;
+    const float turns = mode == SCENE_WRAP_REPEAT ? u : 0.5f * u;
+    const float part = turns - floorf(turns); /* of what is not finite NaN */
+    if (!(part >= 0 && part <= 1))
+        return 0;
+    return mode == SCENE_WRAP_REPEAT ? part : 2 * (part < 0.5f ? part : 1 - part);
+}
+
+/* The two texels around a coordinate within 0 … 1, and how much of the second is there. Past an
+ * edge lies the other one of a texture that repeats, and else the edge itself. */
+typedef struct neighbors {
+    uint32_t texels[2];
+    float part;
+} neighbors;
+
+static inline neighbors find_neighbors(float u, uint32_t size, uint32_t mode) {
+    const float x = u * (float)size + 0.5f; /* of the second one's left edge */
+    const uint32_t second = (uint32_t)x, last = size - 1;
+    const bool repeats = mode == SCENE_WRAP_REPEAT;
+    neighbors n = { { second - 1, second }, x - (float)second };
+    if (second == 0)
+        n.texels[0] = repeats ? last : 0;
+    if (second > last)
+        n.texels[1] = repeats ? 0 : last;
+    return n;
 }
 
 static void add_bilinear(const cpu_textures *t, const texture *from, int number, float u, float v,
                          float weight, float rgba[4]) {
     const level *l = &from->levels[number];
-    const float x = u * (float)l->width - 0.5f, y = v * (float)l->height - 0.5f;
-    const float left = floorf(x), top = floorf(y), fx = x - left, fy = y - top;
-    const uint32_t columns[2] = { wrap(left, l->width, from->wrap_u),
-                                  wrap(left + 1, l->width, from->wrap_u) };
-    const uint32_t rows[2] = { wrap(top, l->height, from->wrap_v),
-                               wrap(top + 1, l->height, from->wrap_v) };
+    const neighbors x = find_neighbors(u, l->width, from->wrap_u);
+    const neighbors y = find_neighbors(v, l->height, from->wrap_v);
     const float *const color = t->linear[from->srgb], *const alpha = t->linear[0];
+    const float columns[2] = { 1 - x.part, x.part };
+    const float rows[2] = { weight * (1 - y.part), weight * y.part };
+    float sum[4] = { rgba[0], rgba[1], rgba[2], rgba[3] };
     for (int j = 0; j < 2; j++)
         for (int i = 0; i < 2; i++) {
-            const unsigned char *texel = l->texels + 4 * ((size_t)rows[j] * l->width + columns[i]);
-            const float w = weight * (i ? fx : 1 - fx) * (j ? fy : 1 - fy);
-            rgba[0] += w * color[texel[0]];
-            rgba[1] += w * color[texel[1]];
-            rgba[2] += w * color[texel[2]];
-            rgba[3] += w * alpha[texel[3]];
+            const unsigned char *texel =
+                l->texels + 4 * ((size_t)y.texels[j] * l->width + x.texels[i]);
+            const float w = rows[j] * columns[i];
+            sum[0] += w * color[texel[0]];
+            sum[1] += w * color[texel[1]];
+            sum[2] += w * color[texel[2]];
+            sum[3] += w * alpha[texel[3]];
         }
+    memcpy(rgba, sum, sizeof sum);
 }
 
 /* The logarithm to base 2 of x > 0 within 0.01, by arithmetic whose bits are the same everywhere.
@@ -235,8 +251,9 @@ static float log2_of(float x) {
 }
 
 /* Both levels of detail around `lod`. */
-static void add_trilinear(const cpu_textures *t, const texture *from, float lod, float u, float v,
-                          float weight, float rgba[4]) {
+static void add_trilinear(const cpu_textures *t, const texture *from, float lod, float at_u,
+                          float at_v, float weight, float rgba[4]) {
+    const float u = fold(at_u, from->wrap_u), v = fold(at_v, from->wrap_v);
     const float last = (float)(from->count - 1);
     const float held = lod > 0 ? fminf(lod, last) : 0;
     const int finer = (int)held;
