@@ -309,7 +309,7 @@ static void set_points(const scene *world, lmp_vec3 at[SHADOW_LANES], render_til
         }
         row->material[i] = *material;
     }
-    shadow_points_set(&view, row, pixels, SHADOW_LANES, points);
+    shadow_points_set(&view, row, NULL, pixels, SHADOW_LANES, points);
     points->settings = &shading; /* the view ends here */
     trace_destroy(bvh);
 }

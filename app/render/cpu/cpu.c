@@ -260,7 +260,9 @@ static bool size_planes(const drawing *d, bool keep, cli_error *error) {
         (r->surfaces.memory || render_surfaces_create(width, height, layered, &r->surfaces)) &&
         (r->rgba || (r->rgba = malloc(bytes))) && (r->sums || (r->sums = malloc(bytes))) &&
         (!keep || r->first.memory || render_surfaces_create(width, height, layered, &r->first)) &&
-        (!keep || r->first_rgba || (r->first_rgba = malloc(bytes)));
+        (!keep || r->first_rgba || (r->first_rgba = malloc(bytes))) &&
+        (!d->frame->shadow.run || (render_surfaces_keep_hits(&r->surfaces) &&
+                                   (!keep || render_surfaces_keep_hits(&r->first))));
     if (!ok)
         free_planes(r);
     return ok || cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);

@@ -70,6 +70,8 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
         else {
             cpu_triangle_find(view->scene, &hits[i], triangle);
             cpu_surface_fill(view->textures, triangle, &of[i], &hits[i], at, s);
+            if (s->hits)
+                s->hits[at] = hits[i];
         }
     }
 }

@@ -44,7 +44,14 @@ bool render_surfaces_create(int width, int height, bool layered, render_surfaces
     return true;
 }
 
+bool render_surfaces_keep_hits(render_surfaces *s) {
+    if (!s->hits)
+        s->hits = malloc((size_t)s->width * (size_t)s->height * sizeof *s->hits);
+    return s->hits;
+}
+
 void render_surfaces_free(render_surfaces *s) {
+    free(s->hits);
     free(s->memory);
     memset(s, 0, sizeof *s);
 }

@@ -7,6 +7,7 @@
 #include "app/environment/environment.h"
 #include "app/render/frame/camera.h"
 #include "app/render/frame/materials.h"
+#include "app/trace/rays.h"
 
 /* What a pixel sees: nothing, a light of the frame by its number, or a surface of a material. */
 #define RENDER_SEES_NOTHING UINT32_MAX
@@ -29,11 +30,15 @@ struct render_surfaces {
     float *coat_normal[3], *coat, *coat_roughness; /* of layered materials alone */
     float *tint[3];                                /* a factor on F0 */
     float *sheen[3], *sheen_roughness;
+    trace_hit *hits; /* the triangles, for shadows; NULL of a G-buffer, and where nobody asks */
 };
 
 /* Planes for a rectangle of so many pixels at 0, 0. False without memory. */
 bool render_surfaces_create(int width, int height, bool layered, render_surfaces *surfaces);
 void render_surfaces_free(render_surfaces *surfaces);
+
+/* Has whoever fills the planes keep the triangles that rays hit. False without memory. */
+bool render_surfaces_keep_hits(render_surfaces *surfaces);
 
 /* The index of a pixel of the image in the planes. */
 static inline size_t render_surfaces_at(const render_surfaces *s, int x, int y) {

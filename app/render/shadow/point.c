@@ -77,11 +77,11 @@ static void leave_pixel(const shadow_view *view, int lane, shadow_points *p) {
         vec_add(shadow_lane(&p->position, lane), vec_scale(normal, near_lifts * view->lift)));
 }
 
-static void find_origins(const shadow_view *view, shadow_points *p) {
+/* A short ray along the view of each point finds its triangle. */
+static void find_triangles(const shadow_view *view, const shadow_points *p,
+                           trace_hit hits[SHADOW_LANES]) {
     const float before = near_lifts * view->lift;
-    triangle_lanes triangles = { 0 };
     trace_rays rays;
-    trace_hit hits[SHADOW_LANES];
     for (int i = 0; i < SHADOW_LANES; i++) {
         rays.start[i] = 0;
         rays.length[i] = p->lit[i] ? 2 * before : -1;
@@ -92,6 +92,11 @@ static void find_origins(const shadow_view *view, shadow_points *p) {
             rays.direction[c][i] = -p->view.of[c][i];
         }
     trace_nearest_n(view->bvh, TRACE_CAMERA, &rays, hits);
+}
+
+static void find_origins(const shadow_view *view, const trace_hit hits[SHADOW_LANES],
+                         shadow_points *p) {
+    triangle_lanes triangles = { 0 };
     for (int i = 0; i < SHADOW_LANES; i++)
         if (p->lit[i] && hits[i].instance != TRACE_NOTHING)
             set_triangle(view, &hits[i], i, &triangles);
@@ -169,8 +174,8 @@ float shadow_footprint(const shadow_view *view, const render_tile *row, int x) {
     return view->pixel * (view->camera->height > 0 ? 1 : sqrtf(d2));
 }
 
-void shadow_points_set(const shadow_view *view, const render_tile *row, const int *pixels,
-                       int count, shadow_points *p) {
+void shadow_points_set(const shadow_view *view, const render_tile *row, const trace_hit *hits,
+                       const int *pixels, int count, shadow_points *p) {
     static const lmp_material unlit = { 0 }; /* where nothing is, the row has no material */
     const float least = resolved(&view->settings);
     p->settings = &view->settings;
@@ -193,7 +198,12 @@ void shadow_points_set(const shadow_view *view, const render_tile *row, const in
         set_material(p->material[i], least, i, p);
         set_coat(row, x, least, i, p);
     }
-    find_origins(view, p);
+    trace_hit of[SHADOW_LANES];
+    for (int i = 0; hits && i < count; i++)
+        of[i] = hits[pixels[i]];
+    if (!hits)
+        find_triangles(view, p, of);
+    find_origins(view, of, p);
 }
 
 static void reflect_series(const shadow_points *p, const shadow_vectors *directions, int lane,

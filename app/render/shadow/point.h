@@ -56,9 +56,10 @@ typedef struct shadow_view {
 float shadow_footprint(const shadow_view *view, const render_tile *row, int x);
 
 /* The points of `count` pixels of the row, at most SHADOW_LANES, all of which show a surface; the
- * first of `pixels` stands for those that are missing. */
-void shadow_points_set(const shadow_view *view, const render_tile *row, const int *pixels,
-                       int count, shadow_points *points);
+ * first of `pixels` stands for those that are missing. `hits` are the row's triangles, or NULL:
+ * then rays along the views find them. */
+void shadow_points_set(const shadow_view *view, const render_tile *row, const trace_hit *hits,
+                       const int *pixels, int count, shadow_points *points);
 
 /* f_r cos(theta), red, green and blue, of light from a unit direction w at each of the points,
  * never negative: glTF's own, but no sharper than the bands resolve; of tables, the series. Of

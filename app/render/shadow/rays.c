@@ -210,6 +210,7 @@ static void store(const shadow_points *points, const shadow_sums *sums, size_t f
 size_t shadow_rays_row(const shadow_job *job, const render_tile *row, int y, shadow_lanes *weights,
                        shadow_planes *planes) {
     const size_t first = (size_t)y * (size_t)planes->width;
+    const trace_hit *hits = job->hits ? job->hits + first : NULL;
     size_t sent = 0;
     store_row(job, row, y, planes);
     for (int x = 0; job->source_count > 0 && x < planes->width;) {
@@ -219,7 +220,7 @@ size_t shadow_rays_row(const shadow_job *job, const render_tile *row, int y, sha
                 pixels[count++] = x;
         shadow_sums sums = { { { 0 } } };
         shadow_points points;
-        shadow_points_set(&job->view, row, pixels, count, &points);
+        shadow_points_set(&job->view, row, hits, pixels, count, &points);
         sent += send_rays(job, &points, pixels, y, weights, &sums);
         store(&points, &sums, first, pixels, planes);
     }

@@ -8,6 +8,7 @@
 
 typedef struct shadow_job {
     shadow_view view;
+    const trace_hit *hits; /* of the image's pixels, or NULL */
     const shadow_source *sources;
     size_t source_count;
     int rays;    /* a pixel */

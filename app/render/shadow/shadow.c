@@ -60,7 +60,7 @@ shadow_statistics shadow_describe(const shadow *s) {
     return s->statistics;
 }
 
-/* One of so many samples of a sparse image sends rays. */
+/* One of so many samples of a pixel sends rays. */
 enum { SAMPLES_APART = 3 };
 
 /* Whether the samples between take their shadows from the one before that sent rays. */
@@ -90,6 +90,7 @@ static shadow_job job_of(shadow *s, const render_frame *frame, const render_surf
                   .camera = &frame->camera,
                   .pixel = scene_camera_height(&frame->camera, 1) / (float)frame->height,
                   .settings = { .bands = frame->bands, .window = frame->window } },
+        .hits = surfaces->hits,
         .sources = s->sources,
         .rays = s->settings.rays,
         .spacing = spacing_of(s, surfaces),
