@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/trace/tree.h"
 
+#include "app/memory/memory.h"
 #include "app/trace/embree.h"
 
 #include <math.h>
@@ -123,7 +124,7 @@ static bool make_corners(trace_bvh *bvh) {
     size_t count = 0;
     for (size_t i = 0; i < world->mesh_count; i++)
         count += world->meshes[i].index_count / 3;
-    trace_corner_set *next = bvh->corners = malloc((count + 1) * sizeof *bvh->corners);
+    trace_corner_set *next = bvh->corners = memory_large((count + 1) * sizeof *bvh->corners);
     if (!next)
         return false;
     for (size_t i = 0; i < world->mesh_count; i++) {

@@ -21,6 +21,7 @@ may_include() {
     field) echo base kernels sh light lobe brdf preintegrated shade field ;;
     cpu) echo base cpu ;;
     lampion) echo base cpu sh light lobe probe brdf preintegrated shade field kernels ;;
+    app/memory) echo app/memory ;;
     app/timing) echo app/timing ;;
     app/cli) echo app/timing app/cli base cpu ;;
     app/zonal) echo app/zonal base sh light ;;
@@ -40,17 +41,17 @@ may_include() {
     app/figure) echo app/cli app/image app/figure base ;;
     app/scene) echo app/cli app/file app/sandbox app/image app/scene LIBRARY ;;
     app/environment) echo app/cli app/image app/scene app/environment LIBRARY ;;
-    app/trace) echo app/image app/scene app/trace ;;
+    app/trace) echo app/memory app/image app/scene app/trace ;;
     app/animation) echo app/cli app/file app/scene app/animation base ;;
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
-    app/render/frame) echo app/cli app/device app/environment app/method app/scene app/render/frame LIBRARY ;;
+    app/render/frame) echo app/memory app/cli app/device app/environment app/method app/scene app/trace app/render/frame LIBRARY ;;
     app/render/shade) echo app/timing app/cli app/bake app/environment app/scene app/method app/trace app/render/frame app/render/shade LIBRARY ;;
     app/render/gl) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/render/frame app/render/gl shaders lookup LIBRARY ;;
-    app/render/cpu) echo app/timing app/cli app/image app/environment app/method app/scene app/trace app/render/frame app/render/shade app/render/cpu LIBRARY ;;
+    app/render/cpu) echo app/memory app/timing app/cli app/image app/environment app/method app/scene app/trace app/render/frame app/render/shade app/render/cpu LIBRARY ;;
     app/render) echo app/timing app/cli app/device app/image app/scene app/trace app/render/frame app/render/gl app/render/cpu app/render LIBRARY ;;
-    app/render/shadow) echo app/timing app/cli app/scene app/environment app/trace app/render/frame app/render/shadow LIBRARY ;;
+    app/render/shadow) echo app/memory app/timing app/cli app/scene app/environment app/trace app/render/frame app/render/shadow LIBRARY ;;
     app/volume) echo app/cli app/sandbox app/file app/csv app/bake app/scene app/environment app/trace app/render app/render/frame app/render/gl app/render/shadow app/volume LIBRARY ;;
     app/override) echo app/cli app/method app/scene app/material app/render app/render/frame app/render/gl app/override LIBRARY ;;
     app/view) echo app/cli app/environment app/file app/image app/scene app/animation app/material app/render app/render/frame app/render/gl app/device app/method app/bake app/render/shade app/render/shadow app/override app/view LIBRARY ;;

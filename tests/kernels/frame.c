@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Whole images of the CPU's device: the same bits by every instruction set's kernels, by Embree's
- * instruction sets, for any number of threads, and, by golden checksums, by every compiler. */
+ * instruction sets, by each of libm's, for any number of threads, and, by golden checksums, by
+ * every compiler. */
 #include "app/render/renderer.h"
 #include "app/render/shadow/shadow.h"
 
@@ -8,13 +9,15 @@
 
 #include <lampion/cpu.h>
 
+#include <dlfcn.h>
 #include <inttypes.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define GOLDEN_BALLS  0x2870260920f338d4
-#define GOLDEN_ATRIUM 0xa1bd33be39710d11
+#define GOLDEN_ATRIUM 0x0950f83c056e0206
 
 enum { WIDTH = 80, HEIGHT = 45, BANDS = 6 };
 
@@ -102,10 +105,56 @@ static void the_atrium_has_the_same_bits_everywhere(void **state) {
     check_scene("builtin:atrium", true, GOLDEN_ATRIUM);
 }
 
-int main(void) {
+/* --- the C library ---------------------------------------------------------------------------- */
+
+/* Where libm's sine lies in it: on CPUs of other features another function. */
+static ptrdiff_t place_of_sine(void) {
+    void *library = dlopen("libm.so.6", RTLD_LAZY), *sine = library ? dlsym(library, "sin") : NULL;
+    Dl_info info;
+    assert_true(sine && dladdr(sine, &info));
+    dlclose(library);
+    return (char *)sine - (char *)info.dli_fbase;
+}
+
+static uint64_t draw_atrium(void) {
+    scene world;
+    cli_error error = { "" };
+    if (!scene_load("builtin:atrium", &(scene_options) { .no_cache = true }, &world, &error))
+        fail_msg("%s", error.text);
+    const uint64_t hash = draw(&world, true);
+    scene_free(&world);
+    return hash;
+}
+
+/* In a process for which glibc takes the CPU to be an older one. */
+static void the_atrium_has_the_same_bits_by_an_older_libm(void **state) {
+    (void)state;
+    char self[4096], command[4400];
+    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    assert_true(length > 0);
+    self[length] = 0;
+    snprintf(command, sizeof command,
+             "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX2,-FMA,-FMA4,-SSE4_1 '%s' older", self);
+    FILE *older = popen(command, "r");
+    assert_non_null(older);
+    uint64_t hash = 0;
+    ptrdiff_t place = 0;
+    assert_int_equal(fscanf(older, "%" SCNx64 " %td", &hash, &place), 2);
+    assert_int_equal(pclose(older), 0);
+    assert_true(hash == GOLDEN_ATRIUM);
+    if (lmp_cpu_flags() & LMP_CPU_AVX2) /* else this process has the older functions, too */
+        assert_int_not_equal(place, place_of_sine());
+}
+
+int main(int argc, char **argv) {
+    if (argc == 2 && strcmp(argv[1], "older") == 0) {
+        printf("%" PRIx64 " %td\n", draw_atrium(), place_of_sine());
+        return 0;
+    }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls_have_the_same_bits_everywhere),
         cmocka_unit_test(the_atrium_has_the_same_bits_everywhere),
+        cmocka_unit_test(the_atrium_has_the_same_bits_by_an_older_libm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/cpu/cpu.h"
 
+#include "app/memory/memory.h"
 #include "app/render/cpu/rays.h"
 #include "app/render/shade/shade.h"
 #include "app/timing/timing.h"
@@ -258,9 +259,10 @@ static bool size_planes(const drawing *d, bool keep, cli_error *error) {
         free_planes(r);
     const bool ok =
         (r->surfaces.memory || render_surfaces_create(width, height, layered, &r->surfaces)) &&
-        (r->rgba || (r->rgba = malloc(bytes))) && (r->sums || (r->sums = malloc(bytes))) &&
+        (r->rgba || (r->rgba = memory_large(bytes))) &&
+        (r->sums || (r->sums = memory_large(bytes))) &&
         (!keep || r->first.memory || render_surfaces_create(width, height, layered, &r->first)) &&
-        (!keep || r->first_rgba || (r->first_rgba = malloc(bytes))) &&
+        (!keep || r->first_rgba || (r->first_rgba = memory_large(bytes))) &&
         (!d->frame->shadow.run || (render_surfaces_keep_hits(&r->surfaces) &&
                                    (!keep || render_surfaces_keep_hits(&r->first))));
     if (!ok)

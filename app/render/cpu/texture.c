@@ -2,6 +2,7 @@
 #include "app/render/cpu/texture.h"
 
 #include "app/image/srgb.h"
+#include "app/memory/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,12 +20,12 @@ typedef struct texture {
     int count;
     bool srgb;
     uint32_t wrap_u, wrap_v;
-    unsigned char *memory; /* of the levels below the first; NULL where another texture has them */
 } texture;
 
 struct cpu_textures {
     texture *of;
     size_t count;
+    unsigned char *memory;       /* of the levels below the first */
     float linear[2][256];        /* what a byte means: by itself, and of sRGB */
     unsigned char encode[CURVE]; /* a byte of sRGB at most, from the root of a linear value */
 };
@@ -107,8 +108,9 @@ static uint32_t half_of(uint32_t side) {
     return side > 1 ? side / 2 : 1;
 }
 
-static bool make_levels(const cpu_textures *t, texture *to) {
-    size_t bytes = 0, used = 0;
+/* Sets the sizes of the levels; returns the bytes of those below the first. */
+static size_t measure_levels(texture *to) {
+    size_t bytes = 0;
     uint32_t width = to->levels[0].width, height = to->levels[0].height;
     for (to->count = 1; width > 1 || height > 1; to->count++) {
         width = half_of(width);
@@ -116,15 +118,15 @@ static bool make_levels(const cpu_textures *t, texture *to) {
         to->levels[to->count] = (level) { width, height, NULL };
         bytes += 4 * (size_t)width * height;
     }
-    to->memory = malloc(bytes + 1);
-    if (!to->memory)
-        return false;
+    return bytes;
+}
+
+static void make_levels(const cpu_textures *t, texture *to, unsigned char *memory) {
     for (int i = 1; i < to->count; i++) {
-        to->levels[i].texels = to->memory + used;
-        halve(t, to->srgb, &to->levels[i - 1], &to->levels[i], to->memory + used);
-        used += 4 * (size_t)to->levels[i].width * to->levels[i].height;
+        to->levels[i].texels = memory;
+        halve(t, to->srgb, &to->levels[i - 1], &to->levels[i], memory);
+        memory += 4 * (size_t)to->levels[i].width * to->levels[i].height;
     }
-    return true;
 }
 
 /* The one before it that shows the same texels by the same curve, or none. */
@@ -136,6 +138,31 @@ static const texture *find_same(const cpu_textures *t, size_t number) {
             t->of[i].levels[0].height == to->levels[0].height)
             return &t->of[i];
     return NULL;
+}
+
+/* Every texture's levels; those that are the same are there once. */
+static bool make_all_levels(cpu_textures *t) {
+    size_t *first = malloc((t->count + 1) * sizeof *first), bytes = 0;
+    for (size_t i = 0; first && i < t->count; i++) {
+        first[i] = bytes;
+        bytes += find_same(t, i) ? 0 : measure_levels(&t->of[i]);
+    }
+    t->memory = first ? memory_large(bytes) : NULL;
+    if (t->memory) {
+#pragma omp parallel for schedule(dynamic)
+        for (size_t i = 0; i < t->count; i++)
+            if (!find_same(t, i))
+                make_levels(t, &t->of[i], t->memory + first[i]);
+        for (size_t i = 0; i < t->count; i++) {
+            const texture *same = find_same(t, i);
+            if (same) {
+                memcpy(t->of[i].levels, same->levels, sizeof same->levels);
+                t->of[i].count = same->count;
+            }
+        }
+    }
+    free(first);
+    return t->memory;
 }
 
 cpu_textures *cpu_textures_create(const scene *world) {
@@ -156,19 +183,7 @@ cpu_textures *cpu_textures_create(const scene *world) {
                                .levels[0] = { from->width, from->height,
                                               world->texels + from->first_byte } };
     }
-    bool ok = true;
-#pragma omp parallel for schedule(dynamic) reduction(&& : ok)
-    for (size_t i = 0; i < t->count; i++)
-        if (!find_same(t, i))
-            ok = make_levels(t, &t->of[i]) && ok;
-    for (size_t i = 0; ok && i < t->count; i++) {
-        const texture *same = find_same(t, i);
-        if (same) {
-            memcpy(t->of[i].levels, same->levels, sizeof same->levels);
-            t->of[i].count = same->count;
-        }
-    }
-    if (ok)
+    if (make_all_levels(t))
         return t;
     cpu_textures_destroy(t);
     return NULL;
@@ -177,8 +192,7 @@ cpu_textures *cpu_textures_create(const scene *world) {
 void cpu_textures_destroy(cpu_textures *t) {
     if (!t)
         return;
-    for (size_t i = 0; i < t->count; i++)
-        free(t->of[i].memory);
+    free(t->memory);
     free(t->of);
     free(t);
 }

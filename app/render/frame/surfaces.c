@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/frame/surfaces.h"
 
+#include "app/memory/memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +21,7 @@ bool render_surfaces_create(int width, int height, bool layered, render_surfaces
     const size_t count = (size_t)width * (size_t)height;
     const size_t planes = 1 + PLAIN + (layered ? LAYERED : 0);
     memset(s, 0, sizeof *s);
-    float *memory = malloc(planes * count * sizeof *memory);
+    float *memory = memory_large(planes * count * sizeof *memory);
     if (!memory)
         return false;
     s->width = width;
@@ -46,7 +48,7 @@ bool render_surfaces_create(int width, int height, bool layered, render_surfaces
 
 bool render_surfaces_keep_hits(render_surfaces *s) {
     if (!s->hits)
-        s->hits = malloc((size_t)s->width * (size_t)s->height * sizeof *s->hits);
+        s->hits = memory_large((size_t)s->width * (size_t)s->height * sizeof *s->hits);
     return s->hits;
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/render/shadow/planes.h"
 
+#include "app/memory/memory.h"
+
 #include <stdlib.h>
 
 void shadow_planes_free(shadow_planes *p) {
@@ -13,7 +15,7 @@ bool shadow_planes_resize(shadow_planes *p, int width, int height) {
     if (p->memory && p->width == width && p->height == height)
         return true;
     shadow_planes_free(p);
-    float *next = p->memory = malloc((7 + 2 * SHADOW_VALUES) * count * sizeof *next);
+    float *next = p->memory = memory_large((7 + 2 * SHADOW_VALUES) * count * sizeof *next);
     if (!next)
         return false;
     p->width = width;

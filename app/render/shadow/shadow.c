@@ -65,7 +65,7 @@ enum { SAMPLES_APART = 3 };
 
 /* Whether the samples between take their shadows from the one before that sent rays. */
 static bool alternates(const shadow *s) {
-    return s->settings.sparse && !s->settings.apart && !s->settings.raw;
+    return !s->settings.apart && !s->settings.raw;
 }
 
 /* Which of the samples that send rays it is, from 0. */

@@ -12,8 +12,8 @@ typedef struct shadow_settings {
     int rays;      /* a pixel, 1 … SHADOW_RAYS_MAX */
     uint32_t seed; /* of the noise: the same seed gives the same bits on any number of threads */
     bool raw;      /* without the filter */
-    bool sparse;   /* of two neighbors one sends rays, and of three samples of a pixel */
-    bool apart;    /* samples know nothing of those before: all of them send rays */
+    bool sparse;   /* of two neighboring pixels one sends rays */
+    bool apart;    /* samples know nothing of those before: all send rays, not one of three */
 } shadow_settings;
 #define SHADOW_RAYS_MAX     1024
 #define SHADOW_RAYS_DEFAULT 2
@@ -45,12 +45,13 @@ typedef struct shadow_options {
         { .name = "shadow-sparse",                                                                 \
           .kind = CLI_FLAG,                                                                        \
           .target = &(variable).settings.sparse,                                                   \
-          .help = "rays of --shadows from one of two neighbors and of three samples: a "           \
-                  "quarter of the time" },                                                         \
+          .help = "rays of --shadows from one of two neighboring pixels" },                        \
     {                                                                                              \
         .name = "shadow-rays", .kind = CLI_INT, .target = &(variable).settings.rays,               \
-        .argument = "N", .help = "rays of --shadows for each sample of a pixel", .minimum = 1,     \
-        .maximum = SHADOW_RAYS_MAX                                                                 \
+        .argument = "N",                                                                           \
+        .help = "rays of --shadows for each sample that sends them: the first of a pixel, and "    \
+                "every third one after it",                                                        \
+        .minimum = 1, .maximum = SHADOW_RAYS_MAX                                                   \
     }
 
 /* Of the last sample that sent rays. */
