@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { COUNT = 67, LIGHTS = 7 };
 
@@ -75,8 +76,9 @@ static void surfaces_create(inputs *in) {
 }
 
 static inputs *inputs_create(uint64_t seed) {
-    inputs *in = calloc(1, sizeof *in);
+    inputs *in = aligned_alloc(_Alignof(inputs), sizeof *in);
     assert_non_null(in);
+    memset(in, 0, sizeof *in);
     set_seed(seed);
     for (int i = 0; i < COUNT + 16; i++) {
         float v[3], length = 0;
