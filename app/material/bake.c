@@ -56,6 +56,15 @@ static bool copy_table(const lmp_brdf_table *from, lmp_brdf_table **table, cli_e
     return result == LMP_OK || cli_fail(error, NULL, "%s", lmp_result_text(result));
 }
 
+lmp_brdf_table_info material_plan(const material *m, const lmp_brdf_table_desc *desc) {
+    if (m->table)
+        return lmp_brdf_table_describe(m->table);
+    const bool turns = lmp_brdf_describe(m->brdf).anisotropic;
+    return (lmp_brdf_table_info) { .bands = desc->bands,
+                                   .azimuths = turns ? desc->azimuths : 1,
+                                   .mirrored = !turns };
+}
+
 bool material_bake(const material *m, const lmp_brdf_table_desc *desc, lmp_brdf_table **table,
                    cli_error *error) {
     const table_recipe from = { m->brdf, desc };

@@ -45,10 +45,26 @@ bool override_open(const cli_list *list, const scene *world, override_set *all, 
     return true;
 }
 
+static lmp_brdf_table_desc desc_of(int bands, lmp_window window) {
+    return (lmp_brdf_table_desc) { .bands = bands,
+                                   .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
+                                   .window = window };
+}
+
+bool override_fits(const override_set *all, int bands, method_kind method,
+                   any_renderer *const *renderers, int count, cli_error *error) {
+    const lmp_brdf_table_desc desc = desc_of(bands, LMP_WINDOW_NONE);
+    lmp_brdf_table_info plans[RENDER_TABLES_MAX];
+    for (int i = 0; i < all->count; i++)
+        plans[i] = material_plan(&all->opened[i], &desc);
+    for (int i = 0; i < count; i++)
+        if (renderers[i] && !renderer_tables_fit(renderers[i], method, plans, all->count, error))
+            return false;
+    return true;
+}
+
 bool override_bake(override_set *all, int bands, lmp_window window, cli_error *error) {
-    const lmp_brdf_table_desc desc = { .bands = bands,
-                                       .azimuths = LMP_BRDF_AZIMUTHS_DEFAULT,
-                                       .window = window };
+    const lmp_brdf_table_desc desc = desc_of(bands, window);
     for (int i = 0; i < all->count; i++)
         if (!material_bake(&all->opened[i], &desc, &all->tables[i], error))
             return false;
@@ -113,6 +129,7 @@ bool override_apply(const override_set *all, const scene *world, any_renderer *r
 bool override_prepare(const cli_list *list, const scene *world, const render_frame *frame,
                       any_renderer *renderer, override_set *all, cli_error *error) {
     return override_open(list, world, all, error) &&
+           override_fits(all, frame->bands, frame->method, &renderer, 1, error) &&
            override_bake(all, frame->bands, frame->window, error) &&
            (!(method_table[frame->method].reads & METHOD_READS_PREINTEGRATED) ||
             override_preintegrate(all, error)) &&

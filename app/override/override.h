@@ -26,6 +26,11 @@ typedef struct override_set {
  * *set is to be freed. */
 bool override_open(const cli_list *list, const scene *scene, override_set *set, cli_error *error);
 
+/* Whether the tables of each will fit the renderers, of which any may be NULL: they would be made
+ * in vain. */
+bool override_fits(const override_set *set, int bands, method_kind method,
+                   any_renderer *const *renderers, int count, cli_error *error);
+
 /* Makes a table of each. */
 bool override_bake(override_set *set, int bands, lmp_window window, cli_error *error);
 

@@ -103,6 +103,11 @@ void renderer_destroy(any_renderer *r) {
     free(r);
 }
 
+bool renderer_tables_fit(const any_renderer *r, method_kind method,
+                         const lmp_brdf_table_info *tables, int count, cli_error *error) {
+    return !r->gl || gpu_tables_fit(r->gl, method, tables, count, error);
+}
+
 bool renderer_set_tables(any_renderer *r, const lmp_brdf_table *const *tables, int count,
                          const int *uses, cli_error *error) {
     return r->gl ? gpu_set_tables(r->gl, tables, count, uses, error)

@@ -53,6 +53,10 @@ typedef struct any_renderer {
 any_renderer *renderer_create(const render_device *device, cli_error *error);
 void renderer_destroy(any_renderer *renderer);
 
+/* Whether tables of which so much is known fit a frame of the method, before they are made. */
+bool renderer_tables_fit(const any_renderer *renderer, method_kind method,
+                         const lmp_brdf_table_info *tables, int count, cli_error *error);
+
 /* Shades materials of the scene by tables instead, as render_materials_set_tables has it, and by
  * preintegrated ones of theirs, or NULL. On the GPU tables are shaded by the method of coefficients
  * whatever the frame's is, unless they are preintegrated. */

@@ -148,10 +148,12 @@ static bool settle_materials(view_compositor *s, side *own, const view_settings 
         return cli_fail(error, NULL, "out of memory");
     for (int i = 0; i < list.count; i++)
         list.items[i] = settings->materials[i];
-    bool ok = override_open(&list, s->world, &fresh, error) &&
-              override_bake(&fresh, shading->bands, shading->window, error) &&
-              override_bake_fibers(&fresh, s->world, shading->bands, shading->window, error) &&
-              (!is_preintegrated(shading) || override_preintegrate(&fresh, error));
+    bool ok =
+        override_open(&list, s->world, &fresh, error) &&
+        override_fits(&fresh, shading->bands, shading->method, own->renderers, QUALITIES, error) &&
+        override_bake(&fresh, shading->bands, shading->window, error) &&
+        override_bake_fibers(&fresh, s->world, shading->bands, shading->window, error) &&
+        (!is_preintegrated(shading) || override_preintegrate(&fresh, error));
     ok = ok && apply_materials(s, own, &fresh, error);
     if (!ok) { /* as before, for what is drawn next */
         cli_error ignored;

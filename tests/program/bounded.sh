@@ -63,6 +63,15 @@ png 30 20 "$WORK/some.png"
 ! "$PROGRAM" compare "$WORK/some.png" "$WORK/some.png" --max-pixels 599 2>"$WORK/err" || fail "600 pixels pass for 599"
 grep -qF '(599 pixels; see --max-pixels)' "$WORK/err" || fail "600 of 599 pixels: $(cat "$WORK/err")"
 
+# tables that no buffer of the GPU holds are refused before they are made, which takes minutes: one that was made
+# would lie in the cache
+if "$PROGRAM" render builtin:ball --device gpu --method coefficients --bands 20 --material test_material=ggx:0.5x0.4 \
+    --size 16x16 -o "$WORK/none.png" 2>"$WORK/err"; then
+    fail "20 bands of an anisotropic material fit the GPU"
+fi
+grep -q 'the tables of the materials are too large (fewer --bands)' "$WORK/err" || fail "the tables: $(cat "$WORK/err")"
+[ -z "$(find "$WORK/cache" -name '*.lmpt')" ] || fail "the table was made before it was refused"
+
 # what takes minutes tells how much of it is done, and how long the rest takes, to who sits there; who stops it has
 # no part of it
 command -v script >/dev/null || exit 0

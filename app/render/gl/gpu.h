@@ -60,6 +60,11 @@ void gpu_renderer_destroy(gpu_renderer *renderer);
 bool gpu_set_tables(gpu_renderer *renderer, const lmp_brdf_table *const *tables, int count,
                     const int *uses, cli_error *error);
 
+/* Whether tables of which so much is known fit a frame of the method, before they are made: if not,
+ * they will not fit once they are. */
+bool gpu_tables_fit(const gpu_renderer *renderer, method_kind method,
+                    const lmp_brdf_table_info *tables, int count, cli_error *error);
+
 /* After gpu_set_tables: brdfs[i] of table i, or NULL, for methods that read them.
  * They must outlive the renderer. */
 void gpu_set_preintegrated_brdfs(gpu_renderer *renderer,

@@ -9,6 +9,9 @@
 /* Rows and columns that linear interpolation reads. */
 enum { ROWS = 1024, ANISOTROPIC_ROWS = 192, COLUMNS_OF_AZIMUTH = 4 };
 
+/* Vectors that the buffer of all may hold. */
+enum { VALUES_MAX = 1 << 23 };
+
 static gpu_table_shape shape_of(const lmp_brdf_table_info *info) {
     if (info->azimuths == 1)
         return (gpu_table_shape) { ROWS, 1 };
@@ -92,17 +95,38 @@ static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, si
     return true;
 }
 
+static bool too_large(cli_error *error) {
+    return cli_fail(error, NULL, "the tables of the materials are too large (fewer --bands)");
+}
+
+bool gpu_tables_fit(const gpu_renderer *r, method_kind method, const lmp_brdf_table_info *tables,
+                    int count, cli_error *error) {
+    const bool preintegrates = method_table[method].reads & METHOD_READS_PREINTEGRATED &&
+                               !environment_shines(r->environment);
+    size_t views = 0;
+    bool mirrored = true;
+    for (int t = 0; t < count; t++) {
+        if (preintegrates && tables[t].azimuths == 1)
+            continue;
+        const gpu_table_shape shape = shape_of(&tables[t]);
+        views += shape.rows * shape.columns;
+        mirrored = mirrored && tables[t].mirrored;
+    }
+    const int bands = count ? tables[0].bands : 1;
+    const size_t stride = mirrored ? LMP_SH_HALF_COUNT(bands) : LMP_SH_COUNT(bands);
+    return (size_t)count + views * stride < VALUES_MAX || too_large(error);
+}
+
 bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
     const int tables = gpu_tables_by_bands(r, method);
     if (!r->tables_buffer || r->tables_method != method) {
         const int bands = r->materials.table_bands;
         const size_t stride = tables == 2 ? LMP_SH_COUNT(bands) : LMP_SH_HALF_COUNT(bands);
         const size_t total = count_values(r, method, stride);
-        vec4 *values = total < (size_t)1 << 23 ? calloc(total + 1, sizeof *values) : NULL;
+        vec4 *values = total < VALUES_MAX ? calloc(total + 1, sizeof *values) : NULL;
         if (!values || !fill_tables(r, method, tables == 2, stride, values)) {
             free(values);
-            return cli_fail(error, NULL,
-                            "the tables of the materials are too large (fewer --bands)");
+            return too_large(error);
         }
         glDeleteBuffers(1, &r->tables_buffer);
         glCreateBuffers(1, &r->tables_buffer);
