@@ -8,11 +8,16 @@ target_compile_options(lampion_flags INTERFACE
 if(LAMPION_WERROR)
   target_compile_options(lampion_flags INTERFACE -Werror)
 endif()
+# By the letter of C11 gcc computes floats as doubles for s390x, which rounds twice: other bits than elsewhere.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^s390" AND CMAKE_C_COMPILER_ID STREQUAL GNU)
+  target_compile_options(lampion_flags INTERFACE -fexcess-precision=fast)
+endif()
 # What Debian hardens its packages with (dpkg-buildflags, hardening=+all), and shadow stacks: the program
-# opens files that others made. Sanitizers and debuggers have their own ways.
+# opens files that others made. Sanitizers and debuggers have their own ways, and other systems' C libraries lack
+# what hardened code calls: an archive for Windows would ask its users for __stack_chk_fail.
 include(CheckCCompilerFlag)
 check_c_compiler_flag(-fcf-protection LAMPION_HAS_CF_PROTECTION)
-if(CMAKE_BUILD_TYPE STREQUAL Release AND NOT LAMPION_SANITIZE AND NOT EMSCRIPTEN)
+if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_SYSTEM_NAME STREQUAL Linux AND NOT LAMPION_SANITIZE)
   target_compile_options(lampion_flags INTERFACE
     -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2 -fstack-protector-strong)
   if(LAMPION_HAS_CF_PROTECTION)

@@ -17,3 +17,10 @@ grep -q '__[a-z]*_chk' "$WORK/needed" || fail "sizes are not checked (-D_FORTIFY
 if [ "$(uname -m)" = x86_64 ]; then
     objdump -d --disassemble=main "$PROGRAM" | grep -q endbr64 || fail "no -fcf-protection"
 fi
+
+# The library for Windows asks for none of it, which C libraries there lack. Only the commands are made.
+cmake -S "$SOURCE" -B "$WORK/windows" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_SYSTEM_NAME=Windows \
+    -DCMAKE_SYSTEM_PROCESSOR=x86_64 -DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY -DLAMPION_PROGRAM=OFF -DLAMPION_TESTS=OFF >"$WORK/log"
+grep -q 'src/light/light\.c' "$WORK/windows/compile_commands.json" || fail "no commands for Windows"
+! grep -qE 'FORTIFY_SOURCE=|stack-protector-strong|cf-protection' "$WORK/windows/compile_commands.json" ||
+    fail "the library for Windows is hardened by what its C library lacks"
