@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* glTF documents: whatever is read is a scene that the program takes. */
+/* glTF documents, with their first variant where they have any: whatever is read is a scene that
+ * the program takes. */
 #include "app/scene/gltf.h"
 #include "fuzz/scene.h"
 
@@ -9,6 +10,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     gltf document;
     cli_error error = { "" };
     if (gltf_open(data, size, &sources, &builder, &document, &error) &&
+        gltf_add_variants(&document, &error) &&
+        (builder_count(&builder, BLOB_VARIANTS) == 0 || gltf_show_variant(&document, 0, &error)) &&
         gltf_load(&document, &error) && gltf_add_meshes(&document, &builder, &error) &&
         gltf_add_materials(&document, &builder, &error) &&
         gltf_add_views(&document, &builder, &error))

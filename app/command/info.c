@@ -51,6 +51,9 @@ static cJSON *describe(const scene *s) {
         cJSON_AddItemToArray(meshes, entry);
     }
     add_materials(root, s);
+    cJSON *variants = cJSON_AddArrayToObject(root, "variants");
+    for (size_t i = 0; i < s->variant_count; i++)
+        cJSON_AddItemToArray(variants, cJSON_CreateString(s->variants[i].name));
     cJSON *textures = cJSON_AddArrayToObject(root, "textures");
     for (size_t i = 0; i < s->texture_count; i++) {
         cJSON *entry = cJSON_CreateObject();
@@ -128,6 +131,8 @@ static void print_text(const scene *s) {
     print_names("meshes", s->meshes->name, sizeof *s->meshes, s->mesh_count);
     printf("%-10s %zu\n", "instances", s->instance_count);
     print_names("materials", s->materials->name, sizeof *s->materials, s->material_count);
+    if (s->variant_count > 0)
+        print_names("variants", s->variants->name, sizeof *s->variants, s->variant_count);
     print_names("textures", s->textures->name, sizeof *s->textures, s->texture_count);
     print_names("cameras", s->cameras->name, sizeof *s->cameras, s->camera_count);
     print_lights(s);

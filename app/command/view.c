@@ -51,6 +51,7 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
             return false;
         o->keep_lights = true;
         o->load.up = s->up;
+        o->load.variant = view_variant(s);
     } else {
         s->up = o->load.up;
         s->tone = a->tone;
@@ -63,6 +64,11 @@ static bool fill_options(const view_arguments *a, const char *name, view_options
         s->divider = 0.5f;
         s->shading[0] = (view_shading) { a->method, a->bands, (lmp_window)a->window };
         s->shading[1] = s->shading[0];
+    }
+    if (!a->from && o->load.variant) {
+        if (strlen(o->load.variant) >= sizeof s->variant)
+            return cli_fail(error, o->load.variant, "no variant has so long a name");
+        strcpy(s->variant, o->load.variant);
     }
     if (name) {
         if (strlen(name) >= sizeof s->scene)

@@ -13,6 +13,7 @@ const size_t blob_item_size[BLOB_SECTIONS] = {
     [BLOB_MESHES] = sizeof(scene_mesh),
     [BLOB_INSTANCES] = sizeof(scene_instance),
     [BLOB_MATERIALS] = sizeof(scene_material),
+    [BLOB_VARIANTS] = sizeof(scene_variant),
     [BLOB_TEXTURES] = sizeof(scene_texture),
     [BLOB_IMAGES] = sizeof(scene_image),
     [BLOB_ENCODED] = 1,
@@ -288,6 +289,14 @@ static bool motions_fit(const blob_header *header) {
     return all_in_reach(&offsets->x, 3 * offset_count);
 }
 
+static bool variants_fit(const blob_header *header) {
+    const scene_variant *variants = blob_items(header, BLOB_VARIANTS);
+    for (uint64_t i = 0; i < header->sections[BLOB_VARIANTS].count; i++)
+        if (!name_fits(variants[i].name))
+            return false;
+    return true;
+}
+
 static bool left_out_fits(const blob_header *header) {
     const scene_left_out *items = blob_items(header, BLOB_LEFT_OUT);
     const uint64_t count = header->sections[BLOB_LEFT_OUT].count;
@@ -310,7 +319,7 @@ bool blob_validate(const void *block, size_t size, bool checksum, const char *su
         return cli_fail(error, subject, "gave a scene whose checksum is wrong");
     if (!geometry_fits(header) || !instances_fit(header))
         return cli_fail(error, subject, "has vertices or triangles that make no sense");
-    if (!materials_fit(header))
+    if (!materials_fit(header) || !variants_fit(header))
         return cli_fail(error, subject, "has materials or textures that make no sense");
     if (!views_fit(header))
         return cli_fail(error, subject, "has cameras or lights that make no sense");
@@ -354,6 +363,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
            header->sections[BLOB_LIGHTS].count * sizeof *lights);
     blob_geometry(block, s);
     s->materials = blob_items(block, BLOB_MATERIALS);
+    s->variants = blob_items(block, BLOB_VARIANTS);
     s->textures = blob_items(block, BLOB_TEXTURES);
     s->images = blob_items(block, BLOB_IMAGES);
     s->encoded = blob_items(block, BLOB_ENCODED);
@@ -362,6 +372,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->offsets = blob_items(block, BLOB_OFFSETS);
     s->left_out = blob_items(block, BLOB_LEFT_OUT);
     s->material_count = header->sections[BLOB_MATERIALS].count;
+    s->variant_count = header->sections[BLOB_VARIANTS].count;
     s->texture_count = header->sections[BLOB_TEXTURES].count;
     s->image_count = header->sections[BLOB_IMAGES].count;
     s->encoded_bytes = header->sections[BLOB_ENCODED].count;

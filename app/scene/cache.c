@@ -6,11 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up) {
+file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up,
+                    const char *variant) {
     file_hash key = { BLOB_VERSION, (uint64_t)up };
     file_hash_add(&key, folder, strlen(folder));
     file_hash_add(&key, name, strlen(name));
     file_hash_add(&key, data, size);
+    if (variant)
+        file_hash_add(&key, variant, strlen(variant));
     return key;
 }
 

@@ -6,8 +6,10 @@
 
 #include "app/scene/sources.h"
 
-/* The key of a scene file: its content and path, how it stands, and the version of the importer. */
-file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up);
+/* The key of a scene file: its content and path, how it stands, which variant of its materials it
+ * shows (or NULL), and the version of the importer. */
+file_hash cache_key(const char *folder, const char *name, const void *data, size_t size, int up,
+                    const char *variant);
 
 /* Maps the cached blob if it is there, valid, and every file it was made from is unchanged. */
 bool cache_load(const file_hash *key, source_set *sources, void **block, size_t *size);

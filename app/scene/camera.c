@@ -3,20 +3,16 @@
 #include "app/scene/scene.h"
 #include "app/scene/vector.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
                         cli_error *error) {
-    const bool whole = *wanted && !wanted[strspn(wanted, "0123456789")];
-    const unsigned long index = strtoul(wanted, NULL, 10);
-    for (size_t i = 0; i < world->camera_count; i++)
-        if (strcmp(world->cameras[i].name, wanted) == 0 || (whole && index == i)) {
-            *camera = world->cameras[i];
-            return true;
-        }
-    return cli_fail_member(error, world->origin, "camera", wanted, world->cameras[0].name,
-                           sizeof *world->cameras, world->camera_count);
+    size_t index;
+    if (!scene_find_name(world->origin, "camera", wanted, world->cameras->name,
+                         sizeof *world->cameras, world->camera_count, &index, error))
+        return false;
+    *camera = world->cameras[index];
+    return true;
 }
 
 /* A direction of up that the camera does not look along. */

@@ -90,6 +90,12 @@ bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder
                gltf *document, cli_error *error);
 void gltf_close(gltf *document);
 
+/* Appends the names of the variants of materials. */
+bool gltf_add_variants(const gltf *document, cli_error *error);
+
+/* Gives the primitives the materials that they have in a variant: before gltf_load. */
+bool gltf_show_variant(gltf *document, size_t variant, cli_error *error);
+
 /* Loads buffers and checks what the functions below rely on. */
 bool gltf_load(gltf *document, cli_error *error);
 

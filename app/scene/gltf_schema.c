@@ -2,25 +2,7 @@
 /* gltf_schema.c - the schema of glTF 2.0 and of the extensions that are read. */
 #include "app/scene/gltf_schema.h"
 
-#include <math.h>
-
-#define END                                                                                        \
-    { .name = NULL }
-#define TEXT .type = GLTF_TYPE_TEXT
-#define FLAG .type = GLTF_TYPE_FLAG
-#define NAME                                                                                       \
-    { .name = "name", TEXT }
-#define COUNT                  .type = GLTF_TYPE_INTEGER, .maximum = 9007199254740991.0 /* 2^53 - 1 */
-#define UNIT                   .maximum = 1.0
-#define POSITIVE               .maximum = HUGE_VAL, .above = true
-#define NOT_NEGATIVE           .maximum = HUGE_VAL
-#define CHOICE(values)         .choices = " " values " "
-#define REFERENCE(of)          .type = GLTF_TYPE_REFERENCE, .kind = (of)
-#define OBJECT(of)             .type = GLTF_TYPE_OBJECT, .object = &(of)
-#define LIST_OF(of)            .array = true, OBJECT(of)
-#define VECTOR(n)              .array = true, .least = (n), .most = (n)
-#define FORGIVEN               .forgiven = true
-#define INTEGER_CHOICE(values) .type = GLTF_TYPE_INTEGER, CHOICE(values)
+#include "app/scene/gltf_schema_material.h"
 
 /* --- bytes ------------------------------------------------------------------------------------ */
 
@@ -103,139 +85,6 @@ static const gltf_object accessor = {
     NULL,
 };
 
-/* --- images and materials --------------------------------------------------------------------- */
-
-static const gltf_object image = {
-    "image",
-    (const gltf_field[]) {
-        { "uri", TEXT }, { "mimeType", TEXT }, { "bufferView", REFERENCE(GLTF_VIEWS) }, NAME, END },
-    NULL,
-};
-static const gltf_object sampler = {
-    "sampler",
-    (const gltf_field[]) {
-        { "magFilter", INTEGER_CHOICE("9728 9729"), FORGIVEN },
-        { "minFilter", INTEGER_CHOICE("9728 9729 9984 9985 9986 9987"), FORGIVEN },
-        { "wrapS", INTEGER_CHOICE("10497 33071 33648"), FORGIVEN },
-        { "wrapT", INTEGER_CHOICE("10497 33071 33648"), FORGIVEN },
-        NAME,
-        END },
-    NULL,
-};
-static const gltf_object texture_webp = {
-    "texture",
-    (const gltf_field[]) { { "source", REFERENCE(GLTF_IMAGES), .required = true }, END },
-    NULL,
-};
-static const gltf_object texture = {
-    "texture",
-    (const gltf_field[]) {
-        { "sampler", REFERENCE(GLTF_SAMPLERS) }, { "source", REFERENCE(GLTF_IMAGES) }, NAME, END },
-    (const gltf_field[]) { { "EXT_texture_webp", OBJECT(texture_webp) }, END },
-};
-
-static const gltf_object texture_transform = {
-    "texture",
-    (const gltf_field[]) { { "offset", VECTOR(2) },
-                           { "rotation", .type = GLTF_TYPE_NUMBER },
-                           { "scale", VECTOR(2) },
-                           { "texCoord", COUNT },
-                           END },
-    NULL,
-};
-#define TEXTURE_FIELDS                                                                             \
-    { "index", REFERENCE(GLTF_TEXTURES), .required = true }, {                                     \
-        "texCoord", COUNT                                                                          \
-    }
-static const gltf_field texture_extensions[] = {
-    { "KHR_texture_transform", OBJECT(texture_transform) },
-    END,
-};
-static const gltf_object texture_info = {
-    "texture",
-    (const gltf_field[]) { TEXTURE_FIELDS, END },
-    texture_extensions,
-};
-static const gltf_object normal_texture = {
-    "texture",
-    (const gltf_field[]) { TEXTURE_FIELDS, { "scale", .type = GLTF_TYPE_NUMBER }, END },
-    texture_extensions,
-};
-static const gltf_object occlusion_texture = {
-    "texture",
-    (const gltf_field[]) { TEXTURE_FIELDS, { "strength", UNIT }, END },
-    texture_extensions,
-};
-static const gltf_object metallic_roughness = {
-    "material",
-    (const gltf_field[]) { { "baseColorFactor", VECTOR(4), UNIT },
-                           { "baseColorTexture", OBJECT(texture_info) },
-                           { "metallicFactor", UNIT },
-                           { "roughnessFactor", UNIT },
-                           { "metallicRoughnessTexture", OBJECT(texture_info) },
-                           END },
-    NULL,
-};
-static const gltf_object emissive_strength = {
-    "material",
-    (const gltf_field[]) { { "emissiveStrength", NOT_NEGATIVE }, END },
-    NULL,
-};
-static const gltf_object specular = {
-    "material",
-    (const gltf_field[]) { { "specularFactor", UNIT },
-                           { "specularTexture", OBJECT(texture_info) },
-                           { "specularColorFactor", VECTOR(3), NOT_NEGATIVE },
-                           { "specularColorTexture", OBJECT(texture_info) },
-                           END },
-    NULL,
-};
-static const gltf_object clearcoat = {
-    "material",
-    (const gltf_field[]) { { "clearcoatFactor", UNIT },
-                           { "clearcoatTexture", OBJECT(texture_info) },
-                           { "clearcoatRoughnessFactor", UNIT },
-                           { "clearcoatRoughnessTexture", OBJECT(texture_info) },
-                           { "clearcoatNormalTexture", OBJECT(normal_texture) },
-                           END },
-    NULL,
-};
-static const gltf_object sheen = {
-    "material",
-    (const gltf_field[]) { { "sheenColorFactor", VECTOR(3), UNIT },
-                           { "sheenColorTexture", OBJECT(texture_info) },
-                           { "sheenRoughnessFactor", UNIT },
-                           { "sheenRoughnessTexture", OBJECT(texture_info) },
-                           END },
-    NULL,
-};
-static const gltf_object ior = {
-    "material",
-    (const gltf_field[]) { { "ior", NOT_NEGATIVE }, END },
-    NULL,
-};
-static const gltf_object unlit = { "material", (const gltf_field[]) { END }, NULL };
-static const gltf_object material = {
-    "material",
-    (const gltf_field[]) { { "pbrMetallicRoughness", OBJECT(metallic_roughness) },
-                           { "normalTexture", OBJECT(normal_texture) },
-                           { "occlusionTexture", OBJECT(occlusion_texture) },
-                           { "emissiveTexture", OBJECT(texture_info) },
-                           { "emissiveFactor", VECTOR(3), NOT_NEGATIVE },
-                           { "alphaMode", TEXT, CHOICE("OPAQUE MASK BLEND"), FORGIVEN },
-                           { "alphaCutoff", NOT_NEGATIVE },
-                           { "doubleSided", FLAG },
-                           NAME,
-                           END },
-    (const gltf_field[]) { { "KHR_materials_clearcoat", OBJECT(clearcoat) },
-                           { "KHR_materials_emissive_strength", OBJECT(emissive_strength) },
-                           { "KHR_materials_ior", OBJECT(ior) },
-                           { "KHR_materials_sheen", OBJECT(sheen) },
-                           { "KHR_materials_specular", OBJECT(specular) },
-                           { "KHR_materials_unlit", OBJECT(unlit) },
-                           END },
-};
-
 /* --- meshes and nodes ------------------------------------------------------------------------- */
 
 #define ATTRIBUTES .type = GLTF_TYPE_REFERENCES, .kind = GLTF_ACCESSORS
@@ -247,6 +96,19 @@ static const gltf_object draco = {
                            END },
     NULL,
 };
+static const gltf_object variant_mapping = {
+    "mesh",
+    (const gltf_field[]) { { "material", REFERENCE(GLTF_MATERIALS), .required = true },
+                           { "variants", .array = true, COUNT, .required = true },
+                           NAME,
+                           END },
+    NULL,
+};
+static const gltf_object variant_mappings = {
+    "mesh",
+    (const gltf_field[]) { { "mappings", LIST_OF(variant_mapping) }, END },
+    NULL,
+};
 static const gltf_object primitive = {
     "mesh",
     (const gltf_field[]) { { "attributes", ATTRIBUTES, .required = true },
@@ -255,7 +117,9 @@ static const gltf_object primitive = {
                            { "mode", .type = GLTF_TYPE_INTEGER, .maximum = 6 },
                            { "targets", .array = true, ATTRIBUTES },
                            END },
-    (const gltf_field[]) { { "KHR_draco_mesh_compression", OBJECT(draco) }, END },
+    (const gltf_field[]) { { "KHR_draco_mesh_compression", OBJECT(draco) },
+                           { "KHR_materials_variants", OBJECT(variant_mappings) },
+                           END },
 };
 static const gltf_object mesh = {
     "mesh",
@@ -397,6 +261,17 @@ static const gltf_object animation = {
 
 /* --- the document ----------------------------------------------------------------------------- */
 
+static const gltf_object variant = {
+    "file",
+    (const gltf_field[]) { { "name", TEXT, .required = true }, END },
+    NULL,
+};
+static const gltf_object variants = {
+    "file",
+    (const gltf_field[]) { { "variants", LIST_OF(variant) }, END },
+    NULL,
+};
+
 static const gltf_object asset = {
     "file",
     (const gltf_field[]) { { "copyright", TEXT },
@@ -416,15 +291,17 @@ const gltf_object gltf_schema = {
                            { "buffers", LIST_OF(buffer) },
                            { "bufferViews", LIST_OF(view) },
                            { "cameras", LIST_OF(camera) },
-                           { "images", LIST_OF(image) },
-                           { "materials", LIST_OF(material) },
+                           { "images", LIST_OF(gltf_schema_image) },
+                           { "materials", LIST_OF(gltf_schema_material) },
                            { "meshes", LIST_OF(mesh) },
                            { "nodes", LIST_OF(node) },
-                           { "samplers", LIST_OF(sampler) },
+                           { "samplers", LIST_OF(gltf_schema_sampler) },
                            { "scene", REFERENCE(GLTF_SCENES) },
                            { "scenes", LIST_OF(scene_object) },
                            { "skins", LIST_OF(skin) },
-                           { "textures", LIST_OF(texture) },
+                           { "textures", LIST_OF(gltf_schema_texture) },
                            END },
-    (const gltf_field[]) { { "KHR_lights_punctual", OBJECT(lights) }, END },
+    (const gltf_field[]) { { "KHR_lights_punctual", OBJECT(lights) },
+                           { "KHR_materials_variants", OBJECT(variants) },
+                           END },
 };

@@ -35,14 +35,28 @@ struct import_job {
     size_t size;
     import_reader read;
     int up;
+    const char *variant; /* or NULL */
     source_set sources;
 };
 
 /* --- the child's work ------------------------------------------------------------------------- */
 
+/* Shows the variant that is wanted, if any is. */
+static bool choose_variant(const import_job *job, gltf *document, cli_error *error) {
+    const scene_builder *builder = document->builder;
+    const scene_variant *variants = builder_items(builder, BLOB_VARIANTS);
+    const size_t count = builder_count(builder, BLOB_VARIANTS);
+    size_t chosen;
+    return !job->variant ||
+           (scene_find_name(job->path, "variant", job->variant, count ? variants->name : NULL,
+                            sizeof *variants, count, &chosen, error) &&
+            gltf_show_variant(document, chosen, error));
+}
+
 static bool add_gltf(import_job *job, scene_builder *builder, cli_error *error) {
     gltf document;
     const bool ok = gltf_open(job->data, job->size, &job->sources, builder, &document, error) &&
+                    gltf_add_variants(&document, error) && choose_variant(job, &document, error) &&
                     gltf_load(&document, error) && gltf_add_meshes(&document, builder, error) &&
                     gltf_add_materials(&document, builder, error) &&
                     gltf_add_views(&document, builder, error);
@@ -256,6 +270,12 @@ static bool has_too_many_sources(const void *block) {
     return header->sections[BLOB_SOURCES].count >= BLOB_SOURCES_MAX;
 }
 
+/* Only glTF has them. */
+static bool may_have_variants(const import_job *job, cli_error *error) {
+    return !job->variant || job->read == add_gltf ||
+           cli_fail_member(error, job->path, "variant", job->variant, NULL, 0, 0);
+}
+
 bool import_scene(const char *path, const scene_options *options, scene *s, cli_error *error) {
     const bool no_cache = options->no_cache;
     import_job job;
@@ -263,8 +283,11 @@ bool import_scene(const char *path, const scene_options *options, scene *s, cli_
     size_t size = 0;
     bool ok = prepare(path, &job, error), cached = false;
     job.up = options->up;
+    job.variant = options->variant;
+    ok = ok && may_have_variants(&job, error);
     if (ok) {
-        const file_hash key = cache_key(job.folder, job.name, job.data, job.size, job.up);
+        const file_hash key =
+            cache_key(job.folder, job.name, job.data, job.size, job.up, job.variant);
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
         sources_free(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);

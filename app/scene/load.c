@@ -69,7 +69,8 @@ bool scene_load(const char *name, const scene_options *options, scene *s, cli_er
     const scene_options chosen = options ? *options : (scene_options) { 0 };
     memset(s, 0, sizeof *s);
     if (!scene_is_file(name))
-        return load_builtin(name, chosen.up, s, error);
+        return chosen.variant ? cli_fail_member(error, name, "variant", chosen.variant, NULL, 0, 0)
+                              : load_builtin(name, chosen.up, s, error);
     if (!import_scene(name, &chosen, s, error))
         return hint_builtin(name, error);
     if ((chosen.no_texels || scene_decode_images(s, error)) &&

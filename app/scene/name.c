@@ -3,6 +3,7 @@
 
 #include "app/cli/printable.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 void scene_clean_name(char name[SCENE_NAME_SIZE], const char *text) {
@@ -19,4 +20,14 @@ void scene_clean_name(char name[SCENE_NAME_SIZE], const char *text) {
         used += bytes;
         text += bytes;
     }
+}
+
+bool scene_find_name(const char *subject, const char *kind, const char *wanted, const char *first,
+                     size_t stride, size_t count, size_t *index, cli_error *error) {
+    const bool whole = *wanted && !wanted[strspn(wanted, "0123456789")];
+    const unsigned long number = strtoul(wanted, NULL, 10);
+    for (*index = 0; *index < count; ++*index)
+        if (strcmp(first + *index * stride, wanted) == 0 || (whole && number == *index))
+            return true;
+    return cli_fail_member(error, subject, kind, wanted, first, stride, count);
 }

@@ -78,6 +78,11 @@ typedef struct scene_material {
     };
 } scene_material;
 
+/* A choice among the materials of a file's parts, made when it is read (KHR_materials_variants). */
+typedef struct scene_variant {
+    char name[SCENE_NAME_SIZE];
+} scene_variant;
+
 typedef enum scene_wrap {
     SCENE_WRAP_REPEAT,
     SCENE_WRAP_CLAMP,
@@ -138,6 +143,7 @@ typedef struct scene {
     const scene_mesh *meshes;
     const scene_instance *instances; /* what is seen; app/scene/instance.h reads them */
     const scene_material *materials;
+    const scene_variant *variants;
     const scene_texture *textures;
     const scene_image *images;
     const unsigned char *encoded; /* bytes of the images */
@@ -147,7 +153,7 @@ typedef struct scene {
     const lmp_vec3 *offsets;
     const scene_left_out *left_out;
     size_t vertex_count, index_count, mesh_count, instance_count;
-    size_t material_count, texture_count, image_count, encoded_bytes, texel_bytes;
+    size_t material_count, variant_count, texture_count, image_count, encoded_bytes, texel_bytes;
     size_t camera_count, motion_count, offset_count, left_out_count;
     scene_light *lights; /* SCENE_LIGHTS_MAX allocated */
     size_t light_count;
@@ -169,10 +175,11 @@ enum { SCENE_UP_Y, SCENE_UP_Z }; /* the file's axis that points up */
 extern const char *const scene_up_names[];
 
 typedef struct scene_options {
-    int up;         /* the scene is rotated so that this is y */
-    bool no_cache;  /* neither read nor write the cache */
-    bool strict;    /* a file of which something is left out is an error */
-    bool no_texels; /* images are not decoded: for what shows none of them */
+    int up;              /* the scene is rotated so that this is y */
+    const char *variant; /* of materials, by name or number from 0; NULL: the file's own */
+    bool no_cache;       /* neither read nor write the cache */
+    bool strict;         /* a file of which something is left out is an error */
+    bool no_texels;      /* images are not decoded: for what shows none of them */
 } scene_options;
 
 /* The names of the built-in scenes, i = 0, 1, …; NULL past the last. */
@@ -194,6 +201,11 @@ void scene_free(scene *scene);
       .argument = "AXIS",                                                                          \
       .help = "of the scene file that points up; the scene is rotated so that y does",             \
       .choices = scene_up_names },                                                                 \
+        { .name = "variant",                                                                       \
+          .kind = CLI_TEXT,                                                                        \
+          .target = &(variable).variant,                                                           \
+          .argument = "NAME",                                                                      \
+          .help = "of the materials of a glTF, by name or number from 0 (info lists them)" },      \
     {                                                                                              \
         .name = "strict", .kind = CLI_FLAG, .target = &(variable).strict,                          \
         .help = "refuse a scene of which something would be left out"                              \

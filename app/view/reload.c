@@ -99,7 +99,9 @@ void view_reload(viewer *v) {
     const bool other = v->state.other[0];
     const char *name = other ? v->state.other : v->state.now.scene;
     cli_error error;
-    scene *world = view_load_scene(name, &o->load, other || v->another ? &own : &o->lights, &error);
+    scene_options load = o->load;
+    load.variant = other ? NULL : view_variant(&v->state.now);
+    scene *world = view_load_scene(name, &load, other || v->another ? &own : &o->lights, &error);
     view_compositor *compositor = world ? view_compositor_create(&v->context, world, &error) : NULL;
     if (!compositor || !view_state_replace_scene(&v->state, world, &error)) {
         view_compositor_destroy(compositor);

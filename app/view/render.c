@@ -17,8 +17,8 @@ bool view_render(const view_settings *settings, const char *device, const char *
     gpu_context context = { .display = NULL };
     view_compositor *compositor = NULL;
     view_statistics statistics;
-    if (!image_check_path(path, error) ||
-        !scene_load(settings->scene, &(scene_options) { .up = settings->up }, &world, error))
+    const scene_options load = { .up = settings->up, .variant = view_variant(settings) };
+    if (!image_check_path(path, error) || !scene_load(settings->scene, &load, &world, error))
         return false;
     const bool ok =
         open_context(settings, device, &context, error) &&

@@ -74,6 +74,8 @@ cJSON *view_settings_to_json(const view_settings *s) {
     cJSON_AddStringToObject(root, "scene", s->scene);
     if (s->up != SCENE_UP_Y)
         cJSON_AddStringToObject(root, "up", scene_up_names[s->up]);
+    if (s->variant[0])
+        cJSON_AddStringToObject(root, "variant", s->variant);
     cJSON_AddNumberToObject(root, "width", s->width);
     cJSON_AddNumberToObject(root, "height", s->height);
     cJSON_AddNumberToObject(root, "samples", s->samples);
@@ -148,6 +150,15 @@ static bool read_choice(const cJSON *object, const char *name, const char *const
 static bool read_up(const cJSON *root, int *up) {
     *up = SCENE_UP_Y;
     return !file_json_member(root, "up") || read_choice(root, "up", scene_up_names, up);
+}
+
+/* Absent where the scene has the materials of its file. */
+static bool read_variant(const cJSON *root, char variant[SCENE_NAME_SIZE]) {
+    const cJSON *item = file_json_member(root, "variant");
+    if (item && (!cJSON_IsString(item) || strlen(item->valuestring) >= SCENE_NAME_SIZE))
+        return false;
+    strcpy(variant, item ? item->valuestring : "");
+    return true;
 }
 
 /* Absent from the screenshots of before there was a choice. */
@@ -249,6 +260,7 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
     const char *wrong = !cJSON_IsObject(root)                                          ? "settings"
                         : !read_path(root, "scene", s->scene)                          ? "scene"
                         : !read_up(root, &s->up)                                       ? "up"
+                        : !read_variant(root, s->variant)                              ? "variant"
                         : !read_int(root, "width", 1, IMAGE_SIZE_MAX, &s->width)       ? "width"
                         : !read_int(root, "height", 1, IMAGE_SIZE_MAX, &s->height)     ? "height"
                         : !read_int(root, "samples", 1, VIEW_SAMPLES_MAX, &s->samples) ? "samples"

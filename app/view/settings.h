@@ -22,7 +22,8 @@ typedef struct view_shading {
 
 typedef struct view_settings {
     char scene[VIEW_PATH_SIZE];
-    int up; /* as in scene_options */
+    int up;                        /* as in scene_options */
+    char variant[SCENE_NAME_SIZE]; /* likewise; empty: the file's own */
     int width, height;
     int samples; /* a pixel */
     bool shadows;
@@ -40,6 +41,11 @@ typedef struct view_settings {
     size_t light_count;
     scene_light lights[SCENE_LIGHTS_MAX];
 } view_settings;
+
+/* As scene_options has it. */
+static inline const char *view_variant(const view_settings *settings) {
+    return settings->variant[0] ? settings->variant : NULL;
+}
 
 /* The bytes of them that count: all but the room for more lights. */
 static inline size_t view_settings_size(const view_settings *settings) {

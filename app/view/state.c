@@ -101,7 +101,7 @@ void view_state_close(view_state *s) {
 /* Another scene begins as if the viewer had been started with it. */
 static void begin_other(view_state *s) {
     strcpy(s->now.scene, s->other);
-    s->other[0] = '\0';
+    s->other[0] = s->now.variant[0] = '\0';
     memset(s->now.materials, 0, sizeof s->now.materials);
     s->now.material_count = 0;
     s->now.camera = scene_default_camera(s->world, (float)s->now.width / (float)s->now.height);
