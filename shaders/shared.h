@@ -54,11 +54,12 @@ typedef float mat4[16]; /* column-major */
 #define SHARED_MAP_SHEEN_COLOR    10
 #define SHARED_MAP_SHEEN_ROUGH    11
 
-/* Fragment outputs, in the order of the G-buffer's attachments (22 bytes a pixel, and depth):
+/* Fragment outputs, in the order of the G-buffer's attachments (34 bytes a pixel, and depth):
  *   0  RGBA16          root of the base color, metallic
  *   1  RG16            octahedral normal; of a light, its index in r
  *   2  RG16            roughness, kind
- *   3  R11F_G11F_B10F  emitted radiance, as seen through a coat
+ *   3  RGBA32F         emitted radiance, as seen through a coat; the browser's page, which shows
+ *                      no .exr, has it in R11F_G11F_B10F
  *   4  RG8             how much of the ambient light comes, a factor on the dielectric's reflection
  * and, of a scene that has such layers, written and read for materials with one alone (16 bytes):
  *   5  RGBA16          of a coat: octahedral normal, weight, roughness

@@ -64,8 +64,7 @@ static bool read_attachments(const gpu_renderer *r, gpu_gbuffer *g, cli_error *e
         { r->attachments[1], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->normal, g->normal },
         { r->attachments[2], GL_RG, GL_UNSIGNED_SHORT, sizeof *g->roughness_kind,
           g->roughness_kind },
-        { r->attachments[3], GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, sizeof *g->emission,
-          g->emission },
+        { r->attachments[3], GL_RGB, GL_FLOAT, sizeof *g->emission, g->emission },
         { r->attachments[4], GL_RG, GL_UNSIGNED_BYTE, sizeof *g->layers, g->layers },
         { r->attachments[5], GL_RGBA, GL_UNSIGNED_SHORT, sizeof *g->coat, g->coat },
         { r->attachments[6], GL_RGBA, GL_UNSIGNED_BYTE, sizeof *g->tint, g->tint },
@@ -83,20 +82,6 @@ static bool read_attachments(const gpu_renderer *r, gpu_gbuffer *g, cli_error *e
 }
 
 /* --- decoding --------------------------------------------------------------------------------- */
-
-/* Unsigned floats of 5 bits of exponent, and 6 or 5 of mantissa. */
-static float small_float(uint32_t bits, int mantissa) {
-    const uint32_t fraction = bits & ((1u << mantissa) - 1), exponent = bits >> mantissa & 31;
-    const float unit = 1.0f / (float)(1u << mantissa);
-    return exponent == 0 ? ldexpf((float)fraction * unit, -14)
-                         : ldexpf(1 + (float)fraction * unit, (int)exponent - 15);
-}
-
-static void decode_emission(uint32_t bits, size_t i, float *const emission[3]) {
-    emission[0][i] = bits ? small_float(bits & 2047, 6) : 0;
-    emission[1][i] = bits ? small_float(bits >> 11 & 2047, 6) : 0;
-    emission[2][i] = bits ? small_float(bits >> 22, 5) : 0;
-}
 
 /* Positions of a row's pixels, as camera.glsl has them; what is no surface is nonsense. */
 static void decode_positions(const gpu_gbuffer *g, int y, float reach) {
@@ -177,14 +162,15 @@ static void decode_row(const gpu_gbuffer *g, int y, float reach) {
     for (size_t i = first; i < end; i++)
         decode_normal(g->normal[i].u, g->normal[i].v, i, s->normal);
     for (size_t i = first; i < end; i++) {
-        for (int c = 0; c < 3; c++)
+        for (int c = 0; c < 3; c++) {
             s->base[c][i] = square(unit(g->base_metallic[i].root[c]));
+            s->emission[c][i] = g->emission[i][c];
+        }
         s->metallic[i] = unit(g->base_metallic[i].metallic);
         s->roughness[i] = unit(g->roughness_kind[i].u);
         s->ambient[i] = (float)g->layers[i].u / 255;
         s->specular[i] = (float)g->layers[i].v / 255;
         s->seen[i] = decode_kind(g, i);
-        decode_emission(g->emission[i], i, s->emission);
         if (g->coat)
             decode_layers(g, i);
     }

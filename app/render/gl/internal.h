@@ -216,7 +216,7 @@ typedef struct gpu_gbuffer {
     float *depth;
     gpu_base16 *base_metallic;
     gpu_pair16 *normal, *roughness_kind;
-    uint32_t *emission;
+    float (*emission)[3];
     gpu_pair8 *layers;
     gpu_coat16 *coat; /* and those after it: NULL where no material is layered */
     uint8_t (*tint)[4], (*sheen)[4];

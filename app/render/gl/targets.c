@@ -15,7 +15,7 @@ GLuint gpu_target_create(GLenum format, int width, int height) {
 
 /* Of the G-buffer's attachments, and of its depth. */
 const GLenum gpu_target_formats[GPU_ATTACHMENTS + 1] = {
-    GL_RGBA16, GL_RG16,  GL_RG16,  GL_R11F_G11F_B10F,    GL_RG8,
+    GL_RGBA16, GL_RG16,  GL_RG16,  GL_RGBA32F,           GL_RG8,
     GL_RGBA16, GL_RGBA8, GL_RGBA8, GL_DEPTH_COMPONENT32F
 };
 
