@@ -19,9 +19,9 @@ typedef struct mesh_draft {
     uint32_t *corners; /* 3 a triangle, below vertex_count */
     size_t corner_count;
     bool has_normals;
-    bool weld;        /* merge equal vertices: the source has them once a corner */
-    bool unsided;     /* the order of corners means nothing: it follows given normals */
-    float unit;       /* filled in: a power of 2, by which its edges are about 1 long */
+    bool weld;    /* merge equal vertices: the source has them once a corner */
+    bool unsided; /* the order of corners means nothing: it follows given normals, or the outside */
+    float unit;   /* filled in: a power of 2, by which its edges are about 1 long */
     float crease_cos; /* missing normals are smooth across edges flatter than this */
 } mesh_draft;
 

@@ -12,11 +12,15 @@
 
 #define HALF 2.0f
 
-/* A cube of side 4, its faces showing their fronts inwards (a room) or outwards (a block). */
-static scene load_cube(bool inwards) {
+/* A cube of side 4, its faces with normals inwards (a room) or outwards (a block), or without any:
+ * counter-clockwise as they are seen from inside or outside. */
+static scene write_cube(bool inwards, bool normals) {
     static const int faces[6][4] = { { 1, 2, 4, 3 }, { 5, 7, 8, 6 }, { 1, 5, 6, 2 },
                                      { 3, 4, 8, 7 }, { 1, 3, 7, 5 }, { 2, 6, 8, 4 } };
+    static const int outwards[6][3] = { { -1, 0, 0 }, { 1, 0, 0 },  { 0, -1, 0 },
+                                        { 0, 1, 0 },  { 0, 0, -1 }, { 0, 0, 1 } };
     char text[1024];
+    const int sign = inwards ? -1 : 1;
     size_t used = 0;
     scene s;
     cli_error error;
@@ -25,13 +29,24 @@ static scene load_cube(bool inwards) {
                                  i & 2 ? 2 : -2, i & 1 ? 2 : -2);
     for (int i = 0; i < 6; i++) {
         const int *f = faces[i];
-        used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", f[0],
-                                 f[inwards ? 3 : 1], f[2], f[inwards ? 1 : 3]);
+        const int second = f[inwards ? 3 : 1], last = f[inwards ? 1 : 3];
+        if (normals)
+            used += (size_t)snprintf(
+                text + used, sizeof text - used, "vn %d %d %d\nf %d//%d %d//%d %d//%d %d//%d\n",
+                sign * outwards[i][0], sign * outwards[i][1], sign * outwards[i][2], f[0], i + 1,
+                second, i + 1, f[2], i + 1, last, i + 1);
+        else
+            used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", f[0],
+                                     second, f[2], last);
     }
     folder_write_text("cube.obj", text);
     if (!scene_load(in_folder("cube.obj"), &(scene_options) { .no_cache = true }, &s, &error))
         fail_msg("%s", error.text);
     return s;
+}
+
+static scene load_cube(bool inwards) {
+    return write_cube(inwards, true);
 }
 
 /* Largest coordinate: below 2 inside the cube. */
@@ -65,6 +80,40 @@ static void the_camera_stands_inside_a_room_and_outside_a_block(void **state) {
         assert_true(from_center(camera.target) < HALF);
         scene_free(&s);
     }
+}
+
+/* An OBJ without normals says nothing of sides: what is closed is a block, however it is wound. */
+static void a_closed_mesh_without_sides_is_a_block(void **state) {
+    (void)state;
+    for (int clockwise = 0; clockwise < 2; clockwise++) {
+        scene s = write_cube(clockwise, false);
+        const scene_camera camera = scene_default_camera(&s, 1.5f);
+        assert_true(from_center(camera.eye) > HALF);
+        for (size_t i = 0; i < s.index_count; i++) {
+            const scene_vertex *v = &s.vertices[s.indices[i]];
+            float along = 0;
+            for (int k = 0; k < 3; k++)
+                along += v->position[k] * v->normal[k];
+            assert_true(along > 0);
+        }
+        scene_free(&s);
+    }
+}
+
+/* A face is missing: what is left is wound as a room, and may be one. */
+static void an_open_mesh_is_what_it_is_wound_as(void **state) {
+    (void)state;
+    static const char box[] =
+        "v -2 -2 -2\nv -2 -2 2\nv -2 2 -2\nv -2 2 2\nv 2 -2 -2\nv 2 -2 2\nv 2 2 -2\nv 2 2 2\n"
+        "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n";
+    scene s;
+    cli_error error;
+    folder_write_text("box.obj", box);
+    assert_true(
+        scene_load(in_folder("box.obj"), &(scene_options) { .no_cache = true }, &s, &error));
+    space_room room;
+    assert_true(space_is_building(&s, (lmp_vec3) { 0, 0, 0 }, &room));
+    scene_free(&s);
 }
 
 /* 200 of them in either: those of the room are clear of its walls, those of the block are not in
@@ -144,6 +193,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_room_is_a_building_and_a_block_is_none),
         cmocka_unit_test(the_camera_stands_inside_a_room_and_outside_a_block),
+        cmocka_unit_test(a_closed_mesh_without_sides_is_a_block),
+        cmocka_unit_test(an_open_mesh_is_what_it_is_wound_as),
         cmocka_unit_test(random_lights_are_never_in_anything),
         cmocka_unit_test(random_lights_do_not_fill_the_view),
         cmocka_unit_test(balls_are_measured_to_planes_sides_and_corners),
