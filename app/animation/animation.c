@@ -167,7 +167,7 @@ void animation_move_all(const animation *all, const scene *world, double seconds
 /* The motions that the scene file brought, as keys at even steps. */
 static bool take_motions(const scene *world, animation *all, cli_error *error) {
     if (world->motion_count == 0)
-        return cli_fail(error, world->origin, "does not move its lights (--animate orbit does)");
+        return cli_fail(error, world->name, "does not move its lights (--animate orbit does)");
     for (size_t i = 0; i < world->motion_count; i++) {
         const scene_motion *motion = &world->motions[i];
         path *p = &all->paths[motion->light];

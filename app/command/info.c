@@ -34,7 +34,7 @@ static void add_lights(cJSON *root, const scene *s) {
 
 static cJSON *describe(const scene *s) {
     cJSON *root = cJSON_CreateObject();
-    cJSON_AddStringToObject(root, "scene", s->origin);
+    cJSON_AddStringToObject(root, "scene", s->name);
     cJSON_AddBoolToObject(root, "cached", s->cached);
     cJSON_AddNumberToObject(root, "triangles", (double)scene_triangle_count(s));
     cJSON_AddNumberToObject(root, "vertices", (double)s->vertex_count);
@@ -86,7 +86,7 @@ static cJSON *describe(const scene *s) {
 
 static int print_json(const scene *s) {
     cli_error error;
-    return file_json_print(describe(s), s->origin, &error) ? CLI_OK : cli_report(&error);
+    return file_json_print(describe(s), s->name, &error) ? CLI_OK : cli_report(&error);
 }
 
 static void print_names(const char *what, const char *name, size_t size, size_t count) {
@@ -120,7 +120,7 @@ static void print_lights(const scene *s) {
 }
 
 static void print_text(const scene *s) {
-    cli_print_name(s->origin);
+    cli_print_name(s->name);
     puts(s->cached ? " (from the cache)" : "");
     printf("%-10s %zu\n", "triangles", scene_triangle_count(s));
     printf("%-10s %zu\n", "vertices", s->vertex_count);

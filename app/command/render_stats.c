@@ -128,7 +128,7 @@ static bool add_rest(render_job *j, cJSON *stats, cli_error *error) {
 bool render_print_stats(render_job *j, cli_error *error) {
     const render_options *o = j->options;
     cJSON *stats = cJSON_CreateObject();
-    cJSON_AddStringToObject(stats, "scene", j->world.origin);
+    cJSON_AddStringToObject(stats, "scene", j->world.name);
     cJSON_AddNumberToObject(stats, "triangles", (double)scene_triangle_count(&j->world));
     cJSON_AddNumberToObject(stats, "lights", (double)j->world.light_count);
     cJSON_AddNumberToObject(stats, "bands", o->bands);

@@ -64,7 +64,7 @@ const char *environment_choose(const environment_options *options, const scene *
         return options->name;
     if (world->light_count > 0 || world->lights_chosen)
         return "none";
-    cli_note(world->origin,
+    cli_note(world->name,
              "no lights in it, lit by the built-in studio (--environment, --lights and "
              "--random-lights choose others)");
     return "studio";

@@ -19,9 +19,8 @@ static bool use_entry(const scene *world, const char *text, size_t length, int e
             uses[i] = entry;
             found = true;
         }
-    return found ||
-           cli_fail_member(error, world->origin, "material", name, world->materials[0].name,
-                           sizeof *world->materials, world->material_count);
+    return found || cli_fail_member(error, world->name, "material", name, world->materials[0].name,
+                                    sizeof *world->materials, world->material_count);
 }
 
 bool override_open(const cli_list *list, const scene *world, override_set *all, cli_error *error) {

@@ -67,8 +67,7 @@ bool reference_tracer_create(const scene *world, reference_tracer **tracer, cli_
     if (!t || !(t->bvh = trace_create(world))) {
         free(t);
         *tracer = NULL;
-        return cli_fail(error, world->origin,
-                        "cannot be prepared for ray tracing (out of memory?)");
+        return cli_fail(error, world->name, "cannot be prepared for ray tracing (out of memory?)");
     }
     t->scene = world;
     t->lift = trace_lift(world);

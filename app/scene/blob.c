@@ -387,7 +387,7 @@ bool blob_open(void *block, size_t size, const char *subject, scene *s, cli_erro
     s->light_count = header->sections[BLOB_LIGHTS].count;
     s->block = block;
     s->block_size = size;
-    s->origin = subject;
+    s->name = subject;
     measure(s);
     return true;
 }

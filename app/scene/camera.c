@@ -8,7 +8,7 @@
 static bool find_camera(const scene *world, const char *wanted, scene_camera *camera,
                         cli_error *error) {
     size_t index;
-    if (!scene_find_name(world->origin, "camera", wanted, world->cameras->name,
+    if (!scene_find_name(world->name, "camera", wanted, world->cameras->name,
                          sizeof *world->cameras, world->camera_count, &index, error))
         return false;
     *camera = world->cameras[index];
@@ -56,7 +56,7 @@ bool scene_place_camera(const scene *world, const scene_camera_options *o, const
     for (int k = 0; k < 3; k++)
         if (!(fabsf(camera->eye[k]) <= LMP_LENGTH_MAX &&
               fabsf(camera->target[k]) <= LMP_LENGTH_MAX))
-            return cli_fail(error, world->origin, "has a camera beyond 1e17 (--eye and --target)");
+            return cli_fail(error, world->name, "has a camera beyond 1e17 (--eye and --target)");
     keep_upright(camera);
     return true;
 }

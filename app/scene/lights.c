@@ -108,7 +108,7 @@ static bool make_room(scene *s, size_t first, const random_box *box, uint64_t se
 
 bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *error) {
     if (count < 0 || (size_t)count > SCENE_LIGHTS_MAX - s->light_count)
-        return cli_fail(error, s->origin, "would have %zu lights (at most %d)",
+        return cli_fail(error, s->name, "would have %zu lights (at most %d)",
                         s->light_count + (size_t)count, SCENE_LIGHTS_MAX);
     const size_t first = s->light_count;
     const float size = scene_size(s);
@@ -131,11 +131,10 @@ bool scene_add_random_lights(scene *s, int count, uint64_t seed, cli_error *erro
         scene_light_error wrong;
         if (!scene_light_check(light, &wrong)) {
             s->light_count = first;
-            return cli_fail(error, s->origin, "is too small or too large for random lights: %s",
+            return cli_fail(error, s->name, "is too small or too large for random lights: %s",
                             wrong.text + (wrong.text[0] == '.'));
         }
         s->light_count++;
     }
-    return make_room(s, first, &box, seed) ||
-           cli_fail(error, s->origin, "does not fit into memory");
+    return make_room(s, first, &box, seed) || cli_fail(error, s->name, "does not fit into memory");
 }

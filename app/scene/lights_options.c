@@ -14,7 +14,7 @@ static bool widen_lights(scene *s, const scene_lights_options *options, cli_erro
             continue;
         kind->widen(&light->emitter, options->point_radius, angle);
         if (!scene_light_check(light, &wrong))
-            return cli_fail(error, s->origin, "lights[%zu]%s with that %s", i, wrong.text,
+            return cli_fail(error, s->name, "lights[%zu]%s with that %s", i, wrong.text,
                             kind->widened_by);
     }
     return true;

@@ -56,8 +56,8 @@ static bool tell_left_out(const scene *s, bool strict, cli_error *error) {
     if (!used)
         return true;
     if (strict)
-        return cli_fail(error, s->origin, "left out: %s (not allowed by --strict)", line);
-    cli_note(s->origin, "left out: %s", line);
+        return cli_fail(error, s->name, "left out: %s (not allowed by --strict)", line);
+    cli_note(s->name, "left out: %s", line);
     return true;
 }
 

@@ -167,8 +167,8 @@ typedef struct scene {
     size_t decoded_size;
     scene_material *own_materials; /* instead of the block's, of a scene that lacks images */
     scene_left_out *own_left_out;
-    bool cached;        /* it came from the cache */
-    const char *origin; /* the name it was loaded by, for messages; the caller's string */
+    bool cached;      /* it came from the cache */
+    const char *name; /* it was loaded by, for messages; the caller's string */
 } scene;
 
 enum { SCENE_UP_Y, SCENE_UP_Z }; /* the file's axis that points up */

@@ -29,7 +29,7 @@ static uint64_t texels_of(const image_run *run) {
 }
 
 static bool fail_memory(const scene *s, cli_error *error) {
-    return cli_fail(error, s->origin, "has textures that do not fit into memory");
+    return cli_fail(error, s->name, "has textures that do not fit into memory");
 }
 
 /* --- in the child ----------------------------------------------------------------------------- */
@@ -41,7 +41,7 @@ static bool decode_one(const scene *s, const scene_image *image, int output,
     unsigned char *texels = calloc(size, 1);
     cli_error reason;
     bool ok = texels || fail_memory(s, error);
-    if (ok && !texture_decode(image, s->encoded, texels, s->origin, &reason)) {
+    if (ok && !texture_decode(image, s->encoded, texels, s->name, &reason)) {
         *undecodable = 1;
         memset(texels, 0, size);
         ok = !cli_is_out_of_memory(&reason) || fail_memory(s, error);
@@ -114,7 +114,7 @@ static size_t share_out(const scene *s, double *shown, image_run runs[CHILDREN_M
     size_t count = 0;
     for (size_t first = 0, end; first < s->image_count; first = end) {
         const uint64_t until = all / most * (count + 1);
-        sandbox_job job = { .subject = s->origin,
+        sandbox_job job = { .subject = s->name,
                             .context = &runs[count],
                             .work = decode_run,
                             .progress = show_progress };
@@ -134,7 +134,7 @@ static bool take_run(scene *s, const image_run *run, char *whole, void **block, 
     const uint64_t texels = texels_of(run);
     char *to = whole + s->images[run->first].first_texel, *from = *block;
     if (*size != texels + (run->end - run->first))
-        return cli_fail(error, s->origin, "has textures that cannot be decoded");
+        return cli_fail(error, s->name, "has textures that cannot be decoded");
     for (size_t i = run->first; i < run->end; i++)
         if (from[texels + (i - run->first)] && !leave_out(s, &s->images[i], error))
             return false;

@@ -77,7 +77,7 @@ void view_show_title(viewer *v) {
 static void replace_world(viewer *v, scene *world, view_compositor *compositor) {
     view_compositor_destroy(v->compositor);
     view_free_scene(v->world);
-    world->origin = v->state.now.scene;
+    world->name = v->state.now.scene;
     v->world = world;
     v->compositor = compositor;
     v->fresh = true;

@@ -51,7 +51,7 @@ static void open_tiles(tiles *t, size_t count) {
                          .lights = t->lights,
                          .minimum = { -4, -4, 0 },
                          .maximum = { 4, 4, 0 },
-                         .origin = "tiles" };
+                         .name = "tiles" };
 }
 
 /* Of a field of view, or of parallel rays as high. From there 1 is half the image's height. */

@@ -57,7 +57,7 @@ static void lay_plate(plate *p, double view, double ratio) {
                          .light_count = 1,
                          .minimum = { -size, 0, -size },
                          .maximum = { size, 0, size },
-                         .origin = "plate" };
+                         .name = "plate" };
     p->frame = (render_frame) {
         .width = WIDTH,
         .height = HEIGHT,

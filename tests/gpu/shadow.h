@@ -79,7 +79,7 @@ static void open_scene(scene_builder *builder, scene *world) {
     builder_free(builder);
     expect(blob_validate(block, size, false, "held", &error), &error);
     expect(blob_open(block, size, "held", world, &error), &error);
-    world->origin = "held";
+    world->name = "held";
 }
 
 /* A floor with a box, three thin poles and the screen on it, before a wall. */

@@ -93,7 +93,7 @@ static inline scene *make_sheets(void) {
                             .lights = sheet.lights,
                             .minimum = { -1, -1, 0 },
                             .maximum = { 31, 1, 0 },
-                            .origin = "sheets" };
+                            .name = "sheets" };
     return &sheet.world;
 }
 

@@ -7,7 +7,7 @@
 #include <math.h>
 
 static scene lit_scene(void) {
-    return (scene) { .maximum = { 1, 1, 1 }, .light_count = 1, .origin = "test" };
+    return (scene) { .maximum = { 1, 1, 1 }, .light_count = 1, .name = "test" };
 }
 
 static image filled(int width, int height, float red) {

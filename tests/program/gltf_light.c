@@ -188,7 +188,7 @@ static void a_size_that_no_light_can_have_is_refused(void **state) {
     static const char *const expected[] = { "--point-radius", "--sun-angle" };
     for (size_t i = 0; i < 2; i++) {
         scene_light light = given[i];
-        scene s = { .lights = &light, .light_count = 1, .origin = "file.gltf" };
+        scene s = { .lights = &light, .light_count = 1, .name = "file.gltf" };
         cli_error error;
         assert_false(scene_apply_lights(
             &s, &(scene_lights_options) { .point_radius = 1e-20f, .sun_angle = 1e-20f }, &error));

@@ -84,7 +84,7 @@ static void lay_balls(void) {
                             .light_count = 3,
                             .minimum = { -4, -4, -1 },
                             .maximum = { 4, 4, 1 },
-                            .origin = "balls" };
+                            .name = "balls" };
 }
 
 static image draw(const scene_camera *camera) {

@@ -71,7 +71,7 @@ static void build(fixture *s) {
                          .light_count = 2,
                          .minimum = { -10, 0, -10 },
                          .maximum = { 10, 0, 10 },
-                         .origin = "floor" };
+                         .name = "floor" };
     s->texture = (scene_texture) { .width = 2, .height = 2 };
 }
 

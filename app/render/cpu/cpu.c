@@ -40,7 +40,7 @@ cpu_scene *cpu_scene_create(const scene *world, cli_error *error) {
     if (s && s->bvh && s->textures)
         return s;
     cpu_scene_destroy(s);
-    cli_fail(error, world->origin, "out of memory");
+    cli_fail(error, world->name, "out of memory");
     return NULL;
 }
 
@@ -63,7 +63,7 @@ cpu_renderer *cpu_renderer_create(const cpu_scene *world, cli_error *error) {
         return r;
     }
     free(r);
-    cli_fail(error, world->scene->origin, "out of memory");
+    cli_fail(error, world->scene->name, "out of memory");
     return NULL;
 }
 

@@ -42,7 +42,7 @@ static GLsizei level_count(uint32_t width, uint32_t height) {
 static bool create_texture(const gpu_context *context, const scene *world,
                            const scene_texture *source, GLuint *texture, cli_error *error) {
     if (source->width > (uint32_t)context->size_max || source->height > (uint32_t)context->size_max)
-        return cli_fail(error, world->origin, "texture %s has %u x %u texels; %s takes %d a side",
+        return cli_fail(error, world->name, "texture %s has %u x %u texels; %s takes %d a side",
                         source->name, source->width, source->height, context->device,
                         context->size_max);
     glCreateTextures(GL_TEXTURE_2D, 1, texture);
@@ -75,7 +75,7 @@ static bool create_textures(const gpu_context *context, const scene *world, gpu_
     mesh->textures = calloc(world->texture_count + 1, sizeof *mesh->textures);
     if (!sorted || !mesh->textures) {
         free(sorted);
-        return cli_fail(error, world->origin, "out of memory");
+        return cli_fail(error, world->name, "out of memory");
     }
     mesh->texture_count = (GLsizei)world->texture_count;
     for (size_t i = 0; i < world->texture_count; i++)
@@ -270,17 +270,17 @@ bool gpu_mesh_create(const gpu_context *context, const scene *world, gpu_mesh *m
         return false;
     create_samplers(context, mesh);
     if (world->material_count > SHARED_MATERIALS_MAX)
-        return cli_fail(error, world->origin, "has %zu materials: the shaders tell %d apart",
+        return cli_fail(error, world->name, "has %zu materials: the shaders tell %d apart",
                         world->material_count, SHARED_MATERIALS_MAX);
     if (!create_materials(world, mesh) || !create_reflectors(world, mesh) ||
         !create_draws(world, mesh))
-        return cli_fail(error, world->origin, "out of memory");
+        return cli_fail(error, world->name, "out of memory");
     mesh->vertices = upload(world->vertices, world->vertex_count * sizeof *world->vertices);
     mesh->indices = upload(world->indices, world->index_count * sizeof *world->indices);
     glCreateBuffers(1, &mesh->seen_buffer);
     mesh->vertex_array = create_vertex_array(mesh);
     if (glGetError() == GL_OUT_OF_MEMORY)
-        return cli_fail(error, world->origin, "the scene does not fit the memory of %s",
+        return cli_fail(error, world->name, "the scene does not fit the memory of %s",
                         context->device);
     return true;
 }

@@ -69,7 +69,7 @@ gpu_renderer *gpu_renderer_create(const gpu_context *context, const scene *world
     r->context = *context;
     if (!render_materials_create(world, &r->materials)) {
         gpu_renderer_destroy(r);
-        cli_fail(error, world->origin, "out of memory");
+        cli_fail(error, world->name, "out of memory");
         return NULL;
     }
     if (!gpu_mesh_create(context, world, &r->mesh, error) || !create_programs(r, error)) {

@@ -37,14 +37,14 @@ shadow *shadow_create(const scene *world, const trace_bvh *bvh, const environmen
     if (s && s->sources && s->bvh && shadow_surround(s, surroundings, error))
         return s;
     shadow_destroy(s);
-    fail_memory(world->origin, error);
+    fail_memory(world->name, error);
     return NULL;
 }
 
 bool shadow_surround(shadow *s, const environment *surroundings, cli_error *error) {
     shadow_around_free(&s->around);
     memset(&s->around, 0, sizeof s->around);
-    return shadow_around_create(surroundings, &s->around) || fail_memory(s->scene->origin, error);
+    return shadow_around_create(surroundings, &s->around) || fail_memory(s->scene->name, error);
 }
 
 void shadow_destroy(shadow *s) {
