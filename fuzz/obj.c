@@ -2,6 +2,7 @@
 /* OBJ files, and MTL files: what follows a line of three dashes is the library of materials. */
 #include "app/scene/obj.h"
 #include "app/scene/mtl.h"
+#include "app/scene/origin.h"
 #include "fuzz/scene.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     texture_files files = { .sources = &sources, .images.builder = &builder };
     mtl_names names = { .items = NULL };
     cli_error error = { "" };
-    if (obj_add(text, obj_size, &sources, &builder, &error))
+    if (origin_read(obj_add, text, obj_size, &sources, &builder, &error))
         fuzz_scene_check(&builder);
     if (split)
         mtl_add(split + 4, size - obj_size - 4, &files, &names, &error);

@@ -15,7 +15,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int count = 1, pixels[2] = { 1, 1 }, grid[3] = { 1, 1, 1 }, range[2] = { 0, 0 },
         part[2] = { 1, 1 }, choice = 0;
     uint64_t seed = 0;
-    float number = 0, eye[3] = { 0 };
+    float number = 0, color[3] = { 0 };
+    double eye[3] = { 0 };
     const char *name = NULL;
     cli_list list = { .count = 0 };
     cli_numbers numbers = { .count = 0 };
@@ -30,7 +31,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         { "choice", 0, CLI_CHOICE, &choice, "WORD", "help", 0, 0, choices, NULL },
         { "seed", 0, CLI_SEED, &seed, "N", "help", 0, 0, NULL, NULL },
         { "number", 'n', CLI_FLOAT, &number, "R", "help", 0, 0, NULL, NULL },
-        { "eye", 0, CLI_VEC3, eye, "X,Y,Z", "help", 0, 0, NULL, NULL },
+        { "color", 0, CLI_VEC3, color, "R,G,B", "help", 0, 0, NULL, NULL },
+        { "eye", 0, CLI_POSITION, eye, "X,Y,Z", "help", 0, 0, NULL, NULL },
         { "name", 0, CLI_TEXT, &name, "NAME", "help", 0, 0, NULL, NULL },
         { "list", 'l', CLI_LIST, &list, "NAME", "help", 0, 0, NULL, NULL },
         { NULL, 0, CLI_FLAG, NULL, NULL, NULL, 0, 0, NULL, NULL },

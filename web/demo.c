@@ -10,6 +10,7 @@
 #include "app/scene/emission.h"
 #include "app/scene/flatten.h"
 #include "app/scene/gltf.h"
+#include "app/scene/origin.h"
 #include "app/scene/texture.h"
 
 #include <emscripten/emscripten.h>
@@ -102,13 +103,7 @@ EXPORT const char *demo_open_file(const void *data, size_t size) {
     static const char name[] = "file";
     source_set sources = { .subject = name, .folder = "/", .sandboxed = true };
     scene_builder builder = { 0 };
-    gltf document;
-    bool ok = gltf_open(data, size, &sources, &builder, &document, &demo.error) &&
-              gltf_load(&document, &demo.error) &&
-              gltf_add_meshes(&document, &builder, &demo.error) &&
-              gltf_add_materials(&document, &builder, &demo.error) &&
-              gltf_add_views(&document, &builder, &demo.error);
-    gltf_close(&document);
+    bool ok = origin_read(gltf_add, data, size, &sources, &builder, &demo.error);
     sources_free(&sources);
     if (ok && builder_count(&builder, BLOB_INDICES) == 0)
         ok = cli_fail(&demo.error, name, "has no triangles");

@@ -2,6 +2,7 @@
 #include "app/animation/path.h"
 
 #include "app/file/file.h"
+#include "app/scene/world.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -13,7 +14,8 @@
 
 typedef struct path_reader {
     const char *file;
-    int number; /* of the path being read, from 0 */
+    int number;           /* of the path being read, from 0 */
+    const double *origin; /* of the scene */
     cli_error *error;
     bool others_move; /* by a path that names no light */
 } path_reader;
@@ -51,6 +53,8 @@ static bool read_circle(const path_reader *reader, const cJSON *object, path *p)
         return false;
     if (!read_numbers(file_json_member(object, "center"), 3, p->center))
         return fail_path(reader, "has no center of three numbers");
+    for (int k = 0; k < 3; k++)
+        p->center[k] -= reader->origin[k];
     if (axis && !read_numbers(axis, 3, p->axis))
         return fail_path(reader, "has an axis that is not three numbers");
     const double length =
@@ -71,6 +75,7 @@ static bool read_bounce(const path_reader *reader, const cJSON *object, path *p)
         return false;
     if (!file_json_number(file_json_member(object, "bottom"), -far, far, &p->bottom))
         return fail_path(reader, "has no bottom, a height");
+    p->bottom -= reader->origin[1];
     return true;
 }
 
@@ -95,7 +100,8 @@ static bool read_keys(const path_reader *reader, const cJSON *array, const scene
         p->keys[p->key_count].time = p->period = before = key[0];
         const float *rest = &light->emitter.position.x;
         for (int k = 0; k < 3; k++)
-            p->keys[p->key_count].offset[k] = key[k + 1] - (double)rest[k];
+            p->keys[p->key_count].offset[k] =
+                key[k + 1] - scene_to_world(reader->origin[k], rest[k]);
         p->key_count++;
     }
     return true;
@@ -164,7 +170,7 @@ bool animation_read_paths(const char *file, const scene *world, path *paths, cli
     if (!root)
         return false;
     const cJSON *list = file_json_list(file, root, "paths", error), *entry;
-    path_reader reader = { .file = file, .error = error };
+    path_reader reader = { .file = file, .origin = world->origin, .error = error };
     bool ok = list;
     cJSON_ArrayForEach(entry, list) {
         ok = ok && read_path(&reader, entry, world, paths);

@@ -12,7 +12,7 @@ typedef struct path_key {
     double offset[3]; /* from where the light rests */
 } path_key;
 
-/* How one light moves. */
+/* How one light moves, relative to the scene's origin. */
 typedef struct path {
     path_kind kind;
     double period;             /* seconds, > 0 */
@@ -23,7 +23,8 @@ typedef struct path {
     bool smooth; /* Catmull-Rom between keys, else straight */
 } path;
 
-/* Reads a JSON file into the paths of all lights of the scene, all PATH_REST before. */
+/* Reads a JSON file, whose positions are in the world, into the paths of all lights of the scene,
+ * all PATH_REST before. */
 bool animation_read_paths(const char *file, const scene *world, path *paths, cli_error *error);
 
 #endif

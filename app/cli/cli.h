@@ -30,19 +30,20 @@ int cli_report(const cli_error *error);
 void cli_note(const char *subject, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 typedef enum cli_kind {
-    CLI_FLAG,    /* bool */
-    CLI_INT,     /* int, minimum … maximum */
-    CLI_SEED,    /* uint64_t */
-    CLI_FLOAT,   /* float, minimum … maximum, finite */
-    CLI_VEC3,    /* float[3] as X,Y,Z, finite */
-    CLI_SIZE,    /* int[2] as WIDTHxHEIGHT, minimum … maximum each */
-    CLI_GRID,    /* int[3] as XxYxZ, minimum … maximum each */
-    CLI_RANGE,   /* int[2], first and last, as FIRST-LAST, or COUNT for 0 to COUNT-1 */
-    CLI_NUMBERS, /* cli_numbers: whole numbers as N,N,…, minimum … maximum each */
-    CLI_PART,    /* int[2] as I/N, 1 <= I <= N <= maximum */
-    CLI_TEXT,    /* const char * */
-    CLI_CHOICE,  /* int: index into choices */
-    CLI_LIST     /* cli_list: a text option that may be repeated */
+    CLI_FLAG,     /* bool */
+    CLI_INT,      /* int, minimum … maximum */
+    CLI_SEED,     /* uint64_t */
+    CLI_FLOAT,    /* float, minimum … maximum, finite */
+    CLI_VEC3,     /* float[3] as X,Y,Z, finite */
+    CLI_POSITION, /* double[3] as X,Y,Z, finite */
+    CLI_SIZE,     /* int[2] as WIDTHxHEIGHT, minimum … maximum each */
+    CLI_GRID,     /* int[3] as XxYxZ, minimum … maximum each */
+    CLI_RANGE,    /* int[2], first and last, as FIRST-LAST, or COUNT for 0 to COUNT-1 */
+    CLI_NUMBERS,  /* cli_numbers: whole numbers as N,N,…, minimum … maximum each */
+    CLI_PART,     /* int[2] as I/N, 1 <= I <= N <= maximum */
+    CLI_TEXT,     /* const char * */
+    CLI_CHOICE,   /* int: index into choices */
+    CLI_LIST      /* cli_list: a text option that may be repeated */
 } cli_kind;
 
 /* The values of a CLI_LIST option, in order; items points into argv. */

@@ -67,6 +67,11 @@ static void describe_default(const cli_option *option, char *text, size_t size) 
         snprintf(value, sizeof value, "%g,%g,%g", (double)v[0], (double)v[1], (double)v[2]);
         break;
     }
+    case CLI_POSITION: {
+        const double *const v = option->target;
+        snprintf(value, sizeof value, "%g,%g,%g", v[0], v[1], v[2]);
+        break;
+    }
     case CLI_SIZE:
         snprintf(value, sizeof value, "%dx%d", ((const int *)option->target)[0],
                  ((const int *)option->target)[1]);

@@ -75,27 +75,29 @@ static bool in_range(const cli_option *option, double value) {
     return value >= minimum && value <= maximum;
 }
 
-/* How the numbers of one kind are written. */
+/* How the numbers of one kind are written, and kept. */
 typedef struct number_form {
     const char *characters;
     int count;
     char between;
-    bool whole;
+    enum { AS_INT, AS_FLOAT, AS_DOUBLE } kept;
     const char *name;
 } number_form;
 
 static number_form form_of(cli_kind kind) {
     switch (kind) {
     case CLI_INT:
-        return (number_form) { "+-" DIGITS, 1, 0, true, "a whole number" };
+        return (number_form) { "+-" DIGITS, 1, 0, AS_INT, "a whole number" };
     case CLI_SIZE:
-        return (number_form) { DIGITS, 2, 'x', true, "a size such as 1920x1080" };
+        return (number_form) { DIGITS, 2, 'x', AS_INT, "a size such as 1920x1080" };
     case CLI_GRID:
-        return (number_form) { DIGITS, 3, 'x', true, "a grid such as 32x16x32" };
+        return (number_form) { DIGITS, 3, 'x', AS_INT, "a grid such as 32x16x32" };
     case CLI_VEC3:
-        return (number_form) { "+-.eE" DIGITS, 3, ',', false, "three numbers such as 0,1.5,-2" };
+    case CLI_POSITION:
+        return (number_form) { "+-.eE" DIGITS, 3, ',', kind == CLI_VEC3 ? AS_FLOAT : AS_DOUBLE,
+                               "three numbers such as 0,1.5,-2" };
     default:
-        return (number_form) { "+-.eE" DIGITS, 1, 0, false, "a number" };
+        return (number_form) { "+-.eE" DIGITS, 1, 0, AS_FLOAT, "a number" };
     }
 }
 
@@ -111,8 +113,10 @@ static bool store_numbers(const cli_option *option, const char *text, cli_error 
             return out_of_range(option, text, error);
     }
     for (int i = 0; i < form.count; i++) {
-        if (form.whole)
+        if (form.kept == AS_INT)
             ((int *)option->target)[i] = (int)values[i];
+        else if (form.kept == AS_DOUBLE)
+            ((double *)option->target)[i] = values[i];
         else
             ((float *)option->target)[i] = (float)values[i];
     }

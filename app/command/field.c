@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* lampion field - an irradiance volume of a scene's lights, as an engine keeps one. */
 #include "app/command/command.h"
+#include "app/scene/world.h"
 #include "app/volume/volume.h"
 
 #include <string.h>
@@ -8,6 +9,7 @@
 typedef struct field_options {
     volume_settings settings;
     volume_output output;
+    double minimum[3], maximum[3]; /* of the grid, in the world */
     bool minimum_given, maximum_given, shadows;
     scene_lights_options lights;
     environment_options environment;
@@ -17,15 +19,18 @@ typedef struct field_options {
 /* Nodes at the bounds of the scene, where no others are given. */
 static bool place_grid(const field_options *o, const scene *world, volume_grid *grid,
                        cli_error *error) {
-    if (!o->minimum_given)
-        memcpy(grid->minimum, world->minimum, sizeof grid->minimum);
-    if (!o->maximum_given)
-        memcpy(grid->maximum, world->maximum, sizeof grid->maximum);
+    memcpy(grid->minimum, world->minimum, sizeof grid->minimum);
+    memcpy(grid->maximum, world->maximum, sizeof grid->maximum);
+    if (o->minimum_given)
+        scene_point_from_world(world->origin, o->minimum, grid->minimum);
+    if (o->maximum_given)
+        scene_point_from_world(world->origin, o->maximum, grid->maximum);
     bool extended = false;
     for (int a = 0; a < 3; a++) {
         if (!(grid->minimum[a] <= grid->maximum[a]))
             return cli_fail(error, NULL, "the grid ends before it begins: %c from %g to %g",
-                            "xyz"[a], (double)grid -> minimum[a], (double)grid -> maximum[a]);
+                            "xyz"[a], scene_to_world(world->origin[a], grid->minimum[a]),
+                            scene_to_world(world->origin[a], grid->maximum[a]));
         extended = extended || grid->minimum[a] < grid->maximum[a];
     }
     return extended ||
@@ -41,6 +46,9 @@ static bool write_field(const field_options *o, const scene *world, const enviro
                         "--environment none)");
     const bool ok = volume_make_field(world, settings, &field, error) &&
                     volume_write_field(field, o->output.path, error);
+    if (ok && (world->origin[0] != 0.0 || world->origin[1] != 0.0 || world->origin[2] != 0.0))
+        cli_note(o->output.path, "is relative to %.17g,%.17g,%.17g, for a field has float32",
+                 world->origin[0], world->origin[1], world->origin[2]);
     lmp_field_destroy(field);
     return ok;
 }
@@ -111,10 +119,10 @@ static int run(const cli_command *command, int argc, char **argv) {
           "the volume: .json, .csv, .npy, or .lmpf (the library's own)", 0, 0, NULL, NULL },
         { "grid", 'g', CLI_GRID, o.settings.grid.counts, "NXxNYxNZ",
           "probes along the scene's x, y and z", 2, LMP_FIELD_NODES_MAX, NULL, NULL },
-        { "minimum", 0, CLI_VEC3, o.settings.grid.minimum, "X,Y,Z",
+        { "minimum", 0, CLI_POSITION, o.minimum, "X,Y,Z",
           "the first probe; without it a corner of the scene's bounds", -length_max, length_max,
           NULL, &o.minimum_given },
-        { "maximum", 0, CLI_VEC3, o.settings.grid.maximum, "X,Y,Z",
+        { "maximum", 0, CLI_POSITION, o.maximum, "X,Y,Z",
           "the last probe; without it the opposite corner", -length_max, length_max, NULL,
           &o.maximum_given },
         { "bands", 'n', CLI_INT, &o.settings.bands, "N", "bands of spherical harmonics", 1,

@@ -4,6 +4,7 @@
 #include "app/cli/printable.h"
 #include "app/file/file.h"
 #include "app/scene/instance.h"
+#include "app/scene/world.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -29,7 +30,7 @@ static void add_materials(cJSON *root, const scene *s) {
 static void add_lights(cJSON *root, const scene *s) {
     cJSON *list = cJSON_AddArrayToObject(root, "lights");
     for (size_t i = 0; i < s->light_count; i++)
-        cJSON_AddItemToArray(list, scene_light_to_json(&s->lights[i]));
+        cJSON_AddItemToArray(list, scene_light_to_json(&s->lights[i], s->origin));
 }
 
 static cJSON *describe(const scene *s) {
@@ -39,8 +40,8 @@ static cJSON *describe(const scene *s) {
     cJSON_AddNumberToObject(root, "triangles", (double)scene_triangle_count(s));
     cJSON_AddNumberToObject(root, "vertices", (double)s->vertex_count);
     cJSON_AddNumberToObject(root, "instances", (double)s->instance_count);
-    file_json_add_floats(root, "minimum", s->minimum, 3);
-    file_json_add_floats(root, "maximum", s->maximum, 3);
+    scene_add_world(root, "minimum", s->origin, s->minimum);
+    scene_add_world(root, "maximum", s->origin, s->maximum);
     cJSON_AddNumberToObject(root, "area", s->area);
     cJSON *meshes = cJSON_AddArrayToObject(root, "meshes");
     for (size_t i = 0; i < s->mesh_count; i++) {
@@ -67,8 +68,8 @@ static cJSON *describe(const scene *s) {
     for (size_t i = 0; i < s->camera_count; i++) {
         cJSON *entry = cJSON_CreateObject();
         cJSON_AddStringToObject(entry, "name", s->cameras[i].name);
-        file_json_add_floats(entry, "eye", s->cameras[i].eye, 3);
-        file_json_add_floats(entry, "target", s->cameras[i].target, 3);
+        scene_add_world(entry, "eye", s->origin, s->cameras[i].eye);
+        scene_add_world(entry, "target", s->origin, s->cameras[i].target);
         const bool parallel = s->cameras[i].height > 0;
         file_json_add_floats(entry, parallel ? "height" : "fov",
                              parallel ? &s->cameras[i].height : &s->cameras[i].fov, 1);
@@ -119,14 +120,24 @@ static void print_lights(const scene *s) {
     }
 }
 
+static void print_corner(const scene *s, const float corner[3]) {
+    for (int k = 0; k < 3; k++) {
+        scene_world_text text;
+        scene_print_world(s->origin[k], corner[k], 6, text);
+        printf(" %s", text);
+    }
+}
+
 static void print_text(const scene *s) {
     cli_print_name(s->name);
     puts(s->cached ? " (from the cache)" : "");
     printf("%-10s %zu\n", "triangles", scene_triangle_count(s));
     printf("%-10s %zu\n", "vertices", s->vertex_count);
-    printf("%-10s %.6g %.6g %.6g … %.6g %.6g %.6g\n", "bounds", (double)s->minimum[0],
-           (double)s->minimum[1], (double)s->minimum[2], (double)s->maximum[0],
-           (double)s->maximum[1], (double)s->maximum[2]);
+    printf("%-10s", "bounds");
+    print_corner(s, s->minimum);
+    printf(" …");
+    print_corner(s, s->maximum);
+    putchar('\n');
     printf("%-10s %.6g\n", "area", s->area);
     print_names("meshes", s->meshes->name, sizeof *s->meshes, s->mesh_count);
     printf("%-10s %zu\n", "instances", s->instance_count);

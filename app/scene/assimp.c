@@ -272,21 +272,22 @@ static bool place_mesh(const assimp_job *job, const struct aiScene *imported, un
 }
 
 static bool add_node(const assimp_job *job, const struct aiScene *imported,
-                     const struct aiNode *node, const struct aiMatrix4x4 *parent, int depth,
+                     const struct aiNode *node, const double parent[16], int depth,
                      cli_error *error) {
     if (depth > NODE_DEPTH_MAX)
         return cli_fail(error, job->sources->subject, "has nodes nested too deep");
-    struct aiMatrix4x4 world = *parent;
-    aiMultiplyMatrix4(&world, &node->mTransformation);
-    const double columns[16] = { (double)world.a1, (double)world.b1, (double)world.c1, 0.0,
-                                 (double)world.a2, (double)world.b2, (double)world.c2, 0.0,
-                                 (double)world.a3, (double)world.b3, (double)world.c3, 0.0,
-                                 (double)world.a4, (double)world.b4, (double)world.c4, 1.0 };
+    const struct aiMatrix4x4 m = node->mTransformation;
+    const double local[16] = { (double)m.a1, (double)m.b1, (double)m.c1, 0.0,
+                               (double)m.a2, (double)m.b2, (double)m.c2, 0.0,
+                               (double)m.a3, (double)m.b3, (double)m.c3, 0.0,
+                               (double)m.a4, (double)m.b4, (double)m.c4, 1.0 };
+    double world[16];
+    scene_multiply(parent, local, world);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
-        if (!place_mesh(job, imported, node->mMeshes[i], columns, error))
+        if (!place_mesh(job, imported, node->mMeshes[i], world, error))
             return false;
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        if (!add_node(job, imported, node->mChildren[i], &world, depth + 1, error))
+        if (!add_node(job, imported, node->mChildren[i], world, depth + 1, error))
             return false;
     return true;
 }
@@ -295,13 +296,17 @@ bool assimp_knows(const char *ending) {
     return aiIsExtensionSupported(ending) == AI_TRUE;
 }
 
-bool assimp_add(const char *name, const void *data, size_t size, source_set *sources,
-                scene_builder *builder, cli_error *error) {
-    assimp_job job = {
-        .name = name, .data = data, .size = size, .sources = sources, .builder = builder
-    };
-    struct aiMatrix4x4 identity;
-    aiIdentityMatrix4(&identity);
+bool assimp_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
+                cli_error *error) {
+    const char *slash = strrchr(sources->subject, '/');
+    assimp_job job = { .name = slash ? slash + 1 : sources->subject,
+                       .data = data,
+                       .size = size,
+                       .sources = sources,
+                       .builder = builder };
+    const double *const origin = builder->origin;
+    const double scene_from_file[16] = { 1, 0, 0, 0, 0,          1,          0,          0,
+                                         0, 0, 1, 0, -origin[0], -origin[1], -origin[2], 1 };
     const struct aiScene *imported = run_assimp(&job, error);
     if (!imported)
         return false;
@@ -309,7 +314,7 @@ bool assimp_add(const char *name, const void *data, size_t size, source_set *sou
     for (unsigned i = 0; job.shared && i < imported->mNumMeshes; i++)
         job.shared[i] = MESH_UNREAD;
     const bool ok = (job.shared || cli_fail(error, sources->subject, "does not fit into memory")) &&
-                    add_node(&job, imported, imported->mRootNode, &identity, 0, error) &&
+                    add_node(&job, imported, imported->mRootNode, scene_from_file, 0, error) &&
                     assimp_add_materials(imported, sources, builder, error);
     free(job.shared);
     builder_left_out(builder, NULL, "light", imported->mNumLights);

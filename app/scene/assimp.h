@@ -10,8 +10,8 @@
 /* Whether it reads files of this ending, as ".ply". */
 bool assimp_knows(const char *ending);
 
-/* Appends the meshes and materials of a file; `name` is its name without the folder. */
-bool assimp_add(const char *name, const void *data, size_t size, source_set *sources,
-                scene_builder *builder, cli_error *error);
+/* Appends the meshes and materials of a file (app/scene/origin.h). */
+bool assimp_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
+                cli_error *error);
 
 #endif

@@ -66,6 +66,13 @@ static bool all_finite(const float *numbers, size_t count) {
     return true;
 }
 
+static bool origin_fits(const double origin[3]) {
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(origin[k]) <= (double)LMP_LENGTH_MAX))
+            return false;
+    return true;
+}
+
 static bool header_fits(const blob_header *header, size_t size) {
     if (size < sizeof *header || memcmp(header->magic, BLOB_MAGIC, sizeof header->magic) != 0 ||
         header->version != BLOB_VERSION || header->item_sizes != digest_item_sizes() ||
@@ -77,7 +84,7 @@ static bool header_fits(const blob_header *header, size_t size) {
             count > (size - offset) / blob_item_size[i])
             return false;
     }
-    return header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
+    return origin_fits(header->origin) && header->sections[BLOB_LIGHTS].count <= SCENE_LIGHTS_MAX &&
            header->sections[BLOB_SOURCES].count <= BLOB_SOURCES_MAX &&
            header->sections[BLOB_VERTICES].count < UINT32_MAX &&
            header->sections[BLOB_INDICES].count < UINT32_MAX &&
@@ -343,6 +350,7 @@ void blob_geometry(const void *block, scene *s) {
     s->index_count = header->sections[BLOB_INDICES].count;
     s->mesh_count = header->sections[BLOB_MESHES].count;
     s->instance_count = header->sections[BLOB_INSTANCES].count;
+    memcpy(s->origin, header->origin, sizeof s->origin);
 }
 
 static void measure(scene *s) {

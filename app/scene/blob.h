@@ -44,6 +44,7 @@ typedef struct blob_header {
     uint32_t version, item_sizes; /* item_sizes: a digest of the structs' sizes */
     uint64_t size;                /* of the whole blob */
     file_hash content;            /* of all that follows the header; zero if not computed */
+    double origin[3];             /* of the scene, in the world */
     struct {
         uint64_t offset, count;
     } sections[BLOB_SECTIONS];

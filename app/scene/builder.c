@@ -103,6 +103,7 @@ void builder_geometry(const scene_builder *builder, scene *s) {
     s->index_count = builder_count(builder, BLOB_INDICES);
     s->mesh_count = builder_count(builder, BLOB_MESHES);
     s->instance_count = builder_count(builder, BLOB_INSTANCES);
+    memcpy(s->origin, builder->origin, sizeof s->origin);
 }
 
 void builder_left_out(scene_builder *builder, const char *what, const char *noun, size_t count) {
@@ -142,6 +143,7 @@ void builder_header(const scene_builder *builder, bool checksum, blob_header *he
     for (int i = 0; i < BLOB_SECTIONS; i++)
         counts[i] = builder->arrays[i].count;
     blob_layout(header, counts);
+    memcpy(header->origin, builder->origin, sizeof header->origin);
     for (int i = 0; checksum && i < BLOB_SECTIONS; i++)
         file_hash_add(&header->content, builder->arrays[i].items, counts[i] * blob_item_size[i]);
 }

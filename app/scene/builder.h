@@ -13,6 +13,7 @@ typedef struct builder_array {
 /* Zero-initialize; the arrays are those of the blob, texels in bytes. */
 typedef struct scene_builder {
     builder_array arrays[BLOB_SECTIONS];
+    double origin[3];   /* that all positions are relative to, in the file's world */
     bool out_of_memory; /* sticky: the functions below then do nothing */
 } scene_builder;
 

@@ -2,6 +2,7 @@
 /* The camera a command line asks for. */
 #include "app/scene/scene.h"
 #include "app/scene/vector.h"
+#include "app/scene/world.h"
 
 #include <string.h>
 
@@ -35,11 +36,11 @@ bool scene_place_camera(const scene *world, const scene_camera_options *o, const
     if (o->name && !find_camera(world, o->name, camera, error))
         return false;
     if (o->eye_given) { /* from elsewhere, the file's planes would cut what they never should */
-        memcpy(camera->eye, o->eye, sizeof camera->eye);
+        scene_point_from_world(world->origin, o->eye, camera->eye);
         camera->near = camera->far = 0;
     }
     if (o->target_given)
-        memcpy(camera->target, o->target, sizeof camera->target);
+        scene_point_from_world(world->origin, o->target, camera->target);
     if (o->fov_given && o->height_given)
         return cli_fail(error, "camera", "--fov and --orthographic exclude each other");
     if (o->fov_given) {

@@ -17,6 +17,18 @@ bool gltf_load(gltf *document, cli_error *error) {
            gltf_load_nodes(document, error) && gltf_check_uses(document, error);
 }
 
+bool gltf_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
+              cli_error *error) {
+    gltf document;
+    const bool ok = gltf_open(data, size, sources, builder, &document, error) &&
+                    gltf_choose_variant(&document, error) && gltf_load(&document, error) &&
+                    gltf_add_meshes(&document, builder, error) &&
+                    gltf_add_materials(&document, builder, error) &&
+                    gltf_add_views(&document, builder, error);
+    gltf_close(&document);
+    return ok;
+}
+
 void gltf_close(gltf *document) {
     for (size_t i = 0; document->buffers && i < gltf_count(document, GLTF_BUFFERS); i++)
         free(document->buffers[i].owned);

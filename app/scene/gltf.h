@@ -67,7 +67,7 @@ typedef struct gltf_accessor {
 typedef struct gltf_node {
     long parent;      /* or -1 */
     bool shown;       /* it is in the scene */
-    double world[16]; /* column-major */
+    double world[16]; /* column-major; to the world relative to the builder's origin */
 } gltf_node;
 
 typedef struct gltf {
@@ -84,17 +84,21 @@ typedef struct gltf {
     size_t *order; /* of the nodes: parents first, as the scene lists them */
 } gltf;
 
+/* Appends all that a .gltf or .glb shows (app/scene/origin.h). */
+bool gltf_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
+              cli_error *error);
+
+/* --- its parts, in their order ---------------------------------------------------------------- */
+
 /* Parses .gltf or .glb bytes, which must outlive *document, and checks its fields. Close it even
  * after a failure. */
 bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder *builder,
                gltf *document, cli_error *error);
 void gltf_close(gltf *document);
 
-/* Appends the names of the variants of materials. */
-bool gltf_add_variants(const gltf *document, cli_error *error);
-
-/* Gives the primitives the materials that they have in a variant: before gltf_load. */
-bool gltf_show_variant(gltf *document, size_t variant, cli_error *error);
+/* Appends the names of the variants of materials, and gives the primitives the materials that they
+ * have in the one that the sources want, if any: before gltf_load. */
+bool gltf_choose_variant(const gltf *document, cli_error *error);
 
 /* Loads buffers and checks what the functions below rely on. */
 bool gltf_load(gltf *document, cli_error *error);
@@ -175,7 +179,6 @@ typedef struct gltf_transform {
 } gltf_transform;
 void gltf_transform_read(const cJSON *node, gltf_transform *transform);
 void gltf_transform_matrix(const gltf_transform *transform, double matrix[16]); /* column-major */
-void gltf_multiply(const double *a, const double *b, double *product);
 
 /* The animations of nodes; NULL on failure. */
 typedef struct gltf_motions gltf_motions;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/gltf_deform.h"
 
+#include "app/scene/instance.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +77,7 @@ static bool load_skin(const gltf *document, size_t index, skin *s, cli_error *er
             double bind[16];
             for (size_t k = 0; k < 16; k++)
                 bind[k] = inverse ? (double)inverse[16 * i + k] : k % 5 == 0;
-            gltf_multiply(document->nodes[(size_t)joint->valuedouble].world, bind, s->joints[i++]);
+            scene_multiply(document->nodes[(size_t)joint->valuedouble].world, bind, s->joints[i++]);
         }
     free(inverse);
     return ok;

@@ -244,7 +244,7 @@ static bool add_instances(const mesh_reader *r, const cJSON *node, const cJSON *
             for (int c = 0; numbers[i] && c < parts[i].width; c++)
                 to[i][c] = (double)numbers[i][k * (size_t)parts[i].width + (size_t)c];
         gltf_transform_matrix(&transform, local);
-        gltf_multiply(world, local, instance);
+        scene_multiply(world, local, instance);
         ok = add_mesh(r, node, instance);
     }
     for (int i = 0; i < 3; i++)

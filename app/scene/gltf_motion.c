@@ -225,9 +225,10 @@ bool gltf_add_motion(const gltf *document, const gltf_motions *all, size_t node,
         double point[3] = { 0.0, 0.0, 0.0 };
         for (long at = (long)node; at >= 0; at = document->nodes[at].parent)
             through_node(document, all, at, all->period * (double)i / (double)(count - 1), point);
-        const double *origin = &document->nodes[node].world[12];
-        offsets[i] = (lmp_vec3) { (float)(point[0] - origin[0]), (float)(point[1] - origin[1]),
-                                  (float)(point[2] - origin[2]) };
+        const double *rest = &document->nodes[node].world[12], *origin = builder->origin;
+        offsets[i] = (lmp_vec3) { (float)(point[0] - origin[0] - rest[0]),
+                                  (float)(point[1] - origin[1] - rest[1]),
+                                  (float)(point[2] - origin[2] - rest[2]) };
     }
     return true;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_node.c - the tree of nodes and their transforms. */
 #include "app/scene/gltf.h"
+#include "app/scene/instance.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,16 +39,6 @@ void gltf_transform_matrix(const gltf_transform *t, double m[16]) {
         for (int row = 0; row < 3; row++)
             m[4 * column + row] = rotation[3 * column + row] * t->scale[column];
     memcpy(m + 12, t->translation, sizeof t->translation);
-}
-
-void gltf_multiply(const double *a, const double *b, double *product) {
-    for (int column = 0; column < 4; column++)
-        for (int row = 0; row < 4; row++) {
-            double sum = 0.0;
-            for (int k = 0; k < 4; k++)
-                sum += a[4 * k + row] * b[4 * column + k];
-            product[4 * column + row] = sum;
-        }
 }
 
 /* Whether a node has parts beside its matrix that are not those of no transform at all. */
@@ -107,10 +98,12 @@ static bool find_world(const gltf *document, size_t index, cli_error *error) {
     gltf_transform_matrix(&transform, local);
     gltf_numbers(entry, "matrix", 16, local);
     if (node->parent >= 0) {
-        gltf_multiply(document->nodes[node->parent].world, local, node->world);
+        scene_multiply(document->nodes[node->parent].world, local, node->world);
         node->shown |= document->nodes[node->parent].shown;
     } else {
         memcpy(node->world, local, sizeof local);
+        for (int k = 0; k < 3; k++)
+            node->world[12 + k] -= document->builder->origin[k];
     }
     for (int i = 0; i < 16; i++)
         if (!isfinite(node->world[i]))

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* gltf_variant.c - KHR_materials_variants: which of its materials a primitive shows. */
 #include "app/scene/gltf.h"
+#include "app/scene/name.h"
 
 #define EXTENSION "KHR_materials_variants"
 
-bool gltf_add_variants(const gltf *document, cli_error *error) {
+static bool add_names(const gltf *document, cli_error *error) {
     const cJSON *names = gltf_member(gltf_extension(document->root, EXTENSION), "variants"), *item;
     cJSON_ArrayForEach(item, names) {
         scene_variant *variant = builder_append(document->builder, BLOB_VARIANTS, 1);
@@ -36,7 +37,7 @@ static bool show(cJSON *primitive, size_t variant) {
     return cJSON_AddNumberToObject(primitive, "material", material->valuedouble);
 }
 
-bool gltf_show_variant(gltf *document, size_t variant, cli_error *error) {
+static bool show_everywhere(const gltf *document, size_t variant, cli_error *error) {
     cJSON *mesh, *primitive;
     cJSON_ArrayForEach(mesh, cJSON_GetObjectItemCaseSensitive(document->root, "meshes")) {
         cJSON_ArrayForEach(primitive, cJSON_GetObjectItemCaseSensitive(mesh, "primitives")) {
@@ -45,4 +46,17 @@ bool gltf_show_variant(gltf *document, size_t variant, cli_error *error) {
         }
     }
     return true;
+}
+
+bool gltf_choose_variant(const gltf *document, cli_error *error) {
+    const char *wanted = document->sources->variant;
+    size_t chosen;
+    if (!add_names(document, error))
+        return false;
+    const scene_variant *variants = builder_items(document->builder, BLOB_VARIANTS);
+    const size_t count = builder_count(document->builder, BLOB_VARIANTS);
+    return !wanted ||
+           (scene_find_name(document->subject, "variant", wanted, count ? variants->name : NULL,
+                            sizeof *variants, count, &chosen, error) &&
+            show_everywhere(document, chosen, error));
 }

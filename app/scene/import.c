@@ -9,6 +9,7 @@
 #include "app/scene/gltf.h"
 #include "app/scene/instance.h"
 #include "app/scene/obj.h"
+#include "app/scene/origin.h"
 #include "app/scene/up.h"
 
 #include <errno.h>
@@ -23,54 +24,19 @@
 
 #define SCENE_SIZE_LIMIT ((size_t)4 << 30)
 
-typedef struct import_job import_job;
-typedef bool (*import_reader)(import_job *job, scene_builder *builder, cli_error *error);
-
 /* One import; the child gets a copy of it. */
-struct import_job {
+typedef struct import_job {
     const char *path;      /* as the user wrote it */
     const char *name;      /* without its folder */
     char folder[PATH_MAX]; /* real path */
     void *data;
     size_t size;
-    import_reader read;
+    origin_reader *read;
     int up;
-    const char *variant; /* or NULL */
     source_set sources;
-};
+} import_job;
 
 /* --- the child's work ------------------------------------------------------------------------- */
-
-/* Shows the variant that is wanted, if any is. */
-static bool choose_variant(const import_job *job, gltf *document, cli_error *error) {
-    const scene_builder *builder = document->builder;
-    const scene_variant *variants = builder_items(builder, BLOB_VARIANTS);
-    const size_t count = builder_count(builder, BLOB_VARIANTS);
-    size_t chosen;
-    return !job->variant ||
-           (scene_find_name(job->path, "variant", job->variant, count ? variants->name : NULL,
-                            sizeof *variants, count, &chosen, error) &&
-            gltf_show_variant(document, chosen, error));
-}
-
-static bool add_gltf(import_job *job, scene_builder *builder, cli_error *error) {
-    gltf document;
-    const bool ok = gltf_open(job->data, job->size, &job->sources, builder, &document, error) &&
-                    gltf_add_variants(&document, error) && choose_variant(job, &document, error) &&
-                    gltf_load(&document, error) && gltf_add_meshes(&document, builder, error) &&
-                    gltf_add_materials(&document, builder, error) &&
-                    gltf_add_views(&document, builder, error);
-    gltf_close(&document);
-    return ok;
-}
-
-static bool add_obj(import_job *job, scene_builder *builder, cli_error *error) {
-    return obj_add(job->data, job->size, &job->sources, builder, error);
-}
-
-static bool add_other(import_job *job, scene_builder *builder, cli_error *error) {
-    return assimp_add(job->name, job->data, job->size, &job->sources, builder, error);
-}
 
 /* Those that were read, and those that were not: what is made of the scene rests on both. */
 static bool add_sources(const import_job *job, scene_builder *builder) {
@@ -179,7 +145,7 @@ static bool import_in_child(void *context, int output, cli_error *error) {
     import_job *job = context;
     job->sources.sandboxed = true;
     scene_builder builder = { 0 };
-    if (!job->read(job, &builder, error))
+    if (!origin_read(job->read, job->data, job->size, &job->sources, &builder, error))
         return false;
     up_stand(&builder, job->up);
     if (!check_made(job, &builder, error) || !emission_add_lights(&builder, job->path, error) ||
@@ -193,20 +159,20 @@ static bool import_in_child(void *context, int output, cli_error *error) {
 /* --- the parent ------------------------------------------------------------------------------- */
 
 /* What can read the file, by its first bytes or its name; NULL: nothing. */
-static import_reader reader_of(const char *path, const void *data, size_t size) {
+static origin_reader *reader_of(const char *path, const void *data, size_t size) {
     const char *bytes = data, *dot = strrchr(path, '.');
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0)
-        return add_gltf;
+        return gltf_add;
     size_t start = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     while (start < size && strchr(" \t\r\n", bytes[start]) && bytes[start])
         start++;
     if (start < size && bytes[start] == '{')
-        return add_gltf;
+        return gltf_add;
     if (dot && (strcasecmp(dot, ".gltf") == 0 || strcasecmp(dot, ".glb") == 0))
-        return add_gltf;
+        return gltf_add;
     if (dot && strcasecmp(dot, ".obj") == 0)
-        return add_obj;
-    return dot && assimp_knows(dot) ? add_other : NULL;
+        return obj_add;
+    return dot && assimp_knows(dot) ? assimp_add : NULL;
 }
 
 /* Splits the path, reads the file, tells its format. */
@@ -272,8 +238,9 @@ static bool has_too_many_sources(const void *block) {
 
 /* Only glTF has them. */
 static bool may_have_variants(const import_job *job, cli_error *error) {
-    return !job->variant || job->read == add_gltf ||
-           cli_fail_member(error, job->path, "variant", job->variant, NULL, 0, 0);
+    const char *variant = job->sources.variant;
+    return !variant || job->read == gltf_add ||
+           cli_fail_member(error, job->path, "variant", variant, NULL, 0, 0);
 }
 
 bool import_scene(const char *path, const scene_options *options, scene *s, cli_error *error) {
@@ -283,11 +250,11 @@ bool import_scene(const char *path, const scene_options *options, scene *s, cli_
     size_t size = 0;
     bool ok = prepare(path, &job, error), cached = false;
     job.up = options->up;
-    job.variant = options->variant;
+    job.sources.variant = options->variant;
     ok = ok && may_have_variants(&job, error);
     if (ok) {
         const file_hash key =
-            cache_key(job.folder, job.name, job.data, job.size, job.up, job.variant);
+            cache_key(job.folder, job.name, job.data, job.size, job.up, job.sources.variant);
         cached = !no_cache && cache_load(&key, &job.sources, &block, &size);
         sources_free(&job.sources);
         ok = cached || import_fresh(&job, &block, &size, error);

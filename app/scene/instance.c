@@ -46,6 +46,16 @@ bool scene_instance_fits(const scene_instance *instance) {
            fabs(volume) >= VOLUME_LEAST * length[0] * length[1] * length[2];
 }
 
+void scene_multiply(const double a[16], const double b[16], double product[16]) {
+    for (int column = 0; column < 4; column++)
+        for (int row = 0; row < 4; row++) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; k++)
+                sum += a[4 * k + row] * b[4 * column + k];
+            product[4 * column + row] = sum;
+        }
+}
+
 bool scene_instance_set(scene_instance *instance, const double m[16]) {
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 4; column++)

@@ -9,6 +9,9 @@
 scene_instance scene_instance_identity(uint32_t mesh);
 bool scene_instance_is_identity(const scene_instance *instance);
 
+/* The product of two column-major matrices, which takes b's space where a takes that of a. */
+void scene_multiply(const double a[16], const double b[16], double product[16]);
+
 /* Rounds a column-major matrix. False if that does not fit an instance. */
 bool scene_instance_set(scene_instance *instance, const double matrix[16]);
 

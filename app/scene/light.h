@@ -91,11 +91,12 @@ bool scene_light_check_member(const lmp_light *emitter, const scene_light_member
 
 struct cJSON;
 
-/* Reads { "kind": …, members …, "hidden": … } strictly; without a kind it is a sphere. */
-bool scene_light_from_json(const struct cJSON *object, scene_light *light,
+/* Reads { "kind": …, members …, "hidden": … } strictly; without a kind it is a sphere. Its position
+ * is in the world, and becomes relative to the origin of a scene. */
+bool scene_light_from_json(const struct cJSON *object, const double origin[3], scene_light *light,
                            scene_light_error *error);
 
-/* The same light as from_json reads it; NULL without memory. */
-struct cJSON *scene_light_to_json(const scene_light *light);
+/* The same light as from_json reads it with the same origin; NULL without memory. */
+struct cJSON *scene_light_to_json(const scene_light *light, const double origin[3]);
 
 #endif

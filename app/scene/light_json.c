@@ -3,6 +3,7 @@
 #include "app/file/file.h"
 #include "app/scene/light.h"
 #include "app/scene/vector.h"
+#include "app/scene/world.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -72,8 +73,8 @@ static void make_unit(double v[3]) {
         v[k] /= length;
 }
 
-static bool read_member(const cJSON *item, const scene_light_member *member, scene_light *light,
-                        scene_light_error *error) {
+static bool read_member(const cJSON *item, const scene_light_member *member, const double origin[3],
+                        scene_light *light, scene_light_error *error) {
     static const char *const shapes[] = {
         [SCENE_LIGHT_POSITION] = "three numbers",  [SCENE_LIGHT_RADIUS] = "a number",
         [SCENE_LIGHT_DIRECTION] = "three numbers", [SCENE_LIGHT_ANGLE] = "a number, in radians",
@@ -89,7 +90,8 @@ static bool read_member(const cJSON *item, const scene_light_member *member, sce
     if (member->type == SCENE_LIGHT_DIRECTION)
         make_unit(numbers);
     for (int k = 0; k < scene_light_count(member); k++) {
-        const float given = (float)numbers[k];
+        const bool placed = member->type == SCENE_LIGHT_POSITION;
+        const float given = scene_from_world(placed ? origin[k] : 0.0, numbers[k]);
         value[k] = member->convert ? member->convert(given, light->emitter.radius) : given;
     }
     return true;
@@ -112,7 +114,8 @@ static bool given_once(const cJSON *object, const scene_light_kind *kind,
     return false;
 }
 
-bool scene_light_from_json(const cJSON *object, scene_light *light, scene_light_error *error) {
+bool scene_light_from_json(const cJSON *object, const double origin[3], scene_light *light,
+                           scene_light_error *error) {
     *light = (scene_light) { .hidden = 0 };
     if (!cJSON_IsObject(object)) {
         snprintf(error->text, sizeof error->text, " is no object");
@@ -126,7 +129,7 @@ bool scene_light_from_json(const cJSON *object, scene_light *light, scene_light_
     for (const scene_light_member *m = kind->members; m->name; m++) {
         const cJSON *item = file_json_member(object, m->name);
         if (!given_once(object, kind, m, error) ||
-            (item && (!read_member(item, m, light, error) ||
+            (item && (!read_member(item, m, origin, light, error) ||
                       !scene_light_check_member(&light->emitter, m, error))))
             return false;
     }
@@ -139,14 +142,16 @@ bool scene_light_from_json(const cJSON *object, scene_light *light, scene_light_
     return scene_light_check(light, error);
 }
 
-cJSON *scene_light_to_json(const scene_light *light) {
+cJSON *scene_light_to_json(const scene_light *light, const double origin[3]) {
     lmp_light emitter = light->emitter;
     const scene_light_kind *kind = &scene_light_kinds[emitter.kind];
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "kind", kind->name);
     for (const scene_light_member *m = kind->members; m->name; m++) {
         const float *value = scene_light_value(&emitter, m);
-        if (!m->convert)
+        if (m->type == SCENE_LIGHT_POSITION)
+            scene_add_world(object, m->name, origin, value);
+        else if (!m->convert)
             file_json_add_floats(object, m->name, value, scene_light_count(m));
     }
     if (light->hidden)

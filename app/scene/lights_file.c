@@ -29,8 +29,8 @@ static const cJSON *find_list(const char *path, const cJSON *root, cli_error *er
                : file_json_list(path, root, "lights", error);
 }
 
-bool scene_read_lights(const char *path, size_t room, scene_light *lights, size_t *count,
-                       cli_error *error) {
+bool scene_read_lights(const char *path, const double origin[3], size_t room, scene_light *lights,
+                       size_t *count, cli_error *error) {
     cJSON *root = read_root(path, error);
     if (!root)
         return false;
@@ -43,7 +43,7 @@ bool scene_read_lights(const char *path, size_t room, scene_light *lights, size_
     *count = 0;
     cJSON_ArrayForEach(entry, list) {
         scene_light_error wrong;
-        if (ok && !scene_light_from_json(entry, &lights[*count], &wrong))
+        if (ok && !scene_light_from_json(entry, origin, &lights[*count], &wrong))
             ok = cli_fail(error, path, "lights[%zu]%s", *count, wrong.text);
         ++*count;
     }
@@ -53,19 +53,19 @@ bool scene_read_lights(const char *path, size_t room, scene_light *lights, size_
 
 bool scene_add_lights_file(scene *s, const char *path, cli_error *error) {
     size_t count;
-    if (!scene_read_lights(path, SCENE_LIGHTS_MAX - s->light_count, s->lights + s->light_count,
-                           &count, error))
+    if (!scene_read_lights(path, s->origin, SCENE_LIGHTS_MAX - s->light_count,
+                           s->lights + s->light_count, &count, error))
         return false;
     s->light_count += count;
     return true;
 }
 
-bool scene_write_lights(const char *path, const scene_light *lights, size_t count,
-                        cli_error *error) {
+bool scene_write_lights(const char *path, const double origin[3], const scene_light *lights,
+                        size_t count, cli_error *error) {
     cJSON *root = cJSON_CreateObject();
     cJSON *list = cJSON_AddArrayToObject(root, "lights");
     for (size_t i = 0; i < count; i++)
-        cJSON_AddItemToArray(list, scene_light_to_json(&lights[i]));
+        cJSON_AddItemToArray(list, scene_light_to_json(&lights[i], origin));
     char *text = file_json_text(root, true, path, error);
     const bool ok = text && file_write_whole(path, text, strlen(text), error);
     free(text);

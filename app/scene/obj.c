@@ -64,12 +64,14 @@ static void *append(const obj_reader *r, list *l, size_t item) {
 
 /* --- vertices --------------------------------------------------------------------------------- */
 
-/* A statement's numbers, at least `least` and at most `most` of them; returns how many, -1 on
- * failure. */
-static int read_numbers(obj_reader *r, int least, int most, float *numbers) {
+/* A statement's numbers, at least `least` and at most `most` of them, the first three of them
+ * relative to the origin; returns how many, -1 on failure. */
+static int read_numbers(obj_reader *r, int least, int most, const double origin[3],
+                        float *numbers) {
     int count = 0;
     for (const char *word; (word = words_next(&r->words)); count++)
-        if (count == most || !words_number(word, &numbers[count])) {
+        if (count == most ||
+            !words_coordinate(word, count < 3 ? origin[count] : 0.0, &numbers[count])) {
             fail(r, "has no finite number where one belongs, or too many");
             return -1;
         }
@@ -79,13 +81,15 @@ static int read_numbers(obj_reader *r, int least, int most, float *numbers) {
 }
 
 static bool read_vertex(obj_reader *r, list *l, int least, int most, size_t width) {
+    static const double none[3] = { 0.0, 0.0, 0.0 };
     float numbers[8] = { 0.0f };
-    const int count = read_numbers(r, least, most, numbers);
+    const bool position = l == &r->positions;
+    const int count = read_numbers(r, least, most, position ? r->builder->origin : none, numbers);
     float *item = count < 0 ? NULL : append(r, l, width * sizeof *item);
     if (!item)
         return false;
     memcpy(item, numbers, width * sizeof *item);
-    if (most > 4 && count > 4)
+    if (position && count > 4)
         builder_left_out(r->builder, NULL, "vertex color", 1);
     return true;
 }
@@ -334,8 +338,9 @@ static bool read_all(obj_reader *r) {
     return true;
 }
 
-bool obj_add(const char *text, size_t size, source_set *sources, scene_builder *builder,
+bool obj_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
              cli_error *error) {
+    const char *const text = data;
     obj_reader r = { .builder = builder,
                      .sources = sources,
                      .words = { .at = text, .end = text + size },

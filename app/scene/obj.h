@@ -6,8 +6,8 @@
 #include "app/scene/builder.h"
 #include "app/scene/sources.h"
 
-/* Appends the meshes and materials of an OBJ file. */
-bool obj_add(const char *text, size_t size, source_set *sources, scene_builder *builder,
+/* Appends the meshes and materials of an OBJ file (app/scene/origin.h). */
+bool obj_add(const void *data, size_t size, source_set *sources, scene_builder *builder,
              cli_error *error);
 
 #endif

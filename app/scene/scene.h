@@ -29,7 +29,7 @@ typedef struct scene_mesh {
     float minimum[3], maximum[3];
 } scene_mesh;
 
-/* A mesh where it stands in the world, y up: x' = the first row · (x, y, z, 1), and so on. */
+/* A mesh where it stands in the scene, y up: x' = the first row · (x, y, z, 1), and so on. */
 typedef struct scene_instance {
     float world_from_mesh[3][4];
     uint32_t mesh;
@@ -136,7 +136,8 @@ typedef struct scene_left_out {
 } scene_left_out;
 
 /* Views into one block of memory; indices and ranges are validated, never out of bounds. Immutable
- * after loading but for the lights. */
+ * after loading but for the lights. All positions are relative to the origin (app/scene/world.h),
+ * whose axes are the world's. */
 typedef struct scene {
     const scene_vertex *vertices;
     const uint32_t *indices;
@@ -160,6 +161,7 @@ typedef struct scene {
     bool lights_chosen; /* by the command line: none of them is then a wish for darkness */
     float minimum[3], maximum[3]; /* bounds of all instances; without one: a unit box */
     double area;                  /* of their triangles */
+    double origin[3];             /* in the world; 0 unless the scene lies far from there */
     void *block;                  /* owned by the scene */
     size_t block_size;
     bool mapped;   /* the block is a mapping, not from malloc */
@@ -225,11 +227,11 @@ bool scene_is_layered(const scene_material *material);
 bool scene_has_sheen(const scene_material *material);
 
 /* Reads the lights of a JSON file (docs/lights.md), or of a screenshot or state of the viewer, of
- * which there is room for so many. */
-bool scene_read_lights(const char *path, size_t room, scene_light *lights, size_t *count,
-                       cli_error *error);
-bool scene_write_lights(const char *path, const scene_light *lights, size_t count,
-                        cli_error *error);
+ * which there is room for so many. Files have them in the world, others know the origin. */
+bool scene_read_lights(const char *path, const double origin[3], size_t room, scene_light *lights,
+                       size_t *count, cli_error *error);
+bool scene_write_lights(const char *path, const double origin[3], const scene_light *lights,
+                        size_t count, cli_error *error);
 
 /* Adds those to the scene's; none of them on failure. */
 bool scene_add_lights_file(scene *scene, const char *path, cli_error *error);
@@ -304,8 +306,9 @@ scene_camera scene_default_camera(const scene *scene, float aspect);
 
 /* The camera a command line asks for. Zero is the default: scene_default_camera. */
 typedef struct scene_camera_options {
-    const char *name; /* a camera of the scene, by name or number from 0 */
-    float eye[3], target[3], fov, height;
+    const char *name;         /* a camera of the scene, by name or number from 0 */
+    double eye[3], target[3]; /* in the world */
+    float fov, height;
     bool eye_given, target_given, fov_given, height_given;
 } scene_camera_options;
 
@@ -317,7 +320,7 @@ typedef struct scene_camera_options {
       .argument = "NAME",                                                                          \
       .help = "a camera of the scene, by name or number from 0" },                                 \
         { .name = "eye",                                                                           \
-          .kind = CLI_VEC3,                                                                        \
+          .kind = CLI_POSITION,                                                                    \
           .target = (variable).eye,                                                                \
           .argument = "X,Y,Z",                                                                     \
           .help = "where the camera is",                                                           \
@@ -325,7 +328,7 @@ typedef struct scene_camera_options {
           .maximum = (double)LMP_LENGTH_MAX,                                                       \
           .given = &(variable).eye_given },                                                        \
         { .name = "target",                                                                        \
-          .kind = CLI_VEC3,                                                                        \
+          .kind = CLI_POSITION,                                                                    \
           .target = (variable).target,                                                             \
           .argument = "X,Y,Z",                                                                     \
           .help = "where it looks",                                                                \

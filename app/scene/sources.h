@@ -30,6 +30,7 @@ extern const char *const source_state_nouns[SOURCE_STATES];
 typedef struct source_set {
     const char *subject; /* the scene's name, for messages */
     const char *folder;  /* its real path */
+    const char *variant; /* of its materials, which is wanted of it; NULL: those by default */
     bool sandboxed;      /* the parent opens the files */
     source *items;
     size_t count;

@@ -28,6 +28,9 @@ static void stand_geometry(scene_builder *builder) {
 void up_stand(scene_builder *builder, int up) {
     if (up == SCENE_UP_Y)
         return;
+    const double z = builder->origin[2];
+    builder->origin[2] = 0.0 - builder->origin[1]; /* and 0 stays 0 */
+    builder->origin[1] = z;
     stand_geometry(builder);
     scene_camera *cameras = builder_items(builder, BLOB_CAMERAS);
     for (size_t i = 0; i < builder_count(builder, BLOB_CAMERAS); i++) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/words.h"
 
+#include "app/scene/world.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,4 +74,13 @@ bool words_number(const char *word, float *number) {
         return false;
     *number = strtof(word, &end);
     return !*end && isfinite(*number);
+}
+
+/* A number that is rounded but once, where there is no origin. */
+bool words_coordinate(const char *word, double origin, float *coordinate) {
+    if (!words_number(word, coordinate))
+        return false;
+    if (origin != 0.0)
+        *coordinate = scene_from_world(origin, strtod(word, NULL));
+    return isfinite(*coordinate);
 }

@@ -27,4 +27,7 @@ char *words_rest(word_reader *reader);
 /* The word as a decimal number, all of it and finite. */
 bool words_number(const char *word, float *number);
 
+/* The same of a coordinate of the world, as one of a scene with that origin. */
+bool words_coordinate(const char *word, double origin, float *coordinate);
+
 #endif

@@ -56,8 +56,9 @@ static bool take_material(view_state *s, const char *file, cli_error *error) {
 static bool take_lights(view_state *s, const char *file, cli_error *error) {
     size_t count;
     scene_light *lights = calloc(SCENE_LIGHTS_MAX, sizeof *lights);
-    const bool ok = lights ? scene_read_lights(file, SCENE_LIGHTS_MAX, lights, &count, error)
-                           : cli_fail(error, NULL, "out of memory");
+    const bool ok =
+        lights ? scene_read_lights(file, s->now.origin, SCENE_LIGHTS_MAX, lights, &count, error)
+               : cli_fail(error, NULL, "out of memory");
     if (ok) {
         view_put_lights(s, lights, count);
         view_say(s, "%s: %zu light%s", base_name(file), count, count == 1 ? "" : "s");

@@ -37,6 +37,7 @@ static bool take_back(viewer *v, const cli_error *error) {
         return false;
     const int width = v->state.now.width, height = v->state.now.height;
     shade_as_before(v, &v->state.now);
+    view_settings_rebase(v->good, v->state.now.origin); /* the scene may be another since */
     v->state.now.camera = v->good->camera;
     v->state.now.width = width;
     v->state.now.height = height;

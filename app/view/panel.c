@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/view/panel.h"
 #include "app/file/file.h"
+#include "app/scene/world.h"
 
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -28,22 +29,26 @@ static void describe_light(const view_state *s, int row, view_row *to) {
     const float unit = m->convert ? m->convert(1, light.radius) : 1;
     size_t used = 0;
     snprintf(to->name, sizeof to->name, "%s", m->name);
-    for (int k = 0; k < scene_light_count(m); k++)
-        used += (size_t)snprintf(to->value + used, sizeof to->value - used, "%s%.5g", k ? ", " : "",
-                                 (double)(value[k] / unit));
+    for (int k = 0; k < scene_light_count(m); k++) {
+        scene_world_text text;
+        scene_print_world(m->type == SCENE_LIGHT_POSITION ? s->now.origin[k] : 0.0, value[k] / unit,
+                          5, text);
+        used += (size_t)snprintf(to->value + used, sizeof to->value - used, "%s%s", k ? ", " : "",
+                                 text);
+    }
 }
 
 /* The light as JSON, but for what sets the same value as one member, which is `typed`: "0.2", or
  * "1, 2, 3". NULL if that is no value. */
-static cJSON *parse_light(const scene_light *light, const scene_light_member *member,
-                          const char *typed, cli_error *error) {
+static cJSON *parse_light(const scene_light *light, const double origin[3],
+                          const scene_light_member *member, const char *typed, cli_error *error) {
     char numbers[VIEW_TYPED_SIZE + 2];
     snprintf(numbers, sizeof numbers, strchr(typed, ',') ? "[%s]" : "%s", typed);
     if (file_json_wrong(numbers, strlen(numbers))) {
         cli_fail(error, typed, "is no number, nor three divided by commas");
         return NULL;
     }
-    cJSON *object = scene_light_to_json(light);
+    cJSON *object = scene_light_to_json(light, origin);
     for (const scene_light_member *m = scene_light_kinds[light->emitter.kind].members; m->name; m++)
         if (m->offset == member->offset)
             cJSON_DeleteItemFromObjectCaseSensitive(object, m->name);
@@ -58,8 +63,8 @@ static cJSON *parse_light(const scene_light *light, const scene_light_member *me
 static bool apply_light(view_state *s, int row, const char *typed, cli_error *error) {
     scene_light *light = &s->now.lights[s->selected], changed;
     scene_light_error wrong;
-    cJSON *object = parse_light(light, &light_members(s)[row], typed, error);
-    const bool ok = object && scene_light_from_json(object, &changed, &wrong);
+    cJSON *object = parse_light(light, s->now.origin, &light_members(s)[row], typed, error);
+    const bool ok = object && scene_light_from_json(object, s->now.origin, &changed, &wrong);
     if (object && !ok)
         cli_fail(error, "the light", "%s", wrong.text + strspn(wrong.text, ". "));
     cJSON_Delete(object);

@@ -11,8 +11,7 @@ static bool open_context(const view_settings *settings, const char *device, gpu_
     return gpu_context_create(device, context, error);
 }
 
-bool view_render(const view_settings *settings, const char *device, const char *path,
-                 cli_error *error) {
+bool view_render(view_settings *settings, const char *device, const char *path, cli_error *error) {
     scene world;
     gpu_context context = { .display = NULL };
     view_compositor *compositor = NULL;
@@ -20,6 +19,7 @@ bool view_render(const view_settings *settings, const char *device, const char *
     const scene_options load = { .up = settings->up, .variant = view_variant(settings) };
     if (!image_check_path(path, error) || !scene_load(settings->scene, &load, &world, error))
         return false;
+    view_settings_rebase(settings, world.origin);
     const bool ok =
         open_context(settings, device, &context, error) &&
         (compositor = view_compositor_create(context.display ? &context : NULL, &world, error)) &&

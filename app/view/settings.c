@@ -3,6 +3,8 @@
 #include "app/file/file.h"
 #include "app/image/image.h"
 #include "app/material/material.h"
+#include "app/scene/vector.h"
+#include "app/scene/world.h"
 
 #include <cjson/cJSON.h>
 #include <math.h>
@@ -49,12 +51,40 @@ bool view_set_material(view_settings *s, const char *material_name, const char *
     return true;
 }
 
+/* --- origin ----------------------------------------------------------------------------------- */
+
+void view_settings_rebase(view_settings *s, const double origin[3]) {
+    scene_point_rebase(s->origin, origin, s->camera.eye);
+    scene_point_rebase(s->origin, origin, s->camera.target);
+    for (size_t i = 0; i < s->light_count; i++) {
+        lmp_vec3 *position = &s->lights[i].emitter.position;
+        float point[3];
+        vec_store(*position, point);
+        scene_point_rebase(s->origin, origin, point);
+        *position = vec_load(point);
+    }
+    memcpy(s->origin, origin, sizeof s->origin);
+}
+
 /* --- to JSON ---------------------------------------------------------------------------------- */
 
-static void add_camera(cJSON *root, const scene_camera *camera) {
+/* Told where it is not 0: what is in the world then becomes the same again to the bit. */
+static void add_origin(cJSON *root, const double origin[3]) {
+    if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
+        return;
+    cJSON *array = cJSON_AddArrayToObject(root, "origin");
+    for (int k = 0; k < 3; k++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.17g", origin[k]);
+        cJSON_AddItemToArray(array, cJSON_CreateRaw(text));
+    }
+}
+
+static void add_camera(cJSON *root, const view_settings *s) {
+    const scene_camera *camera = &s->camera;
     cJSON *object = cJSON_AddObjectToObject(root, "camera");
-    file_json_add_floats(object, "eye", camera->eye, 3);
-    file_json_add_floats(object, "target", camera->target, 3);
+    scene_add_world(object, "eye", s->origin, camera->eye);
+    scene_add_world(object, "target", s->origin, camera->target);
     file_json_add_floats(object, "up", camera->up, 3);
     file_json_add_floats(object, "fov", &camera->fov, 1);
     if (camera->height > 0)
@@ -87,7 +117,8 @@ cJSON *view_settings_to_json(const view_settings *s) {
     cJSON_AddStringToObject(around, "name", s->environment);
     file_json_add_floats(around, "rotation", &s->environment_rotation, 1);
     file_json_add_floats(around, "strength", &s->environment_strength, 1);
-    add_camera(root, &s->camera);
+    add_origin(root, s->origin);
+    add_camera(root, s);
     cJSON *both = cJSON_AddArrayToObject(root, "looks");
     add_shading(both, &s->shading[0]);
     add_shading(both, &s->shading[1]);
@@ -98,7 +129,7 @@ cJSON *view_settings_to_json(const view_settings *s) {
         cJSON_AddItemToArray(materials, cJSON_CreateString(s->materials[i]));
     cJSON *lights = cJSON_AddArrayToObject(root, "lights");
     for (size_t i = 0; i < s->light_count; i++)
-        cJSON_AddItemToArray(lights, scene_light_to_json(&s->lights[i]));
+        cJSON_AddItemToArray(lights, scene_light_to_json(&s->lights[i], s->origin));
     return root;
 }
 
@@ -174,11 +205,22 @@ static bool read_shadows(const cJSON *root, bool *shadows) {
     return !item || cJSON_IsBool(item);
 }
 
-static bool read_camera(const cJSON *root, scene_camera *camera) {
+/* Absent where it is 0. */
+static bool read_origin(const cJSON *root, double origin[3]) {
+    const double far = (double)LMP_LENGTH_MAX;
+    const cJSON *item = file_json_member(root, "origin");
+    if (item && !file_json_numbers(item, 3, -far, far, origin))
+        return false;
+    for (int k = 0; k < 3; k++)
+        origin[k] += 0.0; /* no -0 */
+    return true;
+}
+
+static bool read_camera(const cJSON *root, const double origin[3], scene_camera *camera) {
     const double far = (double)LMP_LENGTH_MAX;
     const cJSON *object = file_json_member(root, "camera");
-    return read_floats(object, "eye", -far, far, camera->eye) &&
-           read_floats(object, "target", -far, far, camera->target) &&
+    return scene_read_world(file_json_member(object, "eye"), origin, camera->eye) &&
+           scene_read_world(file_json_member(object, "target"), origin, camera->target) &&
            read_floats(object, "up", -far, far, camera->up) &&
            read_float(object, "fov", 0.001, 3.1, &camera->fov) &&
            (!file_json_member(object, "height") ||
@@ -209,7 +251,7 @@ static bool read_lights(const cJSON *root, view_settings *s) {
     if (!cJSON_IsArray(array) || cJSON_GetArraySize(array) > SCENE_LIGHTS_MAX)
         return false;
     cJSON_ArrayForEach(item, array) {
-        if (!scene_light_from_json(item, &s->lights[s->light_count++], &wrong))
+        if (!scene_light_from_json(item, s->origin, &s->lights[s->light_count++], &wrong))
             return false;
     }
     return true;
@@ -269,7 +311,8 @@ bool view_settings_from_json(const cJSON *root, const char *subject, view_settin
                         : !read_tone(root, &s->tone)                                   ? "tone"
                         : !read_floats(root, "background", 0, 1e30, s->background) ? "background"
                         : !read_environment(root, s)                               ? "environment"
-                        : !read_camera(root, &s->camera)                           ? "camera"
+                        : !read_origin(root, s->origin)                            ? "origin"
+                        : !read_camera(root, s->origin, &s->camera)                ? "camera"
                         : !read_both_shadings(root, s->shading)                    ? "looks"
                         : !read_choice(root, "split", view_split_names, &split)    ? "split"
                         : !read_float(root, "divider", 0, 1, &s->divider)          ? "divider"

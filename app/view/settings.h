@@ -32,6 +32,7 @@ typedef struct view_settings {
     float background[3];
     char environment[VIEW_PATH_SIZE]; /* a name of environment_options */
     float environment_rotation, environment_strength;
+    double origin[3]; /* in the world: camera and lights are relative to it, as the scene's are */
     scene_camera camera;
     view_shading shading[2]; /* the second one of a split image */
     gpu_split split;
@@ -60,6 +61,9 @@ bool view_set_material(view_settings *settings, const char *material_name, const
 
 /* What replaces it, or NULL. */
 const char *view_material_of(const view_settings *settings, const char *material_name);
+
+/* Takes camera and lights to another origin. */
+void view_settings_rebase(view_settings *settings, const double origin[3]);
 
 struct cJSON;
 struct cJSON *view_settings_to_json(const view_settings *settings);

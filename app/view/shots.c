@@ -41,7 +41,7 @@ void view_save_lights(viewer *v) {
     cli_error error;
     if (!find_name("lampion-lights", ".json", name, sizeof name))
         view_say(&v->state, "There are too many files of lights here");
-    else if (scene_write_lights(name, now->lights, now->light_count, &error))
+    else if (scene_write_lights(name, now->origin, now->lights, now->light_count, &error))
         view_say(&v->state, "%s: --lights reads it, or drop it here", name);
     else
         view_say(&v->state, "%s", error.text);

@@ -114,6 +114,16 @@ static void begin_other(view_state *s) {
     take_lights(s);
 }
 
+/* What stays of a scene that is replaced stays where it is in the world; what could be undone is
+ * relative to the other origin. */
+static void follow_origin(view_state *s) {
+    if (memcmp(s->now.origin, s->world->origin, sizeof s->now.origin) == 0)
+        return;
+    view_settings_rebase(&s->now, s->world->origin);
+    view_history_clear(&s->history);
+    view_history_keep(&s->history, &s->now, s->numbers);
+}
+
 bool view_state_replace_scene(view_state *s, const scene *world, cli_error *error) {
     const view_state before = *s;
     const char *name = s->path_names[s->path];
@@ -130,6 +140,7 @@ bool view_state_replace_scene(view_state *s, const scene *world, cli_error *erro
     }
     for (int i = 0; i < before.path_count; i++)
         animation_close(before.paths[i]);
+    follow_origin(s);
     if (s->other[0])
         begin_other(s);
     else if (!s->lights_edited)

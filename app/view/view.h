@@ -24,7 +24,6 @@ bool view_run(const view_options *options, cli_error *error);
 
 /* The image of these settings without a window, to a .png with the settings in it.
  * device: as gpu_context_create takes it. */
-bool view_render(const view_settings *settings, const char *device, const char *path,
-                 cli_error *error);
+bool view_render(view_settings *settings, const char *device, const char *path, cli_error *error);
 
 #endif

@@ -131,8 +131,11 @@ static bool open_viewer(viewer *v, cli_error *error) {
         return false;
     v->seen = v->candidate = view_version_of(settings.scene);
     v->world = view_load_scene(o->settings.scene, &o->load, &o->lights, error);
-    if (!v->world || (o->camera_wanted &&
-                      !scene_place_camera(v->world, &o->camera, size, &settings.camera, error)))
+    if (!v->world)
+        return false;
+    view_settings_rebase(&settings, v->world->origin);
+    if (o->camera_wanted &&
+        !scene_place_camera(v->world, &o->camera, size, &settings.camera, error))
         return false;
     settings.camera.near = settings.camera.far = 0; /* it flies on, past the file's planes */
     if (!view_state_open(v->world, &settings, o->animate, &v->state, error))

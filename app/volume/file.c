@@ -2,6 +2,7 @@
 /* file.c - a volume as JSON, CSV and NPY (docs/formats.md). */
 #include "app/file/file.h"
 #include "app/csv/csv.h"
+#include "app/scene/world.h"
 #include "app/volume/volume.h"
 
 #include <math.h>
@@ -78,6 +79,16 @@ static void put_numbers(FILE *stream, const float *values, size_t count) {
     }
 }
 
+static void put_coordinate(FILE *stream, double origin, float relative) {
+    scene_world_text text;
+    if (origin == 0.0) {
+        put_number(stream, relative);
+        return;
+    }
+    scene_print_world(origin, relative, 9, text);
+    fputs(text, stream);
+}
+
 /* Does it to every value in the order of the file, in rows: of a probe, or of a value. */
 typedef void put_value(const volume_text *text, float value, size_t row, size_t column);
 static void each_value(const volume_text *t, put_value *put) {
@@ -109,11 +120,14 @@ static void put_json_names(const volume_text *t) {
 static void put_json_grid(const volume_text *t) {
     const volume *v = t->volume;
     const int *counts = v->settings.grid.counts;
-    float origin[3], step[3];
-    volume_position(v, (int[3]) { 0 }, origin);
+    float first[3], step[3];
+    volume_position(v, (int[3]) { 0 }, first);
     fprintf(t->stream, "  \"counts\": [%d, %d, %d],\n  \"origin\": [", counts[0], counts[1],
             counts[2]);
-    put_numbers(t->stream, origin, 3);
+    for (int a = 0; a < 3; a++) {
+        fputs(a > 0 ? ", " : "", t->stream);
+        put_coordinate(t->stream, v->origin[a], first[a]);
+    }
     fputs("],\n  \"steps\": [", t->stream);
     for (int a = 0; a < 3; a++) {
         volume_step(v, a, step);
@@ -155,7 +169,7 @@ static void put_csv(const volume_text *t) {
         volume_position(v, node, at);
         for (int a = 0; a < 3; a++) {
             putc(a == 0 ? '\n' : ',', t->stream);
-            put_number(t->stream, at[a]);
+            put_coordinate(t->stream, v->origin[a], at[a]);
         }
         for (size_t k = 0; k < v->value_count; k++) {
             putc(',', t->stream);

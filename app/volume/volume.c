@@ -41,11 +41,18 @@ static lmp_vec3 node_position(const volume_grid *grid, const int node[3]) {
 }
 
 /* From the scene's world to the preset's. */
-static void to_preset(const lmp_probe_format *format, const float ours[3], float theirs[3]) {
+static void to_preset(const lmp_probe_format *format, const double ours[3], double theirs[3]) {
     for (int a = 0; a < 3; a++) {
         const int axis = format->convention.axes[a] ? format->convention.axes[a] : a + 1;
-        theirs[a] = format->unit * (axis < 0 ? -ours[-axis - 1] : ours[axis - 1]);
+        theirs[a] = (double)format->unit * (axis < 0 ? -ours[-axis - 1] : ours[axis - 1]);
     }
+}
+
+static void vector_to_preset(const lmp_probe_format *format, lmp_vec3 ours, float theirs[3]) {
+    double moved[3];
+    to_preset(format, (double[]) { (double)ours.x, (double)ours.y, (double)ours.z }, moved);
+    for (int a = 0; a < 3; a++)
+        theirs[a] = (float)moved[a];
 }
 
 void volume_node(const volume *v, size_t probe, int node[3]) {
@@ -56,14 +63,13 @@ void volume_node(const volume *v, size_t probe, int node[3]) {
 }
 
 void volume_position(const volume *v, const int node[3], float position[3]) {
-    const lmp_vec3 at = node_position(&v->settings.grid, node);
-    to_preset(v->format, (float[]) { at.x, at.y, at.z }, position);
+    vector_to_preset(v->format, node_position(&v->settings.grid, node), position);
 }
 
 void volume_step(const volume *v, int axis, float step[3]) {
     float along[3] = { 0 };
     along[axis] = step_of(&v->settings.grid, axis);
-    to_preset(v->format, along, step);
+    vector_to_preset(v->format, (lmp_vec3) { along[0], along[1], along[2] }, step);
 }
 
 static size_t node_count(const volume_grid *grid) {
@@ -152,6 +158,7 @@ bool volume_make(const scene *world, const environment *around, const volume_set
                     .format = format_of(settings->preset),
                     .probe_count = node_count(&settings->grid),
                     .value_count = 3 * LMP_SH_COUNT(settings->bands) };
+    to_preset(v->format, world->origin, v->origin);
     v->values = malloc(v->probe_count * v->value_count * sizeof *v->values);
     lmp_light *lights = copy_lights(world);
     volume_job job = { .volume = v, .world = world, .around = around, .lights = lights };

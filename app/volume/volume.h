@@ -9,7 +9,8 @@
 #include <lampion/field.h>
 #include <lampion/probe.h>
 
-/* Nodes of the grid along the scene's axes, the first and the last of them in the scene's world. */
+/* Nodes of the grid along the scene's axes, the first and the last of them relative to its origin.
+ */
 typedef struct volume_grid {
     int counts[3]; /* 2 … LMP_FIELD_NODES_MAX each */
     float minimum[3], maximum[3];
@@ -32,6 +33,7 @@ typedef struct volume_settings {
 typedef struct volume {
     volume_settings settings;
     const lmp_probe_format *format;
+    double origin[3]; /* of the scene, in the world of the preset */
     size_t probe_count, value_count;
     float *values;
 } volume;
@@ -41,8 +43,8 @@ bool volume_make(const scene *scene, const environment *surroundings,
                  const volume_settings *settings, volume *volume, cli_error *error);
 void volume_free(volume *volume);
 
-/* The node of a probe, where it is in the world of the preset, and from a node to the next along an
- * axis of the grid. */
+/* The node of a probe, where it is in the world of the preset relative to the origin there, and
+ * from a node to the next along an axis of the grid. */
 void volume_node(const volume *volume, size_t probe, int node[3]);
 void volume_position(const volume *volume, const int node[3], float position[3]);
 void volume_step(const volume *volume, int axis, float step[3]);
@@ -51,7 +53,8 @@ void volume_step(const volume *volume, int axis, float step[3]);
 typedef char volume_name[24];
 void volume_name_value(const volume *volume, size_t i, volume_name name);
 
-/* The same grid with the scene's lights as a field of the library, whatever the preset says. */
+/* The same grid with the scene's lights as a field of the library, whatever the preset says. A
+ * field is in float32: it stays relative to the scene's origin. */
 bool volume_make_field(const scene *scene, const volume_settings *settings, lmp_field **field,
                        cli_error *error);
 

@@ -11,10 +11,10 @@ readers() {
 }
 
 # What glTF and OBJ lead to; and Assimp's formats, what the program itself made, what hands a file on.
-inner="texture_keep texture_keep_once gltf_parse"
+inner="texture_keep texture_keep_once gltf_open gltf_parse"
 others="assimp_add bake_add_settings file_hash_add file_read file_read_descriptor file_read_json scene_read_lights"
 # and those who read text up to its end, or lines
-more="animation_open cli_number csv_read_row file_cache_map gltf_open mtl_add obj_add scene_add_lights_file sgd_file_find texture_decode_all view_script_read"
+more="animation_open cli_number csv_read_row file_cache_map gltf_add mtl_add obj_add scene_add_lights_file sgd_file_find texture_decode_all view_script_read"
 
 readers >"$WORK/readers"
 [ "$(wc -l <"$WORK/readers")" -gt 12 ] || fail "too few readers to be all: $(cat "$WORK/readers")"

@@ -132,14 +132,9 @@ static inline unsigned char *pack_glb(const char *json, size_t *size) {
 static inline bool reads_bytes(const void *data, size_t size, scene_builder *builder,
                                cli_error *error) {
     source_set sources = { .subject = "input", .folder = "/nowhere" };
-    gltf parsed;
     *error = (cli_error) { .text = "" };
     memset(builder, 0, sizeof *builder);
-    const bool ok = gltf_open(data, size, &sources, builder, &parsed, error) &&
-                    gltf_load(&parsed, error) && gltf_add_meshes(&parsed, builder, error) &&
-                    gltf_add_materials(&parsed, builder, error) &&
-                    gltf_add_views(&parsed, builder, error);
-    gltf_close(&parsed);
+    const bool ok = gltf_add(data, size, &sources, builder, error);
     sources_free(&sources);
     return ok;
 }

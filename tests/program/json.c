@@ -23,7 +23,7 @@ static cJSON *make_settings(void) {
 }
 
 static cJSON *make_light(void) {
-    return scene_light_to_json(&state.now.lights[0]);
+    return scene_light_to_json(&state.now.lights[0], state.now.origin);
 }
 
 static char *text_of(making *make, long request) {

@@ -30,7 +30,7 @@ static scene_light random_light(int kind) {
 static bool read_text(const char *text, scene_light *light, scene_light_error *wrong) {
     cJSON *root = cJSON_Parse(text);
     assert_non_null(root);
-    const bool ok = scene_light_from_json(root, light, wrong);
+    const bool ok = scene_light_from_json(root, (const double[3]) { 0 }, light, wrong);
     cJSON_Delete(root);
     return ok;
 }
@@ -41,7 +41,7 @@ static void every_kind_is_read_as_it_was_written(void **state) {
         const scene_light light = random_light(i % LMP_LIGHT_KINDS);
         scene_light again;
         scene_light_error wrong = { "" };
-        cJSON *object = scene_light_to_json(&light);
+        cJSON *object = scene_light_to_json(&light, (const double[3]) { 0 });
         char *text = cJSON_PrintUnformatted(object);
         if (!read_text(text, &again, &wrong))
             fail_msg("%s: %s", text, wrong.text);

@@ -210,7 +210,7 @@ static void lights_are_saved_and_dropped(void **unused) {
     char *path = strdup(in_folder("saved.json"));
     open_light();
     const scene_light before = state.now.lights[0];
-    assert_true(scene_write_lights(path, state.now.lights, 1, &error));
+    assert_true(scene_write_lights(path, state.now.origin, state.now.lights, 1, &error));
     key("Enter");
     key("n");
     key("n");
