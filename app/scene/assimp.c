@@ -248,8 +248,7 @@ static bool place_mesh(const assimp_job *job, const struct aiScene *imported, un
     static const double same[16] = { [0] = 1, [5] = 1, [10] = 1, [15] = 1 };
     const struct aiMesh *mesh = imported->mMeshes[number];
     const size_t next = builder_count(job->builder, BLOB_MESHES);
-    scene_instance placed = { .mesh = 0 };
-    const bool fits = scene_instance_set(&placed, world);
+    const bool fits = scene_instance_set(&(scene_instance) { 0 }, world);
     const mesh_transform transform = mesh_transform_make(fits ? same : world);
     if (!fits) {
         const bool ok = add_mesh(job, mesh, &transform, error);
@@ -262,12 +261,8 @@ static bool place_mesh(const assimp_job *job, const struct aiScene *imported, un
         const bool empty = builder_count(job->builder, BLOB_MESHES) == next;
         job->shared[number] = empty ? MESH_EMPTY : (uint32_t)next;
     }
-    placed.mesh = job->shared[number];
-    scene_instance *instance =
-        placed.mesh == MESH_EMPTY ? NULL : builder_append(job->builder, BLOB_INSTANCES, 1);
-    if (instance)
-        *instance = placed;
-    return instance || placed.mesh == MESH_EMPTY ||
+    const uint32_t shared = job->shared[number];
+    return shared == MESH_EMPTY || builder_place(job->builder, shared, world) ||
            cli_fail(error, job->sources->subject, "does not fit into memory");
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/scene/builder.h"
 
+#include "app/scene/center.h"
 #include "app/scene/instance.h"
 #include "app/scene/name.h"
 #include "app/scene/vector.h"
@@ -12,6 +13,7 @@
 void builder_free(scene_builder *builder) {
     for (int i = 0; i < BLOB_SECTIONS; i++)
         free(builder->arrays[i].items);
+    free(builder->centers);
     memset(builder, 0, sizeof *builder);
 }
 
@@ -69,6 +71,31 @@ void builder_sphere_light(scene_builder *builder, lmp_vec3 center, float radius,
     };
 }
 
+/* Moves the last mesh to where it is near 0, if it is not. */
+static void center_mesh(scene_builder *builder, scene_mesh *mesh) {
+    const size_t count = builder_count(builder, BLOB_MESHES);
+    double(*centers)[3] = realloc(builder->centers, count * sizeof *centers);
+    if (!centers) {
+        builder->out_of_memory = true;
+        return;
+    }
+    builder->centers = centers;
+    double *center = memset(centers[count - 1], 0, sizeof *centers);
+    if (!center_find(mesh->minimum, mesh->maximum, center))
+        return;
+    const uint32_t *indices = (uint32_t *)builder_items(builder, BLOB_INDICES) + mesh->first_index;
+    scene_vertex *vertices = builder_items(builder, BLOB_VERTICES);
+    uint32_t least = indices[0], most = indices[0];
+    for (uint32_t i = 1; i < mesh->index_count; i++) {
+        least = indices[i] < least ? indices[i] : least;
+        most = indices[i] > most ? indices[i] : most;
+    }
+    for (uint32_t i = least; i <= most; i++)
+        for (int k = 0; k < 3; k++)
+            vertices[i].position[k] = (float)((double)vertices[i].position[k] - center[k]);
+    blob_bounds(vertices, indices, mesh->index_count, mesh->minimum, mesh->maximum);
+}
+
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index) {
     const size_t end = builder_count(builder, BLOB_INDICES);
     if (end == first_index)
@@ -83,14 +110,28 @@ void builder_mesh(scene_builder *builder, const char *name, uint32_t material, s
     const uint32_t *indices = builder_items(builder, BLOB_INDICES);
     blob_bounds(builder_items(builder, BLOB_VERTICES), indices + first_index, end - first_index,
                 mesh->minimum, mesh->maximum);
+    if (builder->centers_meshes)
+        center_mesh(builder, mesh);
+}
+
+bool builder_place(scene_builder *builder, size_t mesh, const double matrix[16]) {
+    scene_instance *instance = builder_append(builder, BLOB_INSTANCES, 1);
+    double moved[16];
+    if (!instance)
+        return false;
+    memcpy(moved, matrix, sizeof moved);
+    for (int k = 0; k < 3 && builder->centers; k++)
+        for (int i = 0; i < 3; i++)
+            moved[12 + k] += matrix[4 * i + k] * builder->centers[mesh][i];
+    scene_instance_set(instance, moved);
+    instance->mesh = (uint32_t)mesh;
+    return true;
 }
 
 void builder_instances(scene_builder *builder, size_t first_mesh) {
-    const size_t end = builder_count(builder, BLOB_MESHES);
-    scene_instance *instances =
-        end > first_mesh ? builder_append(builder, BLOB_INSTANCES, end - first_mesh) : NULL;
-    for (size_t i = first_mesh; instances && i < end; i++)
-        instances[i - first_mesh] = scene_instance_identity((uint32_t)i);
+    static const double same[16] = { [0] = 1, [5] = 1, [10] = 1, [15] = 1 };
+    for (size_t i = first_mesh; i < builder_count(builder, BLOB_MESHES); i++)
+        builder_place(builder, i, same);
 }
 
 void builder_geometry(const scene_builder *builder, scene *s) {

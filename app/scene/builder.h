@@ -13,8 +13,10 @@ typedef struct builder_array {
 /* Zero-initialize; the arrays are those of the blob, texels in bytes. */
 typedef struct scene_builder {
     builder_array arrays[BLOB_SECTIONS];
-    double origin[3];   /* that all positions are relative to, in the file's world */
-    bool out_of_memory; /* sticky: the functions below then do nothing */
+    double origin[3];     /* that all positions are relative to, in the file's world */
+    bool centers_meshes;  /* those far from 0 in their own space are moved there */
+    double (*centers)[3]; /* if so, of each mesh: where it was, for its instances */
+    bool out_of_memory;   /* sticky: the functions below then do nothing */
 } scene_builder;
 
 void builder_free(scene_builder *builder);
@@ -29,8 +31,11 @@ void *builder_items(const scene_builder *builder, blob_section section);
 scene_material *builder_material(scene_builder *builder, const char *name);
 
 /* Appends the mesh of all indices from first_index on, its bounds computed, without an instance;
- * nothing if there are none. */
+ * nothing if there are none. Where meshes are centered, no other has its vertices. */
 void builder_mesh(scene_builder *builder, const char *name, uint32_t material, size_t first_index);
+
+/* Appends an instance of a mesh that a matrix, which fits one, takes into the scene. */
+bool builder_place(scene_builder *builder, size_t mesh, const double matrix[16]);
 
 /* Appends an instance of every mesh from first_mesh on, where it is. */
 void builder_instances(scene_builder *builder, size_t first_mesh);

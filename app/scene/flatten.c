@@ -36,6 +36,7 @@ static void append_moved(scene_builder *builder, scene_instance placed) {
 
 void builder_flatten(scene_builder *builder) {
     const size_t count = builder_count(builder, BLOB_INSTANCES);
+    builder->centers_meshes = false; /* they are to stand in the scene */
     for (size_t i = 0; i < count; i++) {
         scene_instance *instances = builder_items(builder, BLOB_INSTANCES);
         if (scene_instance_is_identity(&instances[i]))

@@ -193,8 +193,7 @@ static bool add_mesh(const mesh_reader *r, const cJSON *node, const double world
     static const double same[16] = { [0] = 1, [5] = 1, [10] = 1, [15] = 1 };
     const size_t mesh = (size_t)gltf_index(node, "mesh");
     const size_t next = builder_count(r->builder, BLOB_MESHES);
-    scene_instance placed = { .mesh = 0 };
-    if (gltf_member(node, "skin") || !scene_instance_set(&placed, world)) {
+    if (gltf_member(node, "skin") || !scene_instance_set(&(scene_instance) { 0 }, world)) {
         const bool ok = add_primitives(r, node, world);
         builder_instances(r->builder, next);
         return ok;
@@ -212,13 +211,10 @@ static bool add_mesh(const mesh_reader *r, const cJSON *node, const double world
         r->shared[mesh].first = first;
         r->shared[mesh].count = count;
     }
-    scene_instance *instances = builder_append(r->builder, BLOB_INSTANCES, count);
-    for (size_t i = 0; instances && i < count; i++) {
-        placed.mesh = (uint32_t)(first + i);
-        instances[i] = placed;
-    }
-    return instances || count == 0 ||
-           cli_fail(r->error, r->document->subject, "does not fit into memory");
+    for (size_t i = 0; i < count; i++)
+        if (!builder_place(r->builder, first + i, world))
+            return cli_fail(r->error, r->document->subject, "does not fit into memory");
+    return true;
 }
 
 /* The mesh of a node by every transform that EXT_mesh_gpu_instancing gives it. */

@@ -11,8 +11,9 @@
 typedef bool origin_reader(const void *data, size_t size, source_set *sources,
                            scene_builder *builder, cli_error *error);
 
-/* Reads into an empty builder. What turns out to lie far from 0 is read once more, relative to an
- * origin: float32 has not the digits to be moved there afterwards. */
+/* Reads into an empty builder. The origin is 0, or the middle of a scene that turns out to lie far
+ * from there. Such a scene is read once more, and one with vertices far away that nodes bring back:
+ * float32 has not the digits to be moved afterwards. */
 bool origin_read(origin_reader *read, const void *data, size_t size, source_set *sources,
                  scene_builder *builder, cli_error *error);
 

@@ -4,6 +4,7 @@
 
 #include "app/animation/animation.h"
 #include "app/file/file.h"
+#include "app/scene/instance.h"
 #include "app/view/settings.h"
 #include "tests/program/folder.h"
 #include "tests/program/load.h"
@@ -157,6 +158,36 @@ static void nodes_that_assimp_reads_are_added_in_double(void **state) {
     scene_free(&s);
 }
 
+/* A file's own float32 far away, which two nodes show: the mesh is moved to 0, its instances back.
+ */
+static void vertices_far_away_are_near_0_in_their_mesh(void **state) {
+    (void)state;
+    static const float corners[3][3] = { { 5e6f, 100, -5e6f },
+                                         { 5000001.5f, 100, -5e6f },
+                                         { 5e6f, 102.25f, -5e6f } };
+    folder_write("far.bin", corners, sizeof corners);
+    folder_write_text("far.gltf",
+                      "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{"
+                      "\"mesh\":0},{\"mesh\":0,\"translation\":[0.125,0,0]}],\"meshes\":[{"
+                      "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{"
+                      "\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
+                      "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{"
+                      "\"byteLength\":36,\"uri\":\"far.bin\"}]}");
+    scene s = load(in_folder("far.gltf"));
+    assert_true(s.mesh_count == 1 && s.instance_count == 2);
+    for (int k = 0; k < 3; k++)
+        assert_true(fabsf(s.meshes[0].minimum[k]) < 4 && fabsf(s.meshes[0].maximum[k]) < 4);
+    for (size_t i = 0; i < 2; i++) {
+        float at[3][3];
+        scene_triangle_positions(&s, i, 0, at);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                assert_true(scene_to_world(s.origin[k], at[c][k]) ==
+                            (double)corners[c][k] + (k == 0 ? 0.125 * (double)i : 0));
+    }
+    scene_free(&s);
+}
+
 /* --- what comes from outside ------------------------------------------------------------------ */
 
 static void lights_are_read_and_written_in_the_world(void **state) {
@@ -270,6 +301,7 @@ int main(void) {
         cmocka_unit_test(a_tiny_model_far_away_has_a_size),
         cmocka_unit_test(a_scene_far_away_stands_up),
         cmocka_unit_test(nodes_that_assimp_reads_are_added_in_double),
+        cmocka_unit_test(vertices_far_away_are_near_0_in_their_mesh),
         cmocka_unit_test(lights_are_read_and_written_in_the_world),
         cmocka_unit_test(paths_are_in_the_world),
         cmocka_unit_test(settings_are_written_in_the_world),
