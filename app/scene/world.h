@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* world.h - where coordinates that a person gives or gets become those of a scene, and back. The
- * world's are in double; a scene's are float32, relative to its origin. Nothing else converts. */
+ * world's are in double; a scene's are float32, relative to its origin. */
 #ifndef LAMPION_SCENE_WORLD_H
 #define LAMPION_SCENE_WORLD_H
 
