@@ -13,10 +13,10 @@ enum {
     COLORS = FIGURE_SERIES_MAX
 };
 
-static const char *const colors[COLORS] = { "#1f5fa8", "#c0392b", "#2e8b57", "#8e5ea2",
-                                            "#d9831f", "#16828c", "#7f8c8d", "#b03a7d",
-                                            "#5b6f1f", "#00a0e0", "#e05a8a", "#4a3b8f",
-                                            "#a06a3c", "#30b090", "#c8a400", "#202020" };
+static const char *const colors[COLORS] = { "#1f5fa8", "#c0392b", "#2e8b57", "#8e5ea2", "#d9831f",
+                                            "#16828c", "#7f8c8d", "#b03a7d", "#5b6f1f", "#00a0e0",
+                                            "#e05a8a", "#4a3b8f", "#a06a3c", "#30b090", "#c8a400",
+                                            "#202020", "#ff7043", "#6d4c41", "#9ccc65", "#5c6bc0" };
 
 /* One axis: values low … high over pixels from … to. */
 typedef struct axis {

@@ -21,7 +21,7 @@ typedef struct figure_plot {
     const figure_series *series;
     int series_count; /* at most FIGURE_SERIES_MAX */
 } figure_plot;
-#define FIGURE_SERIES_MAX 16
+#define FIGURE_SERIES_MAX 20
 
 void figure_plot_draw(FILE *svg, const figure_plot *plot);
 void figure_plot_list(FILE *csv, const figure_plot *plot);

@@ -20,9 +20,9 @@ typedef struct formula_query {
 /* The radiance that is reflected. */
 typedef float formula_radiance(const formula_query *query, const lmp_shade_settings *settings);
 
-formula_radiance formula_black, formula_point, formula_representative, formula_widened,
-    formula_sphere, formula_gaussian, formula_anisotropic, formula_cosines, formula_irradiance,
-    formula_lampion;
+formula_radiance formula_black, formula_point, formula_representative, formula_halved,
+    formula_widened, formula_bevy, formula_filament, formula_godot, formula_sphere,
+    formula_gaussian, formula_anisotropic, formula_cosines, formula_irradiance, formula_lampion;
 
 typedef struct formula {
     const char *name, *source;
@@ -35,7 +35,7 @@ typedef struct formula {
 
 extern const formula formula_table[];
 extern const int formula_count;
-#define FORMULAS_MAX 16
+#define FORMULAS_MAX 20
 
 /* What radiance receives: settings of a formula, and the table that they read, to be destroyed. */
 bool formula_open(const formula *from, lmp_shade_settings *settings, lmp_preintegrated_lobe **lobe,

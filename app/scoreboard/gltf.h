@@ -53,6 +53,9 @@ static inline float gltf_layers(const formula_query *q, float specular, float di
     return specular + (1 - gltf_schlick(0.04f, vh)) * q->color * diffuse;
 }
 
+/* The sphere's point that is nearest to the mirror ray: representative.c. */
+lmp_vec3 gltf_nearest_to_mirror(const formula_query *q);
+
 /* Radiance of a white Lambert surface under a disk: sphere.c. */
 float gltf_sphere(float cosine, float sin2);
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Karis, Real Shading in Unreal Engine 4 (SIGGRAPH 2013 course notes): the highlight of the point
  * of the sphere nearest to the mirror ray, scaled by (alpha/alpha')², alpha' = alpha + r/(3d). Much
- * of its energy is too high by that constant: `widened` has 0.6 in the place of 3, the best of
- * those tried by the ruler. The diffuse part is sphere.c. */
+ * of its energy is too high by that constant: `halved` has 2 in the place of 3, as ports of it do,
+ * and `widened` 0.6, the best of those tried by the ruler. The diffuse part is sphere.c. */
 #include "app/scoreboard/gltf.h"
 
-static lmp_vec3 nearest_to_mirror(const formula_query *q) {
+/* Of a light at distance 1. */
+lmp_vec3 gltf_nearest_to_mirror(const formula_query *q) {
     const lmp_vec3 mirror = gltf_mirror(q);
     const lmp_vec3 to_ray = vec_sub(vec_scale(mirror, vec_dot(q->light, mirror)), q->light);
     const float distance = vec_length(to_ray);
-    return gltf_unit(
-        vec_add(q->light, vec_scale(to_ray, distance > q->sine ? q->sine / distance : 1)));
+    return vec_add(q->light, vec_scale(to_ray, distance > q->sine ? q->sine / distance : 1));
 }
 
 static float representative(const formula_query *q, float divisor) {
@@ -18,7 +18,8 @@ static float representative(const formula_query *q, float divisor) {
     const float diffuse = gltf_sphere(vec_dot(q->normal, q->light), sin2);
     if (q->material == RULER_LAMBERT)
         return q->color * diffuse;
-    const lmp_vec3 light = nearest_to_mirror(q), half = gltf_unit(vec_add(q->view, light));
+    const lmp_vec3 light = gltf_unit(gltf_nearest_to_mirror(q)),
+                   half = gltf_unit(vec_add(q->view, light));
     const float alpha = q->roughness * q->roughness, wide = gltf_clamp(alpha + q->sine / divisor);
     const float nl = fmaxf(vec_dot(q->normal, light), 0);
     const float specular = gltf_distribution(alpha, vec_dot(q->normal, half)) *
@@ -31,6 +32,11 @@ static float representative(const formula_query *q, float divisor) {
 float formula_representative(const formula_query *q, const lmp_shade_settings *settings) {
     (void)settings;
     return representative(q, 3);
+}
+
+float formula_halved(const formula_query *q, const lmp_shade_settings *settings) {
+    (void)settings;
+    return representative(q, 2);
 }
 
 float formula_widened(const formula_query *q, const lmp_shade_settings *settings) {

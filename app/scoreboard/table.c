@@ -6,6 +6,8 @@
     { true, true, true, true }
 #define GLTF                                                                                       \
     { [RULER_LAMBERT] = true, [RULER_METAL] = true, [RULER_DIELECTRIC] = true }
+#define LAYERS                                                                                     \
+    { [RULER_METAL] = true, [RULER_DIELECTRIC] = true }
 
 const formula formula_table[] = {
     { .name = "black", .source = "no light at all", .radiance = formula_black, .applies = ALL },
@@ -17,10 +19,26 @@ const formula formula_table[] = {
       .source = "Karis 2013, specular; Lagarde and de Rousiers 2014, diffuse",
       .radiance = formula_representative,
       .applies = GLTF },
+    { .name = "halved",
+      .source = "the same with r/2d in its normalization, as ports have it",
+      .radiance = formula_halved,
+      .applies = GLTF },
     { .name = "widened",
       .source = "the same with another constant in its normalization",
       .radiance = formula_widened,
       .applies = GLTF },
+    { .name = "bevy",
+      .source = "Bevy: Karis 2013 with r/2d, the center's cosine and diffuse part",
+      .radiance = formula_bevy,
+      .applies = LAYERS },
+    { .name = "filament",
+      .source = "Filament's sun: the disk's direction nearest to the mirror ray",
+      .radiance = formula_filament,
+      .applies = LAYERS },
+    { .name = "godot",
+      .source = "Godot: cosines greater by 1 - cos of the half angle",
+      .radiance = formula_godot,
+      .applies = LAYERS },
     { .name = "sphere",
       .source = "Lagarde and de Rousiers 2014, with the horizon",
       .radiance = formula_sphere,

@@ -54,8 +54,9 @@ static void a_sphere_that_the_horizon_halves_has_its_closed_form(void **state) {
 
 static void a_small_sphere_is_a_point(void **state) {
     (void)state;
-    static const char *const names[] = { "representative", "gaussian", "widened" };
-    static const double bounds[] = { 0.005, 0.15, 0.02 };
+    static const char *const names[] = { "representative", "gaussian", "widened", "halved",
+                                         "bevy",           "filament", "godot" };
+    static const double bounds[] = { 0.005, 0.15, 0.02, 0.006, 0.006, 0.005, 1e-4 };
     for (int m = RULER_METAL; m <= RULER_DIELECTRIC; m++)
         for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
             const formula_query query = query_of((ruler_material)m, 1e-3, 43);
@@ -125,7 +126,11 @@ static void formulas_are_as_near_the_truth_as_the_page_says(void **state) {
         { "black", 0.74, 0.65, 0.71 },
         { "point", 0.23, 39, 43 },
         { "representative", 5e-5, 2.7, 2.7 },
+        { "halved", 5e-5, 1.34, 1.42 },
         { "widened", 5e-5, 0.45, 0.26 },
+        { "bevy", 0, 1.6, 1.51 },
+        { "filament", 0, 119, 101 },
+        { "godot", 0, 124, 47 },
         { "sphere", 5e-5, 0, 0 },
         { "gaussian", 0.033, 0.46, 0.26 },
         { "anisotropic", 0.033, 0.42, 0.19 },
