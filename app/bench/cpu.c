@@ -265,8 +265,7 @@ static void print_header(const bench_options *o) {
                name, COMPILER, LAMPION_BUILD_FLAGS, LAMPION_COMMIT);
         return;
     }
-    printf("%s; compiler %s; %s; commit %s\n", name, COMPILER, LAMPION_BUILD_FLAGS,
-           LAMPION_COMMIT);
+    printf("%s; compiler %s; %s; commit %s\n", name, COMPILER, LAMPION_BUILD_FLAGS, LAMPION_COMMIT);
     printf(
         "ns a light-point pair (%d lights a point where lights are summed): median, quartiles; "
         "fraction of the\nFMA peak measured between the runs (mul, add, div, sqrt: one slot each), "

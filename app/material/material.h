@@ -36,8 +36,8 @@ bool material_open(const char *name, material *material, cli_error *error);
 const char *material_file_named(const char *name, size_t *length);
 void material_close(material *material);
 
-/* What is known of the table that material_bake would make, or is read from: its bands, azimuths and
- * symmetry (mirrored unless it cannot be). */
+/* What is known of the table that material_bake would make, or is read from: its bands, azimuths
+ * and symmetry (mirrored unless it cannot be). */
 lmp_brdf_table_info material_plan(const material *material, const lmp_brdf_table_desc *desc);
 
 /* A table of the material on all cores, with a progress bar, from the cache where it was made
