@@ -147,7 +147,7 @@ void space_fit(const scene *world, space_ball *balls, size_t count) {
 
 /* --- rooms ------------------------------------------------------------------------------------ */
 
-#define BUILDING_WALLS 4 /* of six directions */
+#define BUILDING_WALLS 4 /* of six directions, a floor among them: rings have none */
 
 typedef struct wall {
     float distance;
@@ -194,5 +194,5 @@ bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room) {
         (i % 2 ? room->ahead : room->back)[i / 2] = is_wall ? next[i].distance : INFINITY;
         walls += is_wall;
     }
-    return walls >= BUILDING_WALLS;
+    return walls >= BUILDING_WALLS && isfinite(room->back[1]);
 }

@@ -25,7 +25,7 @@ typedef struct space_room {
 } space_room;
 
 /* Whether a scene is one that people are inside of: from its middle, fronts are seen in four of six
- * directions. */
+ * directions, one of them below. */
 bool space_is_building(const scene *world, lmp_vec3 middle, space_room *room);
 
 #endif

@@ -116,6 +116,25 @@ static void an_open_mesh_is_what_it_is_wound_as(void **state) {
     scene_free(&s);
 }
 
+/* Around the hole of a ring there are walls, but nobody stands in it. */
+static void a_ring_is_no_building(void **state) {
+    (void)state;
+    static const char ring[] =
+        "v -2 -2 -2\nv -2 -2 2\nv -2 2 -2\nv -2 2 2\nv 2 -2 -2\nv 2 -2 2\nv 2 2 -2\nv 2 2 2\n"
+        "f 1 3 4 2\nf 5 6 8 7\nf 1 5 7 3\nf 2 4 8 6\n";
+    scene s;
+    cli_error error;
+    folder_write_text("ring.obj", ring);
+    assert_true(
+        scene_load(in_folder("ring.obj"), &(scene_options) { .no_cache = true }, &s, &error));
+    space_room room;
+    assert_false(space_is_building(&s, (lmp_vec3) { 0, 0, 0 }, &room));
+    assert_true(isfinite(room.ahead[0]) && isfinite(room.back[0]) && isfinite(room.ahead[2]) &&
+                isfinite(room.back[2]));
+    assert_true(from_center(scene_default_camera(&s, 1.5f).eye) > HALF);
+    scene_free(&s);
+}
+
 /* 200 of them in either: those of the room are clear of its walls, those of the block are not in
  * it, and none is below its floor. */
 static void random_lights_are_never_in_anything(void **state) {
@@ -195,6 +214,7 @@ int main(void) {
         cmocka_unit_test(the_camera_stands_inside_a_room_and_outside_a_block),
         cmocka_unit_test(a_closed_mesh_without_sides_is_a_block),
         cmocka_unit_test(an_open_mesh_is_what_it_is_wound_as),
+        cmocka_unit_test(a_ring_is_no_building),
         cmocka_unit_test(random_lights_are_never_in_anything),
         cmocka_unit_test(random_lights_do_not_fill_the_view),
         cmocka_unit_test(balls_are_measured_to_planes_sides_and_corners),
