@@ -17,7 +17,7 @@
 static void cameras_out_of_reach_are_refused(void **state) {
     (void)state;
     scene s = load("builtin:ball");
-    const scene_camera_options options = { .eye = { 1e30f, 0, 0 }, .eye_given = true };
+    const scene_camera_options options = { .eye = { 1e30, 0, 0 }, .eye_given = true };
     const int size[2] = { 16, 9 };
     scene_camera camera;
     cli_error error = { 0 };

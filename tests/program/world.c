@@ -50,7 +50,7 @@ static void text_brings_coordinates_back(void **state) {
         scene_print_world(0, x, 9, text);
         assert_string_equal(text, plain);
         scene_print_world(far[i % 3], x, 9, text);
-        const double ulp = nextafter(fabs(far[i % 3]), INFINITY) - fabs(far[i % 3]);
+        const double ulp = nextafter(fabs(far[i % 3]), HUGE_VAL) - fabs(far[i % 3]);
         const double error =
             fabs((double)scene_from_world(far[i % 3], strtod(text, NULL)) - (double)x);
         if (fabs((double)x) > 0x1p24 * ulp)
@@ -76,8 +76,8 @@ static void ordinary_scenes_have_the_origin_0(void **state) {
     static const char *const scenes[] = {
         "v 0 0 0\nv 1 0 0\nv 0 5 0\nf 1 2 3\n",
         "v 60 0 0\nv 61 0 0\nv 60 1 0\nf 1 2 3\n",
-        "v -1e7 0 -1e7\nv 1e7 0 -1e7\nv 0 0 1e7\nv 5e6 1 5e6\nv 5000001 1 5e6\nv 5e6 2 5e6\n"
-        "f 1 2 3\nf 4 5 6\n",
+        ("v -1e7 0 -1e7\nv 1e7 0 -1e7\nv 0 0 1e7\nv 5e6 1 5e6\nv 5000001 1 5e6\nv 5e6 2 5e6\n"
+         "f 1 2 3\nf 4 5 6\n"),
         "v 1e17 0 0\nv -1e17 0 0\nv 0 1e17 0\nf 1 2 3\n",
     };
     static const char *const names[] = { "builtin:atrium", "builtin:balls", "builtin:ball" };
