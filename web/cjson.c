@@ -55,6 +55,16 @@ cJSON *cJSON_GetObjectItemCaseSensitive(const cJSON *object, const char *name) {
     return item;
 }
 
+cJSON *cJSON_DetachItemViaPointer(cJSON *parent, cJSON *item) {
+    for (cJSON **link = &parent->child; *link; link = &(*link)->next)
+        if (*link == item) {
+            *link = item->next;
+            item->next = NULL;
+            return item;
+        }
+    return NULL;
+}
+
 void cJSON_Delete(cJSON *item) {
     while (item) {
         cJSON *const next = item->next;

@@ -53,7 +53,7 @@ static bool fill_materials(void) {
     demo.materials = calloc(w->material_count + 1, sizeof *demo.materials);
     demo.reflectors = calloc(w->material_count + 1, sizeof *demo.reflectors);
     if (!demo.materials || !demo.reflectors)
-        return cli_fail(&demo.error, w->origin, "does not fit into memory");
+        return cli_fail(&demo.error, w->name, "does not fit into memory");
     for (size_t i = 0; i < w->material_count; i++) {
         gpu_fill_material(&w->materials[i], i, &demo.materials[i]);
         demo.reflectors[i] = gpu_reflector(&w->materials[i]);

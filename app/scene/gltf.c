@@ -6,7 +6,9 @@
 
 bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder *builder,
                gltf *document, cli_error *error) {
-    *document = (gltf) { .subject = sources->subject, .sources = sources, .builder = builder };
+    *document = (gltf) {
+        .subject = sources->subject, .sources = sources, .builder = builder, .variant = -1
+    };
     return gltf_parse(document, data, size, error) && gltf_check_version(document, error) &&
            gltf_check_schema(document, error) && gltf_check_extensions(document, error);
 }

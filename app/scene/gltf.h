@@ -82,6 +82,7 @@ typedef struct gltf {
     gltf_accessor *accessors;
     gltf_node *nodes;
     size_t *order; /* of the nodes: parents first, as the scene lists them */
+    long variant;  /* of the materials that is shown, or -1 */
 } gltf;
 
 /* Appends all that a .gltf or .glb shows (app/scene/origin.h). */
@@ -96,9 +97,11 @@ bool gltf_open(const void *data, size_t size, source_set *sources, scene_builder
                gltf *document, cli_error *error);
 void gltf_close(gltf *document);
 
-/* Appends the names of the variants of materials, and gives the primitives the materials that they
- * have in the one that the sources want, if any: before gltf_load. */
-bool gltf_choose_variant(const gltf *document, cli_error *error);
+/* Appends the names of the variants of materials, and chooses the one that the sources want. */
+bool gltf_choose_variant(gltf *document, cli_error *error);
+
+/* The material that a primitive has in the chosen variant, or without one; -1: none. */
+long gltf_primitive_material(const gltf *document, const cJSON *primitive);
 
 /* Loads buffers and checks what the functions below rely on. */
 bool gltf_load(gltf *document, cli_error *error);

@@ -300,7 +300,7 @@ static void note_vertex_colors(const gltf *document, scene_builder *builder) {
     for (size_t i = 0; i < gltf_count(document, GLTF_MESHES); i++) {
         const cJSON *mesh = gltf_item(document, GLTF_MESHES, i), *primitive;
         cJSON_ArrayForEach(primitive, gltf_member(mesh, "primitives")) {
-            const long number = gltf_index(primitive, "material");
+            const long number = gltf_primitive_material(document, primitive);
             scene_material *material =
                 &materials[number < 0 ? gltf_count(document, GLTF_MATERIALS) : (size_t)number];
             if (!gltf_member(gltf_member(primitive, "attributes"), "COLOR_0"))

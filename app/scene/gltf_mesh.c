@@ -42,7 +42,7 @@ static bool fill_attribute(const gltf *document, const cJSON *attributes, const 
 static bool read_coordinates(const gltf *document, const cJSON *primitive, mesh_draft *draft,
                              cli_error *error) {
     const cJSON *attributes = gltf_member(primitive, "attributes");
-    const long material = gltf_index(primitive, "material");
+    const long material = gltf_primitive_material(document, primitive);
     long sets[2] = { -1, -1 };
     if (material >= 0)
         gltf_material_sets(gltf_item(document, GLTF_MATERIALS, (size_t)material), sets);
@@ -151,7 +151,7 @@ typedef struct mesh_reader {
 static bool add_primitive(const mesh_reader *r, const cJSON *node, const cJSON *primitive,
                           const char *name, const double world[16]) {
     const cJSON *attributes = gltf_member(primitive, "attributes");
-    const long material = gltf_index(primitive, "material");
+    const long material = gltf_primitive_material(r->document, primitive);
     mesh_draft draft = { .subject = r->document->subject,
                          .name = name,
                          .material = material < 0

@@ -16,47 +16,37 @@ static bool add_names(const gltf *document, cli_error *error) {
     return true;
 }
 
-/* The material of the first mapping that is for the variant; NULL: the primitive keeps its own. */
-static const cJSON *material_for(const cJSON *primitive, size_t variant) {
-    const cJSON *mappings = gltf_member(gltf_extension(primitive, EXTENSION), "mappings");
-    const cJSON *mapping, *number;
-    cJSON_ArrayForEach(mapping, mappings) {
-        cJSON_ArrayForEach(number, gltf_member(mapping, "variants")) {
-            if (number->valuedouble == (double)variant)
-                return gltf_member(mapping, "material");
-        }
-    }
-    return NULL;
-}
-
-static bool show(cJSON *primitive, size_t variant) {
-    const cJSON *material = material_for(primitive, variant);
-    if (!material)
-        return true;
-    cJSON_DeleteItemFromObjectCaseSensitive(primitive, "material");
-    return cJSON_AddNumberToObject(primitive, "material", material->valuedouble);
-}
-
-static bool show_everywhere(const gltf *document, size_t variant, cli_error *error) {
-    cJSON *mesh, *primitive;
-    cJSON_ArrayForEach(mesh, cJSON_GetObjectItemCaseSensitive(document->root, "meshes")) {
-        cJSON_ArrayForEach(primitive, cJSON_GetObjectItemCaseSensitive(mesh, "primitives")) {
-            if (!show(primitive, variant))
-                return cli_fail(error, document->subject, "does not fit into memory");
-        }
-    }
-    return true;
-}
-
-bool gltf_choose_variant(const gltf *document, cli_error *error) {
+bool gltf_choose_variant(gltf *document, cli_error *error) {
     const char *wanted = document->sources->variant;
     size_t chosen;
     if (!add_names(document, error))
         return false;
     const scene_variant *variants = builder_items(document->builder, BLOB_VARIANTS);
     const size_t count = builder_count(document->builder, BLOB_VARIANTS);
-    return !wanted ||
-           (scene_find_name(document->subject, "variant", wanted, count ? variants->name : NULL,
-                            sizeof *variants, count, &chosen, error) &&
-            show_everywhere(document, chosen, error));
+    if (!wanted)
+        return true;
+    if (!scene_find_name(document->subject, "variant", wanted, count ? variants->name : NULL,
+                         sizeof *variants, count, &chosen, error))
+        return false;
+    document->variant = (long)chosen;
+    return true;
+}
+
+static bool is_for(const cJSON *mapping, long variant) {
+    const cJSON *number;
+    cJSON_ArrayForEach(number, gltf_member(mapping, "variants")) {
+        if (number->valuedouble == (double)variant)
+            return true;
+    }
+    return false;
+}
+
+/* By the first mapping that is for the variant; without one the primitive keeps its own. */
+long gltf_primitive_material(const gltf *document, const cJSON *primitive) {
+    const cJSON *mapping;
+    cJSON_ArrayForEach(mapping, gltf_member(gltf_extension(primitive, EXTENSION), "mappings")) {
+        if (is_for(mapping, document->variant))
+            return gltf_index(mapping, "material");
+    }
+    return gltf_index(primitive, "material");
 }

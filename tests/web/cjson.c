@@ -53,6 +53,21 @@ static void members_are_found_by_their_exact_name(void **state) {
     cJSON_Delete(root);
 }
 
+static void a_detached_member_is_no_longer_there(void **state) {
+    (void)state;
+    static const char *const names[] = { "b", "a", "c" };
+    cJSON *const root = parse("{\"a\":[1],\"b\":2,\"c\":3}");
+    for (size_t i = 0; i < 3; i++) {
+        cJSON *const item = cJSON_GetObjectItemCaseSensitive(root, names[i]);
+        assert_ptr_equal(cJSON_DetachItemViaPointer(root, item), item);
+        assert_null(item->next);
+        assert_null(cJSON_GetObjectItemCaseSensitive(root, names[i]));
+        assert_int_equal(cJSON_GetArraySize(root), 2 - (int)i);
+        cJSON_Delete(item);
+    }
+    cJSON_Delete(root);
+}
+
 static void escapes_become_utf8(void **state) {
     (void)state;
     cJSON *const root =
@@ -110,6 +125,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_of_every_kind_are_told_apart),
         cmocka_unit_test(members_are_found_by_their_exact_name),
+        cmocka_unit_test(a_detached_member_is_no_longer_there),
         cmocka_unit_test(escapes_become_utf8),
         cmocka_unit_test(values_nest_as_deep_as_the_grammar_allows),
         cmocka_unit_test(whatever_memory_is_refused_all_of_it_is_given_back),
