@@ -355,7 +355,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
             !settle_field(s, own, shading, &frame, error) ||
             !settle_shadows(s, settings, &frame.shadow, error))
             return false;
-        frame.keep_geometry = fineness == RESTING && s->gpu.gl.software;
+        frame.keep_geometry = fineness == RESTING && (renderer->cpu || s->gpu.gl.software);
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
                       : !renderer_refine(renderer, &frame, index, &times, error))
             return false;

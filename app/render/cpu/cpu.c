@@ -25,7 +25,9 @@ struct cpu_renderer {
      */
     render_surfaces surfaces, first; /* of this sample, and of the first */
     float *rgba, *first_rgba;        /* what they come to, four values a pixel */
-    float *sums;                     /* weighted radiances of the samples so far, and weights */
+    const render_surfaces *kept;     /* those that `view` sees, also behind lights; NULL: none */
+    render_camera view;
+    float *sums; /* weighted radiances of the samples so far, and weights */
 };
 
 /* --- creation --------------------------------------------------------------------------------- */
@@ -74,6 +76,7 @@ static void free_planes(cpu_renderer *r) {
     free(r->first_rgba);
     free(r->sums);
     r->rgba = r->first_rgba = r->sums = NULL;
+    r->kept = NULL;
 }
 
 void cpu_renderer_destroy(cpu_renderer *r) {
@@ -86,6 +89,7 @@ void cpu_renderer_destroy(cpu_renderer *r) {
 }
 
 render_materials *cpu_renderer_materials(cpu_renderer *r) {
+    r->kept = NULL; /* whoever asks may change them */
     return &r->materials;
 }
 
@@ -263,21 +267,30 @@ static bool size_planes(const drawing *d, bool keep, cli_error *error) {
         (r->sums || (r->sums = memory_large(bytes))) &&
         (!keep || r->first.memory || render_surfaces_create(width, height, layered, &r->first)) &&
         (!keep || r->first_rgba || (r->first_rgba = memory_large(bytes))) &&
-        (!d->frame->shadow.run || (render_surfaces_keep_hits(&r->surfaces) &&
-                                   (!keep || render_surfaces_keep_hits(&r->first))));
+        ((!d->frame->shadow.run && !d->frame->keep_geometry) ||
+         (render_surfaces_keep_hits(&r->surfaces) &&
+          (!keep || render_surfaces_keep_hits(&r->first))));
     if (!ok)
         free_planes(r);
     return ok || cli_fail(error, NULL, "out of memory for an image of %d x %d", width, height);
 }
 
+/* Where the camera is that of the planes, lights alone may have moved. */
 static void find_surfaces(const drawing *d, const render_camera *camera, render_surfaces *s) {
+    cpu_renderer *r = d->renderer;
     const int count = render_tile_count(s->width, s->height);
+    const bool again = r->kept == s && memcmp(&r->view, camera, sizeof *camera) == 0;
     set_planes(d, camera, s);
 #pragma omp parallel for schedule(dynamic)
     for (int i = 0; i < count; i++) {
         const render_rectangle pixels = render_tile_at(s->width, s->height, i);
-        cpu_rays_fill(&d->view, &pixels, s);
+        (again ? cpu_rays_light : cpu_rays_fill)(&d->view, &pixels, s);
     }
+    if (d->frame->keep_geometry && s->hits) {
+        r->kept = s;
+        r->view = *camera;
+    } else if (r->kept == s)
+        r->kept = NULL;
 }
 
 /* Adds rgba to the sums; with `show` the image is what there is so far. */
@@ -368,7 +381,8 @@ bool cpu_render(cpu_renderer *r, const render_frame *frame, int first, int last,
         return cli_fail(error, NULL, "out of memory");
     d.view.lights = lights;
     const bool all = first == 0 && last >= frame->samples - 1;
-    const bool whole = frame->shadow.run || reads & METHOD_READS_FIELD || !all;
+    const bool whole =
+        frame->shadow.run || frame->keep_geometry || reads & METHOD_READS_FIELD || !all;
     const bool ok =
         whole ? draw_whole(&d, first, last, show, times, error) : draw_streamed(&d, times, error);
     trace_spheres_destroy(lights);

@@ -42,38 +42,72 @@ static void set_ray(const render_camera *c, int x, int y, int lane, cpu_ray *ray
     rays->pixel[lane] = (uint32_t)x * 1664525u + (uint32_t)y * 1013904223u;
 }
 
-static void fill_square(const cpu_view *view, int x, int y, int width, int height,
-                        cpu_triangle *triangle, const render_surfaces *s) {
-    cpu_ray of[TRACE_LANES];
-    trace_rays rays = { .sample = (uint32_t)s->camera.sample,
-                        .samples = (uint32_t)s->camera.samples };
-    trace_hit hits[TRACE_LANES];
-    bool lights[TRACE_LANES] = { false };
+/* Of the pixels of a square as far as it lies in the rectangle that ends after so many. */
+static void set_rays(const render_surfaces *s, int x, int y, int width, int height,
+                     cpu_ray of[TRACE_LANES], trace_rays *rays) {
+    rays->sample = (uint32_t)s->camera.sample;
+    rays->samples = (uint32_t)s->camera.samples;
     for (int i = 0; i < TRACE_LANES; i++) {
         const int column = i % SIDE, row = i / SIDE;
         /* those past the edge are none, but have a direction like their neighbors' */
-        set_ray(&s->camera, x + column, y + row, i, &of[i], &rays);
+        set_ray(&s->camera, x + column, y + row, i, &of[i], rays);
         if (column >= width || row >= height)
-            rays.length[i] = -1;
+            rays->length[i] = -1;
     }
+}
+
+static void fill_square(const cpu_view *view, int x, int y, int width, int height,
+                        cpu_triangle *triangle, const render_surfaces *s) {
+    cpu_ray of[TRACE_LANES];
+    trace_rays rays;
+    trace_hit hits[TRACE_LANES], lights[TRACE_LANES];
+    bool lit[TRACE_LANES] = { false };
+    set_rays(s, x, y, width, height, of, &rays);
     trace_nearest_n(view->bvh, TRACE_IMAGE, &rays, hits);
+    memcpy(lights, hits, sizeof lights);
     if (view->lights)
-        trace_spheres_nearest_n(view->lights, &rays, lights, hits);
+        trace_spheres_nearest_n(view->lights, &rays, lit, lights);
     for (int i = 0; i < TRACE_LANES; i++) {
         if (rays.length[i] < 0)
             continue;
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
-        if (lights[i])
-            s->seen[at] = RENDER_SEES_LIGHT + hits[i].instance;
-        else if (hits[i].instance == TRACE_NOTHING)
+        const bool hidden = lit[i] && !s->hits; /* for good */
+        if (s->hits)
+            s->hits[at] = hits[i];
+        if (hits[i].instance == TRACE_NOTHING)
             s->seen[at] = RENDER_SEES_NOTHING;
-        else {
+        else if (!hidden) {
             cpu_triangle_find(view->scene, &hits[i], triangle);
             cpu_surface_fill(view->textures, triangle, &of[i], &hits[i], at, s);
-            if (s->hits)
-                s->hits[at] = hits[i];
         }
+        if (lit[i])
+            s->seen[at] = RENDER_SEES_LIGHT + lights[i].instance;
     }
+}
+
+static void look_for_lights(const cpu_view *view, int x, int y, int width, int height,
+                            const render_surfaces *s) {
+    cpu_ray of[TRACE_LANES];
+    trace_rays rays;
+    trace_hit hits[TRACE_LANES];
+    bool lit[TRACE_LANES] = { false };
+    set_rays(s, x, y, width, height, of, &rays);
+    for (int i = 0; i < TRACE_LANES; i++) {
+        if (rays.length[i] < 0)
+            continue;
+        const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
+        const scene *world = view->scene;
+        hits[i] = s->hits[at];
+        s->seen[at] = hits[i].instance == TRACE_NOTHING
+                          ? RENDER_SEES_NOTHING
+                          : world->meshes[world->instances[hits[i].instance].mesh].material;
+    }
+    if (view->lights)
+        trace_spheres_nearest_n(view->lights, &rays, lit, hits);
+    for (int i = 0; i < TRACE_LANES; i++)
+        if (lit[i])
+            s->seen[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)] =
+                RENDER_SEES_LIGHT + hits[i].instance;
 }
 
 void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels, const render_surfaces *s) {
@@ -82,4 +116,12 @@ void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels, const r
         for (int i = 0; i < pixels->width; i += SIDE)
             fill_square(view, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j,
                         &triangle, s);
+}
+
+void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,
+                    const render_surfaces *s) {
+    for (int j = 0; j < pixels->height; j += SIDE)
+        for (int i = 0; i < pixels->width; i += SIDE)
+            look_for_lights(view, pixels->x + i, pixels->y + j, pixels->width - i,
+                            pixels->height - j, s);
 }

@@ -23,4 +23,9 @@ bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_sp
 void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels,
                    const render_surfaces *surfaces);
 
+/* Finds the lights again that are seen before triangles: of planes that were filled for the same
+ * camera and keep their hits. */
+void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,
+                    const render_surfaces *surfaces);
+
 #endif
