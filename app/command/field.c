@@ -4,6 +4,9 @@
 #include "app/scene/world.h"
 #include "app/volume/volume.h"
 
+#include <lampion/light.h>
+
+#include <math.h>
 #include <string.h>
 
 typedef struct field_options {
@@ -27,6 +30,10 @@ static bool place_grid(const field_options *o, const scene *world, volume_grid *
         scene_point_from_world(world->origin, o->maximum, grid->maximum);
     bool extended = false;
     for (int a = 0; a < 3; a++) {
+        if (!(fabsf(grid->minimum[a]) <= LMP_LENGTH_MAX &&
+              fabsf(grid->maximum[a]) <= LMP_LENGTH_MAX))
+            return cli_fail(error, NULL, "the grid is too far away (up to %g)",
+                            (double)LMP_LENGTH_MAX);
         if (!(grid->minimum[a] <= grid->maximum[a]))
             return cli_fail(error, NULL, "the grid ends before it begins: %c from %g to %g",
                             "xyz"[a], scene_to_world(world->origin[a], grid->minimum[a]),

@@ -27,7 +27,8 @@ bool scene_find_name(const char *subject, const char *kind, const char *wanted, 
     const bool whole = *wanted && !wanted[strspn(wanted, "0123456789")];
     const unsigned long number = strtoul(wanted, NULL, 10);
     for (*index = 0; *index < count; ++*index)
-        if (strcmp(first + *index * stride, wanted) == 0 || (whole && number == *index))
+        if (strcmp(first + *index * stride, wanted) == 0)
             return true;
-    return cli_fail_member(error, subject, kind, wanted, first, stride, count);
+    *index = whole && number < count ? (size_t)number : count;
+    return *index < count || cli_fail_member(error, subject, kind, wanted, first, stride, count);
 }

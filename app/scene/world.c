@@ -31,7 +31,8 @@ void scene_point_to_world(const double origin[3], const float point[3], double w
 
 void scene_point_rebase(const double from[3], const double to[3], float point[3]) {
     for (int k = 0; k < 3; k++)
-        point[k] = (float)((double)point[k] + (from[k] - to[k]));
+        point[k] = fminf(fmaxf((float)((double)point[k] + (from[k] - to[k])), -LMP_LENGTH_MAX),
+                         LMP_LENGTH_MAX);
 }
 
 void scene_print_world(double origin, float coordinate, int digits, scene_world_text text) {

@@ -12,7 +12,8 @@ double scene_to_world(double origin, float coordinate);
 void scene_point_from_world(const double origin[3], const double world[3], float point[3]);
 void scene_point_to_world(const double origin[3], const float point[3], double world[3]);
 
-/* A point of a scene as one of a scene with another origin. */
+/* A point of a scene as one of a scene with another origin; what that puts out of reach is held at
+ * LMP_LENGTH_MAX. */
 void scene_point_rebase(const double from[3], const double to[3], float point[3]);
 
 /* The world's coordinate in so many digits; where the origin is not 0 in as many more as bring the

@@ -191,11 +191,8 @@ static bool has_draft(const view_compositor *s) {
     return s->gpu.gl.software && s->world->index_count / 3 > DRAFT_TRIANGLES;
 }
 
-/* Of a draft, by whether the view is that of the draft before. Triangles that stand for many would
- * hide light from each other. */
-static quality choose_quality(view_compositor *s, const view_settings *settings) {
-    const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
-    s->camera = settings->camera;
+/* Of a draft. Triangles that stand for many would hide light from each other. */
+static quality choose_quality(const view_compositor *s, const view_settings *settings, bool rests) {
     return rests || settings->shadows || !has_draft(s) ? RESTING : MOVING;
 }
 
@@ -340,7 +337,9 @@ static bool show_side(view_compositor *s, const view_settings *settings, any_ren
 static bool draw(view_compositor *s, const view_settings *settings, int divisor, int index,
                  view_statistics *statistics, cli_error *error) {
     const int sides = settings->split == GPU_SPLIT_NONE ? 1 : 2;
-    const quality fineness = divisor > 1 ? choose_quality(s, settings) : FINE;
+    const bool rests = memcmp(&s->camera, &settings->camera, sizeof s->camera) == 0;
+    const quality fineness = divisor > 1 ? choose_quality(s, settings, rests) : FINE;
+    s->camera = settings->camera;
     memset(statistics, 0, sizeof *statistics);
     if (!settle_environment(s, settings, error))
         return false;
@@ -355,7 +354,7 @@ static bool draw(view_compositor *s, const view_settings *settings, int divisor,
             !settle_field(s, own, shading, &frame, error) ||
             !settle_shadows(s, settings, &frame.shadow, error))
             return false;
-        frame.keep_geometry = fineness == RESTING && (renderer->cpu || s->gpu.gl.software);
+        frame.keep_geometry = renderer->cpu ? rests : fineness == RESTING && s->gpu.gl.software;
         if (index < 0 ? !renderer_draw(renderer, &frame, &times, error)
                       : !renderer_refine(renderer, &frame, index, &times, error))
             return false;

@@ -6,6 +6,7 @@ set -eu
 
 case $(uname -m) in x86_64) ;; *) echo "skipped: the instructions of x86-64 are counted"; exit 0 ;; esac
 
+command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 0; }
 cmake -S "$SOURCE" -B "$WORK/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang \
     -DCMAKE_C_FLAGS='-O2 -D_FORTIFY_SOURCE=2' -DLAMPION_PROGRAM=OFF -DLAMPION_TESTS=OFF >"$WORK/log"
 cat >"$WORK/six_bands.c" <<'C'

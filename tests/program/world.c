@@ -35,6 +35,9 @@ static void a_point_stays_where_it_is_by_another_origin(void **state) {
     float point[3] = { 0.5f, -0.25f, 3 };
     scene_point_rebase(far, other, point);
     assert_true(point[0] == 10.5f && point[1] == 99.75f && point[2] == 103);
+    float beyond[3] = { 9e16f, -9e16f, 3 };
+    scene_point_rebase((double[]) { 9e16, -9e16, 0 }, (double[]) { 0, 0, 0 }, beyond);
+    assert_true(beyond[0] == LMP_LENGTH_MAX && beyond[1] == -LMP_LENGTH_MAX && beyond[2] == 3);
     scene_point_rebase(other, far, point);
     assert_true(point[0] == 0.5f && point[1] == -0.25f && point[2] == 3);
 }

@@ -93,6 +93,7 @@ static void look_for_lights(const cpu_view *view, int x, int y, int width, int h
     bool lit[TRACE_LANES] = { false };
     set_rays(s, x, y, width, height, of, &rays);
     for (int i = 0; i < TRACE_LANES; i++) {
+        hits[i] = (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
         if (rays.length[i] < 0)
             continue;
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
