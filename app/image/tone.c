@@ -76,14 +76,23 @@ float image_exposure_of_stops(float stops) {
 
 /* --- tone curves ------------------------------------------------------------------------------ */
 
-static void filmic(const float from[3], float to[3]) {
-    for (int c = 0; c < 3; c++)
-        to[c] = tone_filmic(c, from[0], from[1], from[2]);
+static void filmic(image_tone_run rgb) {
+#pragma omp simd
+    for (int i = 0; i < IMAGE_TONE_RUN; i++) {
+        const float r = rgb[0][i], g = rgb[1][i], b = rgb[2][i];
+        rgb[0][i] = tone_filmic(0, r, g, b);
+        rgb[1][i] = tone_filmic(1, r, g, b);
+        rgb[2][i] = tone_filmic(2, r, g, b);
+    }
 }
 
-static void linear(const float from[3], float to[3]) {
-    for (int c = 0; c < 3; c++)
-        to[c] = tone_linear(c, from[0], from[1], from[2]);
+static void linear(image_tone_run rgb) {
+    for (int i = 0; i < IMAGE_TONE_RUN; i++) {
+        const float r = rgb[0][i], g = rgb[1][i], b = rgb[2][i];
+        rgb[0][i] = tone_linear(0, r, g, b);
+        rgb[1][i] = tone_linear(1, r, g, b);
+        rgb[2][i] = tone_linear(2, r, g, b);
+    }
 }
 
 const image_tone_row image_tones[] = {
@@ -151,34 +160,42 @@ static float limit(float x) {
     return x > 0 ? (x < SHARED_TONE_MAX ? x : SHARED_TONE_MAX) : 0;
 }
 
-static void map_pixel(const float *radiance, const image_display *display, float shown[3]) {
-    float x[3];
-    for (int c = 0; c < 3; c++)
-        x[c] = limit(radiance[c] * display->exposure);
-    image_tones[display->tone].apply(x, shown);
+/* What is shown of up to IMAGE_TONE_RUN pixels from `first` on; returns how many there are. */
+static size_t map_run(const image *pixels, size_t first, const image_display *display,
+                      image_tone_run shown) {
+    const size_t left = (size_t)pixels->width * (size_t)pixels->height - first;
+    const size_t count = left < IMAGE_TONE_RUN ? left : IMAGE_TONE_RUN;
+    for (size_t i = 0; i < IMAGE_TONE_RUN; i++)
+        for (size_t c = 0; c < 3; c++)
+            shown[c][i] =
+                i < count ? limit(pixels->rgb[3 * (first + i) + c] * display->exposure) : 0;
+    image_tones[display->tone].apply(shown);
+    return count;
 }
 
 void image_tone_map(const image *pixels, const image_display *display, unsigned char *rgb8) {
-    const size_t count = (size_t)pixels->width * (size_t)pixels->height;
+    const size_t all = (size_t)pixels->width * (size_t)pixels->height;
     byte_curve curve;
     make_curve(&curve);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < count; i++) {
-        float shown[3];
-        map_pixel(pixels->rgb + 3 * i, display, shown);
-        for (size_t c = 0; c < 3; c++)
-            rgb8[3 * i + c] = to_byte(&curve, shown[c]);
+    for (size_t first = 0; first < all; first += IMAGE_TONE_RUN) {
+        image_tone_run shown;
+        const size_t count = map_run(pixels, first, display, shown);
+        for (size_t i = 0; i < count; i++)
+            for (size_t c = 0; c < 3; c++)
+                rgb8[3 * (first + i) + c] = to_byte(&curve, shown[c][i]);
     }
 }
 
 void image_show(image *pixels, const image_display *display) {
-    const size_t count = (size_t)pixels->width * (size_t)pixels->height;
+    const size_t all = (size_t)pixels->width * (size_t)pixels->height;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < count; i++) {
-        float shown[3];
-        map_pixel(pixels->rgb + 3 * i, display, shown);
-        for (size_t c = 0; c < 3; c++)
-            pixels->rgb[3 * i + c] = transfer(shown[c]);
+    for (size_t first = 0; first < all; first += IMAGE_TONE_RUN) {
+        image_tone_run shown;
+        const size_t count = map_run(pixels, first, display, shown);
+        for (size_t i = 0; i < count; i++)
+            for (size_t c = 0; c < 3; c++)
+                pixels->rgb[3 * (first + i) + c] = transfer(shown[c][i]);
     }
 }
 

@@ -13,11 +13,15 @@ float image_auto_exposure(const image *image);
 /* The factor that an exposure of `stops` EV means: 2^stops. */
 float image_exposure_of_stops(float stops);
 
-/* A tone curve: `apply` takes exposed linear RGB to what is displayed of it, `function` is the same
- * in shaders/tone.h. The first row is the default. */
+/* The channels of some pixels side by side. */
+enum { IMAGE_TONE_RUN = 64 };
+typedef float image_tone_run[3][IMAGE_TONE_RUN];
+
+/* A tone curve: `apply` takes exposed linear RGB to what is displayed of it, in place, `function`
+ * is the same in shaders/tone.h. The first row is the default. */
 typedef struct image_tone_row {
     const char *name, *help;
-    void (*apply)(const float from[3], float to[3]);
+    void (*apply)(image_tone_run rgb);
     const char *function;
 } image_tone_row;
 
