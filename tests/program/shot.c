@@ -300,7 +300,7 @@ static bool open_part(const view_settings *s, int which, bool *outside) {
 static void no_swapped_link_leads_out(void **unused) {
     (void)unused;
     static const char *const names[] = { "swap/room.obj", "swap/sky.exr", "swap/dull.bsdf" };
-    const int times = check_count(150, 3000);
+    const int times = check_count(150, 600);
     char inside[64], link[64], shot[64];
     write_files();
     mkdir(in_folder("shots/swap"), 0700);
