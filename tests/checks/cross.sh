@@ -28,7 +28,9 @@ qemu-$cpu "$WORK/there" >"$WORK/there.txt"
 different=$(diff "$WORK/here.txt" "$WORK/there.txt" | sed -n 's/^< \([a-z_]*\) .*/\1/p' | sort -u)
 [ -z "$different" ] || fail "other bits than this machine's:" $different
 
-for name in kernels batch; do
+# the checksums take minutes; for s390x, whose kernels are those of any CPU without vectors, batches are enough
+[ $cpu = aarch64 ] && names='kernels batch' || names=batch
+for name in $names; do
     $cpu-linux-gnu-gcc -std=c11 -O2 -ffp-contract=off -fexcess-precision=fast -static -Itests/cross -Iinclude -I. \
         tests/kernels/$name.c tests/oracle/*.c "$built/liblampion.a" -lm -o "$WORK/$name"
     qemu-$cpu "$WORK/$name"
