@@ -77,7 +77,6 @@ float image_exposure_of_stops(float stops) {
 /* --- tone curves ------------------------------------------------------------------------------ */
 
 static void filmic(image_tone_run rgb) {
-#pragma omp simd
     for (int i = 0; i < IMAGE_TONE_RUN; i++) {
         const float r = rgb[0][i], g = rgb[1][i], b = rgb[2][i];
         rgb[0][i] = tone_filmic(0, r, g, b);
