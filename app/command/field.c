@@ -53,7 +53,7 @@ static bool write_field(const field_options *o, const scene *world, const enviro
                         "--environment none)");
     const bool ok = volume_make_field(world, settings, &field, error) &&
                     volume_write_field(field, o->output.path, error);
-    if (ok && (world->origin[0] != 0.0 || world->origin[1] != 0.0 || world->origin[2] != 0.0))
+    if (ok && !scene_origin_is_0(world->origin))
         cli_note(o->output.path, "is relative to %.17g,%.17g,%.17g, for a field has float32",
                  world->origin[0], world->origin[1], world->origin[2]);
     lmp_field_destroy(field);

@@ -76,22 +76,22 @@ float image_exposure_of_stops(float stops) {
 
 /* --- tone curves ------------------------------------------------------------------------------ */
 
-static void filmic(image_tone_run rgb) {
+/* Inlined with each curve, so that what its channels share is computed once. */
+static inline void apply(float curve(int channel, float r, float g, float b), image_tone_run rgb) {
     for (int i = 0; i < IMAGE_TONE_RUN; i++) {
         const float r = rgb[0][i], g = rgb[1][i], b = rgb[2][i];
-        rgb[0][i] = tone_filmic(0, r, g, b);
-        rgb[1][i] = tone_filmic(1, r, g, b);
-        rgb[2][i] = tone_filmic(2, r, g, b);
+        rgb[0][i] = curve(0, r, g, b);
+        rgb[1][i] = curve(1, r, g, b);
+        rgb[2][i] = curve(2, r, g, b);
     }
 }
 
+static void filmic(image_tone_run rgb) {
+    apply(tone_filmic, rgb);
+}
+
 static void linear(image_tone_run rgb) {
-    for (int i = 0; i < IMAGE_TONE_RUN; i++) {
-        const float r = rgb[0][i], g = rgb[1][i], b = rgb[2][i];
-        rgb[0][i] = tone_linear(0, r, g, b);
-        rgb[1][i] = tone_linear(1, r, g, b);
-        rgb[2][i] = tone_linear(2, r, g, b);
-    }
+    apply(tone_linear, rgb);
 }
 
 const image_tone_row image_tones[] = {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "app/reference/trace.h"
 
+#include "app/scene/instance.h"
 #include "app/trace/trace.h"
 
 #include <stdlib.h>
@@ -94,7 +95,7 @@ reference_hit reference_tracer_see(const reference_tracer *tracer, reference_vec
     if (found.instance == TRACE_NOTHING)
         return hit;
     const scene *world = tracer->scene;
-    const uint32_t material = world->meshes[world->instances[found.instance].mesh].material;
+    const uint32_t material = scene_instance_material(world, found.instance);
     corner_weights c;
     trace_corners(world, &found, c.vertices, c.weights);
     const reference_vec face = reference_normalize(face_normal(&c));

@@ -43,6 +43,11 @@ float scene_instance_scale(const scene_instance *instance);
 /* A box in which all these positions of the instance lie. */
 void scene_instance_box(const scene *scene, size_t instance, float minimum[3], float maximum[3]);
 
+/* The number of the material that its triangles have. */
+static inline uint32_t scene_instance_material(const scene *s, size_t instance) {
+    return s->meshes[s->instances[instance].mesh].material;
+}
+
 /* Triangles of an instance, and of all of them. */
 uint32_t scene_instance_triangles(const scene *scene, size_t instance);
 size_t scene_triangle_count(const scene *scene);

@@ -6,6 +6,11 @@
 
 #include <stdbool.h>
 
+/* Whether it is that of ordinary scenes. */
+static inline bool scene_origin_is_0(const double origin[3]) {
+    return origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0;
+}
+
 /* A coordinate, or a point, on its way between the two. */
 float scene_from_world(double origin, double world);
 double scene_to_world(double origin, float coordinate);

@@ -5,6 +5,8 @@
 
 #include "app/scene/scene.h"
 
+#include <math.h>
+
 typedef struct trace_bvh trace_bvh;
 
 /* Which triangles stop a ray. */
@@ -30,6 +32,10 @@ typedef struct trace_hit {
     uint32_t triangle; /* of the instance */
     float u, v;        /* weights of its second and third corner */
 } trace_hit;
+
+static inline trace_hit trace_miss(void) {
+    return (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
+}
 
 /* How far a ray that leaves a surface starts off it, against rounding. */
 double trace_lift(const scene *scene);

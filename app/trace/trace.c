@@ -231,7 +231,7 @@ static trace_hit nearest(const trace_bvh *bvh, trace_context *context, const flo
     };
     rtcIntersect1(bvh->rays, &context->embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
+        return trace_miss();
     return (trace_hit) { query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u,
                          query.hit.v };
 }
@@ -253,10 +253,9 @@ static void trace_apart(const trace_bvh *bvh, trace_context *context, const trac
         const float origin[3] = { rays->origin[0][i], rays->origin[1][i], rays->origin[2][i] };
         const float direction[3] = { rays->direction[0][i], rays->direction[1][i],
                                      rays->direction[2][i] };
-        if (rays->length[i] >= 0)
-            hits[i] = nearest(bvh, context, origin, direction, rays->start[i], rays->length[i], i);
-        else
-            hits[i] = (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
+        hits[i] = rays->length[i] >= 0
+                      ? nearest(bvh, context, origin, direction, rays->start[i], rays->length[i], i)
+                      : trace_miss();
     }
 }
 
@@ -268,7 +267,7 @@ static void trace_together(const trace_bvh *bvh, trace_context *context, const t
     rtcIntersect16(valid, bvh->rays, &context->embree, &query);
     for (int i = 0; i < TRACE_LANES; i++)
         hits[i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                      ? (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING }
+                      ? trace_miss()
                       : (trace_hit) { query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i],
                                       query.hit.u[i], query.hit.v[i] };
 }

@@ -20,8 +20,7 @@ typedef struct trace_instance {
     const trace_corner_set *corners; /* of its triangles */
     const scene_instance *placed;
     const scene_material *material;
-    bool moves,
-        mirrors; /* the corners are those of a mesh that it moves, or whose sides it changes */
+    bool moves, mirrors; /* the corners are the mesh's, which it moves, or whose sides it changes */
 } trace_instance;
 
 /* A geometry of Embree's: a mesh that one instance alone has, in the world; or one of several, in
@@ -29,11 +28,10 @@ typedef struct trace_instance {
 typedef struct trace_mesh {
     const trace_bvh *bvh;
     const scene_mesh *mesh;
-    uint32_t uses, instance; /* instances, and the last of them */
-    trace_corner_set
-        *corners;  /* of its triangles, in its own space; of one instance, in the world */
-    float margin;  /* of its triangles' bounds */
-    RTCScene tree; /* of more than one instance */
+    uint32_t uses, instance;   /* instances, and the last of them */
+    trace_corner_set *corners; /* in its own space; of one instance, in the world */
+    float margin;              /* of its triangles' bounds */
+    RTCScene tree;             /* of more than one instance */
 } trace_mesh;
 
 struct trace_bvh {

@@ -70,7 +70,7 @@ void view_settings_rebase(view_settings *s, const double origin[3]) {
 
 /* Told where it is not 0: what is in the world then becomes the same again to the bit. */
 static void add_origin(cJSON *root, const double origin[3]) {
-    if (origin[0] == 0.0 && origin[1] == 0.0 && origin[2] == 0.0)
+    if (scene_origin_is_0(origin))
         return;
     cJSON *array = cJSON_AddArrayToObject(root, "origin");
     for (int k = 0; k < 3; k++) {

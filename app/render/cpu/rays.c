@@ -56,59 +56,59 @@ static void set_rays(const render_surfaces *s, int x, int y, int width, int heig
     }
 }
 
+/* Lights are seen where they are before what the rays have hit. */
+static void see_lights(const cpu_view *view, int x, int y, const trace_rays *rays,
+                       trace_hit hits[TRACE_LANES], const render_surfaces *s) {
+    bool found[TRACE_LANES] = { false };
+    if (view->lights)
+        trace_spheres_nearest_n(view->lights, rays, found, hits);
+    for (int i = 0; i < TRACE_LANES; i++)
+        if (found[i])
+            s->seen[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)] =
+                RENDER_SEES_LIGHT + hits[i].instance;
+}
+
 static void fill_square(const cpu_view *view, int x, int y, int width, int height,
                         cpu_triangle *triangle, const render_surfaces *s) {
     cpu_ray of[TRACE_LANES];
     trace_rays rays;
-    trace_hit hits[TRACE_LANES], lights[TRACE_LANES];
-    bool lit[TRACE_LANES] = { false };
+    trace_hit hits[TRACE_LANES];
     set_rays(s, x, y, width, height, of, &rays);
     trace_nearest_n(view->bvh, TRACE_IMAGE, &rays, hits);
-    memcpy(lights, hits, sizeof lights);
-    if (view->lights)
-        trace_spheres_nearest_n(view->lights, &rays, lit, lights);
     for (int i = 0; i < TRACE_LANES; i++) {
         if (rays.length[i] < 0)
             continue;
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
-        const bool hidden = lit[i] && !s->hits; /* for good */
         if (s->hits)
             s->hits[at] = hits[i];
         if (hits[i].instance == TRACE_NOTHING)
             s->seen[at] = RENDER_SEES_NOTHING;
-        else if (!hidden) {
+        else {
             cpu_triangle_find(view->scene, &hits[i], triangle);
             cpu_surface_fill(view->textures, triangle, &of[i], &hits[i], at, s);
         }
-        if (lit[i])
-            s->seen[at] = RENDER_SEES_LIGHT + lights[i].instance;
     }
+    see_lights(view, x, y, &rays, hits, s);
 }
 
-static void look_for_lights(const cpu_view *view, int x, int y, int width, int height,
-                            const render_surfaces *s) {
+/* What the triangles of a square show, and the lights before them, by the hits that were kept. */
+static void light_square(const cpu_view *view, int x, int y, int width, int height,
+                         const render_surfaces *s) {
     cpu_ray of[TRACE_LANES];
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
-    bool lit[TRACE_LANES] = { false };
     set_rays(s, x, y, width, height, of, &rays);
     for (int i = 0; i < TRACE_LANES; i++) {
-        hits[i] = (trace_hit) { .distance = INFINITY, .instance = TRACE_NOTHING };
+        hits[i] = trace_miss();
         if (rays.length[i] < 0)
             continue;
         const size_t at = render_surfaces_at(s, x + i % SIDE, y + i / SIDE);
-        const scene *world = view->scene;
         hits[i] = s->hits[at];
         s->seen[at] = hits[i].instance == TRACE_NOTHING
                           ? RENDER_SEES_NOTHING
-                          : world->meshes[world->instances[hits[i].instance].mesh].material;
+                          : scene_instance_material(view->scene, hits[i].instance);
     }
-    if (view->lights)
-        trace_spheres_nearest_n(view->lights, &rays, lit, hits);
-    for (int i = 0; i < TRACE_LANES; i++)
-        if (lit[i])
-            s->seen[render_surfaces_at(s, x + i % SIDE, y + i / SIDE)] =
-                RENDER_SEES_LIGHT + hits[i].instance;
+    see_lights(view, x, y, &rays, hits, s);
 }
 
 void cpu_rays_fill(const cpu_view *view, const render_rectangle *pixels, const render_surfaces *s) {
@@ -123,6 +123,6 @@ void cpu_rays_light(const cpu_view *view, const render_rectangle *pixels,
                     const render_surfaces *s) {
     for (int j = 0; j < pixels->height; j += SIDE)
         for (int i = 0; i < pixels->width; i += SIDE)
-            look_for_lights(view, pixels->x + i, pixels->y + j, pixels->width - i,
-                            pixels->height - j, s);
+            light_square(view, pixels->x + i, pixels->y + j, pixels->width - i, pixels->height - j,
+                         s);
 }

@@ -154,7 +154,7 @@ void cpu_triangle_find(const scene *world, const trace_hit *hit, cpu_triangle *t
         return;
     t->instance = hit->instance;
     t->triangle = hit->triangle;
-    t->number = world->meshes[world->instances[hit->instance].mesh].material;
+    t->number = scene_instance_material(world, hit->instance);
     t->material = &world->materials[t->number];
     t->mapped = false;
     for (int i = 0; i < SCENE_MAPS; i++)

@@ -17,7 +17,7 @@ typedef struct level {
 
 typedef struct texture {
     level levels[LEVELS];
-    int count;
+    int count; /* 0 until they are measured */
     bool srgb;
     uint32_t wrap_u, wrap_v;
 } texture;
@@ -151,15 +151,14 @@ static bool make_all_levels(cpu_textures *t) {
     if (t->memory) {
 #pragma omp parallel for schedule(dynamic)
         for (size_t i = 0; i < t->count; i++)
-            if (!find_same(t, i))
+            if (t->of[i].count > 0)
                 make_levels(t, &t->of[i], t->memory + first[i]);
-        for (size_t i = 0; i < t->count; i++) {
-            const texture *same = find_same(t, i);
-            if (same) {
+        for (size_t i = 0; i < t->count; i++)
+            if (t->of[i].count == 0) {
+                const texture *same = find_same(t, i);
                 memcpy(t->of[i].levels, same->levels, sizeof same->levels);
                 t->of[i].count = same->count;
             }
-        }
     }
     free(first);
     return t->memory;

@@ -30,8 +30,7 @@ struct render_surfaces {
     float *coat_normal[3], *coat, *coat_roughness; /* of layered materials alone */
     float *tint[3];                                /* a factor on F0 */
     float *sheen[3], *sheen_roughness;
-    trace_hit
-        *hits; /* the triangles, also behind lights; NULL of a G-buffer, and where nobody asks */
+    trace_hit *hits; /* triangles, also behind lights; NULL of a G-buffer, or if nobody asks */
 };
 
 /* Planes for a rectangle of so many pixels at 0, 0. False without memory. */
