@@ -162,8 +162,9 @@ static void intersect(const struct RTCIntersectFunctionNArguments *a) {
             if (a->valid[i] && triangle_test(&context->rays, first + i, 1, corners, &hits))
                 consider(&p, i, triangle_hit_at(&hits, 0));
     } else if (triangle_test(&context->rays, first, a->N, corners, &hits)) {
+        const float *ends = embree_value(&p.lanes, EMBREE_END, 0);
         for (unsigned i = 0; i < a->N; i++)
-            if (a->valid[i])
+            if (a->valid[i] && hits.distance[i] <= ends[i]) /* most pass by, or behind another */
                 consider(&p, i, triangle_hit_at(&hits, i));
     }
 }

@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-void triangle_rays_set(const float *const origin[3], const float *const direction[3],
-                       unsigned count, triangle_rays *rays) {
-    for (unsigned i = 0; i < count; i++) {
+void triangle_rays_set(const float *const origin[3], const float *const direction[3], size_t count,
+                       triangle_rays *rays) {
+    for (size_t i = 0; i < count; i++) {
         int axis = 0;
         for (int c = 1; c < 3; c++)
             if (fabsf(direction[c][i]) > fabsf(direction[axis][i]))
@@ -23,7 +23,7 @@ void triangle_rays_set(const float *const origin[3], const float *const directio
         rays->origin[2][i] = origin[last][i];
     }
     rays->common = rays->axis[0];
-    for (unsigned i = 1; i < count; i++)
+    for (size_t i = 1; i < count; i++)
         if (rays->axis[i] != rays->axis[0])
             rays->common = -1;
 }
@@ -38,10 +38,11 @@ static inline float pick(int axis, float a, float b, float c) {
     return axis == 0 ? a : axis == 1 ? b : c;
 }
 
-static inline void move_corner(const triangle_rays *r, unsigned first, unsigned count, int axis,
+/* Indices have the width of addresses: lanes after one that might wrap round would be gathered. */
+static inline void move_corner(const triangle_rays *r, size_t first, size_t count, int axis,
                                const float *p, corner_lanes *corner) {
-    for (unsigned i = 0; i < count; i++) {
-        const unsigned k = first + i;
+    for (size_t i = 0; i < count; i++) {
+        const size_t k = first + i;
         const int own = axis >= 0 ? axis : r->axis[k];
         const float z = pick(own, p[0], p[1], p[2]) - r->origin[0][k];
         const float x = pick(own, p[1], p[2], p[0]) - r->origin[1][k];
@@ -52,10 +53,10 @@ static inline void move_corner(const triangle_rays *r, unsigned first, unsigned 
     }
 }
 
-static inline void move_corners(const triangle_rays *r, unsigned first, unsigned count,
+static inline void move_corners(const triangle_rays *r, size_t first, size_t count,
                                 const float *const corners[3], corner_lanes at[3]) {
     for (int k = 0; k < 3; k++)
-        switch (r->common) {
+        switch (count == 1 ? r->axis[first] : r->common) {
         case 0:
             move_corner(r, first, count, 0, corners[k], &at[k]);
             break;
@@ -77,12 +78,12 @@ typedef struct side_lanes {
 } side_lanes;
 
 /* Of the edge from a to b. Rounding is monotonic: the sign is right or the result 0. */
-static inline float side_of(const corner_lanes *a, const corner_lanes *b, unsigned i) {
+static inline float side_of(const corner_lanes *a, const corner_lanes *b, size_t i) {
     return b->x[i] * a->y[i] - b->y[i] * a->x[i];
 }
 
 /* The products are exact in double, and so is the sign. */
-static float exact_side_of(const corner_lanes *a, const corner_lanes *b, unsigned i) {
+static float exact_side_of(const corner_lanes *a, const corner_lanes *b, size_t i) {
     return (float)((double)b->x[i] * (double)a->y[i] - (double)b->y[i] * (double)a->x[i]);
 }
 
@@ -91,9 +92,9 @@ static inline int is_inside(float u, float v, float w) {
 }
 
 /* Whether some ray may hit. */
-static inline bool find_sides(const corner_lanes at[3], unsigned count, side_lanes *sides) {
+static inline bool find_sides(const corner_lanes at[3], size_t count, side_lanes *sides) {
     int any = 0, some = 0;
-    for (unsigned i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         const float u = side_of(&at[1], &at[2], i), v = side_of(&at[2], &at[0], i);
         const float w = side_of(&at[0], &at[1], i);
         sides->weights[0][i] = u;
@@ -102,17 +103,17 @@ static inline bool find_sides(const corner_lanes at[3], unsigned count, side_lan
         some |= (u == 0) | (v == 0) | (w == 0);
         any |= is_inside(u, v, w);
     }
-    for (unsigned i = 0; some && i < count; i++)
+    for (size_t i = 0; some && i < count; i++)
         for (int k = 0; k < 3; k++)
             if (sides->weights[k][i] == 0)
                 sides->weights[k][i] = exact_side_of(&at[(k + 1) % 3], &at[(k + 2) % 3], i);
     return any;
 }
 
-static inline void find_hits(const triangle_rays *rays, unsigned first, unsigned count,
+static inline void find_hits(const triangle_rays *rays, size_t first, size_t count,
                              const corner_lanes at[3], const side_lanes *sides,
                              triangle_hits *hits) {
-    for (unsigned i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         const float u = sides->weights[0][i], v = sides->weights[1][i], w = sides->weights[2][i];
         const float sum = u + v + w, scale = 1 / sum;
         const float mean = (u * at[0].along[i] + v * at[1].along[i] + w * at[2].along[i]) *
@@ -125,7 +126,7 @@ static inline void find_hits(const triangle_rays *rays, unsigned first, unsigned
     }
 }
 
-static inline bool test(const triangle_rays *rays, unsigned first, unsigned count,
+static inline bool test(const triangle_rays *rays, size_t first, size_t count,
                         const float *const corners[3], triangle_hits *hits) {
     corner_lanes at[3];
     side_lanes sides;
@@ -137,7 +138,7 @@ static inline bool test(const triangle_rays *rays, unsigned first, unsigned coun
 }
 
 /* Embree's packets have these widths; each has its own loops, of a known length. */
-TRACE_WIDE bool triangle_test(const triangle_rays *rays, unsigned first, unsigned count,
+TRACE_WIDE bool triangle_test(const triangle_rays *rays, size_t first, size_t count,
                               const float *const corners[3], triangle_hits *hits) {
     switch (count) {
     case 1:

@@ -6,6 +6,7 @@
 #define LAMPION_TRACE_TRIANGLE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #define TRIANGLE_LANES 16
 
@@ -21,8 +22,8 @@ typedef struct triangle_rays {
 
 /* Makes `count` rays, 1 to TRIANGLE_LANES, of rows of origins and directions. A direction of no
  * length hits nothing. */
-void triangle_rays_set(const float *const origin[3], const float *const direction[3],
-                       unsigned count, triangle_rays *rays);
+void triangle_rays_set(const float *const origin[3], const float *const direction[3], size_t count,
+                       triangle_rays *rays);
 
 typedef struct triangle_hits {
     triangle_lanes distance;    /* in lengths of the direction; NaN of rays that pass by */
@@ -36,7 +37,7 @@ typedef struct triangle_hit {
     bool front;
 } triangle_hit;
 
-static inline triangle_hit triangle_hit_at(const triangle_hits *hits, unsigned i) {
+static inline triangle_hit triangle_hit_at(const triangle_hits *hits, size_t i) {
     return (triangle_hit) { hits->distance[i], hits->u[i], hits->v[i], hits->front[i] };
 }
 
@@ -47,7 +48,7 @@ static inline triangle_hit triangle_hit_at(const triangle_hits *hits, unsigned i
  * comes from its corners alone, each moved into the ray's space by itself, and is never rounded to
  * the other side. A distance is a mean of the corners' own, weighted by what is never negative, so
  * that it lies within the triangle's bounds however grazing the ray. */
-bool triangle_test(const triangle_rays *rays, unsigned first, unsigned count,
+bool triangle_test(const triangle_rays *rays, size_t first, size_t count,
                    const float *const corners[3], triangle_hits *hits);
 
 #endif
