@@ -8,12 +8,20 @@
 
 /* --- planes ----------------------------------------------------------------------------------- */
 
-enum { PLAIN = 16, LAYERED = 12 };
+enum { PLAIN = 16, LAYERED = 12, TILED = 16 };
+
+/* Planes of a tile have 4096 bytes: end to end, the same pixel of all of them would share one set
+ * of a cache, which holds fewer. So a cache line lies between. */
+enum { APART = 16 };
+
+static size_t bytes_of(size_t planes, size_t count) {
+    return planes * (count + APART) * sizeof(float);
+}
 
 /* Gives the next plane of `count` values. */
 static float *next(float **memory, size_t count) {
     float *plane = *memory;
-    *memory += count;
+    *memory += count + APART;
     return plane;
 }
 
@@ -21,7 +29,7 @@ bool render_surfaces_create(int width, int height, bool layered, render_surfaces
     const size_t count = (size_t)width * (size_t)height;
     const size_t planes = 1 + PLAIN + (layered ? LAYERED : 0);
     memset(s, 0, sizeof *s);
-    float *memory = memory_large(planes * count * sizeof *memory);
+    float *memory = memory_large(bytes_of(planes, count));
     if (!memory)
         return false;
     s->width = width;
@@ -82,7 +90,7 @@ render_rectangle render_tile_at(int width, int height, int number) {
 bool render_tile_create(int pixels, render_tile *tile) {
     const size_t count = (size_t)pixels;
     memset(tile, 0, sizeof *tile);
-    float *memory = malloc(count * (sizeof *tile->material + 16 * sizeof(float) + 1));
+    float *memory = malloc(count * (sizeof *tile->material + 1) + bytes_of(TILED, count));
     if (!memory)
         return false;
     tile->material = (lmp_material *)(void *)memory;
