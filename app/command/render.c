@@ -51,29 +51,37 @@ static void move_lights(render_job *j, int index) {
     j->frame.lights = j->moved;
 }
 
-/* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker.
- * What is seen past everything does not count, and the studio has an exposure of its own. */
-static bool settle_exposure(render_job *j, cli_error *error) {
+static void set_exposure(render_job *j, float factor) {
+    j->display.exposure = factor * image_exposure_of_stops(j->options->stops);
+    if (image_format_of(j->options->output) == IMAGE_PNG)
+        j->frame.samples_exposure = j->display.exposure;
+}
+
+static float expose(void *job, const image *pixels) {
+    render_job *j = job;
+    set_exposure(j, image_auto_exposure(pixels));
+    return j->frame.samples_exposure;
+}
+
+/* The exposure of frame 0 serves all, whichever are rendered here: a sequence must not flicker. If
+ * that is drawn, it tells on the way. The studio has an exposure of its own. */
+static bool settle_exposure(render_job *j, int first, cli_error *error) {
     const render_options *o = j->options;
-    float factor =
+    const float factor =
         o->exposure_given ? o->exposure : environment_exposure(&j->around, j->world.light_count);
-    if (!(factor > 0)) {
-        move_lights(j, 0);
+    j->display.tone = o->tone;
+    if (factor > 0)
+        set_exposure(j, factor);
+    else if (!o->frames_given || first == 0)
+        j->frame.meter = (render_meter) { expose, j };
+    else {
         image pixels;
-        render_frame frame = j->frame;
-        frame.samples = 1;
-        frame.hide_backdrop = true;
-        memset(frame.background, 0, sizeof frame.background);
-        if (!renderer_draw(j->renderer, &frame, NULL, error) ||
-            !renderer_read_image(j->renderer, &pixels, error))
+        move_lights(j, 0);
+        if (!renderer_meter(j->renderer, &j->frame, &pixels, error))
             return false;
-        factor = image_auto_exposure(&pixels);
+        set_exposure(j, image_auto_exposure(&pixels));
         image_free(&pixels);
     }
-    j->display.tone = o->tone;
-    j->display.exposure = factor * image_exposure_of_stops(o->stops);
-    if (image_format_of(o->output) == IMAGE_PNG)
-        j->frame.samples_exposure = j->display.exposure;
     return true;
 }
 
@@ -83,6 +91,7 @@ static bool draw_frame(render_job *j, int index, cli_error *error) {
     move_lights(j, index);
     if (!renderer_draw(j->renderer, &j->frame, NULL, error))
         return false;
+    j->frame.meter.run = NULL;
     return image_format_of(path) == IMAGE_EXR ? write_exr(j, path, error)
                                               : write_png(j, path, error);
 }
@@ -98,7 +107,7 @@ static void split_frames(const render_options *o, int *first, int *end) {
 static bool render_frames(render_job *j, cli_error *error) {
     int first, end;
     split_frames(j->options, &first, &end);
-    bool ok = settle_exposure(j, error);
+    bool ok = settle_exposure(j, first, error);
     for (int i = first; i < end && ok; i++) {
         cli_progress("rendering", (double)(i - first) / (double)(end - first));
         ok = draw_frame(j, i, error);

@@ -136,17 +136,38 @@ void renderer_set_environment(any_renderer *r, const environment *around) {
         cpu_set_environment(r->cpu, around);
 }
 
+bool renderer_meter(any_renderer *r, const render_frame *frame, image *pixels, cli_error *error) {
+    render_frame first = *frame;
+    first.hide_backdrop = true;
+    first.meter.run = NULL;
+    memset(first.background, 0, sizeof first.background);
+    if (r->gl)
+        first.samples = 1;
+    return (r->gl ? gpu_render(r->gl, &first, NULL, error)
+                  : cpu_render(r->cpu, &first, 1, NULL, error)) &&
+           renderer_read_image(r, pixels, error);
+}
+
 bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *times,
                    cli_error *error) {
-    const int last = frame->samples > 1 ? frame->samples - 1 : 0;
-    return r->gl ? gpu_render(r->gl, frame, times, error)
-                 : cpu_render(r->cpu, frame, 0, last, false, times, error);
+    render_frame metered = *frame;
+    if (frame->meter.run && !(r->cpu && cpu_meters(frame))) {
+        image pixels;
+        if (!renderer_meter(r, frame, &pixels, error))
+            return false;
+        metered.samples_exposure = frame->meter.run(frame->meter.user, &pixels);
+        metered.meter.run = NULL;
+        image_free(&pixels);
+    }
+    return r->gl ? gpu_render(r->gl, &metered, times, error)
+                 : cpu_render(r->cpu, &metered, frame->samples > 1 ? frame->samples : 1, times,
+                              error);
 }
 
 bool renderer_refine(any_renderer *r, const render_frame *frame, int index, render_times *times,
                      cli_error *error) {
     return r->gl ? gpu_refine(r->gl, frame, index, times, error)
-                 : cpu_render(r->cpu, frame, index, index, true, times, error);
+                 : cpu_refine(r->cpu, frame, index, times, error);
 }
 
 bool renderer_read_rgb8(any_renderer *r, const image_display *display, unsigned char *rgb8,

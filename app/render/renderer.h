@@ -72,6 +72,11 @@ void renderer_set_fibers(any_renderer *renderer, const lmp_brdf_table *const *wh
  * outlive the renderer. */
 void renderer_set_environment(any_renderer *renderer, const environment *environment);
 
+/* What a frame's exposure is found by: its first sample alone, where what is seen past everything
+ * is black. *pixels is created. */
+bool renderer_meter(any_renderer *renderer, const render_frame *frame, image *pixels,
+                    cli_error *error);
+
 /* Renders all samples into the renderer's image. times may be NULL. */
 bool renderer_draw(any_renderer *renderer, const render_frame *frame, render_times *times,
                    cli_error *error);

@@ -404,11 +404,7 @@ bool view_compositor_expose(view_compositor *s, const view_settings *settings, f
     *exposure = environment_exposure(&s->around, settings->light_count);
     if (*exposure > 0)
         return true;
-    frame.samples = 1;
-    frame.hide_backdrop = true;
-    memset(frame.background, 0, sizeof frame.background);
-    if (!renderer_draw(renderer, &frame, NULL, error) ||
-        !renderer_read_image(renderer, &pixels, error))
+    if (!renderer_meter(renderer, &frame, &pixels, error))
         return false;
     *exposure = image_auto_exposure(&pixels);
     image_free(&pixels);

@@ -5,6 +5,7 @@
 
 #include "tests/oracle/check.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 64, HEIGHT = 36 };
@@ -100,6 +101,113 @@ static void another_view_is_traced(void **state) {
     renderer_destroy(renderer);
 }
 
+/* Glowing balls under coats, which take their part of the glow until a table replaces both: planes
+ * that were kept hold the glow. */
+static void other_materials_are_looked_at_again(void **state) {
+    const fixture *f = *state;
+    cli_error error = { "" };
+    scene world = f->world;
+    scene_material *materials = malloc(world.material_count * sizeof *materials);
+    int *uses = calloc(world.material_count, sizeof *uses);
+    assert_true(materials && uses);
+    for (size_t i = 0; i < world.material_count; i++) {
+        materials[i] = world.materials[i];
+        materials[i].coat = 1;
+        materials[i].emission[0] = 0.5f;
+    }
+    world.materials = materials;
+    fixture coated = { .world = world };
+    assert_true(render_device_open(DEVICE_CPU, NULL, &coated.world, &coated.device, &error));
+    any_renderer *renderer = renderer_create(&coated.device, &error);
+    any_renderer *fresh = renderer_create(&coated.device, &error);
+    assert_true(renderer && fresh);
+    const render_frame frame = frame_of(&coated, world.lights, world.light_count);
+    const lmp_brdf_table_desc desc = { .bands = frame.bands, .rings_max = 16 };
+    lmp_sgd sgd;
+    lmp_brdf *brdf;
+    lmp_brdf_table *table;
+    assert_int_equal(lmp_sgd_find("red-fabric", &sgd), LMP_OK);
+    assert_int_equal(lmp_brdf_create_sgd(NULL, &sgd, &brdf), LMP_OK);
+    assert_int_equal(lmp_brdf_table_create(NULL, &desc, brdf, &table), LMP_OK);
+    lmp_brdf_destroy(brdf);
+    image before, again, anew;
+    draw(renderer, &frame, &before);
+    const lmp_brdf_table *const tables[] = { table };
+    assert_true(renderer_set_tables(renderer, tables, 1, uses, &error));
+    assert_true(renderer_set_tables(fresh, tables, 1, uses, &error));
+    draw(renderer, &frame, &again);
+    draw(fresh, &frame, &anew);
+    const size_t bytes = 3 * (size_t)WIDTH * HEIGHT * sizeof *anew.rgb;
+    assert_memory_equal(again.rgb, anew.rgb, bytes);
+    assert_memory_not_equal(again.rgb, before.rgb, bytes);
+    image_free(&before);
+    image_free(&again);
+    image_free(&anew);
+    renderer_destroy(fresh);
+    renderer_destroy(renderer);
+    render_device_close(&coated.device);
+    lmp_brdf_table_destroy(table);
+    free(uses);
+    free(materials);
+}
+
+/* --- the meter -------------------------------------------------------------------------------- */
+
+typedef struct metered {
+    image pixels; /* what the meter saw */
+    int runs;
+} metered;
+
+static float meter(void *user, const image *pixels) {
+    metered *m = user;
+    const size_t count = 3 * (size_t)pixels->width * (size_t)pixels->height;
+    cli_error error = { "" };
+    assert_true(image_create(&m->pixels, pixels->width, pixels->height, &error));
+    memcpy(m->pixels.rgb, pixels->rgb, count * sizeof *pixels->rgb);
+    m->runs++;
+    return 3;
+}
+
+/* The meter sees the frame of one sample before black, and the mean is that of its exposure. */
+static void expect_metered(const fixture *f, render_frame frame) {
+    cli_error error = { "" };
+    any_renderer *renderer = renderer_create(&f->device, &error);
+    assert_non_null(renderer);
+    const size_t bytes = 3 * (size_t)frame.width * (size_t)frame.height * sizeof(float);
+    metered m = { .runs = 0 };
+    image drawn, first, exposed;
+    frame.meter = (render_meter) { meter, &m };
+    draw(renderer, &frame, &drawn);
+    assert_int_equal(m.runs, 1);
+    assert_true(renderer_meter(renderer, &frame, &first, &error));
+    assert_int_equal(m.runs, 1);
+    assert_memory_equal(m.pixels.rgb, first.rgb, bytes);
+    assert_true(first.rgb[0] == 0);
+    assert_true(frame.samples > 1 || drawn.rgb[0] == frame.background[0]);
+    frame.meter.run = NULL;
+    frame.samples_exposure = 3;
+    draw_anew(f, frame, &exposed);
+    assert_memory_equal(drawn.rgb, exposed.rgb, bytes);
+    image_free(&m.pixels);
+    image_free(&drawn);
+    image_free(&first);
+    image_free(&exposed);
+    renderer_destroy(renderer);
+}
+
+static void the_meter_sees_the_first_sample(void **state) {
+    const fixture *f = *state;
+    for (int samples = 1; samples <= 4; samples += 3)
+        for (int planes = 0; planes < 2; planes++) {
+            render_frame frame = frame_of(f, f->world.lights, f->world.light_count);
+            frame.camera.target[1] += 10; /* so that nothing stands in the upper left corner */
+            frame.background[0] = 0.5f;
+            frame.samples = samples;
+            frame.keep_geometry = planes;
+            expect_metered(f, frame);
+        }
+}
+
 static int open_scene(void **state) {
     static fixture f;
     cli_error error = { "" };
@@ -119,6 +227,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_light_that_moves_uncovers_what_it_hid),
         cmocka_unit_test(another_view_is_traced),
+        cmocka_unit_test(other_materials_are_looked_at_again),
+        cmocka_unit_test(the_meter_sees_the_first_sample),
     };
     return cmocka_run_group_tests(tests, open_scene, close_scene);
 }

@@ -108,6 +108,8 @@ typedef struct drawing {
     cpu_renderer *renderer;
     const render_frame *frame;
     cpu_view view;
+    int samples;            /* of which the image is the mean, when all are there */
+    float exposure;         /* of the frame's samples */
     double surfaces, shade; /* seconds of all threads */
 } drawing;
 
@@ -120,9 +122,9 @@ static void set_planes(const drawing *d, const render_camera *camera, render_sur
 
 /* Bright samples weigh less, as the tone curve will make of them: the edge of a lamp then fades
  * over a pixel instead of staying jagged (shaders/resolve.comp does the same). */
-static void add_sample(const render_frame *frame, const float *rgba, float sum[4]) {
+static void add_sample(float exposure, const float *rgba, float sum[4]) {
     const float brightest = fmaxf(rgba[0], fmaxf(rgba[1], rgba[2]));
-    const float weight = 1 / (1 + frame->samples_exposure * brightest);
+    const float weight = 1 / (1 + exposure * brightest);
     for (int c = 0; c < 3; c++)
         sum[c] += rgba[c] * weight;
     sum[3] += weight;
@@ -173,9 +175,8 @@ static size_t tile_index(int row, int column) {
 static void draw_tile(const drawing *d, const shade_job *job, const render_camera *cameras,
                       const render_rectangle *pixels, tile_work *w) {
     const render_frame *frame = d->frame;
-    const int samples = cameras[0].samples;
     memset(w->sums, 0, sizeof w->sums);
-    for (int i = 0; i < samples; i++) {
+    for (int i = 0; i < d->samples; i++) {
         render_surfaces *s = i > 0 ? &w->surfaces : &w->first;
         float *rgba = i > 0 ? w->rgba : w->first_rgba;
         const shade_sample before = { &w->first, w->first_rgba };
@@ -189,7 +190,7 @@ static void draw_tile(const drawing *d, const shade_job *job, const render_camer
         for (int row = 0; row < pixels->height; row++)
             for (int column = 0; column < pixels->width; column++) {
                 const size_t at = 4 * tile_index(row, column);
-                add_sample(frame, rgba + at, w->sums + at);
+                add_sample(d->exposure, rgba + at, w->sums + at);
             }
         w->surfaces_seconds += found - start;
         w->shade_seconds += timing_now() - found;
@@ -198,7 +199,7 @@ static void draw_tile(const drawing *d, const shade_job *job, const render_camer
         const size_t first = (size_t)(pixels->y + row) * (size_t)frame->width + (size_t)pixels->x;
         for (int column = 0; column < pixels->width; column++) {
             const size_t at = 4 * tile_index(row, column);
-            set_pixel(samples, w->first_rgba + at, w->sums + at,
+            set_pixel(d->samples, w->first_rgba + at, w->sums + at,
                       d->renderer->image.rgb + 3 * (first + (size_t)column));
         }
     }
@@ -232,12 +233,11 @@ static bool draw_tiles(drawing *d, const shade_job *job, const render_camera *ca
 
 static bool draw_streamed(drawing *d, render_times *times, cli_error *error) {
     const render_frame *frame = d->frame;
-    const int samples = frame->samples > 1 ? frame->samples : 1;
-    render_camera *cameras = malloc((size_t)samples * sizeof *cameras);
+    render_camera *cameras = malloc((size_t)d->samples * sizeof *cameras);
     shade_job *job = cameras ? shade_begin(frame, NULL) : NULL;
     const double start = timing_now();
     bool ok = job || cli_fail(error, NULL, "out of memory");
-    for (int i = 0; ok && i < samples; i++)
+    for (int i = 0; ok && i < d->samples; i++)
         ok = render_camera_set(d->view.scene, frame, i, &cameras[i], error);
     ok = ok && (draw_tiles(d, job, cameras) || cli_fail(error, NULL, "out of memory"));
     shade_end(job);
@@ -303,9 +303,9 @@ static void resolve(const drawing *d, int index, bool show) {
         float *sum = r->sums + 4 * i;
         if (index == 0)
             memset(sum, 0, 4 * sizeof *sum);
-        add_sample(d->frame, rgba, sum);
+        add_sample(d->exposure, rgba, sum);
         if (show)
-            set_pixel(d->frame->samples, rgba, sum, r->image.rgb + 3 * i);
+            set_pixel(d->samples, rgba, sum, r->image.rgb + 3 * i);
     }
 }
 
@@ -341,21 +341,48 @@ static bool draw_sample(drawing *d, int index, bool keep, render_times *times, c
     return true;
 }
 
-/* Where something needs all surfaces of a sample at once, or samples come one at a time. */
-static bool draw_whole(drawing *d, int first, int last, bool show, render_times *times,
-                       cli_error *error) {
-    const int samples = d->frame->samples;
-    if (!size_planes(d, samples > 1, error))
+static bool meter(drawing *d, bool kept, cli_error *error) {
+    const render_surfaces *s = kept ? &d->renderer->first : &d->renderer->surfaces;
+    const render_meter *meter = &d->frame->meter;
+    const size_t count = (size_t)s->width * (size_t)s->height;
+    image pixels;
+    if (!image_create(&pixels, s->width, s->height, error))
         return false;
-    for (int i = first; i <= last; i++) {
-        if (!draw_sample(d, i, samples > 1, times, error))
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 3; c++)
+            pixels.rgb[3 * i + c] =
+                s->seen[i] == RENDER_SEES_NOTHING ? 0 : d->renderer->rgba[4 * i + c];
+    d->exposure = meter->run(meter->user, &pixels);
+    image_free(&pixels);
+    return true;
+}
+
+/* Where something needs all surfaces of a sample at once, or samples come one at a time: then
+ * `show` has the image be the mean so far. */
+static bool draw_whole(drawing *d, int first, int end, bool show, render_times *times,
+                       cli_error *error) {
+    const bool keep = d->samples > 1;
+    if (!size_planes(d, keep, error))
+        return false;
+    for (int i = first; i < end; i++) {
+        if (!draw_sample(d, i, keep, times, error) ||
+            (i == 0 && d->frame->meter.run && !meter(d, keep, error)))
             return false;
-        resolve(d, i, show || i >= samples - 1);
+        resolve(d, i, show || i == end - 1);
     }
     return true;
 }
 
 /* --- a frame ---------------------------------------------------------------------------------- */
+
+static bool needs_planes(const render_frame *frame) {
+    return frame->shadow.run || frame->keep_geometry || (frame->meter.run && frame->samples <= 1) ||
+           method_table[frame->method].reads & METHOD_READS_FIELD;
+}
+
+bool cpu_meters(const render_frame *frame) {
+    return needs_planes(frame);
+}
 
 static bool size_image(cpu_renderer *r, const render_frame *frame, cli_error *error) {
     if (r->image.rgb && r->image.width == frame->width && r->image.height == frame->height)
@@ -364,11 +391,12 @@ static bool size_image(cpu_renderer *r, const render_frame *frame, cli_error *er
     return image_create(&r->image, frame->width, frame->height, error);
 }
 
-bool cpu_render(cpu_renderer *r, const render_frame *frame, int first, int last, bool show,
-                render_times *times, cli_error *error) {
-    const unsigned reads = method_table[frame->method].reads;
+static bool draw(cpu_renderer *r, const render_frame *frame, int first, int end, bool refine,
+                 render_times *times, cli_error *error) {
     drawing d = { .renderer = r,
                   .frame = frame,
+                  .samples = refine ? frame->samples : end,
+                  .exposure = frame->samples_exposure,
                   .view = { r->world->scene, r->world->bvh, r->world->textures, NULL } };
     trace_spheres *lights;
     if (times)
@@ -380,13 +408,20 @@ bool cpu_render(cpu_renderer *r, const render_frame *frame, int first, int last,
     if (!cpu_lights_create(frame, r->world->bvh, &lights))
         return cli_fail(error, NULL, "out of memory");
     d.view.lights = lights;
-    const bool all = first == 0 && last >= frame->samples - 1;
-    const bool whole =
-        frame->shadow.run || frame->keep_geometry || reads & METHOD_READS_FIELD || !all;
-    const bool ok =
-        whole ? draw_whole(&d, first, last, show, times, error) : draw_streamed(&d, times, error);
+    const bool ok = refine || needs_planes(frame) ? draw_whole(&d, first, end, refine, times, error)
+                                                  : draw_streamed(&d, times, error);
     trace_spheres_destroy(lights);
     if (times)
         times->total = 1e3 * (timing_now() - start);
     return ok;
+}
+
+bool cpu_render(cpu_renderer *r, const render_frame *frame, int count, render_times *times,
+                cli_error *error) {
+    return draw(r, frame, 0, count, false, times, error);
+}
+
+bool cpu_refine(cpu_renderer *r, const render_frame *frame, int index, render_times *times,
+                cli_error *error) {
+    return draw(r, frame, index, index + 1, true, times, error);
 }

@@ -29,10 +29,17 @@ render_materials *cpu_renderer_materials(cpu_renderer *renderer);
  * renderer. */
 void cpu_set_environment(cpu_renderer *renderer, const environment *environment);
 
-/* Samples `first` to `last` of a frame; with `show` the image is the mean of those so far, else it
- * is when the last is done. A sample after the first goes on with those before it. */
-bool cpu_render(cpu_renderer *renderer, const render_frame *frame, int first, int last, bool show,
-                render_times *times, cli_error *error);
+/* Samples 0 to count - 1 of frame->samples, of which the image is the mean. The frame's meter runs
+ * if cpu_meters. */
+bool cpu_render(cpu_renderer *renderer, const render_frame *frame, int count, render_times *times,
+                cli_error *error);
+
+/* Whether cpu_render has the planes of the whole first sample. */
+bool cpu_meters(const render_frame *frame);
+
+/* Sample `index` alone, after those before it: the image is the mean of all so far. */
+bool cpu_refine(cpu_renderer *renderer, const render_frame *frame, int index, render_times *times,
+                cli_error *error);
 
 /* What was drawn: linear, of the renderer. */
 const image *cpu_image(const cpu_renderer *renderer);

@@ -5,6 +5,7 @@
 #define LAMPION_RENDER_FRAME_H
 
 #include "app/cli/cli.h"
+#include "app/image/image.h"
 #include "app/method/method.h"
 #include "app/scene/scene.h"
 
@@ -23,6 +24,13 @@ typedef struct render_pass {
                 float *rgba, cli_error *error);
     void *user;
 } render_pass;
+
+/* Looks at the first sample of every pixel, in which what is seen past everything is black, and
+ * tells the frame's samples_exposure by it. */
+typedef struct render_meter {
+    float (*run)(void *user, const image *pixels);
+    void *user;
+} render_meter;
 
 /* A frame's field for shaders: its lists and, if `nodes`, all its nodes are those of the frame's
  * lights. *stamp: above 0, and another one whenever it has changed. NULL on failure. */
@@ -47,6 +55,7 @@ typedef struct render_frame {
     render_pass shadow;     /* after shading; zero: none */
     bool keep_geometry;     /* and draw lights alone where the frame before had the same view */
     float samples_exposure; /* the mean suits an image of this exposure; 0: the plain mean */
+    render_meter meter;     /* of renderer_draw, before the mean; zero: none */
 } render_frame;
 
 /* Whether the frame has what its method reads. */
