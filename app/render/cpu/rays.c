@@ -30,29 +30,26 @@ bool cpu_lights_create(const render_frame *frame, const trace_bvh *bvh, trace_sp
 /* Rays side by side are a square of pixels: two halves of 4 by 2, the packets of half the width. */
 enum { SIDE = 4 };
 
-static void set_ray(const render_camera *c, int x, int y, int lane, cpu_ray *ray,
-                    trace_rays *rays) {
-    render_camera_ray(c, x, y, ray->origin, ray->direction);
-    for (int i = 0; i < 3; i++) {
-        rays->origin[i][lane] = ray->origin[i];
-        rays->direction[i][lane] = ray->direction[i];
-    }
-    rays->start[lane] = c->parallel ? 0 : c->near;
-    rays->length[lane] = c->far;
-    rays->pixel[lane] = (uint32_t)x * 1664525u + (uint32_t)y * 1013904223u;
-}
-
 /* Of the pixels of a square as far as it lies in the rectangle that ends after so many. */
 static void set_rays(const render_surfaces *s, int x, int y, int width, int height,
-                     cpu_ray of[TRACE_LANES], trace_rays *rays) {
-    rays->sample = (uint32_t)s->camera.sample;
-    rays->samples = (uint32_t)s->camera.samples;
+                     trace_rays *rays) {
+    const render_camera *c = &s->camera;
+    float *const origin[3] = { rays->origin[0], rays->origin[1], rays->origin[2] };
+    float *const direction[3] = { rays->direction[0], rays->direction[1], rays->direction[2] };
+    int columns[TRACE_LANES], rows[TRACE_LANES];
     for (int i = 0; i < TRACE_LANES; i++) {
-        const int column = i % SIDE, row = i / SIDE;
-        /* those past the edge are none, but have a direction like their neighbors' */
-        set_ray(&s->camera, x + column, y + row, i, &of[i], rays);
-        if (column >= width || row >= height)
-            rays->length[i] = -1;
+        columns[i] = x + i % SIDE;
+        rows[i] = y + i / SIDE;
+    }
+    /* those past the edge are none, but have a direction like their neighbors' */
+    render_camera_rays(c, columns, rows, TRACE_LANES, origin, direction);
+    rays->sample = (uint32_t)c->sample;
+    rays->samples = (uint32_t)c->samples;
+    for (int i = 0; i < TRACE_LANES; i++) {
+        const bool inside = i % SIDE < width && i / SIDE < height;
+        rays->start[i] = c->parallel ? 0 : c->near;
+        rays->length[i] = inside ? c->far : -1;
+        rays->pixel[i] = (uint32_t)columns[i] * 1664525u + (uint32_t)rows[i] * 1013904223u;
     }
 }
 
@@ -70,10 +67,9 @@ static void see_lights(const cpu_view *view, int x, int y, const trace_rays *ray
 
 static void fill_square(const cpu_view *view, int x, int y, int width, int height,
                         cpu_triangle *triangle, const render_surfaces *s) {
-    cpu_ray of[TRACE_LANES];
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
-    set_rays(s, x, y, width, height, of, &rays);
+    set_rays(s, x, y, width, height, &rays);
     trace_nearest_n(view->bvh, TRACE_IMAGE, &rays, hits);
     for (int i = 0; i < TRACE_LANES; i++) {
         if (rays.length[i] < 0)
@@ -85,7 +81,9 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
             s->seen[at] = RENDER_SEES_NOTHING;
         else {
             cpu_triangle_find(view->scene, &hits[i], triangle);
-            cpu_surface_fill(view->textures, triangle, &of[i], &hits[i], at, s);
+            const float direction[3] = { rays.direction[0][i], rays.direction[1][i],
+                                         rays.direction[2][i] };
+            cpu_surface_fill(view->textures, triangle, direction, &hits[i], at, s);
         }
     }
     see_lights(view, x, y, &rays, hits, s);
@@ -94,10 +92,9 @@ static void fill_square(const cpu_view *view, int x, int y, int width, int heigh
 /* What the triangles of a square show, and the lights before them, by the hits that were kept. */
 static void light_square(const cpu_view *view, int x, int y, int width, int height,
                          const render_surfaces *s) {
-    cpu_ray of[TRACE_LANES];
     trace_rays rays;
     trace_hit hits[TRACE_LANES];
-    set_rays(s, x, y, width, height, of, &rays);
+    set_rays(s, x, y, width, height, &rays);
     for (int i = 0; i < TRACE_LANES; i++) {
         hits[i] = trace_miss();
         if (rays.length[i] < 0)

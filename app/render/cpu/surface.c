@@ -21,10 +21,10 @@ static lmp_vec3 mix(const float *a, const float *b, const float *c, const float 
 
 /* How weights of the second and third corner change along the plane, from the ray of a pixel to one
  * whose origin or direction is another. */
-static void change_of_weights(const render_camera *camera, const cpu_ray *ray, float distance,
+static void change_of_weights(const render_camera *camera, const float direction[3], float distance,
                               const lmp_vec3 edges[2], lmp_vec3 normal, const float step[3],
                               float change[2]) {
-    const lmp_vec3 d = vec_load(ray->direction), aside = vec_load(step);
+    const lmp_vec3 d = vec_load(direction), aside = vec_load(step);
     const lmp_vec3 moved = vec_scale(aside, camera->parallel ? 1 : distance);
     const float facing = vec_dot(normal, d), size2 = vec_dot(normal, normal);
     const lmp_vec3 along = vec_scale(d, -vec_dot(normal, moved) / facing);
@@ -34,7 +34,7 @@ static void change_of_weights(const render_camera *camera, const cpu_ray *ray, f
 }
 
 /* The texture coordinates of the pixel and of those beside it. */
-static void set_footprint(const render_camera *camera, const cpu_ray *ray, float distance,
+static void set_footprint(const render_camera *camera, const float direction[3], float distance,
                           const lmp_vec3 edges[2], lmp_vec3 normal, point *p) {
     float sides[2][3], change[2][2];
     for (int c = 0; c < 3; c++) {
@@ -42,7 +42,7 @@ static void set_footprint(const render_camera *camera, const cpu_ray *ray, float
         sides[1][c] = camera->down[c] * (2 / (float)camera->height);
     }
     for (int k = 0; k < 2; k++)
-        change_of_weights(camera, ray, distance, edges, normal, sides[k], change[k]);
+        change_of_weights(camera, direction, distance, edges, normal, sides[k], change[k]);
     for (int set = 0; set < 2; set++)
         for (int i = 0; i < 2; i++) {
             const float a = p->corners[0].uv[set][i], b = p->corners[1].uv[set][i] - a;
@@ -183,14 +183,14 @@ static void fill_plain(const point *p, uint32_t number, size_t at, const render_
     set_vector(s->emission, at, vec_load(emission));
 }
 
-void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const cpu_ray *ray,
+void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const float direction[3],
                       const trace_hit *hit, size_t at, const render_surfaces *s) {
     point p = { .textures = textures, .material = t->material, .corners = t->corners };
     const scene_vertex *v = t->corners;
     p.weights[0] = (float)(1 - (double)hit->u - (double)hit->v);
     p.weights[1] = hit->u;
     p.weights[2] = hit->v;
-    const lmp_vec3 d = vec_load(ray->direction);
+    const lmp_vec3 d = vec_load(direction);
     const lmp_vec3 normal = mix(v[0].normal, v[1].normal, v[2].normal, p.weights);
     p.side = vec_dot(t->face, d) > 0 ? -1.0f : 1.0f;
     p.smooth = vec_dot(normal, normal) > 0 ? vec_normalize(normal, t->face)
@@ -203,7 +203,7 @@ void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *t, const
         return;
     }
     if (t->mapped)
-        set_footprint(&s->camera, ray, hit->distance, t->edges, t->face, &p);
+        set_footprint(&s->camera, direction, hit->distance, t->edges, t->face, &p);
     s->seen[at] = t->number;
     const lmp_vec3 n = bend(&p, p.smooth, &m->normal_map, m->normal_scale);
     set_vector(s->normal, at, vec_scale(n, p.side));

@@ -9,10 +9,6 @@
 #include "app/scene/instance.h"
 #include "app/trace/trace.h"
 
-typedef struct cpu_ray {
-    float origin[3], direction[3]; /* 1 long along the camera's view */
-} cpu_ray;
-
 /* A triangle in the world and its material; zero: none yet. */
 typedef struct cpu_triangle {
     uint32_t instance, triangle, number; /* number: of the material */
@@ -27,7 +23,7 @@ void cpu_triangle_find(const scene *scene, const trace_hit *hit, cpu_triangle *t
 
 /* Fills value `at` of the surfaces' planes with what the ray meets of the triangle. */
 void cpu_surface_fill(const cpu_textures *textures, const cpu_triangle *triangle,
-                      const cpu_ray *ray, const trace_hit *hit, size_t at,
+                      const float direction[3], const trace_hit *hit, size_t at,
                       const render_surfaces *surfaces);
 
 #endif

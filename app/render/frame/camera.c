@@ -80,12 +80,19 @@ bool render_camera_set(const scene *world, const render_frame *frame, int sample
     return true;
 }
 
-void render_camera_ray(const render_camera *c, int x, int y, float origin[3], float direction[3]) {
-    const float u = (float)x * c->step[0] + c->first[0], v = (float)y * c->step[1] + c->first[1];
-    for (int i = 0; i < 3; i++) {
-        const float aside = c->right[i] * u + c->down[i] * v;
-        origin[i] = c->eye[i] + (c->parallel ? aside : 0);
-        direction[i] = c->forward[i] + (c->parallel ? 0 : aside);
+void render_camera_rays(const render_camera *c, const int *x, const int *y, int count,
+                        float *const origin[3], float *const direction[3]) {
+    for (int k = 0; k < 3; k++) {
+        const float eye = c->eye[k], forward = c->forward[k], right = c->right[k],
+                    down = c->down[k];
+        float *restrict from = origin[k], *restrict along = direction[k];
+        for (int i = 0; i < count; i++) {
+            const float u = (float)x[i] * c->step[0] + c->first[0];
+            const float v = (float)y[i] * c->step[1] + c->first[1];
+            const float aside = right * u + down * v;
+            from[i] = eye + (c->parallel ? aside : 0);
+            along[i] = forward + (c->parallel ? 0 : aside);
+        }
     }
 }
 

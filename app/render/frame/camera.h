@@ -24,9 +24,9 @@ typedef struct render_camera {
 bool render_camera_set(const scene *scene, const render_frame *frame, int sample,
                        render_camera *camera, cli_error *error);
 
-/* The ray of a pixel: where it begins, and its direction. */
-void render_camera_ray(const render_camera *camera, int x, int y, float origin[3],
-                       float direction[3]);
+/* The rays of `count` pixels: where they begin, and their directions. */
+void render_camera_rays(const render_camera *camera, const int *x, const int *y, int count,
+                        float *const origin[3], float *const direction[3]);
 
 /* Unit directions to the camera from what `count` pixels of a row see, from x on. */
 void render_camera_views(const render_camera *camera, int x, int y, int count,
