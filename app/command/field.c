@@ -106,9 +106,10 @@ static int check_options(const cli_command *command, const field_options *o, int
     if (o->settings.preset != VOLUME_OWN && o->settings.bands != 3)
         return cli_usage(command, "--bands %d: %s keeps 3", o->settings.bands,
                          volume_presets()[o->settings.preset]);
-    if (kind == VOLUME_LMPF && (o->settings.preset != VOLUME_OWN || o->output.half ||
-                                o->output.layout != VOLUME_INTERLEAVED || o->shadows))
-        return cli_usage(command, "a .lmpf has no preset, layout, 16 bits or shadows");
+    if (kind == VOLUME_LMPF &&
+        (o->settings.preset != VOLUME_OWN || o->output.half ||
+         o->output.layout != VOLUME_INTERLEAVED || o->shadows || o->settings.dering))
+        return cli_usage(command, "a .lmpf has no preset, layout, 16 bits, shadows or deringing");
     if (kind == VOLUME_CSV && o->output.layout == VOLUME_PLANAR)
         return cli_usage(command,
                          "a table has a line a probe: --layout planar takes .json or .npy");
@@ -137,6 +138,8 @@ static int run(const cli_command *command, int argc, char **argv) {
         { "preset", 0, CLI_CHOICE, &o.settings.preset, "ENGINE",
           "whose axes, signs, order and factors: those of lampion are radiance as it is", 0, 0,
           volume_presets(), NULL },
+        { "dering", 0, CLI_FLAG, &o.settings.dering, NULL,
+          "damp each probe's bands until its irradiance is nowhere below 0", 0, 0, NULL, NULL },
         { "layout", 0, CLI_CHOICE, &o.output.layout, "LAYOUT",
           "probe after probe, or value after value: a grid of each", 0, 0, volume_layouts, NULL },
         { "half", 0, CLI_FLAG, &o.output.half, NULL, "round values to 16 bits", 0, 0, NULL, NULL },

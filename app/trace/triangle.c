@@ -38,7 +38,8 @@ static inline float pick(int axis, float a, float b, float c) {
     return axis == 0 ? a : axis == 1 ? b : c;
 }
 
-/* Indices have the width of addresses: lanes after one that might wrap round would be gathered. */
+/* Indices have the width of addresses: after one that might wrap round lanes are loaded one by one.
+ */
 static inline void move_corner(const triangle_rays *r, size_t first, size_t count, int axis,
                                const float *p, corner_lanes *corner) {
     for (size_t i = 0; i < count; i++) {

@@ -101,6 +101,20 @@ static void add_around(const environment *around, int bands, float scale, float 
         sh[i] += scale * around->sh[i / count * LMP_SH_COUNT(around->bands) + i % count];
 }
 
+/* After Sloan (2008), of what a surface gets: few bands of a small bright light fall below 0 behind
+ * it. One window for all channels keeps the color. */
+static void dering(int bands, float *sh) {
+    const size_t count = LMP_SH_COUNT(bands);
+    float cosine[LMP_FIELD_BANDS_MAX], window[LMP_FIELD_BANDS_MAX];
+    float irradiance[3 * LMP_FIELD_BANDS_MAX * LMP_FIELD_BANDS_MAX];
+    lmp_lobe_diffuse(bands, cosine);
+    for (size_t c = 0; c < 3; c++)
+        lmp_sh_window_apply(bands, cosine, sh + c * count, irradiance + c * count);
+    lmp_probe_window_positive(bands, irradiance, 3, window);
+    for (size_t c = 0; c < 3; c++)
+        lmp_sh_window_apply(bands, window, sh + c * count, sh + c * count);
+}
+
 /* `seen` is memory for the lights as a point sees them. */
 static void make_probe(const volume_job *job, size_t probe, lmp_light *seen) {
     const volume *v = job->volume;
@@ -117,6 +131,8 @@ static void make_probe(const volume_job *job, size_t probe, lmp_light *seen) {
     lmp_light_project(s->bands, lights, job->world->light_count, point, sh);
     if (environment_shines(job->around))
         add_around(job->around, s->bands, sky, sh);
+    if (s->dering)
+        dering(s->bands, sh);
     float *values = v->values + probe * v->value_count;
     if (s->preset == VOLUME_OWN)
         memcpy(values, sh, v->value_count * sizeof *values);

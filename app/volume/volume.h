@@ -26,7 +26,8 @@ typedef struct volume_settings {
     volume_grid grid;
     int bands; /* 1 … LMP_FIELD_BANDS_MAX; 3 of an engine's preset */
     int preset;
-    int rays; /* to each light, by which the scene's surfaces hide it; 0: none does */
+    bool dering; /* damp a probe's bands as far as its irradiance would fall below 0 */
+    int rays;    /* to each light, by which the scene's surfaces hide it; 0: none does */
 } volume_settings;
 
 /* What is read at node i + counts[0] * (j + counts[1] * k): `value_count` values. */

@@ -94,6 +94,41 @@ static void shaders_of_engines_light_surfaces_as_the_lights_do(void **state) {
     }
 }
 
+/* The least that a probe's shader finds in many directions, in parts of the most. */
+static double darkest(lmp_probe_engine engine, const float *values) {
+    double least = HUGE_VAL, most = 0;
+    for (int i = 0; i < 3 * 2000; i++) {
+        const lmp_vec3 random = check_random_direction();
+        const double n[3] = { (double)random.x, (double)random.y, (double)random.z };
+        const double found = engine_reflects(engine, values, i % 3, n);
+        least = fmin(least, found);
+        most = fmax(most, found);
+    }
+    return least / most;
+}
+
+static void no_shader_finds_less_than_darkness_where_ringing_is_gone(void **state) {
+    (void)state;
+    static probes p;
+    folder_write_text("one.json", "{ \"lights\": [ { \"position\": [3, 4, 1], \"radius\": 0.1, "
+                                  "\"radiance\": [9, 4, 1] } ] }");
+    for (int e = 0; e < LMP_PROBE_ENGINES; e++)
+        for (int damped = 0; damped < 2; damped++) {
+            const lmp_probe_engine engine = (lmp_probe_engine)e;
+            const char *name = lmp_probe_format_of(engine)->name;
+            char arguments[128];
+            snprintf(arguments, sizeof arguments, "--lights one.json --preset %s %s -o probes.json",
+                     name, damped ? "--dering" : "");
+            assert_int_equal(field(arguments), 0);
+            read_json("probes.json", name, &p);
+            for (int i = 0; i < PROBES; i++) {
+                const double least = darkest(engine, p.values[i]);
+                assert_true(damped ? least > -1e-6 : least < -0.02);
+            }
+        }
+    assert_int_equal(field("--dering -o probes.lmpf"), 2);
+}
+
 static void expect_same(const probes *a, const probes *b) {
     assert_int_equal(a->value_count, b->value_count);
     for (int i = 0; i < PROBES; i++)
@@ -373,6 +408,7 @@ static int make_scene(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shaders_of_engines_light_surfaces_as_the_lights_do),
+        cmocka_unit_test(no_shader_finds_less_than_darkness_where_ringing_is_gone),
         cmocka_unit_test(every_file_holds_the_same_numbers),
         cmocka_unit_test(light_past_every_number_is_not_written),
         cmocka_unit_test(half_is_the_nearest_of_16_bits),
