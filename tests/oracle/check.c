@@ -56,6 +56,11 @@ int check_count(int some, int all) {
     return given && strcmp(given, "1") == 0 ? all : some;
 }
 
+const char *check_gl_device(void) {
+    const char *given = getenv("LAMPION_TEST_GL_DEVICE");
+    return given ? given : "software";
+}
+
 /* --- random numbers --------------------------------------------------------------------------- */
 
 static uint64_t random_state;

@@ -44,6 +44,10 @@ double check_errors_rms(const check_errors *errors);
  * which can fail for the same reasons. */
 int check_count(int some, int all);
 
+/* The OpenGL device of a test that judges images: software, which every machine has, or the one
+ * that LAMPION_TEST_GL_DEVICE names as --gl-device does. */
+const char *check_gl_device(void);
+
 /* --- random numbers ---------------------------------------------------------------------------
  * One fixed seed, printed at the first use, settable by the environment variable LAMPION_SEED. */
 void check_seed(unsigned long long seed);        /* begins with another, and prints it */

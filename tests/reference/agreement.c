@@ -24,7 +24,7 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
                                  .window = settings->band_limit.window,
                                  .lights = world->lights,
                                  .light_count = world->light_count };
-    assert_true(gpu_context_create("software", &context, &error));
+    assert_true(gpu_context_create(check_gl_device(), &context, &error));
     gpu_renderer *renderer = gpu_renderer_create(&context, world, &error);
     assert_non_null(renderer);
     assert_true(gpu_render(renderer, &frame, NULL, &error));

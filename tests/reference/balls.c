@@ -98,7 +98,7 @@ static image draw(const scene_camera *camera) {
                                  .lights = balls.lights,
                                  .light_count = 3,
                                  .host = shade_frame };
-    assert_true(gpu_context_create("software", &context, &error));
+    assert_true(gpu_context_create(check_gl_device(), &context, &error));
     gpu_renderer *renderer = gpu_renderer_create(&context, &balls.world, &error);
     assert_non_null(renderer);
     assert_true(gpu_render(renderer, &frame, NULL, &error));

@@ -79,7 +79,7 @@ static inline void sheet_open(sheet *s, const char *material) {
     sheet_expect(environment_project(&s->sky, LMP_SHADE_BANDS_DEFAULT, &error), &error);
     for (int i = SHEET_GPU; i <= SHEET_CPU; i++) {
         const device_kind kind = i == SHEET_GPU ? DEVICE_GPU : DEVICE_CPU;
-        sheet_expect(render_device_open(kind, "software", &s->world, &s->devices[i], &error),
+        sheet_expect(render_device_open(kind, check_gl_device(), &s->world, &s->devices[i], &error),
                      &error);
         s->renderers[i] = renderer_create(&s->devices[i], &error);
         sheet_expect(s->renderers[i], &error);
