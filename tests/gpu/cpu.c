@@ -28,8 +28,9 @@ static bool is_edge(const render_pixel *pixels, int x, int y) {
     return false;
 }
 
-/* The decibels of what both show away from edges. */
-static void expect_alike(const char *name, int samples, double decibels) {
+/* The decibels of what both show away from edges. Hardware interpolates between corners that it has
+ * moved by up to half of 1/256 of a pixel, and has `less` of them. */
+static void expect_alike(const char *name, int samples, double decibels, double less) {
     static unsigned char shown[2][3 * PIXELS];
     cli_error error = { "" };
     scene world;
@@ -64,7 +65,7 @@ static void expect_alike(const char *name, int samples, double decibels) {
     print_message("%s, %d samples: %.1f dB, without %d pixels of edges of %d\n", name, samples,
                   found, edges, PIXELS);
     assert_true(inner > PIXELS / 4);
-    CHECK_WITHIN(decibels, found);
+    CHECK_WITHIN(device.software ? decibels : decibels - less, found);
     free(pixels);
     renderer_destroy(rays);
     render_device_close(&cpu);
@@ -74,13 +75,13 @@ static void expect_alike(const char *name, int samples, double decibels) {
 
 static void rays_and_gbuffers_show_the_same_balls(void **state) {
     (void)state;
-    expect_alike("builtin:balls", 1, 65);
-    expect_alike("builtin:balls", 4, 50);
+    expect_alike("builtin:balls", 1, 65, 5);
+    expect_alike("builtin:balls", 4, 50, 0);
 }
 
 static void rays_and_gbuffers_show_the_same_atrium(void **state) {
     (void)state;
-    expect_alike("builtin:atrium", 1, 65);
+    expect_alike("builtin:atrium", 1, 65, 5);
 }
 
 int main(void) {

@@ -13,7 +13,7 @@
 enum { WIDTH = 120, HEIGHT = 80 };
 
 static image draw_by_harmonics(const scene *world, const reference_settings *settings,
-                               render_pixel **pixels) {
+                               render_pixel **pixels, bool *software) {
     gpu_context context;
     cli_error error;
     image drawn;
@@ -31,6 +31,7 @@ static image draw_by_harmonics(const scene *world, const reference_settings *set
     assert_true(gpu_read_image(renderer, &drawn, &error));
     assert_true(gpu_read_pixels(renderer, pixels, &error));
     gpu_renderer_destroy(renderer);
+    *software = context.software;
     gpu_context_destroy(&context);
     return drawn;
 }
@@ -119,6 +120,7 @@ static void check_scene(const char *name, int lights, bool kinds, float height,
     };
     const scene_lights_options random = { .random_count = lights, .seed = 1 };
     int edges = 0, different = 0;
+    bool software;
     assert_true(scene_load(name, &(scene_options) { .no_cache = true }, &world, &error));
     assert_true(scene_apply_lights(&world, &random, &error));
     for (int i = 0; kinds && i < KINDS; i++)
@@ -128,7 +130,7 @@ static void check_scene(const char *name, int lights, bool kinds, float height,
     settings.camera = scene_default_camera(&world, (float)WIDTH / HEIGHT);
     settings.camera.height = height;
     assert_true(reference_render(&world, &settings, &truth, &standard_error, &error));
-    image drawn = draw_by_harmonics(&world, &settings, &pixels);
+    image drawn = draw_by_harmonics(&world, &settings, &pixels, &software);
     sight *sights = look(&world, &settings.camera);
     const double exposure = (double)image_auto_exposure(&truth);
     for (int p = 0; p < WIDTH * HEIGHT; p++) {
@@ -139,7 +141,9 @@ static void check_scene(const char *name, int lights, bool kinds, float height,
                                       &standard_error.rgb[3 * p], exposure);
     }
     assert_in_range(different, 0, WIDTH * HEIGHT / 2000);
-    assert_in_range(edges, 0, WIDTH * HEIGHT / 250);
+    /* hardware interpolates between corners that it has moved to 1/256 of a pixel: normals of
+     * triangles smaller than a pixel turn by a degree or two */
+    assert_in_range(edges, 0, WIDTH * HEIGHT / (software ? 250 : 125));
     free(sights);
     free(pixels);
     image_free(&drawn);
