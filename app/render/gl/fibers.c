@@ -32,8 +32,8 @@ static bool upload(gpu_renderer *r, int bands, cli_error *error) {
         values[t][0] = (float)first;
         values[t][1] = ROWS;
         values[t][2] = 1;
-        ok = gpu_table_fill(r->materials.fibers[t], (gpu_table_shape) { ROWS, 1 }, false, stride,
-                            values + first);
+        ok = gpu_table_fill(r->materials.fibers[t], (gpu_table_shape) { ROWS, 1 }, bands, false,
+                            stride, values + first);
     }
     if (ok) {
         glCreateBuffers(1, &r->fibers_buffer);

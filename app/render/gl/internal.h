@@ -121,8 +121,8 @@ bool gpu_prepare_fibers(gpu_renderer *renderer, const render_frame *frame, cli_e
 typedef struct gpu_table_shape {
     size_t rows, columns;
 } gpu_table_shape;
-bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, bool full, size_t stride,
-                    vec4 *values);
+bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, int bands, bool full,
+                    size_t stride, vec4 *values);
 
 /* Which tables a frame sums by bands: as in gpu_variant. */
 int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
@@ -130,8 +130,8 @@ int gpu_tables_by_bands(const gpu_renderer *renderer, method_kind method);
 /* What was uploaded is not used any more. */
 void gpu_forget_tables(gpu_renderer *renderer);
 
-/* Uploads the tables that a frame sums by bands, once. */
-bool gpu_bind_tables(gpu_renderer *renderer, method_kind method, cli_error *error);
+/* Uploads the tables that a frame of so many bands sums by bands, once; what they lack is 0. */
+bool gpu_bind_tables(gpu_renderer *renderer, method_kind method, int bands, cli_error *error);
 
 /* --- preintegrated_brdf.c --------------------------------------------------------------------- */
 
@@ -260,6 +260,7 @@ struct gpu_renderer {
     render_materials materials;
     GLuint tables_buffer;                       /* of the tables summed by bands, or 0 */
     method_kind tables_method;                  /* that it was made for */
+    int tables_bands;                           /* the same */
     GLuint fibers_buffer, fibers_program;       /* of those; or 0 */
     int fibers_bands, fibers_environment_bands; /* that the program was made for */
     bool fibers_by_field;

@@ -18,9 +18,10 @@ static gpu_table_shape shape_of(const lmp_brdf_table_info *info) {
     return (gpu_table_shape) { ANISOTROPIC_ROWS, (size_t)(COLUMNS_OF_AZIMUTH * info->azimuths) };
 }
 
-/* One view as vec4s in the order of the shader. */
-static void fill_view(const lmp_brdf_table_info *info, bool full, const float *rgb, vec4 *to) {
-    for (int l = 0; l < info->bands; l++)
+/* So many bands of one view as vec4s in the order of the shader. */
+static void fill_view(const lmp_brdf_table_info *info, int bands, bool full, const float *rgb,
+                      vec4 *to) {
+    for (int l = 0; l < bands && l < info->bands; l++)
         for (int m = full ? -l : 0; m <= l; m++, to++)
             for (size_t c = 0; c < 3; c++) {
                 const size_t i = info->mirrored ? LMP_SH_HALF_INDEX(l, m) : LMP_SH_INDEX(l, m);
@@ -28,8 +29,8 @@ static void fill_view(const lmp_brdf_table_info *info, bool full, const float *r
             }
 }
 
-bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, bool full, size_t stride,
-                    vec4 *values) {
+bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, int bands, bool full,
+                    size_t stride, vec4 *values) {
     const lmp_brdf_table_info info = lmp_brdf_table_describe(table);
     float *rgb = malloc(3 * info.count * sizeof *rgb);
     if (!rgb)
@@ -39,7 +40,7 @@ bool gpu_table_fill(const lmp_brdf_table *table, gpu_table_shape shape, bool ful
             const double theta = 1.5707963267949 * (double)row / (double)(shape.rows - 1);
             const double phi = 6.2831853071796 * (double)column / (double)shape.columns;
             lmp_brdf_table_view(table, (float)cos(theta), (float)phi, rgb);
-            fill_view(&info, full, rgb, values);
+            fill_view(&info, bands, full, rgb, values);
         }
     free(rgb);
     return true;
@@ -77,8 +78,8 @@ static size_t count_values(const gpu_renderer *r, method_kind method, size_t str
     return total;
 }
 
-static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, size_t stride,
-                        vec4 *values) {
+static bool fill_tables(const gpu_renderer *r, method_kind method, int bands, bool full,
+                        size_t stride, vec4 *values) {
     size_t first = (size_t)r->materials.table_count;
     for (int t = 0; t < r->materials.table_count; t++) {
         const lmp_brdf_table_info info = lmp_brdf_table_describe(r->materials.tables[t]);
@@ -88,7 +89,7 @@ static bool fill_tables(const gpu_renderer *r, method_kind method, bool full, si
         values[t][0] = (float)first;
         values[t][1] = (float)shape.rows;
         values[t][2] = (float)shape.columns;
-        if (!gpu_table_fill(r->materials.tables[t], shape, full, stride, values + first))
+        if (!gpu_table_fill(r->materials.tables[t], shape, bands, full, stride, values + first))
             return false;
         first += shape.rows * shape.columns * stride;
     }
@@ -117,14 +118,13 @@ bool gpu_tables_fit(const gpu_renderer *r, method_kind method, const lmp_brdf_ta
     return (size_t)count + views * stride < VALUES_MAX || too_large(error);
 }
 
-bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
+bool gpu_bind_tables(gpu_renderer *r, method_kind method, int bands, cli_error *error) {
     const int tables = gpu_tables_by_bands(r, method);
-    if (!r->tables_buffer || r->tables_method != method) {
-        const int bands = r->materials.table_bands;
+    if (!r->tables_buffer || r->tables_method != method || r->tables_bands != bands) {
         const size_t stride = tables == 2 ? LMP_SH_COUNT(bands) : LMP_SH_HALF_COUNT(bands);
         const size_t total = count_values(r, method, stride);
         vec4 *values = total < VALUES_MAX ? calloc(total + 1, sizeof *values) : NULL;
-        if (!values || !fill_tables(r, method, tables == 2, stride, values)) {
+        if (!values || !fill_tables(r, method, bands, tables == 2, stride, values)) {
             free(values);
             return too_large(error);
         }
@@ -133,6 +133,7 @@ bool gpu_bind_tables(gpu_renderer *r, method_kind method, cli_error *error) {
         glNamedBufferStorage(r->tables_buffer, (GLsizeiptr)((total + 1) * sizeof *values), values,
                              0);
         r->tables_method = method;
+        r->tables_bands = bands;
         free(values);
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHARED_TABLES, r->tables_buffer);

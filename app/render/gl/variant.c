@@ -58,8 +58,9 @@ static GLuint compile_variant(const gpu_variant *v, bool layered, cli_error *err
 GLuint gpu_variant_find(gpu_renderer *r, const render_frame *frame, cli_error *error) {
     gpu_variant wanted = variant_of(r, frame);
     const int bands_max = variant_bands_max(&wanted);
-    if (r->materials.table_count && r->materials.table_bands != frame->bands) {
-        cli_fail(error, NULL, "the tables of the materials have %d bands, the image %d",
+    if (r->materials.table_count && r->materials.table_bands > frame->bands) {
+        cli_fail(error, NULL,
+                 "the tables of the materials have %d bands, the image %d (more --bands)",
                  r->materials.table_bands, frame->bands);
         return 0;
     }
@@ -97,5 +98,6 @@ bool gpu_variant_bind(gpu_renderer *r, const render_frame *frame, double *millis
     if (reads & METHOD_READS_FIELD && !gpu_bind_field(r, frame, milliseconds, error))
         return false;
     return gpu_prepare_fibers(r, frame, error) &&
-           (!gpu_tables_by_bands(r, frame->method) || gpu_bind_tables(r, frame->method, error));
+           (!gpu_tables_by_bands(r, frame->method) ||
+            gpu_bind_tables(r, frame->method, frame->bands, error));
 }
