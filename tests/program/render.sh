@@ -87,7 +87,9 @@ for word in '"field"' '"update_milliseconds"' '"resting_milliseconds"'; do
     grep -q "$word" "$WORK/stats" || fail "--stats of a field on the GPU without $word"
 done
 # hardware moves corners to 1/256 of a pixel: 3e-5 by every method
-"$PROGRAM" compare "$WORK/gpu.exr" "$WORK/field.exr" --fail-above rmse=1e-4 || fail "a field on the GPU is another"
+bound=1e-4
+if grep -q llvmpipe "$WORK/stats"; then bound=1e-5; fi
+"$PROGRAM" compare "$WORK/gpu.exr" "$WORK/field.exr" --fail-above rmse=$bound || fail "a field on the GPU is another"
 
 # samples smooth: more distinct gray levels at edges means other bytes
 "$PROGRAM" render builtin:balls $small --samples 4 -o "$WORK/smooth.png"
