@@ -46,7 +46,7 @@ may_include() {
     # it judges: no kernel, no shading, no table of the library (read_tables below)
     app/reference) echo app/cli app/file app/image app/scene app/environment app/trace app/reference base sh light lobe brdf ;;
     app/material) echo app/cli app/file app/sandbox app/bake app/material base sh brdf preintegrated ;;
-    app/render/frame) echo app/memory app/cli app/device app/environment app/method app/scene app/trace app/render/frame LIBRARY ;;
+    app/render/frame) echo app/memory app/cli app/image app/device app/environment app/method app/scene app/trace app/render/frame LIBRARY ;;
     app/render/shade) echo app/timing app/cli app/bake app/environment app/scene app/method app/trace app/render/frame app/render/shade LIBRARY ;;
     app/render/gl) echo app/timing app/zonal app/cli app/file app/image app/environment app/device app/method app/scene app/render/frame app/render/gl shaders lookup LIBRARY ;;
     app/render/cpu) echo app/memory app/timing app/cli app/image app/environment app/method app/scene app/trace app/render/frame app/render/shade app/render/cpu LIBRARY ;;
