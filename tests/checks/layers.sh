@@ -62,55 +62,64 @@ may_include() {
     esac | sed 's/LIBRARY/base cpu kernels sh light lobe probe brdf preintegrated shade field lampion/'
 }
 
-module_of() {
-    case $1 in
-    src/*/* | include/lampion/*) echo "$1" | sed 's,^src/\([^/]*\)/.*,\1,; s,^include/lampion/\(.*\)\.h,\1,' ;;
-    app/render/*/*) echo "$1" | sed 's,^\(app/render/[^/]*\)/.*,\1,' ;;
-    app/*/*) echo "$1" | sed 's,^\(app/[^/]*\)/.*,\1,' ;;
-    ruler/*) echo ruler ;;
-    esac
-}
-
-# module_included INCLUDE: the module an include line reaches into, nothing for a system header.
-module_included() {
-    case $1 in
-    '"src/'*) echo "$1" | sed 's,"src/\([^/]*\)/.*,\1,' ;;
-    '"app/render/'*/*) echo "$1" | sed 's,"\(app/render/[^/]*\)/.*,\1,' ;;
-    '"app/'*) echo "$1" | sed 's,"\(app/[^/]*\)/.*,\1,' ;;
-    '"shaders/preintegrated_lookup.h"') echo lookup ;;
-    '"shaders/'*) echo shaders ;;
-    '"ruler/'*) echo ruler ;;
-    '"'*) echo "unrooted" ;;
-    '<lampion/'*) echo "$1" | sed 's,<lampion/\(.*\)\.h>,\1,' ;;
-    esac
+# modules: of each file of standard input a line, the file and its module.
+modules() {
+    sed -n 's,^\(src/\([^/]*\)/.*\),\1 \2,p; t
+        s,^\(include/lampion/\(.*\)\.h\),\1 \2,p; t
+        s,^\(\(app/render/[^/]*\)/.*\),\1 \2,p; t
+        s,^\(\(app/[^/]*\)/.*\),\1 \2,p; t
+        s,^ruler/.*,& ruler,p'
 }
 
 # violations ROOT: prints a line for each include that breaks the order.
 violations() (
     cd "$1"
-    for file in src/*/*.[ch] include/lampion/*.h app/*/*.[ch] app/render/*/*.[ch] ruler/*.[ch]; do
-        [ -f "$file" ] || continue
-        module=$(module_of "$file")
-        allowed=$(may_include "$module")
-        [ -n "$allowed" ] || { echo "$file: unknown module $module"; continue; }
-        sed -n 's/^ *# *include *\([<"][^>"]*[>"]\).*/\1/p' "$file" | while read -r include; do
-            reached=$(module_included "$include")
-            if [ -n "$reached" ]; then
-                case " $(echo $allowed) " in
-                *" $reached "*) ;;
-                *) echo "$file: $module must not include $include" ;;
-                esac
-                continue
-            fi
-            case $file in app/* | ruler/*) continue ;; esac
-            name=${include#<}
-            case $module:$name in kernels:*intrin.h\> | kernels:cpuid.h\> | kernels:arm_* | kernels:wasm_*) continue ;; esac
-            case " $(echo $standard) " in
-            *" ${name%.h>} "*) ;;
-            *) echo "$file: the library must not need $include" ;;
-            esac
-        done
-    done
+    ls -d src/*/*.[ch] include/lampion/*.h app/*/*.[ch] app/render/*/*.[ch] ruler/*.[ch] 2>/dev/null |
+        modules | sort -u >"$WORK/modules"
+    cut -d ' ' -f 2 "$WORK/modules" | sort -u | while read -r module; do
+        echo "$module $(echo $(may_include "$module"))"
+    done >"$WORK/allowed"
+    awk -v standard="$(echo $standard)" '
+        # reached_by INCLUDE: the module it reaches into, nothing for a system header
+        function reached_by(include, name, part) {
+            name = substr(include, 2, length(include) - 2)
+            if (include ~ /^<lampion\//) return substr(name, 9, length(name) - 10)
+            if (include ~ /^</) return ""
+            split(name, part, "/")
+            if (name == "shaders/preintegrated_lookup.h") return "lookup"
+            if (name ~ /^app\/render\/[^\/]*\//) return "app/render/" part[3]
+            if (name ~ /^app\/[^\/]*\//) return "app/" part[2]
+            if (name ~ /^src\/[^\/]*\//) return part[2]
+            return name ~ /^(shaders|ruler)\// ? part[1] : "unrooted"
+        }
+        BEGIN {
+            split(standard, names, " ")
+            for (i in names) is_standard[names[i] ".h"]
+        }
+        FILENAME == ARGV[1] {
+            known[$1] = NF > 1
+            for (i = 2; i <= NF; i++) may[$1, $i]
+            next
+        }
+        FILENAME == ARGV[2] {
+            module_of[$1] = $2
+            if (!known[$2]) print $1 ": unknown module " $2
+            next
+        }
+        { module = module_of[FILENAME] }
+        known[module] && /^ *# *include *[<"][^>"]*[>"]/ {
+            match($0, /[<"][^>"]*[>"]/)
+            include = substr($0, RSTART, RLENGTH)
+            reached = reached_by(include)
+            if (reached != "") {
+                if (!((module, reached) in may)) print FILENAME ": " module " must not include " include
+                next
+            }
+            name = substr(include, 2, length(include) - 2)
+            if (FILENAME ~ /^(app|ruler)\// || name in is_standard) next
+            if (module == "kernels" && name ~ /intrin\.h$|^cpuid\.h$|^arm_|^wasm_/) next
+            print FILENAME ": the library must not need " include
+        }' "$WORK/allowed" "$WORK/modules" $(cut -d ' ' -f 1 "$WORK/modules")
 )
 
 # read_tables ROOT: prints where the reference renderer asks the library to read a BRDF's table.
