@@ -5,59 +5,70 @@ set -eu
 
 documents="README.md CONTRIBUTING.md CHANGELOG.md $(find docs -name '*.md')"
 
-# options_exist WHERE COMMAND WORD…: the command and its options are known to its --help, and no
-# word is left over that is neither an option's value nor an operand.
-options_exist() {
-    where=$1 command=$2
-    shift 2
-    help=$("$PROGRAM" "$command" --help 2>/dev/null) || fail "$where: no command lampion $command"
-    operands=$(printf '%s\n' "$help" | sed -n 's/^Usage: lampion [a-z]* \[OPTION…\]//p' | sed 's/.*…$/& & & &/' | wc -w)
-    value=no
-    for word in "$@"; do
-        case $value$word in
-        yes*) value=no ;;
-        no--help) ;;
-        no-*)
-            row=$(printf '%s\n' "$help" | grep -e "^ [-a-z, ]*${word%%=*}\([ ,]\|$\)" | head -n 1)
-            [ -n "$row" ] || fail "$where: lampion $command has no ${word%%=*}"
-            # one blank, then the name of a value
-            if printf '%s\n' "$row" | grep -q '^ *\(-., \)\{0,1\}--[a-z-]* [^ ]'; then
-                case $word in *=*) ;; *) value=yes ;; esac
-            fi
-            ;;
-        no*)
-            operands=$((operands - 1))
-            [ "$operands" -ge 0 ] || fail "$where: lampion $command takes no $word"
-            ;;
-        esac
+# check_lines LINES: of each line "where, tab, line of shell" the last lampion or ./dev: the command and its options
+# are known to its --help, and no word is left over that is neither an option's value nor an operand.
+check_lines() {
+    mkdir -p "$WORK/help"
+    sed -n '/lampion --/d; s/.*lampion \([^ ]*\).*/\1/p' "$1" | sort -u | while read -r command; do
+        "$PROGRAM" "$command" --help >"$WORK/help/$command" 2>/dev/null || rm -f "$WORK/help/$command"
     done
+    ./dev help >"$WORK/dev"
+    awk -F '\t' -v dev="$WORK/dev" '
+        function fail(text) { print text; bad = 1; exit 1 }
+        # row_of COMMAND OPTION: the first line of the help that begins with it
+        function row_of(command, option, i, at) {
+            for (i = 1; i <= rows[command]; i++) {
+                at = index(row[command, i] " ", option " ")
+                if (!at) at = index(row[command, i], option ",")
+                if (at > 1 && substr(row[command, i], 1, at - 1) ~ /^ [-a-z, ]*$/) return row[command, i]
+            }
+        }
+        function check_options(where, text, word, count, command, left, value, i, name) {
+            count = split(text, word, " ")
+            command = word[1]
+            if (!(command in rows)) fail(where ": no command lampion " command)
+            left = operands[command]
+            for (i = 2; i <= count; i++) {
+                name = word[i]
+                sub(/=.*/, "", name)
+                if (value) value = 0
+                else if (word[i] == "--help") continue
+                else if (word[i] ~ /^-/) {
+                    if (row_of(command, name) == "") fail(where ": lampion " command " has no " name)
+                    # one blank, then the name of a value
+                    value = row_of(command, name) ~ /^ *(-., )?--[a-z-]* [^ ]/ && word[i] == name
+                } else if (--left < 0) fail(where ": lampion " command " takes no " word[i])
+            }
+        }
+        BEGIN { while ((getline line <dev) > 0) if (split(line, part, " ") && line ~ /^  [^ ]/) known[part[1]] }
+        FILENAME != ARGV[ARGC - 1] {
+            if (FNR == 1) { command = FILENAME; sub(/.*\//, "", command) }
+            row[command, ++rows[command]] = $0
+            if (sub(/^Usage: lampion [a-z]* \[OPTION…\]/, "")) operands[command] += split($0, part, " ") * (/…$/ ? 4 : 1)
+            next
+        }
+        $2 ~ /lampion --/ { next }
+        $2 ~ /lampion / { sub(/.*lampion /, "", $2); check_options($1, $2); next }
+        $2 ~ /\.\/dev / {
+            sub(/.*\.\/dev /, "", $2)
+            sub(/ .*/, "", $2)
+            if (!($2 in known)) fail($1 ": no ./dev " $2)
+        }
+        END { exit bad }' "$WORK"/help/* "$1" >"$WORK/log" || fail "$(cat "$WORK/log")"
 }
 
-# check_command WHERE LINE: the last lampion or ./dev of a line of shell.
-check_command() {
-    where=$1
-    case $2 in
-    *'lampion --'*) ;;
-    *'lampion '*)
-        set -f
-        options_exist "$where" ${2##*lampion }
-        set +f
-        ;;
-    *'./dev '*)
-        name=${2##*./dev }
-        ./dev help | grep -q "^  ${name%% *}\( \|$\)" || fail "$where: no ./dev ${name%% *}"
-        ;;
-    esac
+# those_of WHERE: puts it before each line of standard input.
+those_of() {
+    sed "s,^,$1$(printf '\t'),"
 }
 
 for document in $documents; do
-    code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/; s/ | .*//; s/ <<.*//' >"$WORK/lines"
+    code_blocks "$document" sh | sed 's/ [#>].*//; s/|.*lampion/ lampion/; s/ | .*//; s/ <<.*//' | those_of "$document"
     # and those in the text, between back ticks
     sed '/^ *```/,/^ *```/d' "$document" | grep -o '`\(lampion\|\./dev\) [^`]*`' |
-        sed 's/`//g; s/ [#>].*//' >>"$WORK/lines" || true
-    while read -r line; do
-        check_command "$document" "$line"
-    done <"$WORK/lines"
+        sed 's/`//g; s/ [#>].*//' | those_of "$document" || true
+done >"$WORK/lines"
+for document in $documents; do
     folder=$(dirname "$document")
     for link in $(grep -o '](\([^)#]*\)' "$document" | sed 's/^](//' | grep -v '^http' || true); do
         [ -e "$folder/$link" ] || fail "$document: links to $link, which is not there"
@@ -66,15 +77,16 @@ done
 
 # the examples of every --help
 for command in $("$PROGRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
-    "$PROGRAM" "$command" --help | sed '1,/^Examples:/d; s/ [#>].*//' >"$WORK/lines"
-    while read -r line; do
-        check_command "$command --help" "$line"
-    done <"$WORK/lines"
-done
+    "$PROGRAM" "$command" --help | sed '1,/^Examples:/d; s/ [#>].*//' | those_of "$command --help"
+done >>"$WORK/lines"
 
 # and what ./dev demo tells people to try
-./dev help >/dev/null
-sed -n "/<<'NEXT'/,/^NEXT/p" dev | grep 'lampion ' >"$WORK/lines"
-while read -r line; do
-    check_command "./dev demo" "$line"
-done <"$WORK/lines"
+sed -n "/<<'NEXT'/,/^NEXT/p" dev | grep 'lampion ' | those_of "./dev demo" >>"$WORK/lines"
+[ "$(grep -c 'lampion \|\./dev ' "$WORK/lines")" -gt 300 ] || fail "too few commands to be all"
+check_lines "$WORK/lines"
+
+# and a wrong one would be seen
+for line in 'lampion rendre' 'lampion render --badns 3 x' 'lampion render a b --size 8x8' './dev tset'; do
+    echo "$line" | those_of planted >"$WORK/planted"
+    ! (check_lines "$WORK/planted") 2>/dev/null || fail "$line goes unseen"
+done
