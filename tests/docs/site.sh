@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The site builds without a warning, needs no network, and has no dead link, anchor or image.
+# The site builds without a warning, needs no network, and has no dead link, anchor or image. docs.pages looks at it, too.
 set -eu
 . tests/checks/common.sh
 
@@ -87,6 +87,7 @@ done
 printf '<a href="nowhere.html">x</a>\n<a href="index.html#nowhere">x</a>\n' >"$site/planted.html"
 printf '<a href="index.html">x</a>\n<a href="docs/../docs/./viewer.html">x</a>\n<a href="docs/nowhere.png">x</a>\n' >>"$site/planted.html"
 [ "$(dead planted.html | wc -l)" = 3 ] || fail "a dead link goes unseen"
+rm "$site/planted.html"
 
 # the names of files end no sentence of what a header begins with
 for opening in 'preintegrated: (docs/preintegration.md derives it).' 'lampion: each header with all that it builds on:'; do
