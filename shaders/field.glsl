@@ -107,21 +107,12 @@ vec3 field_coefficient(field_corners corners, int i) {
     return sum;
 }
 
-/* What a coefficient of each color adds to what the lobes reflect: Y_lm of the normal and of the
- * lobes' axes, as lmp_sh_eval has them, by the lobes' factors. */
-void field_factors(lmp_surface surface, lmp_lobes lobes, out vec3 factor[LMP_SH_COUNT]) {
-    float diffuse[LMP_BANDS];
-    LMP_EACH glossy[LMP_BANDS];
-    lmp_lobe_diffuse(diffuse);
-    lmp_lobe_phong(lobes.exponent, glossy);
-    vec3 n = surface.normal, color = lobes.diffuse / LMP_PI;
-    LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0), lobes.axis);
-    LMP_EACH y = LMP_DOT(vec3(0.0, 1.0, 0.0), lobes.axis);
-    LMP_EACH z = LMP_DOT(vec3(0.0, 0.0, 1.0), lobes.axis);
-    float c = 1.0, s = 0.0, diagonal = sqrt(0.25 / LMP_PI), up, down, q, q1, q2, t;
-    LMP_EACH cs = LMP_EACH(1.0), ss = LMP_EACH(0.0), p, p1, p2, ts;
-#define FIELD_FACTOR(i, angle, angles)                                                             \
-    factor[i] = color * (q * angle) + LMP_SUM(lobes.weight, p * angles);
+/* How many bands' factors are kept for all corners. Those of more fit no registers: on an H200 7
+ * bands took twice the time of factors computed again at each corner, and 10 seven times. */
+#define FIELD_KEEPS 6
+
+/* FIELD_FACTOR of each coefficient: what each of its colors adds to what the lobes reflect, Y_lm of
+ * the normal and of the lobes' axes, as lmp_sh_eval has them, by the lobes' factors. */
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
         up = sqrt(float(4 * l * l - 1) / float(l == m ? 1 : l * l - m * m));                       \
@@ -135,9 +126,10 @@ void field_factors(lmp_surface surface, lmp_lobes lobes, out vec3 factor[LMP_SH_
         p1 = p;                                                                                    \
         q *= diffuse[LMP_BAND(l)];                                                                 \
         p *= glossy[LMP_BAND(l)];                                                                  \
-        FIELD_FACTOR(LMP_INDEX(l, m), c, cs)                                                       \
-        if (m > 0)                                                                                 \
-            FIELD_FACTOR(LMP_INDEX(l, -m), s, ss)                                                  \
+        FIELD_FACTOR(LMP_INDEX(l, m), color * (q * c) + LMP_SUM(lobes.weight, p * cs))             \
+        if (m > 0) {                                                                               \
+            FIELD_FACTOR(LMP_INDEX(l, -m), color * (q * s) + LMP_SUM(lobes.weight, p * ss))        \
+        }                                                                                          \
     }
 #define LMP_COLUMN(m)                                                                              \
     if (m < LMP_BANDS) {                                                                           \
@@ -152,44 +144,72 @@ void field_factors(lmp_surface surface, lmp_lobes lobes, out vec3 factor[LMP_SH_
         ss = x * ss + y * cs;                                                                      \
         cs = ts;                                                                                   \
     }
+#define FIELD_FACTORS                                                                              \
+    c = 1.0;                                                                                       \
+    s = 0.0;                                                                                       \
+    cs = LMP_EACH(1.0);                                                                            \
+    ss = LMP_EACH(0.0);                                                                            \
+    diagonal = sqrt(0.25 / LMP_PI);                                                                \
     LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-#undef FIELD_FACTOR
-}
+
+/* What a coefficient whose colors have such factors adds at a corner, to its value and slopes. */
+#define FIELD_ADD(i, factors)                                                                      \
+    f = factors;                                                                                   \
+    each_red += f.r * field_nodes[red + i];                                                        \
+    each_green += f.g * field_nodes[green + i];                                                    \
+    each_blue += f.b * field_nodes[blue + i];
 
 /* A corner at a time, for straight-line code of all eight takes a driver minutes to compile. */
 vec3 field_shade_far(lmp_surface surface, lmp_lobes lobes) {
-    vec3 factor[LMP_SH_COUNT], sum = vec3(0.0);
+    float diffuse[LMP_BANDS];
+    LMP_EACH glossy[LMP_BANDS];
+    lmp_lobe_diffuse(diffuse);
+    lmp_lobe_phong(lobes.exponent, glossy);
+    vec3 n = surface.normal, color = lobes.diffuse / LMP_PI, f, sum = vec3(0.0);
+    LMP_EACH x = LMP_DOT(vec3(1.0, 0.0, 0.0), lobes.axis);
+    LMP_EACH y = LMP_DOT(vec3(0.0, 1.0, 0.0), lobes.axis);
+    LMP_EACH z = LMP_DOT(vec3(0.0, 0.0, 1.0), lobes.axis);
+    float c, s, diagonal, up, down, q, q1, q2, t;
+    LMP_EACH cs, ss, p, p1, p2, ts;
     ivec3 nodes = ivec3(field.nodes.xyz);
-    field_factors(surface, lobes, factor);
+#if LMP_BANDS <= FIELD_KEEPS
+    vec3 factor[LMP_SH_COUNT];
+#define FIELD_FACTOR(i, factors) factor[i] = factors;
+    FIELD_FACTORS
+#undef FIELD_FACTOR
+#undef LMP_COLUMN
+#undef LMP_ROW
+#endif
     for (int k = 0; k < 8; k++) {
         bvec3 far = bvec3((k & 1) != 0, (k & 2) != 0, k >= 4);
         ivec3 node = field_cell + ivec3(far);
         int red = ((node.z * nodes.y + node.y) * nodes.x + node.x) * (3 * LMP_SH_COUNT);
         int green = red + LMP_SH_COUNT, blue = green + LMP_SH_COUNT;
         vec4 each_red = vec4(0.0), each_green = vec4(0.0), each_blue = vec4(0.0);
-#define FIELD_ADD(i)                                                                               \
-    each_red += factor[i].r * field_nodes[red + i];                                                \
-    each_green += factor[i].g * field_nodes[green + i];                                            \
-    each_blue += factor[i].b * field_nodes[blue + i];
+#if LMP_BANDS <= FIELD_KEEPS
 #define LMP_ROW(l, m)                                                                              \
     if (LMP_INSIDE(l, m)) {                                                                        \
-        FIELD_ADD(LMP_INDEX(l, m))                                                                 \
+        FIELD_ADD(LMP_INDEX(l, m), factor[LMP_INDEX(l, m)])                                        \
         if (m > 0) {                                                                               \
-            FIELD_ADD(LMP_INDEX(l, -m))                                                            \
+            FIELD_ADD(LMP_INDEX(l, -m), factor[LMP_INDEX(l, -m)])                                  \
         }                                                                                          \
     }
 #define LMP_COLUMN(m) LMP_FOR_COLUMN(LMP_ROW, m)
         LMP_FOR_COLUMNS(LMP_COLUMN)
-#undef LMP_COLUMN
-#undef LMP_ROW
-#undef FIELD_ADD
+#else
+#define FIELD_FACTOR(i, factors) FIELD_ADD(i, factors)
+        FIELD_FACTORS
+#undef FIELD_FACTOR
+#endif
         vec4 weight = field_weight(field_side(far));
         sum += vec3(dot(weight, each_red), dot(weight, each_green), dot(weight, each_blue));
     }
     return sum;
 }
+#undef FIELD_ADD
+#undef FIELD_FACTORS
+#undef LMP_COLUMN
+#undef LMP_ROW
 
 /* --- all lights ------------------------------------------------------------------------------- */
 
