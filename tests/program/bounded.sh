@@ -21,11 +21,12 @@ with open(sys.argv[3], "wb") as file:
 PY
 }
 
-# within KILOBYTES COMMAND…: in so much memory; its output in $WORK/out, its errors in $WORK/err
+# within KILOBYTES COMMAND…: in so much memory; its output in $WORK/out, its errors in $WORK/err. A thread that asks the C
+# library for memory while another one does may get 64 MiB of addresses for itself: one run of 25 had too few then.
 within() {
     room=$1
     shift
-    (ulimit -v "$room" && exec "$@") >"$WORK/out" 2>"$WORK/err"
+    (ulimit -v "$room" && MALLOC_ARENA_MAX=1 exec "$@") >"$WORK/out" 2>"$WORK/err"
 }
 
 # sanitizers take all addresses there are
