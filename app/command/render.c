@@ -72,14 +72,14 @@ static bool settle_exposure(render_job *j, int first, cli_error *error) {
     j->display.tone = o->tone;
     if (factor > 0)
         set_exposure(j, factor);
-    else if (!o->frames_given || first == 0)
+    else if (first == 0)
         j->frame.meter = (render_meter) { expose, j };
     else {
         image pixels;
         move_lights(j, 0);
         if (!renderer_meter(j->renderer, &j->frame, &pixels, error))
             return false;
-        set_exposure(j, image_auto_exposure(&pixels));
+        expose(j, &pixels);
         image_free(&pixels);
     }
     return true;

@@ -151,7 +151,7 @@ bool renderer_meter(any_renderer *r, const render_frame *frame, image *pixels, c
 bool renderer_draw(any_renderer *r, const render_frame *frame, render_times *times,
                    cli_error *error) {
     render_frame metered = *frame;
-    if (frame->meter.run && !(r->cpu && cpu_meters(frame))) {
+    if (frame->meter.run && !(r->cpu && cpu_has_planes(frame))) {
         image pixels;
         if (!renderer_meter(r, frame, &pixels, error))
             return false;

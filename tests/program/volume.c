@@ -123,7 +123,8 @@ static void no_shader_finds_less_than_darkness_where_ringing_is_gone(void **stat
             read_json("probes.json", name, &p);
             for (int i = 0; i < PROBES; i++) {
                 const double least = darkest(engine, p.values[i]);
-                assert_true(damped ? least > -1e-6 : least < -0.02);
+                /* the weakest window leaves the least at 0 */
+                assert_true(damped ? least > -1e-6 && least < 0.01 : least < -0.02);
             }
         }
     assert_int_equal(field("--dering -o probes.lmpf"), 2);

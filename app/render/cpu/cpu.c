@@ -109,7 +109,7 @@ typedef struct drawing {
     const render_frame *frame;
     cpu_view view;
     int samples;            /* of which the image is the mean, when all are there */
-    float exposure;         /* of the frame's samples */
+    float exposure;         /* that the mean suits */
     double surfaces, shade; /* seconds of all threads */
 } drawing;
 
@@ -375,13 +375,9 @@ static bool draw_whole(drawing *d, int first, int end, bool show, render_times *
 
 /* --- a frame ---------------------------------------------------------------------------------- */
 
-static bool needs_planes(const render_frame *frame) {
+bool cpu_has_planes(const render_frame *frame) {
     return frame->shadow.run || frame->keep_geometry || (frame->meter.run && frame->samples <= 1) ||
            method_table[frame->method].reads & METHOD_READS_FIELD;
-}
-
-bool cpu_meters(const render_frame *frame) {
-    return needs_planes(frame);
 }
 
 static bool size_image(cpu_renderer *r, const render_frame *frame, cli_error *error) {
@@ -408,8 +404,9 @@ static bool draw(cpu_renderer *r, const render_frame *frame, int first, int end,
     if (!cpu_lights_create(frame, r->world->bvh, &lights))
         return cli_fail(error, NULL, "out of memory");
     d.view.lights = lights;
-    const bool ok = refine || needs_planes(frame) ? draw_whole(&d, first, end, refine, times, error)
-                                                  : draw_streamed(&d, times, error);
+    const bool ok = refine || cpu_has_planes(frame)
+                        ? draw_whole(&d, first, end, refine, times, error)
+                        : draw_streamed(&d, times, error);
     trace_spheres_destroy(lights);
     if (times)
         times->total = 1e3 * (timing_now() - start);

@@ -260,7 +260,7 @@ struct gpu_renderer {
     render_materials materials;
     GLuint tables_buffer;                       /* of the tables summed by bands, or 0 */
     method_kind tables_method;                  /* that it was made for */
-    int tables_bands;                           /* the same */
+    int tables_bands;                           /* and how many bands */
     GLuint fibers_buffer, fibers_program;       /* of those; or 0 */
     int fibers_bands, fibers_environment_bands; /* that the program was made for */
     bool fibers_by_field;
